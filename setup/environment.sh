@@ -1,0 +1,123 @@
+# Sourced by ./course when .venv is missing or stale: makes it, or brings it up to date.
+#
+# The stamp is written last, so a set-up that was interrupted is done again from the start. One set-up
+# at a time works on a clone; a second one waits and finds the work done.
+
+readonly log=$root/build/setup.log
+
+make_environment() {
+    local started=$SECONDS
+    if ! mkdir -p "$root/build" 2>/dev/null || [ ! -w "$root/build" ]; then
+        say "cannot write to $root/build as $(id -un): the environment is made inside the clone."
+        say "Next: clone the course into a folder of your own."
+        return 1
+    fi
+    exec 9>"$root/build/setup.lock"
+    if ! flock -n 9; then
+        say "another ./course is setting up this clone; waiting for it"
+        flock 9
+    fi
+    state=$(environment_state)
+    if [ "$state" != ready ]; then
+        : >"$log"
+        rm -f "$root/build/apt-failed"
+        if [ "$state" = stale ]; then update_environment; else new_environment; fi || return 1
+        printf '%s\n%s\n%s\n' "$(fingerprint)" "$root" "$ros" >"$stamp.new" && mv "$stamp.new" "$stamp"
+        say "the environment is ready ($((SECONDS - started)) s)"
+    fi
+    exec 9>&-
+}
+
+say() { echo "course: $*" >&2; }
+
+new_environment() {
+    find_python || return 1
+    ensure_system_packages "$(debian_name)-venv" "$(debian_name)-dev"
+    say "making the environment in .venv with $("$python" --version) (1 to 3 minutes, once; log: build/setup.log)"
+    rm -rf "$venv"
+    { logged "$python" -m venv "$venv" && install_everything; } || explain_failure
+}
+
+update_environment() {
+    say "something the environment is made from has changed; updating .venv"
+    mv "$stamp" "$stamp.before"
+    install_everything || { mv "$stamp.before" "$stamp"; explain_failure; }
+}
+
+# Set `python` to the first Python 3.10-3.13 found. One that cannot run, such as a version manager's
+# shim for a version that is not chosen, is passed over. COURSE_PYTHON names another one.
+find_python() {
+    local candidate candidates=(python3 python3.13 python3.12 python3.11 python3.10)
+    [ "$ros" = apt ] && candidates=("$(basename "$(dirname "$ros_python")")")
+    [ -n "${COURSE_PYTHON:-}" ] && candidates=("$COURSE_PYTHON")
+    command -v "${candidates[0]}" >/dev/null || ensure_system_packages python3
+    for candidate in "${candidates[@]}"; do
+        if "$candidate" -c 'import sys; sys.exit(not (3, 10) <= sys.version_info[:2] <= (3, 13))' 2>/dev/null; then
+            python=$(command -v "$candidate")
+            return 0
+        fi
+    done
+    say "no Python 3.10-3.13 was found (looked for: ${candidates[*]})."
+    say "Next: install one, for example with  sudo apt-get install -y python3 python3-venv python3-dev,"
+    say "or name one:  COURSE_PYTHON=/path/to/python3.12 ./course"
+    return 1
+}
+
+# What Debian's packages for the chosen Python begin with: python3 for the release's own.
+debian_name() {
+    if [ "$(readlink -f "$python")" = "$(readlink -f /usr/bin/python3)" ]; then echo python3; else basename "$python"; fi
+}
+
+install_everything() {
+    local extras=dev
+    [ "$ros" = wheels ] && extras=dev,ros-wheels
+    write_constraints
+    install_with_uv "$extras" || install_with_pip "$extras" || return 1
+    compile_bytecode
+}
+
+# Arenas start hundreds of Python processes that may write nothing; without compiled files each start takes twice as long.
+# A file that cannot be compiled (a template, an old test) is no reason to stop.
+compile_bytecode() {
+    local packages=("$root"/{autograder,course_cli,lab,robot_sim,ros_runtime})
+    logged env -u PYTHONDONTWRITEBYTECODE "$venv/bin/python" -m compileall -q -j 0 "$venv/lib" "${packages[@]}" || true
+}
+
+# The versions of requirements.lock. The rclpy of apt is compiled against the NumPy 1 of its Ubuntu release.
+write_constraints() {
+    if [ "$ros" = apt ]; then
+        { grep -v '^numpy==' "$root/requirements.lock" && echo 'numpy<2'; } >"$venv/constraints.txt"
+    else
+        cp "$root/requirements.lock" "$venv/constraints.txt"
+    fi
+}
+
+# uv is some ten times as fast as pip, but reads no pip configuration: behind a mirror that only pip knows, pip's turn comes.
+install_with_uv() {
+    local extra extras=() uv=("$venv/bin/python" -m uv --no-config pip install --no-progress --python "$venv/bin/python"
+        --constraints "$venv/constraints.txt" --build-constraints "$venv/constraints.txt")
+    for extra in ${1//,/ }; do extras+=(--extra "$extra"); done
+    logged "$venv/bin/python" -m pip install -c "$venv/constraints.txt" uv || return 1
+    say "installing packages (at first 300 MB to download: seconds to minutes, by your network)"
+    logged "${uv[@]}" -r "$root/pyproject.toml" "${extras[@]}" || return 1
+    say "building humanoid_interfaces (about a minute; unchanged sources are not built again)"
+    logged "${uv[@]}" --no-deps --reinstall-package humanoid-course --editable "$root"
+}
+
+install_with_pip() {
+    say "uv could not install, pip tries (2 to 6 minutes)"
+    PIP_CONSTRAINT=$venv/constraints.txt PIP_BUILD_CONSTRAINT=$venv/constraints.txt \
+        logged "$venv/bin/python" -m pip install --editable "$root[$1]"
+}
+
+logged() {
+    echo "+ $*" >>"$log"
+    "$@" >>"$log" 2>&1 </dev/null 9>&-
+}
+
+explain_failure() {
+    tail -n 25 "$log" >&2
+    say "the environment could not be made; the lines above end build/setup.log, which has the rest."
+    say "Next: mend what they name (usual causes: no network, a full disk, no compiler), then run ./course again."
+    return 1
+}

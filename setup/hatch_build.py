@@ -1,0 +1,92 @@
+"""Build hook of the one distribution: adds what is not Python source to its wheel.
+
+- humanoid_interfaces, built with CMake: modules to site-packages, libraries and share/ to the prefix;
+- lib/libscaled_clock.so, the arena's clock, where there is a C compiler;
+- the .pth files of ros_runtime, which Python reads when it starts.
+
+Editable and normal wheels carry the same additions.
+"""
+
+import os
+import subprocess
+import sys
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from typing import Any
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from interface_package import build, built_prefix
+from ros_environment import PYTHON_LIB, sourced_prefixes
+
+
+class CourseBuildHook(BuildHookInterface):
+    """Called by hatchling for every wheel of this project."""
+
+    def dependencies(self) -> list[str]:
+        """The ROS build tools, unless apt provides them or the interfaces are built already."""
+        if sourced_prefixes(os.environ) or built_prefix(self._interfaces, self._builds, os.environ).is_dir():
+            return []
+        lines = (self._root / "setup/build-requirements.txt").read_text(encoding="utf-8").splitlines()
+        return [line for line in lines if line and not line.startswith("#")]
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Fill `build_data`; `version` is "editable" or "standard"."""
+        modules, prefix_files = _split(build(self._interfaces, self._builds, os.environ))
+        modules |= {str(path): path.name for path in sorted((self._root / "ros_runtime/pth").glob("*.pth"))}
+        clock = _build_scaled_clock(self._root / "ros_runtime/clock/compile_library.py", self._builds)
+        if clock is not None:
+            prefix_files[str(clock)] = "lib/libscaled_clock.so"
+        build_data["force_include_editable" if version == "editable" else "force_include"].update(modules)
+        build_data["shared_data"].update(prefix_files)
+        build_data["pure_python"] = False
+        build_data["infer_tag"] = True
+
+    @property
+    def _root(self) -> Path:
+        return Path(self.root)
+
+    @property
+    def _interfaces(self) -> Path:
+        return self._root / "humanoid_interfaces"
+
+    @property
+    def _builds(self) -> Path:
+        return self._root / "build/interfaces"
+
+
+def _split(prefix: Path) -> tuple[dict[str, str], dict[str, str]]:
+    """Map the built files to the wheel's root (Python modules) and to the prefix (all others)."""
+    modules: dict[str, str] = {}
+    others: dict[str, str] = {}
+    for path in sorted(path for path in prefix.rglob("*") if path.is_file()):
+        inside = path.relative_to(prefix)
+        # The egg-info would be a second distribution that pip does not know how to remove.
+        if any(part == "__pycache__" or part.endswith(".egg-info") for part in inside.parts):
+            continue
+        if inside.is_relative_to(PYTHON_LIB):
+            modules[str(path)] = str(inside.relative_to(PYTHON_LIB))
+        else:
+            others[str(path)] = str(inside)
+    return modules, others
+
+
+def _build_scaled_clock(compile_module: Path, builds: Path) -> Path | None:
+    """Compile the arena's clock; None, with a warning, where that cannot be done."""
+    spec = spec_from_file_location("compile_library", compile_module)
+    if spec is None or spec.loader is None:
+        raise RuntimeError(
+            f"{compile_module} cannot be imported; expected a Python module that compiles the clock."
+        )
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    builds.mkdir(parents=True, exist_ok=True)
+    library = builds / "libscaled_clock.so"
+    try:
+        module.compile_library(library)
+    except (OSError, subprocess.CalledProcessError) as error:
+        print(f"warning: libscaled_clock.so is left out, the arena runs at scale 1: {error}", file=sys.stderr)
+        return None
+    return library

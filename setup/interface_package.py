@@ -1,0 +1,101 @@
+"""Build a ROS 2 interface package with CMake into a prefix, once per state of its sources."""
+
+import hashlib
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TextIO
+
+from ros_environment import PYTHON_LIB, RosBuild, ros_build, sourced_prefixes
+
+SETUP = Path(__file__).resolve().parent
+BUILD_FILES = (
+    "interface_package.py",
+    "ros_environment.py",
+    "drop_missing_includes.cmake",
+    "build-requirements.txt",
+    "../requirements.lock",
+)
+LOG_TAIL_LINES = 40
+
+
+def built_prefix(source: Path, builds: Path, environ: Mapping[str, str]) -> Path:
+    """Folder under `builds` that holds, or will hold, the package built from `source` as it is now."""
+    digest = hashlib.sha256()
+    for path in (*_files(source), *(SETUP / name for name in BUILD_FILES)):
+        digest.update(f"{path.name}\0".encode() + path.read_bytes() + b"\0")
+    digest.update(repr([str(prefix) for prefix in sourced_prefixes(environ)]).encode())
+    return builds / f"{source.name}-{sys.implementation.cache_tag}-{digest.hexdigest()[:16]}"
+
+
+def build(source: Path, builds: Path, environ: Mapping[str, str]) -> Path:
+    """Build the interface package in `source`; an earlier build of the same sources is used again.
+
+    Returns the prefix with lib/, share/ and include/. Raises RuntimeError with the end of the
+    build's output when CMake fails or there is no C++ compiler.
+    """
+    prefix = built_prefix(source, builds, environ)
+    if prefix.is_dir():
+        return prefix
+    if not (environ.get("CXX") or shutil.which("c++") or shutil.which("g++")):
+        raise RuntimeError(
+            f"{source.name} needs a C++ compiler and none was found.\nNext: sudo apt-get install -y g++"
+        )
+    builds.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=f"{source.name}-", dir=builds) as scratch:
+        staged = Path(scratch) / "prefix"
+        _run_cmake(source, Path(scratch) / "cmake", staged, ros_build(environ), builds / f"{source.name}.log")
+        # One rename at the end: an interrupted build leaves nothing that looks finished.
+        os.replace(staged, prefix)
+    return prefix
+
+
+def _run_cmake(source: Path, binary_dir: Path, prefix: Path, ros: RosBuild, log: Path) -> None:
+    configure = [
+        *("cmake", "-S", str(source), "-B", str(binary_dir)),
+        f"-DCMAKE_INSTALL_PREFIX={prefix}",
+        f"-DPYTHON_INSTALL_DIR={PYTHON_LIB}",
+        f"-DPython3_EXECUTABLE={ros.python}",
+        "-DBUILD_TESTING=OFF",
+        # The code copies fields between Python and C; optimising it buys nothing but compile time.
+        "-DCMAKE_BUILD_TYPE=MinSizeRel",
+    ]
+    if ros.from_wheels:
+        configure += [
+            "-G",
+            "Ninja",
+            f"-DCMAKE_PROJECT_{source.name}_INCLUDE={SETUP / 'drop_missing_includes.cmake'}",
+        ]
+    steps = [
+        configure,
+        ["cmake", "--build", str(binary_dir), "--parallel", str(os.cpu_count() or 1)],
+        ["cmake", "--install", str(binary_dir)],
+    ]
+    with log.open("w", encoding="utf-8") as output:
+        for step in steps:
+            _run(step, ros.environment, output, log)
+
+
+def _run(command: list[str], environment: Mapping[str, str], output: TextIO, log: Path) -> None:
+    executable = shutil.which(command[0], path=environment.get("PATH"))
+    if executable is None:
+        raise RuntimeError(f"{command[0]} was not found.\nNext: sudo apt-get install -y {command[0]}")
+    command = [executable, *command[1:]]
+    finished = subprocess.run(command, env=dict(environment), stdout=output, stderr=subprocess.STDOUT)
+    if finished.returncode != 0:
+        lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
+        raise RuntimeError(
+            f"The interfaces could not be built: status {finished.returncode} of `{shlex.join(command)}`.\n"
+            + "\n".join(lines[-LOG_TAIL_LINES:])
+            + f"\nThe whole output is in {log}."
+        )
+
+
+def _files(folder: Path) -> list[Path]:
+    """The files that decide a build's outcome, in a fixed order."""
+    return sorted(path for path in folder.rglob("*") if path.is_file() and "__pycache__" not in path.parts)

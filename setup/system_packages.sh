@@ -1,0 +1,93 @@
+# Sourced by ./course: packages of the system's package manager, seen by their files and commands.
+#
+# Looking costs about a millisecond and is done before every command. Root gets what is missing from
+# apt-get; everyone else is told the line to type. Nothing here stops a command: what can work, works.
+
+readonly system_packages=(g++ bubblewrap libegl1 libopengl0 libgl1-mesa-dri)
+readonly test_packages=(chromium libosmesa6)
+
+has_system_package() {
+    case $1 in
+        g++) command -v c++ >/dev/null || command -v g++ >/dev/null ;;
+        bubblewrap) command -v bwrap >/dev/null ;;
+        # Pictures need EGL or, instead of all three, OSMesa.
+        libegl1) has_library libEGL.so.1 || has_library libOSMesa.so.8 ;;
+        libopengl0) has_library libOpenGL.so.0 || has_library libOSMesa.so.8 ;;
+        libgl1-mesa-dri) has_library dri/swrast_dri.so || has_library libOSMesa.so.8 ;;
+        chromium) command -v chromium >/dev/null ;;
+        libosmesa6) has_library libOSMesa.so.8 ;;
+        python3) command -v python3 >/dev/null ;;
+        python3*-venv) "$python" -c 'import ensurepip' 2>/dev/null ;;
+        python3*-dev) has_python_header ;;
+    esac
+}
+
+without_system_package() {
+    case $1 in
+        g++) echo "the ROS interfaces cannot be built, so nothing works" ;;
+        bubblewrap) echo "submissions cannot be isolated: grades are labelled untrusted" ;;
+        libegl1 | libopengl0 | libgl1-mesa-dri) echo "no pictures of the robot" ;;
+        chromium) echo "the robot's view is not tested in a browser" ;;
+        libosmesa6) echo "pictures without EGL are not tested" ;;
+        python3 | python3*-venv) echo "the environment cannot be made" ;;
+        python3*-dev) echo "the ROS interfaces cannot be built: Python.h is missing" ;;
+    esac
+}
+
+has_library() {
+    local folder
+    for folder in /usr/lib/*-linux-gnu /usr/lib64 /usr/lib /usr/local/lib; do
+        [ -e "$folder/$1" ] && return 0
+    done
+    return 1
+}
+
+has_python_header() {
+    local code='import pathlib, sys, sysconfig; sys.exit(not pathlib.Path(sysconfig.get_path("include"), "Python.h").exists())'
+    "$python" -c "$code"
+}
+
+# ensure_system_packages PACKAGE...: install or name those that are missing.
+ensure_system_packages() {
+    local package missing=()
+    for package; do
+        has_system_package "$package" || missing+=("$package")
+    done
+    [ ${#missing[@]} -eq 0 ] && return
+    if [ "$(id -u)" -eq 0 ] && command -v apt-get >/dev/null && ! apt_failed_before "${missing[@]}"; then
+        apt_install "${missing[@]}"
+    fi
+    report_missing "${missing[@]}"
+}
+
+# An apt-get that could not install these is asked again only by the next set-up of the environment.
+apt_failed_before() { [ "$(cat "$root/build/apt-failed" 2>/dev/null)" = "$*" ]; }
+
+apt_install() {
+    local package apt=(apt-get -o DPkg::Lock::Timeout=300 -o Acquire::Retries=2)
+    export DEBIAN_FRONTEND=noninteractive
+    mkdir -p "$root/build"
+    echo "course: installing system packages: $* (up to a minute)" >&2
+    {
+        "${apt[@]}" update
+        # One at a time when they cannot be had together: a package that this release lacks takes no other with it.
+        "${apt[@]}" install -y --no-install-recommends "$@" ||
+            for package; do "${apt[@]}" install -y --no-install-recommends "$package"; done
+    } >"$root/build/apt.log" 2>&1 </dev/null
+}
+
+report_missing() {
+    local package missing=()
+    for package; do
+        has_system_package "$package" || missing+=("$package")
+    done
+    if [ ${#missing[@]} -eq 0 ]; then
+        rm -f "$root/build/apt-failed"
+        return
+    fi
+    [ "$(id -u)" -eq 0 ] && echo "$*" >"$root/build/apt-failed" && echo "course: apt-get could not install all; see build/apt.log" >&2
+    echo "course: missing system packages. Type:  sudo apt-get install -y ${missing[*]}" >&2
+    for package in "${missing[@]}"; do
+        echo "course:   without $package: $(without_system_package "$package")" >&2
+    done
+}
