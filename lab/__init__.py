@@ -1,0 +1,76 @@
+"""What a notebook uses: start the robot, run a student's file as a node, call, send a goal, draw what happened.
+
+    import lab
+    lab.start_robot()
+    server = lab.run_node("battery_service.py")
+    lab.call("get_battery_status", GetBatteryStatus)
+
+Every verb blocks with a timeout and says on failure what it saw. Import it before any ROS message: it switches on
+rclpy's checks of field types, which are decided at the first import.
+"""
+
+import os
+
+os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
+
+from lab.commands import publish, walking
+from lab.connection import node
+from lab.diagram import draw_sequence
+from lab.errors import (
+    LabError,
+    NoAnswerError,
+    NodeEndedError,
+    NoRobotError,
+    NoServerError,
+    NotInTimeError,
+)
+from lab.goals import CancelAnswer, Goal, Outcome, send_goal
+from lab.live_view import stop_watching, watch_robot
+from lab.picture import show_robot
+from lab.quiz import Quiz, quiz
+from lab.robot import restart_robot, start_robot, stop_robot
+from lab.services import call, service_is_ready
+from lab.session import stop_everything
+from lab.student_nodes import StudentNode, run_node, stop_nodes
+from lab.topics import Pose, battery, mode, odometry, pose, robot_state
+from lab.waiting import wait_until
+from lab.wording import describe
+
+__all__ = [
+    "CancelAnswer",
+    "Goal",
+    "LabError",
+    "NoAnswerError",
+    "NoRobotError",
+    "NoServerError",
+    "NodeEndedError",
+    "NotInTimeError",
+    "Outcome",
+    "Pose",
+    "Quiz",
+    "StudentNode",
+    "battery",
+    "call",
+    "describe",
+    "draw_sequence",
+    "mode",
+    "node",
+    "odometry",
+    "pose",
+    "publish",
+    "quiz",
+    "restart_robot",
+    "robot_state",
+    "run_node",
+    "send_goal",
+    "service_is_ready",
+    "show_robot",
+    "start_robot",
+    "stop_everything",
+    "stop_nodes",
+    "stop_robot",
+    "stop_watching",
+    "wait_until",
+    "walking",
+    "watch_robot",
+]

@@ -1,0 +1,56 @@
+"""A picture of the robot as it stands now."""
+
+from __future__ import annotations
+
+import base64
+import io
+from functools import cache
+from html import escape
+
+import mujoco
+from IPython.display import HTML
+from PIL import Image
+
+from lab import topics
+from robot_sim.gl_backend import NoOpenGLError
+from robot_sim.humanoid import Humanoid
+from robot_sim.view import snapshot
+
+WIDTH, HEIGHT = 480, 360  # px
+
+
+def show_robot(camera: str = "track") -> HTML:
+    """Draw the robot from its own messages, odom and joint_states; camera "track", "side" or "front".
+
+    Where the machine has no OpenGL, the text that would accompany the picture is shown, with the reason.
+    """
+    words = f"The robot: {topics.mode()} at {topics.pose()}"
+    body = _body()
+    take_posture(body)
+    try:
+        pixels = snapshot(body, WIDTH, HEIGHT, camera=camera)
+    except NoOpenGLError as error:
+        return HTML(f"<p>{escape(words)}. No picture: {escape(str(error))}</p>")
+    png = io.BytesIO()
+    Image.fromarray(pixels).save(png, "PNG")
+    data = base64.b64encode(png.getvalue()).decode()
+    return HTML(
+        f'<figure><img src="data:image/png;base64,{data}" width="{WIDTH}" alt="{escape(words)}">'
+        f"<figcaption>{escape(words)}</figcaption></figure>"
+    )
+
+
+@cache
+def _body() -> Humanoid:
+    """A humanoid that is only looked at: it never steps."""
+    return Humanoid()
+
+
+def take_posture(body: Humanoid) -> None:
+    """Put a humanoid where the messages say the robot is."""
+    pose, joints = topics.odometry().pose.pose, topics.latest("joint_states")
+    p, q = pose.position, pose.orientation
+    body.data.qpos[:7] = p.x, p.y, p.z, q.w, q.x, q.y, q.z  # MuJoCo puts w first
+    for name, position in zip(joints.name, joints.position, strict=True):
+        body.data.joint(name).qpos[0] = position
+    mujoco.mj_forward(body.model, body.data)

@@ -1,0 +1,50 @@
+"""Start and stop the robot: the simulator with its ROS face, as a process of its own."""
+
+from __future__ import annotations
+
+from lab import topics
+from lab.connection import NAMESPACE, connection
+from lab.errors import NoRobotError
+from lab.processes import Process
+from lab.waiting import comes_true
+
+START_TIMEOUT = 30.0  # s
+
+_robot: Process | None = None
+
+
+def start_robot() -> None:
+    """Start the robot and wait until its topics arrive; does nothing when it runs already.
+
+    Raises NoRobotError with the robot's last words when it does not come up within 30 s.
+    """
+    global _robot
+    domain_id = connection().domain_id  # also sets the environment that the child inherits
+    if _robot is None or not _robot.is_running:
+        topics.forget()
+        _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1"])
+    robot = _robot
+    if not comes_true(lambda: topics.has_spoken() or not robot.is_running, START_TIMEOUT):
+        raise NoRobotError(
+            f"the robot runs, but nothing arrived from it within {START_TIMEOUT:g} s: is the machine very busy? "
+            f"Try lab.restart_robot(). It printed:\n{robot.output()}"
+        )
+    if not robot.is_running:
+        raise NoRobotError(
+            f"the robot ended with exit status {robot.exit_status}; it printed:\n{robot.output()}"
+        )
+    print(f"The robot is up in namespace {NAMESPACE}, ROS_DOMAIN_ID {domain_id}.")
+
+
+def restart_robot() -> None:
+    """A robot that stands at the origin with a full battery, whatever happened to the last one."""
+    stop_robot()
+    start_robot()
+
+
+def stop_robot() -> None:
+    """End the robot's process."""
+    global _robot
+    if _robot is not None:
+        _robot.stop()
+        _robot = None

@@ -1,0 +1,19 @@
+"""The end of a session."""
+
+import atexit
+
+from lab import story
+from lab.connection import disconnect
+from lab.live_view import stop_watching
+from lab.robot import stop_robot
+from lab.student_nodes import stop_nodes
+
+
+@atexit.register
+def stop_everything() -> None:
+    """Stop the students' nodes and the robot, and leave the ROS graph; `start_robot()` begins anew."""
+    stop_watching()
+    stop_nodes()
+    stop_robot()
+    disconnect()
+    story.forget()

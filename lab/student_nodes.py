@@ -1,0 +1,121 @@
+"""Run a student's file as a node: a real process in the robot's namespace."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from lab import story
+from lab.connection import NAMESPACE, connection
+from lab.errors import LabError, NodeEndedError
+from lab.processes import Process
+from lab.waiting import comes_true
+from ros_runtime.greeting import greet
+
+START_TIMEOUT = 10.0  # s
+NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node whose own account of itself has not arrived
+
+_nodes: dict[Path, StudentNode] = {}
+
+
+def run_node(file: str | Path, *arguments: str) -> StudentNode:
+    """Start a Python file as a process in namespace /robot and wait until it can be talked to.
+
+    What an earlier cell started from the same file is stopped first, so that no old server goes on answering.
+    `arguments` are the program's own.
+
+    Raises:
+        LabError: there is no such file.
+        NodeEndedError: it ended with an error at once; the message has what it printed.
+    """
+    path = Path(file).resolve()
+    if not path.is_file():
+        raise LabError(
+            f"there is no file {file} in {Path.cwd()}; run the cell that begins %%writefile {file}"
+        )
+    story.forget()  # what an earlier server left unanswered is not part of what follows
+    earlier = _nodes.pop(path, None)
+    if earlier is not None:
+        earlier.stop()
+    known = _nodes_seen()
+    node = StudentNode(path, Process([str(path), *arguments, "--ros-args", "-r", f"__ns:={NAMESPACE}"]))
+    _nodes[path] = node
+    if comes_true(lambda: not node.is_running or _nodes_seen().keys() - known, START_TIMEOUT):
+        deadline = time.monotonic() + START_TIMEOUT
+        for mark, name in _nodes_seen().items():
+            if mark not in known:
+                greet(connection().node, name, lambda: not node.is_running or time.monotonic() > deadline)
+    if not node.is_running and node.exit_status != 0:
+        raise NodeEndedError(
+            f"{path.name} ended at once with exit status {node.exit_status}; it printed:\n{node.log()}"
+        )
+    return node
+
+
+def stop_nodes() -> None:
+    """Stop every node that `run_node` started."""
+    for node in _nodes.values():
+        node.stop()
+    _nodes.clear()
+
+
+def last_words() -> str:
+    """What the nodes printed that have ended with an error, for an error message; "" if there are none."""
+    return "".join(
+        f"\n{node.file.name} has ended with exit status {node.exit_status}; it printed:\n{node.log()}"
+        for node in _nodes.values()
+        if node.exit_status and not node.was_stopped
+    )
+
+
+class StudentNode:
+    """A file that runs as a process.
+
+    Attributes:
+        file: its path.
+        was_stopped: `stop()` or `kill()` was called.
+    """
+
+    def __init__(self, file: Path, process: Process) -> None:
+        self.file = file
+        self.was_stopped = False
+        self._process = process
+
+    @property
+    def is_running(self) -> bool:
+        """Whether its process has not ended."""
+        return self._process.is_running
+
+    @property
+    def exit_status(self) -> int | None:
+        """None while it runs, 0 after a clean end, -n when signal n ended it."""
+        return self._process.exit_status
+
+    def log(self) -> str:
+        """All it has printed: its prints, its logger's lines and tracebacks."""
+        return self._process.output()
+
+    def stop(self) -> None:
+        """Press Ctrl-C. A node that does not end within 3 s is killed, and you are told."""
+        if self.is_running:
+            self.was_stopped = True
+            if not self._process.stop():
+                print(f"{self.file.name} did not end within 3 s of Ctrl-C and was killed")
+
+    def kill(self) -> None:
+        """End it as a crash or a power cut would, without a word to anybody."""
+        self.was_stopped = True
+        self._process.kill()
+
+    def __repr__(self) -> str:
+        state = "running" if self.is_running else f"ended with exit status {self.exit_status}"
+        return f"<{self.file.name}: {state}>"
+
+
+def _nodes_seen() -> dict[bytes, str]:
+    """The full names of the nodes in the graph, by what no later node shares: the identifier of their /rosout."""
+    return {
+        bytes(info.endpoint_gid): f"{info.node_namespace.rstrip('/')}/{info.node_name}"
+        for info in connection().node.get_publishers_info_by_topic("/rosout")
+        if info.node_name != NOT_YET_KNOWN
+    }

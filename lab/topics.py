@@ -1,0 +1,116 @@
+"""What the robot says: the last message of each of its topics."""
+
+from __future__ import annotations
+
+import math
+import time
+from functools import partial
+from typing import Any, NamedTuple
+
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from sensor_msgs.msg import BatteryState, JointState
+
+from humanoid_interfaces.msg import RobotState
+from lab import story
+from lab.connection import NAMESPACE, connection
+from lab.errors import NoRobotError
+from lab.waiting import comes_true
+from lab.wording import fixed
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+TOPICS: dict[str, tuple[Any, Any]] = {
+    "robot_state": (RobotState, LATCHED),
+    "battery_state": (BatteryState, LATCHED),
+    "odom": (Odometry, 10),
+    "joint_states": (JointState, qos_profile_sensor_data),
+}
+MODES = {getattr(RobotState, name): name for name in ("OFF", "STANDING", "WALKING", "FALLEN")}
+FRESH = 1.0  # s; every one of these topics comes at least twice as often
+
+
+class Pose(NamedTuple):
+    """Where base_link is, in frame odom: metres and radians."""
+
+    x: float
+    y: float
+    yaw: float
+
+    def __repr__(self) -> str:
+        return f"x {fixed(self.x, 2)} m, y {fixed(self.y, 2)} m, heading {fixed(math.degrees(self.yaw), 0)}°"
+
+
+def robot_state() -> RobotState:
+    """The last message on robot_state."""
+    return latest("robot_state")
+
+
+def battery() -> BatteryState:
+    """The last message on battery_state."""
+    return latest("battery_state")
+
+
+def odometry() -> Odometry:
+    """The last message on odom: pose of base_link in frame odom, velocity in base_link."""
+    return latest("odom")
+
+
+def pose() -> Pose:
+    """x and y (m) and heading (rad) out of the last message on odom."""
+    where = odometry().pose.pose
+    q = where.orientation
+    yaw = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
+    return Pose(where.position.x, where.position.y, yaw)
+
+
+def mode() -> str:
+    """What the robot does, by its name in RobotState: "OFF", "STANDING", "WALKING" or "FALLEN"."""
+    return MODES[robot_state().mode]
+
+
+def latest(topic: str, timeout: float = 5.0) -> Any:
+    """The last message on one of the robot's topics; waits for one if there is none of the last second.
+
+    Raises NoRobotError when none comes within `timeout` s.
+    """
+    memory = _memory()
+    if not comes_true(lambda: memory.age(topic) <= FRESH, timeout):
+        raise NoRobotError(
+            f"nothing arrived on {NAMESPACE}/{topic} for {timeout:g} s; is the robot up? Try lab.start_robot()"
+        )
+    return memory.messages[topic][0]
+
+
+def has_spoken() -> bool:
+    """Whether every topic of the robot has arrived since `forget()`."""
+    return _memory().messages.keys() >= TOPICS.keys()
+
+
+def forget() -> None:
+    """Forget the messages of an earlier robot."""
+    _memory().messages.clear()
+
+
+def _memory() -> _Memory:
+    return connection().once("last messages", _Memory)
+
+
+class _Memory:
+    """Subscribes to the robot's topics and keeps each one's last message with its time of arrival."""
+
+    def __init__(self, node: Node) -> None:
+        self.messages: dict[str, tuple[Any, float]] = {}
+        for topic, (message_type, qos) in TOPICS.items():
+            node.create_subscription(message_type, topic, partial(self._keep, topic), qos)
+
+    def age(self, topic: str) -> float:
+        """Seconds since the last message on a topic arrived."""
+        kept = self.messages.get(topic)
+        return math.inf if kept is None else time.monotonic() - kept[1]
+
+    def _keep(self, topic: str, message: Any) -> None:
+        before = self.messages.get(topic)
+        self.messages[topic] = (message, time.monotonic())
+        if topic == "robot_state" and before and before[0].mode != message.mode:
+            story.tell("robot", "robot", MODES[message.mode])

@@ -1,0 +1,1 @@
+"""The humanoid: MuJoCo physics, walking, battery, and its ROS face."""

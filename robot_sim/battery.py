@@ -1,0 +1,78 @@
+"""The battery: charge, voltage and current from the work of motors and electronics."""
+
+import math
+
+import numpy as np
+
+from robot_sim.parameters import BatteryParameters
+
+CURRENT_TIME_CONSTANT = 0.5  # s, of the low-pass in the current sensor
+
+
+class Battery:
+    """A lithium pack whose voltage falls with its charge and under load.
+
+    Attributes:
+        percentage: charge, 0 to 1.
+        energy_used: since it was made, J.
+    """
+
+    def __init__(self, parameters: BatteryParameters | None = None) -> None:
+        self.parameters = parameters or BatteryParameters()
+        self.percentage = 1.0
+        self.energy_used = 0.0
+        self._power = self.parameters.idle_power
+
+    @property
+    def current(self) -> float:
+        """A, negative because the pack only discharges (sign as in sensor_msgs/BatteryState).
+
+        The current at which open-circuit voltage less the drop in the pack's resistance gives the power
+        drawn.
+        """
+        voltage, resistance = self._open_circuit_voltage(), self.parameters.resistance
+        return -(voltage - math.sqrt(voltage**2 - 4 * resistance * self._power)) / (2 * resistance)
+
+    @property
+    def voltage(self) -> float:
+        """V, at the terminals."""
+        return self._open_circuit_voltage() + self.parameters.resistance * self.current
+
+    @property
+    def is_empty(self) -> bool:
+        return self.percentage <= 0.0
+
+    def set_percentage(self, percentage: float) -> None:
+        """Set the charge (0 to 1), as a charger or an experiment would.
+
+        Raises:
+            ValueError: the percentage is not within 0 and 1.
+        """
+        if not 0.0 <= percentage <= 1.0:
+            raise ValueError(f"percentage is {percentage}; expected 0 (empty) to 1 (full)")
+        self.percentage = float(percentage)
+
+    def drain(self, torque: np.ndarray, velocity: np.ndarray, dt: float) -> None:
+        """Take the energy of ``dt`` (s) out.
+
+        Args:
+            torque: of every motor, N·m.
+            velocity: of every motor, rad/s.
+
+        A motor draws its mechanical power while it drives (what it brakes is not recovered) and the heat of
+        its windings, I²R, which is proportional to the torque squared.
+        """
+        work = torque * velocity
+        power = float(np.maximum(work, 0.0).sum() + self.parameters.motor_loss * (torque @ torque))
+        self.discharge(power + self.parameters.idle_power, dt)
+
+    def discharge(self, power: float, dt: float) -> None:
+        """Draw ``power`` (W) for ``dt`` (s)."""
+        energy = power * dt
+        self.energy_used += energy
+        self.percentage = max(0.0, self.percentage - energy / (self.parameters.capacity * 3600))
+        self._power += (power - self._power) * min(1.0, dt / CURRENT_TIME_CONSTANT)
+
+    def _open_circuit_voltage(self) -> float:
+        full, empty = self.parameters.full_voltage, self.parameters.empty_voltage
+        return empty + self.percentage * (full - empty)

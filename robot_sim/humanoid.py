@@ -1,0 +1,297 @@
+"""The whole robot without ROS."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+
+from robot_sim.balance_gains import BalanceGains
+from robot_sim.battery import Battery
+from robot_sim.body_height import BodyHeight
+from robot_sim.footsteps import Command, Goal
+from robot_sim.gait import Phase
+from robot_sim.hand import Hand
+from robot_sim.imu import Imu
+from robot_sim.joint_names import ACTUATED_JOINTS, SIDES
+from robot_sim.joint_trajectory import HOLD, JointTrajectory
+from robot_sim.model import build_model
+from robot_sim.parameters import FallThresholds, HeightLimits, WalkerParameters, WalkingLimits
+from robot_sim.planar import clamp
+from robot_sim.posture import take_stance
+from robot_sim.push import Pusher
+from robot_sim.reach import HandTarget, Reach
+from robot_sim.scenes import OBJECTS
+from robot_sim.state import BasePose, BaseVelocity, ImuSample, JointState, Mode, ObjectPose
+from robot_sim.upper_body import UpperBody
+from robot_sim.velocity_limits import walkable_velocity
+from robot_sim.walker import Walker
+
+
+class Humanoid:
+    """A humanoid that balances and walks in simulation, one timestep a ``step()``.
+
+    The same seed and the same commands give the same motion, bit by bit.
+
+    Args:
+        scene: "flat" or "table" (a table with a cup in front of the robot).
+        seed: of the sensors' errors.
+        timestep: of physics and controller, s.
+
+    Raises:
+        ValueError: the scene is not known.
+
+    Attributes:
+        scene: its name.
+        model, data: of MuJoCo; the pelvis is base_link, the world is odom.
+        battery: charge, voltage, current.
+        hands: the grippers by side, "l" and "r".
+        motors_enabled: torque is on. False after ``set_motor_power(False)``, after a fall and at zero charge.
+    """
+
+    def __init__(self, scene: str = "flat", *, seed: int = 0, timestep: float = 0.005) -> None:
+        self.scene = scene
+        self.model = build_model(scene, timestep=timestep)
+        self.data = mujoco.MjData(self.model)
+        self.timestep = timestep
+        self._seed = seed
+        self._parameters = WalkerParameters()
+        self._limits = WalkingLimits()
+        self._fall = FallThresholds()
+        joints = [self.model.joint(name) for name in ACTUATED_JOINTS]
+        self._joint_positions = np.array([joint.qposadr[0] for joint in joints])
+        self._joint_velocities = np.array([joint.dofadr[0] for joint in joints])
+        self._torso_rotation = self.data.xmat[self.model.body("torso").id]
+        self.reset()
+
+    def reset(self, x: float = 0.0, y: float = 0.0, yaw: float = 0.0, *, height: float | None = None) -> None:
+        """Stand at rest at (x, y) m, heading ``yaw`` rad, odom frame: time 0, battery full, motors on.
+
+        ``height`` (m, of the pelvis, 0.45 to 0.60) less than the stance's puts it into a crouch.
+        """
+        self._set_actuation(True)
+        size = self._parameters.dimensions
+        if height is not None:
+            size = replace(size, stance_height=clamp(height, HeightLimits().lowest, size.stance_height))
+        take_stance(self.model, self.data, size, x, y, yaw)
+        self.battery = Battery()
+        self._imu = Imu(self.model, self.data, self._seed)
+        self._pusher = Pusher(self.model, self.data, "torso")
+        self._walker = Walker(self.model, self.data, self._parameters)
+        self._height = BodyHeight(self._walker, self._parameters.dimensions, HeightLimits())
+        self._height.set(size.stance_height)
+        self._pending: Command = None
+        self._upper_body = UpperBody(self.model, self.data)
+        self.hands = {side: Hand(self.model, self.data, side) for side in SIDES}
+        self._earlier_steps = 0
+        self._fallen = False
+
+    def step(self) -> None:
+        """Simulate one timestep."""
+        mujoco.mj_step1(self.model, self.data)
+        if self.motors_enabled:
+            self._height.tick(self.timestep)
+            if self._pending is not None and self._height.is_risen:
+                self._walker.follow(self._pending)
+                self._pending = None
+            self._walker.tick(self.timestep)
+            self._upper_body.tick(self.timestep)
+        self._pusher.apply()
+        mujoco.mj_step2(self.model, self.data)
+        self.battery.drain(self.data.actuator_force, self.data.actuator_velocity, self.timestep)
+        if not self._fallen and self._is_down():
+            self._fallen = True
+            self._set_actuation(False)
+        elif self.motors_enabled and self.battery.is_empty:
+            self._set_actuation(False)
+
+    # Commands
+
+    def walk_velocity(self, vx: float, vy: float, wz: float) -> None:
+        """Walk at (m/s, m/s, rad/s) in base_link until told otherwise; (0, 0, 0) is ``stop()``.
+
+        Each component is clamped to the walking limits. Ignored while the motors are off.
+
+        Raises:
+            ValueError: a component is not finite.
+        """
+        self._follow(walkable_velocity(vx, vy, wz, self._limits))
+
+    def walk_to(self, x: float, y: float, yaw: float) -> None:
+        """Walk until the midpoint of the feet is at (x, y) m with heading ``yaw`` rad, odom frame.
+
+        Ignored while the motors are off.
+
+        Raises:
+            ValueError: a number is not finite.
+        """
+        if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(yaw)):
+            raise ValueError(f"pose is ({x}, {y}, {yaw}); expected finite numbers in m, m and rad")
+        self._follow(Goal(x, y, yaw))
+
+    def stop(self) -> None:
+        """Come to a stand with the feet side by side; takes a step or two."""
+        self._follow(None)
+
+    def set_motor_power(self, on: bool) -> None:
+        """Switch the torque of all motors; without it the robot goes limp and falls.
+
+        Switched on again before it has fallen it tries to stand. A fallen robot's motors stay off until
+        ``reset()``, and so do those of a robot with an empty battery until that is charged.
+        """
+        if on == self.motors_enabled or (on and (self._fallen or self.battery.is_empty)):
+            return
+        if on:
+            self._earlier_steps = self.steps
+            gains = self._walker.gains
+            self._walker = Walker(self.model, self.data, self._parameters)
+            self._walker.gains = gains
+            self._height = BodyHeight(self._walker, self._parameters.dimensions, HeightLimits())
+            self._pending = None
+            self._upper_body = UpperBody(self.model, self.data)
+            self._upper_body.follow(HOLD)
+        self._set_actuation(on)
+
+    def push(self, impulse: Sequence[float], duration: float = 0.1) -> None:
+        """Push the torso with ``impulse`` (3,) N·s in the world frame over ``duration`` (s).
+
+        Raises:
+            ValueError: the impulse is not three finite numbers, or the duration is not positive.
+        """
+        self._pusher.push(impulse, duration)
+
+    def move_body(self, rate: float) -> None:
+        """Crouch or rise at ``rate`` (m/s, upwards) until told otherwise; ignored while the motors are off.
+
+        The pelvis stays between 0.45 m and the 0.60 m of the stance. Told to walk, a crouching robot rises first.
+
+        Raises:
+            ValueError: the rate is not finite.
+        """
+        if self.motors_enabled:
+            self._height.move(rate)
+
+    @property
+    def balance_gains(self) -> BalanceGains:
+        """How stiffly the trunk is held upright; gains that are too weak or too stiff make the robot fall."""
+        return self._walker.gains
+
+    @balance_gains.setter
+    def balance_gains(self, gains: BalanceGains) -> None:
+        self._walker.gains = gains
+
+    def move_joints(self, trajectory: JointTrajectory) -> None:
+        """Move joints of waist, head and arms along a trajectory; it replaces an earlier one. Empty: hold.
+
+        Ignored while the motors are off.
+        """
+        if self.motors_enabled:
+            self._upper_body.follow(trajectory)
+
+    def open_hand(self, side: str, opening: float) -> None:
+        """Bring the fingers of a side ("l" or "r") ``opening`` (m, 0 to 0.09) apart; ignored without motors.
+
+        Raises:
+            ValueError: the opening is not finite.
+        """
+        if self.motors_enabled:
+            self.hands[side].open_to(opening)
+
+    def reach(self, side: str, target: HandTarget) -> Reach:
+        """Bring the hand of a side ("l" or "r") to a target in the odom frame; ``error()`` tells how far it is.
+
+        Raises:
+            ValueError: the side is not known, or the target is not finite.
+        """
+        return self._upper_body.reach(side, target)
+
+    # State
+
+    @property
+    def time(self) -> float:
+        """Simulated time since reset, s."""
+        return self.data.time
+
+    @property
+    def mode(self) -> Mode:
+        """What the robot is doing."""
+        if self._fallen:
+            return Mode.FALLEN
+        if not self.motors_enabled:
+            return Mode.OFF
+        return Mode.STANDING if self._walker.gait.phase is Phase.STAND else Mode.WALKING
+
+    @property
+    def steps(self) -> int:
+        """Footsteps (touchdowns) since reset."""
+        return self._earlier_steps + self._walker.gait.steps
+
+    @property
+    def arrived(self) -> bool:
+        """The pose of the last ``walk_to`` is reached and both feet stand."""
+        return self.mode is Mode.STANDING and self._walker.gait.goal_reached
+
+    def base_pose(self) -> BasePose:
+        """Pose of base_link in the odom frame."""
+        w, x, y, z = self.data.qpos[3:7].tolist()
+        yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+        return BasePose(self.data.qpos[:3].copy(), np.array([x, y, z, w]), yaw)
+
+    def base_velocity(self) -> BaseVelocity:
+        """Velocity of base_link, in base_link."""
+        to_body = np.empty(4)
+        linear = np.empty(3)
+        mujoco.mju_negQuat(to_body, self.data.qpos[3:7])
+        mujoco.mju_rotVecQuat(linear, self.data.qvel[:3], to_body)
+        return BaseVelocity(linear, self.data.qvel[3:6].copy())
+
+    def up(self) -> float:
+        """The z component of the torso's up-vector: 1 upright, 0 lying."""
+        return float(self._torso_rotation[8])
+
+    def joint_state(self) -> JointState:
+        """Positions, velocities and efforts of the actuated joints."""
+        return JointState(
+            tuple(ACTUATED_JOINTS),
+            self.data.qpos[self._joint_positions],
+            self.data.qvel[self._joint_velocities],
+            self.data.actuator_force.copy(),
+        )
+
+    def object_poses(self) -> dict[str, ObjectPose]:
+        """The objects of the scene, by name."""
+        poses = {}
+        for name in OBJECTS[self.scene]:
+            body = self.data.body(name)
+            poses[name] = ObjectPose(body.xpos.copy(), np.roll(body.xquat, -1))  # MuJoCo has w first
+        return poses
+
+    def imu(self) -> ImuSample:
+        """The inertial sensor in the pelvis."""
+        return self._imu.read()
+
+    # Helpers
+
+    def _follow(self, command: Command) -> None:
+        """Walk, after rising from a crouch; stop at once."""
+        if not self.motors_enabled:
+            return
+        if command is None or self._height.is_risen:
+            self._pending = None
+            self._walker.follow(command)
+        else:
+            self._pending = command
+            self._height.rise()
+
+    def _is_down(self) -> bool:
+        return self.data.qpos[2] < self._fall.base_height or self._torso_rotation[8] < self._fall.up
+
+    def _set_actuation(self, on: bool) -> None:
+        disabled = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
+        if on:
+            self.model.opt.disableflags &= ~disabled
+        else:
+            self.model.opt.disableflags |= disabled
+            self.data.actuator_force[:] = 0.0
+        self.motors_enabled = on

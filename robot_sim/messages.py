@@ -1,0 +1,19 @@
+"""Small helpers for ROS messages and publishers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from rclpy.publisher import Publisher
+
+
+def is_heard(publisher: Publisher) -> bool:
+    """Whether anybody subscribes; messages that nobody hears are not made."""
+    return publisher.get_subscription_count() > 0
+
+
+def set_fields(message: Any, fields: str, values: Iterable[float]) -> None:
+    """Set the fields named by single letters, such as "xyz", to numbers of any kind."""
+    for field, value in zip(fields, values, strict=True):
+        setattr(message, field, float(value))

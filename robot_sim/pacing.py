@@ -1,0 +1,45 @@
+"""Keeps simulated time in step with the system clock."""
+
+from __future__ import annotations
+
+import time
+
+
+class Pacing:
+    """Tells how much simulated time is due.
+
+    `real_time_factor` is simulated seconds per second of `time.monotonic()`; 0 means as fast as it can. A
+    simulation that has fallen behind by more than `MAX_LAG` s lets go of the rest, so that a machine which slept
+    does not make the robot race.
+    """
+
+    MAX_LAG = 1.0
+
+    def __init__(self, real_time_factor: float = 1.0) -> None:
+        if real_time_factor < 0:
+            raise ValueError(f"the real-time factor must not be negative, got {real_time_factor}")
+        self.real_time_factor = real_time_factor
+        self.dropped = 0.0
+        self.restart(0.0)
+
+    def restart(self, simulated: float) -> None:
+        """Count from now, at simulated time `simulated` (s)."""
+        self._origin = time.monotonic()
+        self._simulated_origin = simulated
+
+    def lag(self, simulated: float) -> float:
+        """Return how far (simulated s) the simulation is behind; negative when it is ahead."""
+        if self.real_time_factor == 0:
+            return 0.0
+        due = self._simulated_origin + (time.monotonic() - self._origin) * self.real_time_factor
+        lag = due - simulated
+        if lag > self.MAX_LAG:
+            self.dropped += lag
+            self.restart(simulated)
+        return lag
+
+    def wall_time_until(self, simulated: float) -> float:
+        """Return the seconds of the system clock until `simulated` is due, at least 0."""
+        if self.real_time_factor == 0:
+            return 0.0
+        return max(0.0, -self.lag(simulated) / self.real_time_factor)

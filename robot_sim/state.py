@@ -1,0 +1,59 @@
+"""What a humanoid tells about itself."""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+
+class Mode(IntEnum):
+    """What the robot is doing; the numbers are those of humanoid_interfaces/RobotState."""
+
+    OFF = 0  # motors off: still upright, or collapsing
+    STANDING = 1
+    WALKING = 2
+    FALLEN = 3  # motors off; only a reset gets it up
+
+
+@dataclass(frozen=True)
+class BasePose:
+    """Pose of base_link (the pelvis) in the odom frame."""
+
+    position: np.ndarray  # (3,) m
+    quaternion: np.ndarray  # (4,) x, y, z, w
+    yaw: float  # rad
+
+
+@dataclass(frozen=True)
+class ObjectPose:
+    """Pose of an object's centre in the odom frame."""
+
+    position: np.ndarray  # (3,) m
+    quaternion: np.ndarray  # (4,) x, y, z, w
+
+
+@dataclass(frozen=True)
+class BaseVelocity:
+    """Velocity of base_link, in base_link."""
+
+    linear: np.ndarray  # (3,) m/s
+    angular: np.ndarray  # (3,) rad/s
+
+
+@dataclass(frozen=True)
+class JointState:
+    """The actuated joints, in the order of ``joint_names.ACTUATED_JOINTS``; fingers in m, m/s and N."""
+
+    names: tuple[str, ...]
+    position: np.ndarray  # (34,) rad
+    velocity: np.ndarray  # (34,) rad/s
+    effort: np.ndarray  # (34,) N·m
+
+
+@dataclass(frozen=True)
+class ImuSample:
+    """The inertial sensor in the pelvis, axes as base_link (REP 145)."""
+
+    orientation: np.ndarray  # (4,) x, y, z, w of imu_link in odom
+    angular_velocity: np.ndarray  # (3,) rad/s
+    linear_acceleration: np.ndarray  # (3,) m/s², +9.81 upwards at rest

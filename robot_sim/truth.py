@@ -1,0 +1,77 @@
+"""What really happened, written to a pipe: student code cannot reach it, so it cannot forge it."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import time
+from dataclasses import asdict, dataclass
+
+from robot_sim.humanoid import Humanoid
+
+TRUTH_RATE = 50.0  # Hz, simulated
+
+
+@dataclass(frozen=True)
+class BatterySample:
+    """One published battery_state: percentage 0..1, voltage V, current A (negative: discharging)."""
+
+    percentage: float
+    voltage: float
+    current: float
+
+
+class TruthWriter:
+    """Writes one JSON object a line; `t` is `time.monotonic()` of the writing process, in seconds."""
+
+    def __init__(self, fd: int) -> None:
+        self._fd = fd
+
+    def ready(self) -> None:
+        """Say that the robot stands and its topics exist."""
+        self._write({"kind": "ready"})
+
+    def robot(
+        self, humanoid: Humanoid, lag: float, command: tuple[float, float, float] | None = None
+    ) -> None:
+        """Write the robot's state and how far (s) the simulation is behind the clock."""
+        pose, velocity = humanoid.base_pose(), humanoid.base_velocity()
+        x, y, z = (float(value) for value in pose.position)
+        vx, vy, _ = (float(value) for value in velocity.linear)
+        self._write(
+            {
+                "kind": "robot",
+                "simulated": humanoid.time,
+                "lag": lag,
+                "x": x,
+                "y": y,
+                "z": z,
+                "yaw": float(pose.yaw),
+                "speed": math.hypot(vx, vy),
+                "turn_rate": float(velocity.angular[2]),
+                "up": float(humanoid.up()),
+                "mode": int(humanoid.mode),
+                "motors_enabled": bool(humanoid.motors_enabled),
+                "steps": int(humanoid.steps),
+                "battery": float(humanoid.battery.percentage),
+            }
+        )
+
+    def battery_published(self, sample: BatterySample) -> None:
+        """Write what went out on battery_state."""
+        self._write({"kind": "battery", **asdict(sample)})
+
+    def peers(self, subscribers: dict[str, int], publishers: dict[str, int]) -> None:
+        """Write how many subscribers and publishers of other nodes the robot is connected to, by topic."""
+        self._write({"kind": "peers", "subscribers": subscribers, "publishers": publishers})
+
+    def commanded(self, command: dict) -> None:
+        """Write a command of the scenario when it takes effect."""
+        self._write({"kind": "command", "command": command})
+
+    def _write(self, record: dict) -> None:
+        line = json.dumps({"t": time.monotonic(), **record}) + "\n"
+        view = memoryview(line.encode())
+        while view:
+            view = view[os.write(self._fd, view) :]

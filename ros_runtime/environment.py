@@ -1,0 +1,89 @@
+"""The environment of every ROS process that the lab and the arena start."""
+
+from __future__ import annotations
+
+import os
+import sys
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+
+# What a setup file of ROS exports and a process needs that is started with an empty environment.
+_SETUP_FILE_VARIABLES = (
+    "AMENT_PREFIX_PATH",
+    "CMAKE_PREFIX_PATH",
+    "LD_LIBRARY_PATH",
+    "PYTHONPATH",
+    "ROS_DISTRO",
+    "ROS_PYTHON_VERSION",
+    "ROS_VERSION",
+)
+
+
+def ros_environment(
+    *, domain_id: int | None = None, localhost_only: bool = False, log_directory: Path | None = None
+) -> dict[str, str]:
+    """The variables to add to a process's environment, be that empty or a copy of ours.
+
+    `domain_id` (0 to 101) separates systems on one network, `localhost_only` keeps discovery on this machine,
+    and `log_directory` takes the log files, which go to ~/.ros/log otherwise: give it where there is no home.
+    """
+    variables = {
+        "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
+        # Shared memory crosses the sandbox's walls badly and leaves files behind when a process is killed.
+        "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
+        # Fast DDS would otherwise obey a profile file that lies in the directory it is started in.
+        "SKIP_DEFAULT_XML_FILE": "1",
+        # Without it rclpy sends a field of the wrong type as garbage and says nothing.
+        "ROS_PYTHON_CHECK_FIELDS": "1",
+        "PYTHONUNBUFFERED": "1",
+        "RCUTILS_COLORIZED_OUTPUT": "0",
+        # numpy would start a thread per core for matrices of at most a few dozen rows.
+        "OPENBLAS_NUM_THREADS": "1",
+    }
+    if domain_id is not None:
+        if not 0 <= domain_id <= 101:
+            raise ValueError(
+                f"domain id {domain_id}: expected 0 to 101, whose ports are free on every system"
+            )
+        variables["ROS_DOMAIN_ID"] = str(domain_id)
+    if localhost_only:
+        variables["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    if log_directory is not None:
+        variables["ROS_LOG_DIR"] = str(log_directory)
+    return variables | _library_variables()
+
+
+def python_for_ros() -> str:
+    """The interpreter that has rclpy and the interfaces: this one."""
+    return sys.executable
+
+
+def uses_wheels() -> bool:
+    """Whether rclpy comes from the wheels on PyPI rather than from a sourced ROS installation."""
+    return _wheels_site_packages() is not None
+
+
+def _library_variables() -> dict[str, str]:
+    """Where the loader finds ROS's libraries.
+
+    The wheels set LD_LIBRARY_PATH by starting the interpreter a second time (20 ms); they skip that when they
+    find their mark, so path and mark are set together. A sourced installation has set everything already.
+    """
+    site_packages = _wheels_site_packages()
+    if site_packages is None:
+        return {name: os.environ[name] for name in _SETUP_FILE_VARIABLES if name in os.environ}
+    ours = [str(Path(sys.prefix) / "lib"), *sorted(str(path) for path in site_packages.glob("ros_*.libs"))]
+    inherited = [path for path in os.environ.get("LD_LIBRARY_PATH", "").split(os.pathsep) if path]
+    paths = dict.fromkeys([*ours, *inherited])
+    return {"LD_LIBRARY_PATH": os.pathsep.join(paths), "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"}
+
+
+@cache
+def _wheels_site_packages() -> Path | None:
+    """The directory the wheels are installed in, if the rclpy that gets imported is theirs."""
+    rclpy, bootstrapper = find_spec("rclpy"), find_spec("ros_wheels_bootstrapper")
+    if rclpy is None or rclpy.origin is None or bootstrapper is None or bootstrapper.origin is None:
+        return None
+    site_packages = Path(bootstrapper.origin).parents[1]
+    return site_packages if Path(rclpy.origin).is_relative_to(site_packages) else None

@@ -1,0 +1,65 @@
+"""ROS messages as plain nested dicts, field by field, and back."""
+
+from __future__ import annotations
+
+from array import array
+from typing import Any
+
+import numpy as np
+
+
+def to_dict(message: Any) -> dict[str, Any]:
+    """Return the fields of a message as dicts, lists and plain values; NaN stays NaN, bytes become lists of int."""
+    return {name: _plain(getattr(message, name)) for name in message.get_fields_and_field_types()}
+
+
+def from_dict(message_type: type, values: dict[str, Any]) -> Any:
+    """Return a message of `message_type` with the given fields; those not given keep their defaults.
+
+    Raises AttributeError naming the fields there are when one is unknown.
+    """
+    message = message_type()
+    fill(message, values)
+    return message
+
+
+def fill(message: Any, values: dict[str, Any]) -> None:
+    """Set fields of a message in place from nested dicts."""
+    fields = message.get_fields_and_field_types()
+    for name, value in values.items():
+        if name not in fields:
+            raise AttributeError(
+                f"{type(message).__name__} has no field {name!r}; it has {', '.join(fields)}"
+            )
+        current = getattr(message, name)
+        if hasattr(current, "get_fields_and_field_types"):
+            fill(current, value)
+        elif isinstance(current, float):
+            setattr(message, name, float(value))
+        elif isinstance(value, list) and value and isinstance(value[0], dict):
+            setattr(message, name, [from_dict(_element_type(message, name), element) for element in value])
+        else:
+            setattr(message, name, value)
+
+
+def _element_type(message: Any, name: str) -> type:
+    """Return the Python type of a sequence field's elements ('sequence<geometry_msgs/Point>' → Point)."""
+    import importlib
+
+    declared = message.get_fields_and_field_types()[name]
+    package, type_name = declared.removeprefix("sequence<").split("[")[0].rstrip(">").split(",")[0].split("/")
+    return getattr(importlib.import_module(f"{package}.msg"), type_name)
+
+
+def _plain(value: Any) -> Any:
+    if hasattr(value, "get_fields_and_field_types"):
+        return to_dict(value)
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, np.ndarray | array):
+        return value.tolist()
+    if isinstance(value, bytes | bytearray):
+        return list(value)
+    if isinstance(value, list | tuple):
+        return [_plain(element) for element in value]
+    return value
