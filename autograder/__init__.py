@@ -1,0 +1,1 @@
+"""Grades ROS 2 nodes by what they do: submission → arena → transcript → verdict → report."""

@@ -1,0 +1,278 @@
+"""The verbs a scenario is written in. Each blocks until it is done or its time is over, and records what happened.
+
+All durations are seconds on the arena's clock. A scenario never judges: when an answer does not come, that is
+recorded as unanswered and the scenario goes on, so that a check can say what was missing.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from typing import Any
+
+from rclpy.node import Node
+
+from autograder.arena.action_probe import ActionProbe
+from autograder.arena.recorder import Recorder
+from autograder.arena.service_probe import ServiceProbe
+from autograder.arena.simulator import Simulator
+from autograder.isolation.student_process import StudentProcess
+from ros_runtime.greeting import greet
+
+READY_TIMEOUT = 20.0  # s, on a clock that still runs at scale 1
+MATCHING_TIMEOUT = 10.0  # s, likewise, for robot and node to find each other's topics
+GREETING_TIMEOUT = (
+    1.0  # s, likewise; a sound node may be slow to answer anything yet, a faulty one never does
+)
+SETTLING = 0.3  # s, likewise, for the node's own side of those connections
+CALL_TIMEOUT = 5.0
+GOAL_TIMEOUT = 5.0
+CANCEL_TIMEOUT = 5.0
+RESULT_TIMEOUT = 40.0
+CLEAN_EXIT_TIMEOUT = 5.0
+ROBOT_TIMEOUT = 30.0
+
+
+class NodeMissing(Exception):
+    """The student's endpoints never appeared; there is nothing left for the scenario to do."""
+
+
+class RobotTrouble(Exception):
+    """The simulator did not do what the scenario needs: our fault, never the student's."""
+
+
+class Stage:
+    """The robot, the student's node and a client for it."""
+
+    def __init__(
+        self,
+        node: Node,
+        stranger: Node,
+        recorder: Recorder,
+        changed: threading.Condition,
+        simulator: Simulator,
+        student: StudentProcess,
+        speed_up: Callable[[], None],
+    ) -> None:
+        self._node = node
+        self._stranger = stranger
+        self._recorder = recorder
+        self._changed = changed
+        self._simulator = simulator
+        self._student = student
+        self._speed_up = speed_up
+        self._services: dict[str, ServiceProbe] = {}
+        self._actions: dict[str, ActionProbe] = {}
+        self._count = 0
+
+    # -- getting ready ------------------------------------------------------------------------------------------------
+
+    def open(
+        self, services: Mapping[str, Any] | None = None, actions: Mapping[str, Any] | None = None
+    ) -> None:
+        """Connect to the student's services and actions (name → type) and wait until they and the robot are there.
+
+        The clock is sped up from here on. Raises :class:`NodeMissing` when the endpoints do not come.
+        """
+        for name, service_type in (services or {}).items():
+            self._services[name] = ServiceProbe(self._node, service_type, name, self._recorder, self._changed)
+        for name, action_type in (actions or {}).items():
+            self._actions[name] = ActionProbe(
+                self._node, self._stranger, action_type, name, self._recorder, self._changed
+            )
+        started = time.monotonic()
+        if not self.wait_until(lambda: self._simulator.robot is not None, ROBOT_TIMEOUT):
+            raise RobotTrouble(f"the simulator was not ready within {ROBOT_TIMEOUT:g} s")
+        while missing := self._missing():
+            waited = time.monotonic() - started
+            if waited > READY_TIMEOUT or self._student.returncode is not None:
+                offered = self._offered()
+                self._recorder.record("node_not_ready", missing=missing, offered=offered, waited=waited)
+                raise NodeMissing
+            with self._changed:
+                self._changed.wait(0.02)
+        self._recorder.record("node_ready", waited=time.monotonic() - started)
+        self.wait_until(self._robot_and_node_are_connected, MATCHING_TIMEOUT)
+        self._greet_node()
+        self.wait(SETTLING)
+        self._speed_up()
+
+    # -- time ---------------------------------------------------------------------------------------------------------
+
+    def wait(self, duration: float) -> None:
+        """Let time pass."""
+        deadline = time.monotonic() + duration
+        while (left := deadline - time.monotonic()) > 0:
+            time.sleep(left)
+
+    def wait_until(self, condition: Callable[[], Any], timeout: float) -> bool:
+        """Wait for a condition on what has arrived so far; False when the time is over first."""
+        deadline = time.monotonic() + timeout
+        with self._changed:
+            while not condition():
+                left = deadline - time.monotonic()
+                if left <= 0:
+                    return False
+                self._changed.wait(min(left, 1.0))
+        return True
+
+    def mark(self, name: str) -> None:
+        """Name this moment for the checks."""
+        self._recorder.record("mark", name=name)
+
+    # -- services -----------------------------------------------------------------------------------------------------
+
+    def call(
+        self, service: str, request: dict[str, Any] | None = None, *, timeout: float = CALL_TIMEOUT
+    ) -> str:
+        """Call a service and wait for the answer; returns the call's name ('call 1', 'call 2', …)."""
+        call = self.send_call(service, request)
+        self.wait_for_answer(service, call, timeout)
+        return call
+
+    def send_call(self, service: str, request: dict[str, Any] | None = None) -> str:
+        """Call a service without waiting."""
+        call = self._name("call")
+        self._services[service].send(call, request or {})
+        return call
+
+    def wait_for_answer(self, service: str, call: str, timeout: float = CALL_TIMEOUT) -> bool:
+        """Wait for the answer to a call sent before."""
+        return self._wait_for_reply("call", call, lambda: call in self._services[service].answered, timeout)
+
+    # -- actions ------------------------------------------------------------------------------------------------------
+
+    def send_goal(self, action: str, goal: str, request: dict[str, Any], *, wait: bool = True) -> bool:
+        """Send a goal under a name of your own; waits for yes or no unless told not to.
+
+        Returns whether it was accepted.
+        """
+        probe = self._actions[action]
+        probe.send_goal(goal, request)
+        if wait:
+            self.wait_for_goal_answer(action, goal)
+        return probe.answers.get(goal, False)
+
+    def wait_for_goal_answer(self, action: str, goal: str) -> bool:
+        """Wait for the server's yes or no."""
+        return self._wait_for_reply("goal", goal, lambda: goal in self._actions[action].answers, GOAL_TIMEOUT)
+
+    def wait_for_feedback(
+        self, action: str, goal: str, count: int = 1, timeout: float = RESULT_TIMEOUT
+    ) -> bool:
+        """Wait until `count` feedback messages of a goal have come, or its result."""
+        probe = self._actions[action]
+        return self.wait_until(
+            lambda: probe.feedback_counts[goal] >= count or goal in probe.results or self._has_exited(),
+            timeout,
+        )
+
+    def wait_for_result(self, action: str, goal: str, timeout: float = RESULT_TIMEOUT) -> bool:
+        """Wait for the result of an accepted goal; returns at once for one that was not accepted."""
+        probe = self._actions[action]
+        if not probe.answers.get(goal, False):
+            return False
+        return self._wait_for_reply("result", goal, lambda: goal in probe.results, timeout)
+
+    def has_result(self, action: str, goal: str) -> bool:
+        """Whether the goal's result has come."""
+        return goal in self._actions[action].results
+
+    def cancel(self, action: str, goal: str = "", *, by: str = "client", wait: bool = True) -> str:
+        """Ask to cancel a goal (none named: every goal); returns the request's name ('cancel 1', …)."""
+        cancel = self._name("cancel")
+        self._actions[action].send_cancel(cancel, goal, by)
+        if wait:
+            self.wait_for_cancel_answer(action, cancel)
+        return cancel
+
+    def wait_for_cancel_answer(self, action: str, cancel: str) -> bool:
+        """Wait for the answer to a cancel request."""
+        answers = self._actions[action].cancel_answers
+        return self._wait_for_reply("cancel", cancel, lambda: cancel in answers, CANCEL_TIMEOUT)
+
+    def cancel_code(self, action: str, cancel: str) -> int | None:
+        """Return the return code of an answered cancel request."""
+        return self._actions[action].cancel_answers.get(cancel)
+
+    # -- the robot ----------------------------------------------------------------------------------------------------
+
+    @property
+    def robot(self) -> dict[str, Any]:
+        """The latest truth about the robot (fields of :class:`autograder.events.RobotTruth`)."""
+        if self._simulator.robot is None:
+            raise RobotTrouble("the simulator has said nothing yet")
+        return self._simulator.robot
+
+    def command_robot(self, do: str, **arguments: Any) -> None:
+        """Push the robot, set its battery, cut its motors…: the commands of :mod:`robot_sim.scenario_control`."""
+        self._simulator.command(do, **arguments)
+
+    def wait_for_robot(
+        self, condition: Callable[[dict[str, Any]], bool], timeout: float = ROBOT_TIMEOUT
+    ) -> bool:
+        """Wait for a condition on the truth about the robot."""
+        return self.wait_until(lambda: condition(self.robot) or not self._simulator.is_running(), timeout)
+
+    # -- the student's process ----------------------------------------------------------------------------------------
+
+    def interrupt_node(self) -> None:
+        """Send SIGINT, as Ctrl-C does, and wait for the process to end."""
+        self._recorder.record("node_signalled", signal="SIGINT")
+        self._student.interrupt()
+        self._student.wait(CLEAN_EXIT_TIMEOUT)
+
+    # -- helpers ------------------------------------------------------------------------------------------------------
+
+    def _missing(self) -> list[str]:
+        probes: list[ServiceProbe | ActionProbe] = [*self._services.values(), *self._actions.values()]
+        return [name for probe in probes for name in probe.missing()]
+
+    def _robot_and_node_are_connected(self) -> bool:
+        """Whether the robot has found every subscriber and publisher of its topics that the graph knows."""
+        robot, graph = self._simulator, self._node
+        return (
+            bool(robot.subscribers)
+            and all(count >= graph.count_subscribers(topic) for topic, count in robot.subscribers.items())
+            and all(count >= graph.count_publishers(topic) for topic, count in robot.publishers.items())
+        )
+
+    def _greet_node(self) -> None:
+        """Exchange messages with the student's node, so that its answers are not lost on a client it does not know."""
+        deadline = time.monotonic() + GREETING_TIMEOUT
+        for name, namespace in self._student_nodes():
+            with suppress(
+                ValueError, RuntimeError
+            ):  # names are the student's to choose, and may be no names at all
+                greet(self._node, f"{namespace.rstrip('/')}/{name}", lambda: time.monotonic() > deadline)
+
+    def _student_nodes(self) -> list[tuple[str, str]]:
+        namespace = self._node.get_namespace()
+        ours = {(name, namespace) for name in (self._node.get_name(), self._stranger.get_name(), "humanoid")}
+        return [node for node in self._node.get_node_names_and_namespaces() if node not in ours]
+
+    def _offered(self) -> list[str]:
+        offered = []
+        for name, namespace in self._student_nodes():
+            for service, types in self._node.get_service_names_and_types_by_node(name, namespace):
+                if "rcl_interfaces/" not in types[0] and "type_description_interfaces/" not in types[0]:
+                    offered.append(f"{service} [{types[0]}]")
+        return sorted(offered)
+
+    def _wait_for_reply(self, what: str, name: str, has_come: Callable[[], bool], timeout: float) -> bool:
+        """Wait for a reply; record that it is missing when the time is over or the student's process has ended."""
+        started = time.monotonic()
+        self.wait_until(lambda: has_come() or self._has_exited(), timeout)
+        if has_come():
+            return True
+        self._recorder.record("unanswered", what=what, id=name, waited=time.monotonic() - started)
+        return False
+
+    def _has_exited(self) -> bool:
+        return self._student.returncode is not None
+
+    def _name(self, kind: str) -> str:
+        self._count += 1
+        return f"{kind} {self._count}"

@@ -1,0 +1,51 @@
+"""Watches what the student's processes use: ends them above the memory limit, adds up their processor time."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+from autograder.arena.recorder import Recorder
+from autograder.isolation.limits import StudentLimits
+from autograder.isolation.process_tree import cpu_seconds, resident_mib
+from autograder.isolation.student_process import StudentProcess
+from ros_runtime.clock.scaled_clock import real_monotonic_ns
+
+PERIOD = 0.2  # s on the arena's clock, so 40 ms of real time at scale 5
+
+
+class StudentWatch:
+    """A thread beside the scenario. A memory bomb then ends itself and not the arena, so its run can be judged."""
+
+    def __init__(self, student: StudentProcess, recorder: Recorder, limits: StudentLimits) -> None:
+        self._student = student
+        self._recorder = recorder
+        self._limits = limits
+        self._started = real_monotonic_ns()
+        self._cpu = 0.0
+        self._peak = 0.0
+        threading.Thread(target=self._watch, name="student watch", daemon=True).start()
+
+    def report(self) -> None:
+        """Record what has been used until now."""
+        self._look()
+        wall = (real_monotonic_ns() - self._started) / 1e9
+        self._recorder.record("node_usage", cpu=self._cpu, wall=wall, peak_memory_mib=self._peak)
+
+    def _watch(self) -> None:
+        while self._student.returncode is None:
+            used = self._look()
+            if used > self._limits.memory_mib:
+                reason = f"it used {used:.0f} MiB of memory; {self._limits.memory_mib} MiB are allowed"
+                self._recorder.record("node_killed", reason=reason)
+                self._student.kill()
+                return
+            time.sleep(PERIOD)
+
+    def _look(self) -> float:
+        """Return the memory in use (MiB)."""
+        processes = self._student.processes()
+        self._cpu = max(self._cpu, cpu_seconds(processes))
+        used = resident_mib(processes)
+        self._peak = max(self._peak, used)
+        return used

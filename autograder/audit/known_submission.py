@@ -1,0 +1,132 @@
+"""A submission whose verdict is known beforehand, told in its first docstring.
+
+correct:  Style: how it is written
+faulty:   Fault: the mistake (M2)            the number of the misconception, where it has one
+          Caught by: check_id, check_id      each must fail
+          Also fails: check_id               may fail as a plain consequence of the same fault
+hostile:  Attack: what it tries
+          Outcome: what becomes of it
+          Caught by: …, Also fails: …        as above, or
+          Passes: nothing it did not do      it does its job beside the attack, which must change nothing
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatch
+from pathlib import Path
+from typing import Literal, get_args
+
+from autograder.submission import Submission, read_submission
+
+SUBMISSIONS = Path(__file__).resolve().parents[2] / "tests" / "submissions"
+
+Kind = Literal["correct", "faulty", "hostile"]
+
+_FIRST_DOCSTRING = re.compile(r'\A(?:#.*\n|\s)*"""(.*?)"""', re.DOTALL)  # also where the file does not parse
+_KEY = re.compile(r"(Style|Fault|Attack|Outcome|Caught by|Also fails|Passes): *(.*)")
+_HEADLINE: Mapping[Kind, str] = {"correct": "Style", "faulty": "Fault", "hostile": "Attack"}
+
+
+class HeaderError(Exception):
+    """The docstring of a known submission does not say what the audit needs."""
+
+
+@dataclass(frozen=True)
+class KnownSubmission:
+    """A submission and the checks that must (`caught_by`) and may (`also_fails`) fail for it."""
+
+    exercise: str
+    kind: Kind
+    path: Path
+    about: str
+    caught_by: tuple[str, ...] = ()
+    also_fails: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """The name in tables: faulty/no_cancel_callback."""
+        return f"{self.kind}/{self.path.stem}"
+
+    def read(self) -> Submission:
+        """Return it as the grader takes it."""
+        return read_submission(self.path, self.exercise, student=self.name)
+
+
+def known_submissions(exercise: str, *, only: str = "*", folder: Path = SUBMISSIONS) -> list[KnownSubmission]:
+    """Read the submissions in `folder`/<exercise>/<kind>/; `only` is a glob on kind/stem or stem."""
+    paths = [path for kind in get_args(Kind) for path in sorted((folder / exercise / kind).glob("*.py"))]
+    return [
+        read_known_submission(path)
+        for path in paths
+        if fnmatch(path.stem, only) or fnmatch(f"{path.parent.name}/{path.stem}", only)
+    ]
+
+
+def read_known_submission(path: Path) -> KnownSubmission:
+    """Read the header of <exercise>/<kind>/<name>.py; raises :class:`HeaderError`."""
+    kind, exercise = _kind(path), path.parents[1].name
+    found = _FIRST_DOCSTRING.match(path.read_text(encoding="utf-8"))
+    header = _parse(found[1]) if found else {}
+    headline = _HEADLINE[kind]
+    if not header.get(headline):
+        raise HeaderError(f'{path} must begin with a docstring that has a line "{headline}: …"')
+    known = KnownSubmission(
+        exercise, kind, path, header[headline], _ids(header, "Caught by"), _ids(header, "Also fails")
+    )
+    _require_an_expectation(known, header)
+    return known
+
+
+def require_known_checks(known: KnownSubmission, check_ids: Sequence[str]) -> None:
+    """Raise :class:`HeaderError` when a header names a check that its exercise does not have."""
+    named = {*known.caught_by, *known.also_fails}
+    if unknown := sorted(named - set(check_ids)):
+        raise HeaderError(
+            f"{known.path} names {', '.join(unknown)}; "
+            f"the checks of {known.exercise} are {', '.join(check_ids)}"
+        )
+
+
+def _kind(path: Path) -> Kind:
+    for kind in get_args(Kind):
+        if path.parent.name == kind:
+            return kind
+    raise HeaderError(f"{path} lies in {path.parent.name!r}; expected one of {', '.join(get_args(Kind))}")
+
+
+def _parse(docstring: str) -> dict[str, str]:
+    """Return the text after each key; a text may run over several lines, up to an empty one."""
+    header: dict[str, str] = {}
+    key = ""
+    for line in map(str.strip, docstring.splitlines()):
+        if match := _KEY.fullmatch(line):
+            key = match[1]
+            header[key] = match[2]
+        elif not line:
+            key = ""
+        elif key:
+            header[key] = f"{header[key]} {line}".strip()
+    return header
+
+
+def _ids(header: Mapping[str, str], key: str) -> tuple[str, ...]:
+    return tuple(word.strip() for word in header.get(key, "").split(",") if word.strip())
+
+
+def _require_an_expectation(known: KnownSubmission, header: Mapping[str, str]) -> None:
+    if known.kind == "correct":
+        if known.caught_by or known.also_fails:
+            raise HeaderError(f"{known.path} is said to be correct, and to fail a check")
+    elif known.kind == "faulty" and not known.caught_by:
+        raise HeaderError(f'{known.path} needs a line "Caught by: check_id"')
+    elif known.kind == "hostile" and not header.get("Outcome"):
+        raise HeaderError(f'{known.path} needs a line "Outcome: …"')
+    elif known.kind == "hostile" and bool(known.caught_by) == ("Passes" in header):
+        raise HeaderError(
+            f'{known.path} needs either "Caught by: check_id" or "Passes: nothing it did not do"'
+        )
+    if overlap := set(known.caught_by) & set(known.also_fails):
+        raise HeaderError(f"{known.path} names {', '.join(sorted(overlap))} twice")

@@ -1,0 +1,115 @@
+"""Grades known submissions with every check, and compares the verdicts with what is known."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+from typing import Any
+
+from autograder.audit.known_submission import KnownSubmission, require_known_checks
+from autograder.exercise import Exercise
+from autograder.grading import grade
+from autograder.verdict import CheckStatus, Grade
+
+
+@dataclass(frozen=True)
+class AuditedRun:
+    """One grading of a known submission; `seconds` is what it took on the wall."""
+
+    known: KnownSubmission
+    repetition: int
+    grade: Grade
+    seconds: float
+
+    def status(self, check_id: str) -> CheckStatus:
+        """Return the verdict of one check."""
+        return next(check.status for check in self.grade.checks if check.id == check_id)
+
+    def failed(self) -> list[str]:
+        """Return the ids of the checks that failed."""
+        return [check.id for check in self.grade.checks if check.status == "failed"]
+
+    def missed(self) -> list[str]:
+        """Return the checks that had to fail and did not."""
+        return [check_id for check_id in self.known.caught_by if self.status(check_id) != "failed"]
+
+    def unexpected(self) -> list[str]:
+        """Return the checks that failed and are not named; for a correct submission, false failures."""
+        named = {*self.known.caught_by, *self.known.also_fails}
+        return [check_id for check_id in self.failed() if check_id not in named]
+
+    def surprises(self) -> list[str]:
+        """Say in words what differs from what is known; empty when nothing does."""
+        words = [f"{check_id} did not catch it ({self.status(check_id)})" for check_id in self.missed()]
+        for check in self.grade.checks:
+            if check.status == "error" and "was not graded" not in check.help:  # the first cause only
+                words.append(f"{check.id} could not be judged: {check.help.splitlines()[0]}")
+            elif check.id in self.unexpected():
+                words.append(f"{check.id} failed: expected {check.expected}; observed {check.observed}")
+        if self.grade.status == "not graded" and not words:
+            words.append(f"not graded: {self.grade.reason}")
+        if self.known.kind == "correct" and not self.grade.all_passed and not words:
+            words.append("not every check passed")
+        return words
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what `course audit --json` writes of this run."""
+        return {
+            "submission": self.known.name,
+            "about": self.known.about,
+            "repetition": self.repetition,
+            "seconds": round(self.seconds, 2),
+            "caught_by": list(self.known.caught_by),
+            "also_fails": list(self.known.also_fails),
+            "surprises": self.surprises(),
+            "grade": self.grade.to_json(),
+        }
+
+
+def audit(
+    submissions: Sequence[KnownSubmission],
+    exercise: Exercise,
+    *,
+    jobs: int = 2,
+    repeat: int = 1,
+    scale: float | None = None,
+    report: Callable[[AuditedRun], None] = lambda run: None,
+) -> list[AuditedRun]:
+    """Grade each submission `repeat` times, with other inputs for the scenarios each time, `jobs` arenas at a time.
+
+    `report` gets each run when it is done; the runs are returned in the order of the submissions.
+    """
+    for known in submissions:
+        require_known_checks(known, [check.id for check in exercise.checks])
+    with ThreadPoolExecutor(jobs) as pool:
+        futures = [
+            pool.submit(audit_one, known, exercise, repetition, scale)
+            for repetition in range(repeat)
+            for known in submissions
+        ]
+        try:
+            for future in as_completed(futures):
+                report(future.result())
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+    return [future.result() for future in futures]
+
+
+def audit_one(
+    known: KnownSubmission, exercise: Exercise, repetition: int = 0, scale: float | None = None
+) -> AuditedRun:
+    """Grade one submission, one arena at a time."""
+    started = time.monotonic()
+    result = grade(known.read(), exercise, seed=repetition, jobs=1, scale=scale)
+    return AuditedRun(known, repetition, result, time.monotonic() - started)
+
+
+def checks_without_a_killer(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:
+    """Return the checks that failed for no submission that names them: what they are worth is not proved."""
+    proved = {
+        check_id for run in runs for check_id in run.known.caught_by if run.status(check_id) == "failed"
+    }
+    return [check.id for check in exercise.checks if check.id not in proved]

@@ -1,0 +1,80 @@
+"""Remembers grades, so that a batch that was interrupted goes on where it stopped."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+from functools import lru_cache
+from pathlib import Path
+
+from autograder.arena_run import PROJECT
+from autograder.exercise import Exercise
+from autograder.isolation.availability import Isolation
+from autograder.submission import Submission
+from autograder.verdict import Grade
+
+# What a verdict depends on besides the submission: the checks and the engine, the robot, the clock.
+JUDGING = ("autograder", "robot_sim", "ros_runtime", "humanoid_interfaces")
+WITHOUT_INFLUENCE = ("batch", "nbgrader_bridge", "report", "audit", "exercises")  # folders of autograder/
+
+
+class GradeCache:
+    """Grades by what they depend on: the source, the checks, the inputs drawn, the isolation.
+
+    What could not be graded is never remembered.
+    """
+
+    def __init__(self, folder: Path, seed: int, isolation: Isolation) -> None:
+        self._folder = folder
+        self._seed = seed
+        self._isolation = isolation
+
+    def get(self, submission: Submission, exercise: Exercise) -> Grade | None:
+        """Return the grade that such a submission got before, in the name of this student."""
+        path = self._path(submission, exercise)
+        if not path.exists():
+            return None
+        return dataclasses.replace(Grade.from_json(json.loads(path.read_text())), student=submission.student)
+
+    def put(self, submission: Submission, exercise: Exercise, grade: Grade) -> None:
+        """Remember a grade."""
+        if grade.status != "graded":
+            return
+        path = self._path(submission, exercise)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        unfinished = path.with_suffix(f".{submission.student}")  # an interruption must not leave half a grade
+        unfinished.write_text(json.dumps(grade.to_json()))
+        unfinished.replace(path)
+
+    def _path(self, submission: Submission, exercise: Exercise) -> Path:
+        key = hashlib.sha256(
+            json.dumps(
+                [
+                    submission.source,
+                    checks_version(exercise.name),
+                    [check.id for check in exercise.checks],
+                    self._seed,
+                    self._isolation.label,
+                ]
+            ).encode()
+        )
+        return self._folder / exercise.name / f"{key.hexdigest()}.json"
+
+
+@lru_cache
+def checks_version(exercise: str) -> str:
+    """Return a hash of every file that a verdict on this exercise depends on."""
+    digest = hashlib.sha256()
+    for room in JUDGING:
+        for path in sorted((PROJECT / room).rglob("*")):
+            place = path.relative_to(PROJECT)
+            if path.is_file() and "__pycache__" not in place.parts and _has_influence(place, exercise):
+                digest.update(f"{place}\0".encode() + path.read_bytes())
+    return digest.hexdigest()
+
+
+def _has_influence(place: Path, exercise: str) -> bool:
+    if place.parts[:2] == ("autograder", "exercises"):
+        return place.parts[2] == exercise or len(place.parts) == 3
+    return not (place.parts[0] == "autograder" and place.parts[1] in WITHOUT_INFLUENCE)

@@ -1,0 +1,116 @@
+"""Finds what students have handed in, in nbgrader's layout or as plain files."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from nbgrader.utils import parse_utc
+
+from autograder.exercise import exercise_names
+from autograder.submission import Submission, UnusableSubmission, read_submission
+
+STUDENT = re.compile(r"[\w@+][\w@+.,' -]*")  # what nbgrader, a file system and a shell all take as a name
+LAYOUT = "SUBMITTED/<student>/<exercise>/<exercise>.ipynb or SUBMITTED/<student>/<exercise>.py"
+
+
+class NoSubmissions(Exception):
+    """The folder holds nothing that can be graded; the message says what it should look like."""
+
+
+@dataclass(frozen=True)
+class Work:
+    """One student's work on one exercise; `path` is None when their folder for it holds no file of that name."""
+
+    student: str
+    exercise: str
+    path: Path | None
+    timestamp: str = ""  # as in the timestamp.txt of nbgrader's collect
+
+    def read(self) -> Submission:
+        """Read it; raises UnusableSubmission saying what is wrong with it."""
+        if self.path is None:
+            raise UnusableSubmission(
+                f"the folder {self.exercise} holds neither {self.exercise}.ipynb nor {self.exercise}.py"
+            )
+        if self.path.is_symlink() or not self.path.is_file():
+            raise UnusableSubmission(f"{self.path.name} is not an ordinary file")
+        try:
+            submission = read_submission(self.path, self.exercise, self.student)
+        except UnusableSubmission as error:
+            # Students read this, and the instructor's folders are not their business.
+            raise UnusableSubmission(str(error).replace(str(self.path), self.path.name)) from error
+        try:
+            submission.source.encode()
+        except UnicodeEncodeError as error:
+            raise UnusableSubmission(
+                f"{self.path.name} holds characters that no text can: {error.reason}"
+            ) from error
+        return submission
+
+
+@dataclass(frozen=True)
+class Collection:
+    """The works found, in order of student and exercise.
+
+    `ignored` says what else lies there, `refused` which students' folders have names that cannot be taken over.
+    """
+
+    works: Sequence[Work]
+    ignored: Sequence[str]
+    refused: Sequence[str]
+
+
+def collect(folder: Path) -> Collection:
+    """Find every work in the folder; raises :class:`NoSubmissions` when there is none."""
+    if not folder.is_dir():
+        raise NoSubmissions(f"{folder} is not a folder; expected {LAYOUT}")
+    works: dict[tuple[str, str], Work] = {}
+    ignored: list[str] = []
+    refused: list[str] = []
+    for student in _visible(folder):
+        if not student.is_dir() or student.is_symlink():
+            ignored.append(f"{student.name!r} is not a folder with a student's work")
+        elif not STUDENT.fullmatch(student.name):
+            refused.append(
+                f"the folder {student.name!r}: rename it to letters, digits and . , _ - @ + ' only"
+            )
+        else:
+            found = list(_works_of(student))
+            if not found:
+                ignored.append(f"{student.name} handed in none of {', '.join(exercise_names())}")
+            works |= {(work.student, work.exercise): work for work in found}
+    if not works and not refused:
+        raise NoSubmissions(f"found nothing to grade in {folder}; expected {LAYOUT}")
+    return Collection([works[key] for key in sorted(works)], ignored, refused)
+
+
+def _works_of(student: Path) -> Iterator[Work]:
+    """A folder for the exercise comes before a file beside it, a notebook before the file it writes when run."""
+    for exercise in exercise_names():
+        folder = student / exercise
+        places = [student / f"{exercise}.ipynb", student / f"{exercise}.py"]
+        if folder.is_dir():
+            places = [folder / f"{exercise}.ipynb", folder / f"{exercise}.py"]
+        path = next((place for place in places if place.exists() or place.is_symlink()), None)
+        if path is not None or folder.is_dir():
+            yield Work(student.name, exercise, path, _timestamp(folder))
+
+
+def _visible(folder: Path) -> list[Path]:
+    return sorted(path for path in folder.iterdir() if not path.name.startswith("."))
+
+
+def _timestamp(folder: Path) -> str:
+    """When the work was handed in, if that is written there so that nbgrader can read it."""
+    path = folder / "timestamp.txt"
+    if path.is_symlink() or not path.is_file():
+        return ""
+    try:
+        text = path.read_bytes()[:100].decode().strip()
+        parse_utc(text)
+    except Exception:  # a date can be malformed in many ways, and a wrong one costs nobody points
+        return ""
+    return text

@@ -1,0 +1,162 @@
+"""Grades many submissions at a time, and keeps going whatever one of them holds."""
+
+from __future__ import annotations
+
+import dataclasses
+import threading
+import traceback
+from collections.abc import Generator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+
+from autograder.batch.cache import GradeCache
+from autograder.batch.collection import Work
+from autograder.exercise import Exercise, load_exercise
+from autograder.grading import Report, grade
+from autograder.isolation.availability import Isolation
+from autograder.submission import Submission, UnusableSubmission
+from autograder.verdict import CheckVerdict, Grade
+
+
+@dataclass(frozen=True)
+class Graded:
+    """One work with its grade; `source` is None and `problem` says why when it could not be read."""
+
+    work: Work
+    grade: Grade
+    source: str | None
+    problem: str = ""
+    remembered: bool = False
+
+
+class _Interrupted(Exception):
+    """The batch was stopped while this submission was being graded."""
+
+
+class BatchRunner:
+    """Grades works with `jobs` arenas at a time; without trusted isolation only with the visible checks.
+
+    `report` gets each verdict as soon as it is known, from any thread.
+    """
+
+    def __init__(
+        self,
+        cache: GradeCache,
+        isolation: Isolation,
+        *,
+        jobs: int,
+        seed: int = 0,
+        resume: bool = False,
+        report: Report = lambda verdict: None,
+    ) -> None:
+        self._cache = cache
+        self._isolation = isolation
+        self._jobs = jobs
+        self._seed = seed
+        self._resume = resume
+        self._report = report
+        self._stop = threading.Event()
+
+    def exercise(self, name: str) -> Exercise:
+        """Return an exercise with the checks that this batch judges it by."""
+        return load_exercise(name, hidden=self._isolation.trusted)
+
+    def run(self, works: Sequence[Work]) -> Generator[Graded, None, None]:
+        """Yield each work as soon as it is graded.
+
+        Leaving the loop early, by Ctrl-C for one, ends the arenas that run; what was graded by then is remembered.
+        """
+        jobs_each = max(1, self._jobs // max(1, len(works)))
+        with ThreadPoolExecutor(max_workers=max(1, self._jobs // jobs_each)) as pool:
+            futures: list[Future[Graded]] = [pool.submit(self._grade, work, jobs_each) for work in works]
+            try:
+                for future in as_completed(futures):
+                    yield future.result()
+            finally:
+                self._stop.set()
+                pool.shutdown(wait=True, cancel_futures=True)
+
+    def _grade(self, work: Work, jobs: int) -> Graded:
+        exercise = self.exercise(work.exercise)
+        try:
+            submission = work.read()
+        except UnusableSubmission as problem:
+            unread = unreadable(work, exercise, self._isolation, str(problem))
+            for verdict in unread.checks:
+                self._report(verdict)
+            return Graded(work, unread, None, str(problem))
+        if self._resume and (known := self._cache.get(submission, exercise)):
+            for verdict in known.checks:
+                self._report(verdict)
+            return Graded(work, known, submission.source, remembered=True)
+        result = self._grade_in_arenas(submission, exercise, jobs)
+        self._cache.put(submission, exercise, result)
+        return Graded(work, result, submission.source)
+
+    def _grade_in_arenas(self, submission: Submission, exercise: Exercise, jobs: int) -> Grade:
+        try:
+            return with_reason(
+                grade(
+                    submission,
+                    exercise,
+                    seed=self._seed,
+                    jobs=jobs,
+                    isolation=self._isolation,
+                    report=self._report_or_stop,
+                )
+            )
+        except _Interrupted:
+            raise
+        except Exception:  # whatever goes wrong here is the grader's fault and may not end the batch
+            return Grade(
+                exercise.name,
+                submission.student,
+                self._isolation.label,
+                reason=f"the grader itself failed:\n{traceback.format_exc()}",
+            )
+
+    def _report_or_stop(self, verdict: CheckVerdict) -> None:
+        """Leave a submission at its next verdict once the batch has been stopped; grade() then ends its arenas."""
+        if self._stop.is_set():
+            raise _Interrupted
+        self._report(verdict)
+
+
+def unreadable(work: Work, exercise: Exercise, isolation: Isolation, problem: str) -> Grade:
+    """Return the grade of a work that cannot be read: no points, and the reason where the student will look for it."""
+    first, *others = exercise.checks
+    verdicts = [
+        CheckVerdict(
+            first.id,
+            first.title,
+            "failed",
+            0,
+            first.points,
+            expected=f"{exercise.file_name}, or a notebook with a cell that begins '%%writefile {exercise.file_name}'",
+            observed=problem,
+            help="Open the file you handed in, put this right and hand it in again.",
+        ),
+        *(
+            CheckVerdict(
+                check.id,
+                check.title,
+                "not run",
+                0,
+                check.points,
+                help="The submission could not be read.",
+                hidden=check.hidden,
+            )
+            for check in others
+        ),
+    ]
+    return Grade(exercise.name, work.student, isolation.label, verdicts)
+
+
+def with_reason(grade: Grade) -> Grade:
+    """Put the first reason why something could not be judged where every report shows it."""
+    if grade.status == "graded" or grade.reason:
+        return grade
+    broken = next((verdict for verdict in grade.checks if verdict.status == "error"), None)
+    return dataclasses.replace(
+        grade, reason=f"{broken.id}: {broken.help}" if broken else "no check was judged"
+    )

@@ -1,0 +1,1 @@
+"""What the toolkit costs and whether it stays fair: measured, printed, never a test."""

@@ -1,0 +1,74 @@
+"""Does one sound server get the same verdicts and the same feedback rate every time, at any scale of the clock?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from itertools import pairwise
+
+from autograder.arena_run import ArenaRun, NotGraded, run_in_arena
+from autograder.checks import Failure, Scenario
+from autograder.exercise import Exercise
+from autograder.grading import lateness
+from autograder.submission import Submission
+from autograder.transcript import Transcript
+
+FAIR_RATE = (4.0, 6.0)  # Hz, of feedback that is meant at 5 Hz
+
+
+@dataclass(frozen=True)
+class FairRun:
+    """One walk: feedback rate (Hz), largest gap (s), how late the simulator was (s), and what failed."""
+
+    scale: float
+    rate: float
+    gap: float
+    lag: float
+    failed: tuple[str, ...]
+
+    @property
+    def fair(self) -> bool:
+        """Whether feedback kept its rate and every check of the scenario passed."""
+        return FAIR_RATE[0] <= self.rate <= FAIR_RATE[1] and not self.failed
+
+
+def fairness_runs(
+    submission: Submission,
+    exercise: Exercise,
+    scenario: Scenario,
+    *,
+    runs: int,
+    scale: float,
+    jobs: int,
+    progress: Callable[[FairRun], None] = lambda run: None,
+) -> list[FairRun]:
+    """Carry out the scenario `runs` times at one scale and judge each run with every check that needs nothing else."""
+
+    def one(_index: int) -> FairRun:
+        try:
+            run = _judged(
+                run_in_arena(ArenaRun(exercise, submission.files, scenario, 0, scale)), exercise, scenario
+            )
+        except NotGraded as error:
+            run = FairRun(scale, 0.0, 0.0, 0.0, (str(error).splitlines()[0],))
+        progress(run)
+        return run
+
+    with ThreadPoolExecutor(jobs) as pool:
+        return list(pool.map(one, range(runs)))
+
+
+def _judged(transcript: Transcript, exercise: Exercise, scenario: Scenario) -> FairRun:
+    failed = []
+    for check in exercise.checks:
+        if check.on != (scenario,):
+            continue
+        try:
+            check.run([transcript])
+        except (Failure, LookupError) as failure:
+            failed.append(f"{check.id}: {failure}")
+    times = [feedback.t for feedback in transcript.goal("walk").feedback]
+    gaps = [later - earlier for earlier, later in pairwise(times)]
+    rate = len(gaps) / sum(gaps) if gaps else 0.0
+    return FairRun(transcript.scale, rate, max(gaps, default=0.0), lateness(transcript), tuple(failed))

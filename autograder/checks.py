@@ -1,0 +1,112 @@
+"""What the author of a check writes: a function over transcripts, its docstring as title.
+
+@check(points=2, on=WALK, needs=["server_appears"])
+def arrives_at_the_goal(walk: Transcript) -> None:
+    \"""The robot ends within 0.10 m of the goal\"""
+    ...
+    raise Failure(expected="…", observed="…", help="…", at=walk.goal("goal").result.t)
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from autograder.transcript import Transcript
+
+Judge = Callable[..., None]
+Inputs = Mapping[str, Any] | Callable[[random.Random], Mapping[str, Any]]
+
+
+class Failure(Exception):
+    """A fault of the submission: expected, observed, when (arena s), and one next step in plain words."""
+
+    def __init__(self, *, expected: str, observed: str, help: str, at: float | None = None) -> None:
+        super().__init__(f"expected {expected}; observed {observed}")
+        self.expected = expected
+        self.observed = observed
+        self.help = help
+        self.at = at
+
+
+def expect(condition: bool, *, expected: str, observed: str, help: str, at: float | None = None) -> None:
+    """Raise a :class:`Failure` unless the condition holds."""
+    if not condition:
+        raise Failure(expected=expected, observed=observed, help=help, at=at)
+
+
+@dataclass(frozen=True, eq=False)
+class Scenario:
+    """A stimulus by name, with its inputs: fixed, or drawn from a seeded generator when the submission is graded.
+
+    `robot` are options of the simulator. Each Scenario object is run once a submission, however many checks judge it.
+    """
+
+    name: str
+    inputs: Inputs = field(default_factory=dict)
+    robot: tuple[str, ...] = ()
+    namespace: str = "/robot"
+
+    def draw(self, seed: int) -> dict[str, Any]:
+        """Return the inputs for one seed; the same seed draws the same inputs."""
+        if callable(self.inputs):
+            return dict(self.inputs(random.Random(f"{seed}/{self.name}")))
+        return dict(self.inputs)
+
+
+@dataclass(frozen=True)
+class Check:
+    """One check: `id` and `title` come from the function, `on` are the scenarios it judges.
+
+    `confirm`: a failure counts only when a second run of the scenarios fails too. It is for behaviour that the
+    middleware itself gets wrong once in hundreds of runs; a fault of the submission shows every time.
+    """
+
+    id: str
+    title: str
+    points: int
+    judge: Judge
+    on: tuple[Scenario, ...]
+    needs: tuple[str, ...]
+    hidden: bool
+    confirm: bool = False
+
+    def run(self, transcripts: Sequence[Transcript]) -> None:
+        """Judge; a :class:`Failure` says what is wrong."""
+        self.judge(*transcripts)
+
+
+class CheckList:
+    """The checks of one exercise in the order they are shown; use :meth:`check` as a decorator."""
+
+    def __init__(self, *, hidden: bool = False) -> None:
+        self.hidden = hidden
+        self.checks: list[Check] = []
+
+    def check(
+        self,
+        *,
+        points: int,
+        on: Scenario | Sequence[Scenario],
+        needs: Sequence[str] = (),
+        confirm: bool = False,
+    ) -> Callable[[Judge], Judge]:
+        """Register a function as a check worth `points`, judged on the transcript of each scenario in `on`.
+
+        `needs` names checks that must have passed; otherwise this one is reported as not run. `confirm` looks at a
+        failure a second time, see :class:`Check`.
+        """
+        scenarios = (on,) if isinstance(on, Scenario) else tuple(on)
+
+        def register(judge: Judge) -> Judge:
+            if not judge.__doc__:
+                raise ValueError(f"the check {judge.__name__} needs a docstring: it is its title")
+            title = judge.__doc__.strip().splitlines()[0].rstrip(".")
+            self.checks.append(
+                Check(judge.__name__, title, points, judge, scenarios, tuple(needs), self.hidden, confirm)
+            )
+            return judge
+
+        return register

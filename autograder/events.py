@@ -1,0 +1,261 @@
+"""What an arena can report, one type an event, every time in seconds on the arena's own clock.
+
+The lines come from a process that parses bytes written by untrusted code, so they are validated here before
+anything judges them.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+
+Message = dict[str, Any]
+"""A ROS message as nested dicts and lists, field by field."""
+
+
+class _Event(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=True)
+    t: float
+
+
+class NodeStarted(_Event):
+    """The student's process exists."""
+
+    kind: Literal["node_started"] = "node_started"
+
+
+class NodeReady(_Event):
+    """The endpoints the scenario waits for are matched; `waited` s after the node was started."""
+
+    kind: Literal["node_ready"] = "node_ready"
+    waited: float
+
+
+class NodeNotReady(_Event):
+    """They never were; `missing` names them, `offered` lists what the student's node does offer as 'name [type]'."""
+
+    kind: Literal["node_not_ready"] = "node_not_ready"
+    missing: list[str]
+    offered: list[str]
+    waited: float
+
+
+class NodeOutput(_Event):
+    """A line the student's process printed."""
+
+    kind: Literal["node_output"] = "node_output"
+    stream: Literal["stdout", "stderr"]
+    text: str
+
+
+class NodeSignalled(_Event):
+    """The scenario sent the student's process a signal."""
+
+    kind: Literal["node_signalled"] = "node_signalled"
+    signal: str
+
+
+class NodeExited(_Event):
+    """The student's process ended by itself or by a signal (negative)."""
+
+    kind: Literal["node_exited"] = "node_exited"
+    returncode: int
+
+
+class NodeKilled(_Event):
+    """The student's processes were ended because they used more than they may."""
+
+    kind: Literal["node_killed"] = "node_killed"
+    reason: str
+
+
+class NodeUsage(_Event):
+    """What the student's processes used: processor time (s) over `wall` s of real time, peak memory (MiB)."""
+
+    kind: Literal["node_usage"] = "node_usage"
+    cpu: float
+    wall: float
+    peak_memory_mib: float
+
+
+class ServiceCalled(_Event):
+    kind: Literal["service_called"] = "service_called"
+    call: str
+    service: str
+    request: Message
+
+
+class ServiceAnswered(_Event):
+    kind: Literal["service_answered"] = "service_answered"
+    call: str
+    response: Message
+
+
+class GoalSent(_Event):
+    kind: Literal["goal_sent"] = "goal_sent"
+    goal: str
+    action: str
+    request: Message
+
+
+class GoalAnswered(_Event):
+    kind: Literal["goal_answered"] = "goal_answered"
+    goal: str
+    accepted: bool
+
+
+class FeedbackReceived(_Event):
+    kind: Literal["feedback"] = "feedback"
+    goal: str
+    feedback: Message
+
+
+class StatusSeen(_Event):
+    """The goal's status on the action's status topic changed (action_msgs/GoalStatus)."""
+
+    kind: Literal["status"] = "status"
+    goal: str
+    status: int
+
+
+class CancelSent(_Event):
+    """`by` is the client that asked; `goal` is empty when it asked to cancel every goal."""
+
+    kind: Literal["cancel_sent"] = "cancel_sent"
+    cancel: str
+    goal: str
+    by: str
+
+
+class CancelAnswered(_Event):
+    """`canceling` names the goals the server agreed to cancel."""
+
+    kind: Literal["cancel_answered"] = "cancel_answered"
+    cancel: str
+    return_code: int
+    canceling: list[str]
+
+
+class ResultReceived(_Event):
+    kind: Literal["result"] = "result"
+    goal: str
+    status: int
+    result: Message
+
+
+class Unanswered(_Event):
+    """The scenario stopped waiting, after `waited` s, for the answer to a call, goal, cancel or result."""
+
+    kind: Literal["unanswered"] = "unanswered"
+    what: Literal["call", "goal", "cancel", "result"]
+    id: str
+    waited: float
+
+
+class Mark(_Event):
+    """A moment the scenario names, so that checks can refer to it."""
+
+    kind: Literal["mark"] = "mark"
+    name: str
+
+
+class ScenarioEnded(_Event):
+    """The scenario ran to its end."""
+
+    kind: Literal["scenario_ended"] = "scenario_ended"
+
+
+class ScenarioFailed(_Event):
+    """The scenario could not be carried out, for a reason that is not the student's."""
+
+    kind: Literal["scenario_failed"] = "scenario_failed"
+    reason: str
+
+
+class RobotReady(_Event):
+    kind: Literal["ready"] = "ready"
+
+
+class RobotTruth(_Event):
+    """The robot as the simulator has it (50 Hz): base_link in odom (m, rad), speed over ground (m/s).
+
+    `up` is 1 when upright; `lag` is how far (s) the simulation was behind the arena's clock.
+    """
+
+    kind: Literal["robot"] = "robot"
+    simulated: float
+    lag: float
+    x: float
+    y: float
+    z: float
+    yaw: float
+    speed: float
+    turn_rate: float
+    up: float
+    mode: int
+    motors_enabled: bool
+    steps: int
+    battery: float
+
+
+class BatteryPublished(_Event):
+    """What the robot published on battery_state: percentage 0..1, V, A."""
+
+    kind: Literal["battery"] = "battery"
+    percentage: float
+    voltage: float
+    current: float
+
+
+class RobotPeers(_Event):
+    """How many subscribers and publishers of other nodes the robot is connected to, by topic."""
+
+    kind: Literal["peers"] = "peers"
+    subscribers: dict[str, int]
+    publishers: dict[str, int]
+
+
+class RobotCommanded(_Event):
+    """A command of the scenario took effect in the simulator."""
+
+    kind: Literal["command"] = "command"
+    command: Message
+
+
+Event = Annotated[
+    NodeStarted
+    | NodeReady
+    | NodeNotReady
+    | NodeOutput
+    | NodeSignalled
+    | NodeExited
+    | NodeKilled
+    | NodeUsage
+    | ServiceCalled
+    | ServiceAnswered
+    | GoalSent
+    | GoalAnswered
+    | FeedbackReceived
+    | StatusSeen
+    | CancelSent
+    | CancelAnswered
+    | ResultReceived
+    | Unanswered
+    | Mark
+    | ScenarioEnded
+    | ScenarioFailed
+    | RobotReady
+    | RobotTruth
+    | BatteryPublished
+    | RobotPeers
+    | RobotCommanded,
+    Field(discriminator="kind"),
+]
+
+_ADAPTER: TypeAdapter[Event] = TypeAdapter(Event)
+
+
+def parse_event(line: bytes | str) -> Event:
+    """Read one line of an arena's report; a pydantic.ValidationError says what is wrong with it."""
+    return _ADAPTER.validate_json(line)

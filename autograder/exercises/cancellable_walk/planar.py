@@ -1,0 +1,25 @@
+"""Poses in the plane."""
+
+from __future__ import annotations
+
+import math
+
+from autograder import events as ev
+from autograder.transcript import GoalHistory
+
+
+def error(robot: ev.RobotTruth, goal: GoalHistory) -> tuple[float, float]:
+    """Return how far the robot is from the goal: m, rad."""
+    pose = goal.sent.request["target_pose"]["pose"]
+    distance = math.hypot(robot.x - pose["position"]["x"], robot.y - pose["position"]["y"])
+    return distance, abs(wrap(robot.yaw - yaw(pose["orientation"])))
+
+
+def yaw(orientation: dict[str, float]) -> float:
+    """Yaw (rad) of a quaternion x, y, z, w (REP-103)."""
+    x, y, z, w = (orientation[axis] for axis in "xyzw")
+    return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
+def wrap(angle: float) -> float:
+    return (angle + math.pi) % (2 * math.pi) - math.pi

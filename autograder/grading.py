@@ -1,0 +1,253 @@
+"""Grades one submission: runs the scenarios its checks need, judges the transcripts, settles every check."""
+
+from __future__ import annotations
+
+import threading
+import traceback
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+
+from autograder import events as ev
+from autograder.arena_run import ArenaRun, NotGraded, highest_scale, run_in_arena
+from autograder.checks import Check, Failure, Scenario
+from autograder.exercise import Exercise
+from autograder.isolation.availability import Isolation, available_isolation
+from autograder.readiness import require_ready
+from autograder.submission import Submission
+from autograder.transcript import Transcript
+from autograder.verdict import CheckStatus, CheckVerdict, Grade
+
+SLOWER = (2.0, 1.0)  # scales to fall back to when the machine cannot keep up
+OVERLOADED = 0.5  # s the simulator may be late before a run is not judged at all
+STRAINED = 0.15  # s it may be late before a failure on that run is looked at again at a lower scale
+HOG = 0.8  # processors a submission may keep busy before a late simulator is its own doing
+LOG_LINES = 40
+
+Report = Callable[[CheckVerdict], None]
+Evidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
+
+
+class HiddenChecksRefused(Exception):
+    """Hidden checks would be exposed to the submission on this machine."""
+
+
+def grade(
+    submission: Submission,
+    exercise: Exercise,
+    *,
+    seed: int = 0,
+    jobs: int = 2,
+    scale: float | None = None,
+    isolation: Isolation | None = None,
+    report: Report = lambda verdict: None,
+    evidence: Evidence = lambda verdict, transcripts: None,
+) -> Grade:
+    """Grade a submission with `jobs` arenas at a time, one a core.
+
+    `report` gets each verdict as soon as it is known, `evidence` the transcripts that a check was judged on.
+
+    Raises :class:`HiddenChecksRefused` for hidden checks where arenas cannot be isolated.
+    """
+    isolation = isolation or available_isolation()
+    if not isolation.trusted and any(check.hidden for check in exercise.checks):
+        raise HiddenChecksRefused(f"hidden checks need isolated arenas: {isolation.reason}")
+    session = _Session(submission, exercise, seed, scale or highest_scale(), isolation, report, evidence)
+    return session.run(jobs)
+
+
+class _Session:
+    """The state of one grading: transcripts by scenario, verdicts by check."""
+
+    def __init__(
+        self,
+        submission: Submission,
+        exercise: Exercise,
+        seed: int,
+        scale: float,
+        isolation: Isolation,
+        report: Report,
+        evidence: Evidence,
+    ) -> None:
+        self._submission = submission
+        self._exercise = exercise
+        self._seed = seed
+        self._scale = scale
+        self._isolation = isolation
+        self._report = report
+        self._evidence = evidence
+        self._stop = threading.Event()
+        self._verdicts: dict[str, CheckVerdict] = {}
+        self._runs: dict[Scenario, Future[Transcript]] = {}
+
+    def run(self, jobs: int) -> Grade:
+        with ThreadPoolExecutor(jobs) as pool:
+            try:
+                while len(self._verdicts) < len(self._exercise.checks):
+                    self._settle()
+                    running = self._start(pool, jobs)
+                    if running:
+                        wait(running, return_when=FIRST_COMPLETED)
+            finally:
+                self._stop.set()
+        verdicts = [self._verdicts[check.id] for check in self._exercise.checks]
+        return Grade(self._exercise.name, self._submission.student, self._isolation.label, verdicts)
+
+    def _settle(self) -> None:
+        """Give a verdict on every check that can be judged now."""
+        for check in self._exercise.checks:
+            if check.id in self._verdicts or not all(need in self._verdicts for need in check.needs):
+                continue
+            if unmet := [need for need in check.needs if self._verdicts[need].status != "passed"]:
+                self._conclude(self._not_run(check, unmet))
+            elif all(scenario in self._runs and self._runs[scenario].done() for scenario in check.on):
+                self._conclude(self._judge(check))
+
+    def _start(self, pool: ThreadPoolExecutor, jobs: int) -> list[Future[Transcript]]:
+        """Keep `jobs` arenas busy, first with what is certainly needed; returns those that run."""
+        running = [future for future in self._runs.values() if not future.done()]
+        for scenario in self._wanted():
+            if len(running) >= jobs:
+                break
+            self._runs[scenario] = pool.submit(self._run, scenario, self._scale)
+            running.append(self._runs[scenario])
+        return running
+
+    def _wanted(self) -> list[Scenario]:
+        """Scenarios not yet run, those of checks whose needs are met before those whose needs may still be met."""
+        certain: list[Scenario] = []
+        possible: list[Scenario] = []
+        for check in self._exercise.checks:
+            if check.id in self._verdicts:
+                continue
+            met = all(need in self._verdicts for need in check.needs)
+            for scenario in check.on:
+                if scenario not in self._runs and scenario not in certain + possible:
+                    (certain if met else possible).append(scenario)
+        return certain + possible
+
+    def _run(self, scenario: Scenario, scale: float) -> Transcript:
+        """Run a scenario; on a machine that cannot keep up again at a lower scale, after a failure once more."""
+        problem: NotGraded | None = None
+        for attempt_scale in (scale, *(slower for slower in SLOWER if slower < scale), 1.0):
+            try:
+                transcript = run_in_arena(
+                    ArenaRun(
+                        self._exercise,
+                        self._submission.files,
+                        scenario,
+                        self._seed,
+                        attempt_scale,
+                        self._isolation.kind,
+                    ),
+                    self._stop,
+                )
+            except NotGraded as error:
+                problem = error
+                if self._stop.is_set():
+                    break
+                continue
+            if lateness(transcript) <= OVERLOADED or hogs_the_machine(transcript):
+                return transcript
+            problem = NotGraded(
+                f"the machine was too busy: the simulator was {lateness(transcript):.1f} s behind the "
+                "arena's clock at scale "
+                f"{attempt_scale:g}; grade again with fewer jobs"
+            )
+        raise problem or NotGraded("no attempt was made")
+
+    def _judge(self, check: Check) -> CheckVerdict:
+        try:
+            transcripts = [self._runs[scenario].result() for scenario in check.on]
+        except NotGraded as error:
+            return self._verdict(check, "error", help=f"Not graded: {error}")
+        verdict = self._judge_transcripts(check, transcripts)
+        strained = any(lateness(run) > STRAINED and run.scale > 1 for run in transcripts)
+        if verdict.status == "failed" and (strained or check.confirm):
+            scale = 1.0 if strained else self._scale
+            try:
+                transcripts = [self._run(scenario, scale) for scenario in check.on]
+            except NotGraded as error:
+                return self._verdict(check, "error", help=f"Not graded: {error}")
+            verdict = self._judge_transcripts(check, transcripts)
+        self._evidence(verdict, transcripts)
+        return verdict
+
+    def _judge_transcripts(self, check: Check, transcripts: Sequence[Transcript]) -> CheckVerdict:
+        log = "\n".join(_log(transcript) for transcript in transcripts)
+        try:
+            for transcript in transcripts:
+                require_ready(transcript)
+            check.run(transcripts)
+        except Failure as failure:
+            return self._verdict(
+                check,
+                "failed",
+                expected=failure.expected,
+                observed=failure.observed,
+                help=failure.help,
+                robot_time=failure.at,
+                log=log,
+            )
+        except Exception:  # a check that breaks is our fault, and must not cost the student anything
+            return self._verdict(
+                check,
+                "error",
+                help=f"Not graded: the check itself failed.\n{traceback.format_exc()}",
+                log=log,
+            )
+        return self._verdict(check, "passed", points=check.points, log=log)
+
+    def _not_run(self, check: Check, unmet: Sequence[str]) -> CheckVerdict:
+        if any(self._verdicts[need].status == "error" for need in unmet):
+            return self._verdict(check, "error", help=f"Not graded, because {unmet[0]} was not graded.")
+        titles = {other.id: other.title for other in self._exercise.checks}
+        return self._verdict(check, "not run", help=f"Needs a check that did not pass: “{titles[unmet[0]]}”.")
+
+    def _conclude(self, verdict: CheckVerdict) -> None:
+        self._verdicts[verdict.id] = verdict
+        self._report(verdict)
+
+    @staticmethod
+    def _verdict(
+        check: Check,
+        status: CheckStatus,
+        *,
+        points: int = 0,
+        expected: str = "",
+        observed: str = "",
+        help: str = "",
+        robot_time: float | None = None,
+        log: str = "",
+    ) -> CheckVerdict:
+        return CheckVerdict(
+            check.id,
+            check.title,
+            status,
+            points,
+            check.points,
+            expected,
+            observed,
+            help,
+            robot_time,
+            log,
+            check.hidden,
+        )
+
+
+def lateness(transcript: Transcript) -> float:
+    """Return how far (s, arena's clock) the simulator was behind at worst, once the node was ready."""
+    ready = transcript.first(ev.NodeReady)
+    since = ready.t + 1.0 if ready else 0.0
+    return max((robot.lag for robot in transcript.truth if robot.t >= since), default=0.0)
+
+
+def hogs_the_machine(transcript: Transcript) -> bool:
+    """Whether the submission itself kept the processors busy: then it is judged as it is."""
+    usage = transcript.first(ev.NodeUsage)
+    return usage is not None and usage.cpu > HOG * usage.wall
+
+
+def _log(transcript: Transcript) -> str:
+    """The last lines the student's process printed, with their times."""
+    lines = [f"{event.t:7.2f} s  {event.text}" for event in transcript.all(ev.NodeOutput)][-LOG_LINES:]
+    return "\n".join(lines)

@@ -1,0 +1,167 @@
+"""The controller's side of an arena: start it, watch its memory and its deadline, know that nothing is left.
+
+    spec = ArenaSpec([sys.executable, "-m", "autograder.arena.clocked_start"], read_only_paths=[…], pass_fds=[events])
+    arena = start_arena(spec)
+    report = arena.wait()
+
+The command is trusted; what it starts with :mod:`.student_process` is not.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from concurrent.futures import Future
+from contextlib import ExitStack
+from dataclasses import dataclass
+from enum import Enum
+
+from autograder.isolation.arena_spec import ArenaSpec, Kind
+from autograder.isolation.arena_start import RunningArena, start_with_namespaces, start_without_namespaces
+from autograder.isolation.bubblewrap import SandboxError
+from autograder.isolation.captured_output import CapturedOutput, OutputPump
+from autograder.isolation.limits import ArenaLimits
+from autograder.isolation.process_tree import descendants, resident_mib
+
+__all__ = ["ArenaProcess", "ArenaReport", "ArenaSpec", "Ended", "Kind", "start_arena"]
+
+_POLL = 0.05  # s between two looks at the memory
+_LAST_WORDS = 2.0  # s in which a process of an ended arena may still be found to hold its output open
+
+
+class Ended(str, Enum):
+    """How an arena came to its end."""
+
+    EXIT = "exit"  # the command ended by itself
+    DEADLINE = "deadline"
+    MEMORY = "memory"
+    KILLED = "killed"  # by :meth:`ArenaProcess.kill`
+
+
+@dataclass(frozen=True)
+class ArenaReport:
+    """How an arena ended.
+
+    `nothing_survives` is the kernel's word that every process of the arena is gone (with namespaces), or
+    the warden's (without).
+    """
+
+    ended: Ended
+    exit_code: int  # the command's; 128 + n when signal n ended it
+    seconds: float  # wall time from start to end
+    peak_memory_mib: float  # resident, all processes together, seen by polling
+    nothing_survives: bool
+    stdout: CapturedOutput
+    stderr: CapturedOutput
+
+    def explain(self, limits: ArenaLimits) -> str:
+        """Return a sentence for a log."""
+        if self.ended is Ended.DEADLINE:
+            return f"the arena was ended at its deadline of {limits.deadline_s:g} s"
+        if self.ended is Ended.MEMORY:
+            return (
+                f"the arena used {self.peak_memory_mib:.0f} MiB of memory; it may use {limits.memory_mib} MiB"
+            )
+        if self.ended is Ended.KILLED:
+            return "the arena was ended on request"
+        return f"the arena's command ended with status {self.exit_code}"
+
+
+def start_arena(spec: ArenaSpec, kind: Kind | None = None) -> ArenaProcess:
+    """Start an arena and return once its command is about to run.
+
+    `kind` is what :func:`.availability.available_isolation` found unless given. Raises
+    :class:`.bubblewrap.SandboxError` when it cannot start.
+    """
+    if kind is None:
+        from autograder.isolation.availability import available_isolation
+
+        kind = available_isolation().kind
+    return ArenaProcess(spec, kind)
+
+
+class ArenaProcess:
+    """A started arena. A thread of its own starts, watches and ends it, so callers may come and go."""
+
+    def __init__(self, spec: ArenaSpec, kind: Kind) -> None:
+        self.spec = spec
+        self.kind = kind
+        self._kill_requested = threading.Event()
+        self._started: Future[None] = Future()
+        self._report: Future[ArenaReport] = Future()
+        threading.Thread(target=self._live, name="arena", daemon=True).start()
+        self._started.result()
+
+    def poll(self) -> ArenaReport | None:
+        """Return the report when the arena has ended, else None."""
+        return self._report.result() if self._report.done() else None
+
+    def wait(self, timeout: float | None = None) -> ArenaReport:
+        """Wait for the end, which the arena's own deadline brings. Raises TimeoutError after `timeout` s."""
+        return self._report.result(timeout)
+
+    def kill(self) -> ArenaReport:
+        """End every process of the arena and return the report."""
+        self._kill_requested.set()
+        return self.wait()
+
+    def _live(self) -> None:
+        try:
+            report = self._run()
+        except BaseException as error:
+            waiting = self._report if self._started.done() else self._started
+            waiting.set_exception(error)
+        else:
+            self._report.set_result(report)
+
+    def _run(self) -> ArenaReport:
+        began = time.monotonic()
+        start = start_with_namespaces if self.kind is Kind.NAMESPACES else start_without_namespaces
+        with ExitStack() as stack:
+            try:
+                running = start(self.spec, stack)
+            except OSError as error:  # no descriptors, processes or disk left
+                raise SandboxError(f"an arena could not be started: {error}") from error
+            self._started.set_result(None)
+            try:
+                return self._watch(running, began)
+            except BaseException:
+                running.end()
+                raise
+
+    def _watch(self, running: RunningArena, began: float) -> ArenaReport:
+        limits, process = self.spec.limits, running.process
+        out, err = CapturedOutput(limits.output_kib), CapturedOutput(limits.output_kib)
+        assert process.stdout
+        assert process.stderr
+        pump = OutputPump({process.stdout.fileno(): out, process.stderr.fileno(): err})
+        pump.watch(running.end_pidfd)
+        ended, peak = Ended.EXIT, 0.0
+        next_look = began
+        memory_within_limit_at = began
+        while running.end_pidfd not in pump.poll(max(0.0, min(_POLL, next_look - time.monotonic()))):
+            if (now := time.monotonic()) < next_look:
+                continue
+            next_look = now + _POLL
+            memory = resident_mib([running.root_pid, *descendants(running.root_pid)])
+            peak = max(peak, memory)
+            if memory <= limits.memory_mib:
+                memory_within_limit_at = now
+            borne_for = now - memory_within_limit_at
+            if memory > 2 * limits.memory_mib or borne_for > limits.memory_grace_s:
+                ended = Ended.MEMORY
+            elif now - began > limits.deadline_s:
+                ended = Ended.DEADLINE
+            elif self._kill_requested.is_set():
+                ended = Ended.KILLED
+            if ended is not Ended.EXIT:
+                break
+        nothing_survives = running.end() if ended is not Ended.EXIT else running.has_ended()
+        exit_code = process.wait()
+        pump.finish(_LAST_WORDS)
+        process.stdout.close()
+        process.stderr.close()
+        seconds = time.monotonic() - began
+        return ArenaReport(
+            ended, exit_code if exit_code >= 0 else 128 - exit_code, seconds, peak, nothing_survives, out, err
+        )

@@ -1,0 +1,36 @@
+"""What an arena is asked to be."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from pathlib import Path
+
+from autograder.isolation.limits import ArenaLimits
+
+ISOLATION_VARIABLE = "COURSE_ISOLATION"  # inside an arena: its kind; outside: the kind a person insists on
+
+
+class Kind(str, Enum):
+    """What keeps an arena apart from the rest of the machine."""
+
+    NAMESPACES = "namespaces"
+    NONE = "none"
+
+
+@dataclass(frozen=True)
+class ArenaSpec:
+    """What to run and what it may see and use.
+
+    `read_only_paths` are host files and folders, visible at the same place inside; files keep their identity,
+    so a mapped page can be shared. `pass_fds` are descriptors inherited under the same number: the caller
+    closes its own copies of them once the arena has started. `stdin` is all that the command can read there.
+    """
+
+    command: Sequence[str]
+    read_only_paths: Sequence[str | Path] = ()
+    env: Mapping[str, str] = field(default_factory=dict)
+    pass_fds: Sequence[int] = ()
+    stdin: bytes = b""
+    limits: ArenaLimits = field(default_factory=ArenaLimits)

@@ -1,0 +1,144 @@
+"""How an arena is started: with namespaces, as an ordinary user or as root, and without."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
+
+from autograder.isolation.arena_spec import ISOLATION_VARIABLE, ArenaSpec, Kind
+from autograder.isolation.bubblewrap import STUDENT_FILTER, Sandbox, SandboxError, same_paths
+from autograder.isolation.local_ros_network import reserve_domain
+from autograder.isolation.process_tree import ended_within
+from autograder.isolation.seccomp_filter import student_filter
+
+_END_TIMEOUT = 10.0  # s for the kernel, or the warden, to end every process
+
+
+class RunningArena:
+    """The processes of a started arena, as the watching thread needs to see them."""
+
+    def __init__(self, process: subprocess.Popen[bytes], root_pid: int, end_pidfd: int, gentle: bool) -> None:
+        self.process = process  # ours to wait for
+        self.root_pid = root_pid  # every process of the arena is this one or below it
+        self.end_pidfd = end_pidfd  # readable when the root has ended, and with it everything below
+        self._gentle = gentle
+
+    def end(self) -> bool:
+        """End every process; True when it is certain that they are gone."""
+        if self._gentle:  # the warden sweeps when told to; ended by force it would leave orphans
+            self.process.terminate()
+        else:
+            with suppress(ProcessLookupError):
+                signal.pidfd_send_signal(self.end_pidfd, signal.SIGKILL)
+        return self.has_ended()
+
+    def has_ended(self) -> bool:
+        """Wait until everything has ended; False when that cannot be said."""
+        if not ended_within(self.end_pidfd, _END_TIMEOUT):
+            self.process.kill()
+            return False
+        return not self._gentle or self.process.wait() >= 0  # a warden ended by a signal did not sweep
+
+
+def start_with_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
+    """Start the arena in a sandbox; `stack` releases, after the end, what the start needed."""
+    paths = same_paths(spec.read_only_paths)
+    with Sandbox() as sandbox:
+        if os.geteuid() == 0:
+            with _staging_folder() as staging:
+                _describe(
+                    sandbox, spec, [(f"{staging}/{number}", path) for number, (_, path) in enumerate(paths)]
+                )
+                prefix = _as_another_user([source for source, _ in paths], staging)
+                started = sandbox.start(spec.command, prefix=prefix, pass_fds=spec.pass_fds)
+        else:
+            _describe(sandbox, spec, paths)
+            started = sandbox.start(spec.command, pass_fds=spec.pass_fds)
+    stack.callback(os.close, started.init_pidfd)
+    _write_stdin(started.process, spec.stdin)
+    return RunningArena(started.process, started.init_pid, started.init_pidfd, gentle=False)
+
+
+def start_without_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
+    """Start the arena as ordinary processes under a warden, on a ROS domain of its own."""
+    folder = Path(tempfile.mkdtemp(prefix="arena-"))
+    stack.callback(shutil.rmtree, folder, ignore_errors=True)
+    network = stack.enter_context(reserve_domain(folder))
+    ready, tell = os.pipe()
+    warden = [sys.executable, "-S", "-E", "-m", "autograder.isolation.warden", str(os.getpid()), str(tell)]
+    try:
+        process = subprocess.Popen(
+            [*warden, str(folder), *spec.command],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            pass_fds=(*spec.pass_fds, tell),
+            env=_environment(spec, Kind.NONE, str(folder), network),
+            cwd=Path(__file__).parents[2],
+        )
+    finally:
+        os.close(tell)
+    with open(ready, "rb") as said:
+        if not said.read():
+            raise SandboxError(f"the arena's warden did not start: {process.communicate()[1].decode()}")
+    pidfd = os.pidfd_open(process.pid)
+    stack.callback(os.close, pidfd)
+    _write_stdin(process, spec.stdin)
+    return RunningArena(process, process.pid, pidfd, gentle=True)
+
+
+def _describe(sandbox: Sandbox, spec: ArenaSpec, paths: list[tuple[str, str]]) -> None:
+    sandbox.add_isolation()
+    sandbox.add("--unshare-net")
+    sandbox.add_file_system(spec.limits.tmp_mib, spec.limits.shared_memory_mib, paths)
+    sandbox.add_data("--ro-bind-data", student_filter(), STUDENT_FILTER)
+    sandbox.close_file_system()
+    sandbox.add("--chdir", "/tmp")
+    # Shared memory between two sandboxes' own /dev/shm cannot work, and nodes would choose it: UDP only.
+    udp_only = {"FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
+    sandbox.add_environment(_environment(spec, Kind.NAMESPACES, "/tmp", udp_only))
+
+
+@contextmanager
+def _staging_folder() -> Iterator[Path]:
+    """Yield a folder to mount on. The mounts are seen by the arena alone, which needs them only to start."""
+    staging = Path(tempfile.mkdtemp(prefix="arena-", dir="/tmp"))
+    try:
+        yield staging
+    finally:
+        for link in staging.iterdir():
+            link.unlink()
+        staging.rmdir()
+
+
+def _as_another_user(paths: list[str], staging: Path) -> list[str]:
+    plan = json.dumps({"parent": os.getpid(), "staging": str(staging), "paths": paths})
+    return [sys.executable, "-I", "-S", str(Path(__file__).with_name("as_another_user.py")), plan]
+
+
+def _environment(spec: ArenaSpec, kind: Kind, home: str, network: Mapping[str, str]) -> dict[str, str]:
+    """Return the command's whole environment: what it needs of ours, the caller's, and the arena's own."""
+    path = {"PATH": "/usr/local/bin:/usr/bin:/bin", "LANG": "C.UTF-8"}
+    return {**path, "HOME": home, "TMPDIR": home, **spec.env, **network, ISOLATION_VARIABLE: kind.value}
+
+
+def _write_stdin(process: subprocess.Popen[bytes], content: bytes) -> None:
+    """Hand over the command's input without waiting for it to read."""
+
+    def write() -> None:
+        assert process.stdin
+        left = content
+        with suppress(BrokenPipeError), process.stdin:
+            while left:
+                left = left[process.stdin.write(left) :]
+
+    threading.Thread(target=write, name="arena stdin", daemon=True).start()

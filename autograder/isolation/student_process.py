@@ -1,0 +1,158 @@
+"""The arena's side: runs a student's program in a sandbox of its own inside the arena.
+
+    student = start_student([sys.executable, "walk.py"], workdir_files={"walk.py": code}, read_only_paths=…)
+    student.interrupt()
+    student.wait(5.0)
+
+The program shares the arena's private network and nothing else: it has its own users, processes, IPC, mounts
+and environment. All durations are on this process's clock. Works alike, without the sandbox, in an arena that
+has no namespaces.
+"""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from contextlib import ExitStack, suppress
+from pathlib import Path, PurePosixPath
+
+from autograder.isolation.captured_output import CapturedOutput, OutputPump
+from autograder.isolation.limits import StudentLimits
+from autograder.isolation.process_tree import descendants
+from autograder.isolation.student_sandbox import Program, RunningProgram, start_program
+
+_POLL = 0.2  # s between two looks when nothing is printed
+_LAST_WORDS = 2.0  # s for output that is still in the pipes of an ended program
+
+
+def start_student(
+    argv: Sequence[str],
+    *,
+    workdir_files: Mapping[str, bytes],
+    env: Mapping[str, str] | None = None,
+    read_only_paths: Sequence[str | Path] = (),
+    limits: StudentLimits | None = None,
+    on_line: Callable[[float, str, str], object] | None = None,
+    on_exit: Callable[[int], object] | None = None,
+) -> StudentProcess:
+    """Run `argv` in a fresh writable folder that holds `workdir_files` (relative name → content).
+
+    `env` is its environment, to which the arena's network settings are added. `read_only_paths` are files and
+    folders of the arena that it sees at the same place. `on_line(time, "stdout" | "stderr", text)` is called
+    for each kept line and `on_exit(returncode)` once at the end, after the last line, both on a thread of
+    their own. Raises :class:`.bubblewrap.SandboxError` when the sandbox cannot be started, ValueError for a
+    file name that leaves the folder.
+    """
+    for name in workdir_files:
+        if PurePosixPath(name).is_absolute() or ".." in PurePosixPath(name).parts:
+            raise ValueError(
+                f"the file name {name!r} leads out of the working directory; give a relative one without '..'"
+            )
+    return StudentProcess(
+        Program(argv, workdir_files, env or {}, read_only_paths, limits or StudentLimits()),
+        on_line,
+        on_exit,
+    )
+
+
+class StudentProcess:
+    """A student's running program. `stdout` and `stderr` hold what it printed so far, within the limit."""
+
+    def __init__(
+        self,
+        program: Program,
+        on_line: Callable[[float, str, str], object] | None,
+        on_exit: Callable[[int], object] | None,
+    ) -> None:
+        limit = program.limits.output_kib
+        self.stdout = CapturedOutput(
+            limit, on_line and (lambda line: on_line(line.time, "stdout", line.text))
+        )
+        self.stderr = CapturedOutput(
+            limit, on_line and (lambda line: on_line(line.time, "stderr", line.text))
+        )
+        self._program = program
+        self._on_exit = on_exit
+        self._returncode: int | None = None
+        self._ended = threading.Event()
+        self._started: Future[RunningProgram] = Future()
+        threading.Thread(target=self._live, name="student", daemon=True).start()
+        self._running = self._started.result()
+
+    @property
+    def returncode(self) -> int | None:
+        """The program's exit status, -n when signal n ended it; None while it runs.
+
+        In the sandbox the status is seen through a shell-like 128 + n, so a program that itself exits with
+        129-192 looks signalled.
+        """
+        return self._returncode
+
+    def wait(self, timeout: float | None = None) -> int | None:
+        """Wait for the end and the last output; returns the return code, or None after `timeout` s."""
+        self._ended.wait(timeout)
+        return self._returncode
+
+    def write_line(self, text: str) -> None:
+        """Type a line on the program's stdin; nothing happens when it no longer reads."""
+        assert self._running.process.stdin
+        with suppress(OSError, ValueError):  # it has ended, or its input has
+            self._running.process.stdin.write(text.encode() + b"\n")
+
+    def close_stdin(self) -> None:
+        """End the program's input, as Ctrl-D does."""
+        assert self._running.process.stdin
+        self._running.process.stdin.close()
+
+    def processes(self) -> list[int]:
+        """Return the ids, in the arena, of the program and everything it started; [] once it has ended."""
+        if self._returncode is not None:
+            return []
+        return [self._running.process.pid, *descendants(self._running.process.pid)]
+
+    def interrupt(self) -> None:
+        """Send SIGINT to the program itself, as Ctrl-C does."""
+        self._running.signal(signal.SIGINT)
+
+    def terminate(self) -> None:
+        """Send SIGTERM to the program itself."""
+        self._running.signal(signal.SIGTERM)
+
+    def kill(self) -> None:
+        """End the program and everything it started, and wait until it is gone."""
+        self._running.end()
+        self._ended.wait()
+
+    def _live(self) -> None:
+        with ExitStack() as stack:
+            try:
+                running = start_program(self._program, stack)
+            except BaseException as error:
+                self._started.set_exception(error)
+                return
+            self._started.set_result(running)
+            try:
+                self._follow(running)
+            finally:
+                self._returncode = running.close()
+                try:
+                    if self._on_exit:
+                        self._on_exit(self._returncode)
+                finally:
+                    self._ended.set()
+
+    def _follow(self, running: RunningProgram) -> None:
+        process = running.process
+        assert process.stdout
+        assert process.stderr
+        pump = OutputPump({process.stdout.fileno(): self.stdout, process.stderr.fileno(): self.stderr})
+        pump.watch(running.end_pidfd)
+        while running.end_pidfd not in pump.poll(_POLL):
+            pass
+        running.end()
+        pump.finish(_LAST_WORDS)
+        self.close_stdin()
+        process.stdout.close()
+        process.stderr.close()

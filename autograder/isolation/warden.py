@@ -1,0 +1,84 @@
+"""Runs a command where there are no namespaces, and leaves nothing of it behind.
+
+Orphans of the command become children of this process, so it can end them all: when the command has ended,
+when it is told to (SIGTERM), and when the process that started it dies. Its exit status is the
+command's, 128 + n after signal n.
+
+Run as `python -S -E -m autograder.isolation.warden PARENT READY FOLDER COMMAND…`, where PARENT is the id of the
+process that starts it, READY the descriptor it tells when it can be relied on, and FOLDER where the command runs.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import sys
+import time
+from contextlib import suppress
+
+from autograder.isolation.process_tree import descendants
+
+_PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER = 1, 36
+
+
+class _ToldToStopError(Exception):
+    pass
+
+
+def main() -> None:
+    """Adopt orphans, run the command, sweep."""
+    libc = ctypes.CDLL(None)
+    libc.prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+    signal.signal(signal.SIGTERM, _stop)
+    libc.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
+    status = 128 + signal.SIGKILL
+    with suppress(_ToldToStopError):
+        os.write(int(sys.argv[2]), b"x")
+        os.close(int(sys.argv[2]))
+        if os.getppid() == int(sys.argv[1]):
+            status = _run(sys.argv[3], sys.argv[4:])
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    _sweep()
+    os._exit(status)
+
+
+def _run(folder: str, command: list[str]) -> int:
+    pid = os.fork()
+    if pid == 0:
+        try:
+            signal.signal(signal.SIGTERM, signal.SIG_DFL)
+            os.setsid()
+            os.chdir(folder)
+            os.execvp(command[0], command)
+        except OSError as error:
+            os.write(2, f"{command[0]}: {error}\n".encode())
+        os._exit(127)
+    while True:
+        ended, status = os.wait()
+        if ended == pid:
+            code = os.waitstatus_to_exitcode(status)
+            return code if code >= 0 else 128 - code
+
+
+def _sweep() -> None:
+    """End everything below this process. What forks faster than it is ended is stopped first."""
+    me = os.getpid()
+    while below := descendants(me):
+        for number in (signal.SIGSTOP, signal.SIGKILL):
+            for pid in below:
+                with suppress(ProcessLookupError, PermissionError):
+                    os.kill(pid, number)
+        with suppress(ChildProcessError):
+            while os.waitpid(-1, os.WNOHANG)[0]:
+                pass
+        time.sleep(0.001)
+
+
+def _stop(number: int, frame: object) -> None:
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    raise _ToldToStopError
+
+
+if __name__ == "__main__":
+    main()

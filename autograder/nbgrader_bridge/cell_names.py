@@ -1,0 +1,29 @@
+"""How the checks of an exercise and the grade cells of its notebook name each other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+
+class Named(Protocol):
+    """A check or its verdict."""
+
+    @property
+    def id(self) -> str: ...
+
+    @property
+    def hidden(self) -> bool: ...
+
+
+def cell_names(checks: Sequence[Named]) -> dict[str, str]:
+    """Return the grade_id of each check's cell by the check's id.
+
+    The cell of a visible check has the check's id. That of a hidden one is only numbered, because students see it.
+    """
+    names: dict[str, str] = {}
+    hidden = 0
+    for check in checks:
+        hidden += check.hidden
+        names[check.id] = f"hidden_{hidden}" if check.hidden else check.id
+    return names

@@ -1,0 +1,130 @@
+"""Enters grades into nbgrader's gradebook and makes the feedback pages; one after the other, never in parallel."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import nbformat
+
+from autograder.exercise import load_exercise
+from autograder.nbgrader_bridge.check_cells import with_check_cells
+from autograder.nbgrader_bridge.course_folder import (
+    RECORDS,
+    NbgraderError,
+    call,
+    open_course,
+    write_config_file,
+)
+from autograder.nbgrader_bridge.transplant import transplant
+from autograder.verdict import Grade
+
+TIMESTAMP = "timestamp.txt"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A grade with what it was given for. `source` is None when the submission could not be read."""
+
+    grade: Grade
+    source: str | None
+    problem: str = ""
+    timestamp: str = ""  # when it was handed in, as nbgrader writes it
+
+
+class CourseGradebook:
+    """An nbgrader course folder: gradebook.db, feedback/, and what formgrader needs beside them."""
+
+    def __init__(self, folder: Path, solutions: Path) -> None:
+        self._folder = folder
+        self._solutions = solutions
+        folder.mkdir(parents=True, exist_ok=True)
+        self._is_new = not (folder / "gradebook.db").exists()
+        write_config_file(folder)
+        self._course = open_course(folder)
+        self._assigned: set[str] = set()
+
+    def enter(self, entry: Entry) -> Path | None:
+        """Record one grade and return its feedback page; None for what was not graded, which leaves no score.
+
+        What is entered already is left as it is. Raises
+        :class:`~autograder.nbgrader_bridge.course_folder.NbgraderError`.
+        """
+        grade = entry.grade
+        if grade.status != "graded":
+            record(self._folder, grade)
+            return None
+        self._assign(grade.exercise)
+        page = self._folder / "feedback" / grade.student / grade.exercise / f"{grade.exercise}.html"
+        submission = self._submission(entry)
+        if page.exists() and not self._is_new and self._holds(grade, submission):
+            return page
+        page.unlink(missing_ok=True)  # from here on it would tell of an entry that is not complete
+        record(self._folder, grade)
+        self._submit(grade, submission)
+        call(self._course.autograde, grade.exercise, grade.student)
+        call(self._course.generate_feedback, grade.exercise, grade.student)
+        return page
+
+    def _assign(self, exercise: str) -> None:
+        """Make the exercise known to the gradebook, with the points of its checks as they are now."""
+        if exercise in self._assigned:
+            return
+        folder = self._folder / "source" / exercise
+        folder.mkdir(parents=True, exist_ok=True)
+        source = nbformat.read(self._solutions / exercise / f"{exercise}.ipynb", as_version=4)
+        nbformat.write(
+            with_check_cells(source, load_exercise(exercise, hidden=True)), folder / f"{exercise}.ipynb"
+        )
+        try:
+            call(self._course.generate_assignment, exercise)
+        except NbgraderError as error:
+            advice = "a gradebook with submissions keeps the checks it began with; give another --out"
+            raise NbgraderError(f"{error} ({advice})", error.log) from error
+        self._assigned.add(exercise)
+
+    def _submission(self, entry: Entry) -> dict[str, str]:
+        """The files that nbgrader gets to see: the transplanted notebook and the time it was handed in."""
+        name = entry.grade.exercise
+        release = nbformat.read(self._folder / "release" / name / f"{name}.ipynb", as_version=4)
+        notebook = transplant(release, name, entry.source, entry.problem)
+        files = {f"{name}.ipynb": nbformat.writes(notebook) + "\n"}
+        return files | ({TIMESTAMP: entry.timestamp} if entry.timestamp else {})
+
+    def _holds(self, grade: Grade, submission: dict[str, str]) -> bool:
+        """Whether this very grade of this very submission was entered before."""
+        folder = self._submitted(grade)
+        before = (
+            {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
+            if folder.is_dir()
+            else {}
+        )
+        return before == submission and grade.to_json() in _records(self._folder, grade.student)
+
+    def _submit(self, grade: Grade, submission: dict[str, str]) -> None:
+        folder = self._submitted(grade)
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        for name, text in submission.items():
+            (folder / name).write_text(text, encoding="utf-8")
+
+    def _submitted(self, grade: Grade) -> Path:
+        """Where nbgrader looks for submissions."""
+        return self._folder / "submitted" / grade.student / grade.exercise
+
+
+def record(folder: Path, grade: Grade) -> None:
+    """Keep a grade in its student's JSON file, in place of an earlier one for the same exercise."""
+    others = [record for record in _records(folder, grade.student) if record["exercise"] != grade.exercise]
+    grades = sorted([*others, grade.to_json()], key=lambda record: record["exercise"])
+    path = folder / RECORDS / f"{grade.student}.json"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(grades, indent=2) + "\n")
+
+
+def _records(folder: Path, student: str) -> list[dict[str, Any]]:
+    path = folder / RECORDS / f"{student}.json"
+    return json.loads(path.read_text()) if path.exists() else []

@@ -1,0 +1,103 @@
+"""The preprocessor that stands where stock nbgrader executes a submission: it writes verdicts as cell outputs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from nbformat import NotebookNode
+from nbformat.v4 import new_output
+from nbgrader.preprocessors import NbGraderPreprocessor
+from nbgrader.utils import is_grade, is_solution
+from traitlets import Unicode
+
+from autograder.nbgrader_bridge.cell_names import cell_names
+from autograder.verdict import CheckVerdict, Grade
+
+UNJUDGED = "unjudged_cells"  # resources["nbgrader"] key: grade_ids that have no verdict
+LONGEST_TEXT = 8000  # characters of one cell's output
+
+HIDDEN_HELP = "Not passed. Read the task again sentence by sentence: every sentence of it is checked."
+
+
+class NotGradedError(Exception):
+    """There is no grade to enter, for a reason that is not the student's; nbgrader must record no score."""
+
+
+class VerdictOutputs(NbGraderPreprocessor):
+    """Gives every grade cell exactly one number, its points, and says on stdout what was found.
+
+    nbgrader takes an error or anything on stderr for 0 points and no number at all for full marks. So there is always
+    a number, and where there can be none, an exception.
+    """
+
+    records = Unicode(help="folder with one JSON file a student: a list of grades").tag(config=True)
+
+    def preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
+        """Write the outputs of one student's notebook; raises :class:`NotGradedError`."""
+        names = resources["nbgrader"]
+        grade = read_grade(Path(self.records), names["student"], names["assignment"])
+        verdicts = verdicts_by_cell(grade)
+        names[UNJUDGED] = []
+        for count, cell in enumerate((cell for cell in nb.cells if cell.cell_type == "code"), start=1):
+            if not is_grade(cell) or is_solution(cell):
+                continue
+            cell.execution_count = count
+            verdict = verdicts.get(cell.metadata.nbgrader.grade_id)
+            if verdict is None:
+                names[UNJUDGED].append(cell.metadata.nbgrader.grade_id)
+            cell.outputs = outputs(verdict, float(cell.metadata.nbgrader.points), count)
+        return nb, resources
+
+
+def read_grade(records: Path, student: str, exercise: str) -> Grade:
+    """Return the grade that was recorded; raises :class:`NotGradedError` when there is none."""
+    path = records / f"{student}.json"
+    try:
+        grades = [Grade.from_json(record) for record in json.loads(path.read_text())]
+    except FileNotFoundError:
+        raise NotGradedError(f"there is no {path}; grade with `course grade` first") from None
+    grade = next((grade for grade in grades if grade.exercise == exercise), None)
+    if grade is None:
+        raise NotGradedError(f"{path} has no grade for {exercise}; grade with `course grade` first")
+    if grade.status != "graded":
+        raise NotGradedError(f"{student}'s {exercise} was not graded: {grade.reason or 'see ' + str(path)}")
+    return grade
+
+
+def verdicts_by_cell(grade: Grade) -> dict[str, CheckVerdict]:
+    """Return the verdicts by the grade_id of their cells."""
+    names = cell_names(grade.checks)
+    return {names[verdict.id]: verdict for verdict in grade.checks}
+
+
+def outputs(verdict: CheckVerdict | None, max_points: float, count: int) -> list[NotebookNode]:
+    """Return what is shown, then the points, at least 0 and at most the cell's."""
+    points = min(max(float(verdict.points), 0.0), max_points) if verdict else 0.0
+    return [
+        new_output("stream", name="stdout", text=_told(verdict) + "\n"),
+        new_output("execute_result", data={"text/plain": str(points)}, execution_count=count),
+    ]
+
+
+def _told(verdict: CheckVerdict | None) -> str:
+    """What a student may know. Of a hidden check that is only whether it passed: its inputs stay useful."""
+    if verdict is None:
+        return "Not checked automatically."
+    if verdict.hidden:
+        return "Passed." if verdict.status == "passed" else HIDDEN_HELP
+    lines = [verdict.status.capitalize() + "."]
+    for label, text in (
+        ("Expected", verdict.expected),
+        ("Observed", verdict.observed),
+        ("Next", verdict.help),
+    ):
+        if text:
+            lines.append(f"{label}: {text}")
+    if verdict.robot_time is not None:
+        lines.append(f"At {verdict.robot_time:.1f} s.")
+    if verdict.log and verdict.status != "passed":
+        lines.append(f"What the node printed:\n{verdict.log}")
+    text = "\n".join(lines)
+    return text if len(text) <= LONGEST_TEXT else f"{text[:LONGEST_TEXT]}\n… cut here"

@@ -1,0 +1,58 @@
+"""The first question about any run: was the student's node there at all? The engine asks it before every check."""
+
+from __future__ import annotations
+
+from autograder import events as ev
+from autograder.checks import Failure
+from autograder.transcript import Transcript
+
+
+def require_ready(run: Transcript) -> None:
+    """The endpoints the scenario used were offered in time; a :class:`Failure` says what was offered instead."""
+    absent = run.first(ev.NodeNotReady)
+    if absent is None:
+        return
+    names = _readable(absent.missing)
+    require_within_limits(run)
+    exited = run.first(ev.NodeExited)
+    if exited:
+        reason = last_line(run.output("stderr"))
+        raise Failure(
+            expected=f"a node that offers {names} and keeps running",
+            observed=f"the program ended with status {exited.returncode}" + (f": {reason}" if reason else ""),
+            help="main() returned: the node must spin (rclpy.spin), and the file must call main() at its end."
+            if exited.returncode == 0
+            else "Read the end of the log; run the file by itself with `python` to see the whole error.",
+            at=exited.t,
+        )
+    raise Failure(
+        expected=f"a node that offers {names} within {absent.waited:.0f} s",
+        observed=f"it runs, but offers {', '.join(absent.offered) or 'nothing'}",
+        help="Compare name and type letter by letter. Use a relative name (no leading '/'), create the server in "
+        "the node's constructor, and spin the node.",
+        at=absent.t,
+    )
+
+
+def require_within_limits(run: Transcript) -> None:
+    """The student's processes were not ended for using too much."""
+    killed = run.first(ev.NodeKilled)
+    if killed:
+        raise Failure(
+            expected="a node that stays within its limits",
+            observed=f"it was ended: {killed.reason}",
+            help="Look for a list that grows without end, or for processes and threads started in a loop.",
+            at=killed.t,
+        )
+
+
+def last_line(text: str) -> str:
+    """Return the last line that is not blank, cut to a readable length."""
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    return lines[-1][:300] if lines else ""
+
+
+def _readable(missing: list[str]) -> str:
+    """Name an action once instead of by its five endpoints."""
+    names = dict.fromkeys(name.split("/_action/")[0].rsplit("/", 1)[-1] for name in missing)
+    return ", ".join(names)

@@ -1,0 +1,1 @@
+"""Renders verdicts for people: tables, sequence diagrams, pages. Reads records, decides nothing."""

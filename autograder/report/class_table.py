@@ -1,0 +1,48 @@
+"""The grades of a whole class on a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rich.console import RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from autograder.report.table import summary
+from autograder.verdict import CheckVerdict, Grade
+
+
+def class_table(grades: Sequence[Grade]) -> RenderableType:
+    """Return one row a submission: the score, and the checks that cost points."""
+    table = Table(show_edge=False)
+    table.add_column("student", overflow="fold")
+    table.add_column("exercise")
+    table.add_column("score", justify="right")
+    table.add_column("lost at", overflow="fold")
+    for grade in grades:
+        if grade.status == "not graded":
+            reason = (grade.reason.splitlines() or [""])[0]
+            table.add_row(grade.student, grade.exercise, Text("not graded", "magenta"), Text(reason))
+        else:
+            table.add_row(
+                grade.student, grade.exercise, f"{grade.score}/{grade.max_score}", Text(_lost_at(grade))
+            )
+    return table
+
+
+def progress_line(grade: Grade, *, remembered: bool = False) -> Text:
+    """Return the line that is printed when one submission is done."""
+    colour = "magenta" if grade.status == "not graded" else "green" if grade.all_passed else "yellow"
+    note = "  (as before)" if remembered else ""
+    return Text.assemble(
+        (f"{grade.student} · {grade.exercise}  ", ""), (summary(grade).splitlines()[0], colour), (note, "dim")
+    )
+
+
+def _lost_at(grade: Grade) -> str:
+    def words(verdict: CheckVerdict) -> str:
+        return verdict.id if verdict.status == "failed" else f"{verdict.id} ({verdict.status})"
+
+    failed = [words(verdict) for verdict in grade.checks if verdict.status == "failed"]
+    not_run = sum(verdict.status == "not run" for verdict in grade.checks)
+    return ", ".join([*failed, f"{not_run} not run"] if not_run else failed)

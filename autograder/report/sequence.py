@@ -1,0 +1,88 @@
+"""A transcript as a sequence diagram: client, the student's server, the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from autograder import events as ev
+from autograder.transcript import Transcript
+from ros_runtime.sequence_diagram import Arrow, sequence_svg
+
+CLIENT, SERVER, ROBOT = "client", "server", "robot"
+STATUS = {1: "ACCEPTED", 2: "EXECUTING", 3: "CANCELING", 4: "SUCCEEDED", 5: "CANCELED", 6: "ABORTED"}
+MODES = {0: "motors off", 1: "stands", 2: "walks", 3: "has fallen"}
+MOST_ARROWS = 60
+
+
+def transcript_svg(transcript: Transcript, title: str) -> str:
+    """Draw what happened in one arena; runs of feedback are drawn as one arrow, and a very long story is cut."""
+    arrows = sorted([*_talk(transcript), *_robot(transcript)], key=lambda arrow: arrow.time)
+    if len(arrows) > MOST_ARROWS:
+        left_out = len(arrows) - MOST_ARROWS
+        last = arrows[MOST_ARROWS - 1].time
+        arrows = [*arrows[:MOST_ARROWS], Arrow(last, CLIENT, CLIENT, f"… {left_out} more")]
+    return sequence_svg(arrows, title=title, participants=(CLIENT, SERVER, ROBOT))
+
+
+def _talk(transcript: Transcript) -> Iterator[Arrow]:
+    feedback: list[ev.FeedbackReceived] = []
+    for event in transcript.events:
+        if isinstance(event, ev.FeedbackReceived):
+            feedback.append(event)
+            continue
+        arrow = _arrow(event)
+        if arrow:
+            yield from _collapsed(feedback)
+            feedback = []
+            yield arrow
+    yield from _collapsed(feedback)
+
+
+def _collapsed(feedback: Sequence[ev.FeedbackReceived]) -> Iterator[Arrow]:
+    if not feedback:
+        return
+    first, last = feedback[0], feedback[-1]
+    rate = f" at {(len(feedback) - 1) / (last.t - first.t):.1f} Hz" if last.t > first.t else ""
+    yield Arrow(first.t, SERVER, CLIENT, f"feedback × {len(feedback)}{rate}", "message")
+
+
+def _arrow(event: object) -> Arrow | None:
+    match event:
+        case ev.NodeReady(t=t):
+            return Arrow(t, SERVER, SERVER, "ready")
+        case ev.NodeNotReady(t=t):
+            return Arrow(t, SERVER, SERVER, "never offered what is asked for")
+        case ev.NodeExited(t=t, returncode=code):
+            return Arrow(t, SERVER, SERVER, f"process ended with status {code}")
+        case ev.NodeSignalled(t=t, signal=signal):
+            return Arrow(t, CLIENT, SERVER, signal, "request")
+        case ev.ServiceCalled(t=t, service=service):
+            return Arrow(t, CLIENT, SERVER, f"{service}?", "request")
+        case ev.ServiceAnswered(t=t):
+            return Arrow(t, SERVER, CLIENT, "response", "answer")
+        case ev.GoalSent(t=t, goal=goal):
+            return Arrow(t, CLIENT, SERVER, f"goal “{goal}”", "request")
+        case ev.GoalAnswered(t=t, accepted=accepted):
+            return Arrow(t, SERVER, CLIENT, "accepted" if accepted else "rejected", "answer")
+        case ev.CancelSent(t=t, goal=goal, by=by):
+            what = f"cancel “{goal}”" if goal else f"cancel every goal (by a {by})"
+            return Arrow(t, CLIENT, SERVER, what, "request")
+        case ev.CancelAnswered(t=t, canceling=canceling, return_code=code):
+            return Arrow(
+                t, SERVER, CLIENT, "canceling" if canceling else f"cancel refused (code {code})", "answer"
+            )
+        case ev.ResultReceived(t=t, goal=goal, status=status):
+            return Arrow(t, SERVER, CLIENT, f"result “{goal}”: {STATUS.get(status, status)}", "answer")
+        case ev.Unanswered(t=t, what=what, waited=waited):
+            return Arrow(t, CLIENT, CLIENT, f"no answer to the {what} after {waited:.1f} s")
+        case ev.RobotCommanded(t=t, command=command):
+            return Arrow(t, ROBOT, ROBOT, f"the examiner: {command.get('do', '')}")
+    return None
+
+
+def _robot(transcript: Transcript) -> Iterator[Arrow]:
+    mode: int | None = None
+    for robot in transcript.truth:
+        if robot.mode != mode:
+            mode = robot.mode
+            yield Arrow(robot.t, ROBOT, ROBOT, MODES.get(mode, str(mode)))

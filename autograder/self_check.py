@@ -1,0 +1,55 @@
+"""What an exercise's notebook calls: the visible checks of `course check`, and their verdicts one by one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.console import Console
+
+from autograder.exercise import load_exercise
+from autograder.grading import grade
+from autograder.report.table import grade_table, print_verdict
+from autograder.submission import read_submission
+from autograder.verdict import Grade
+
+
+@dataclass(frozen=True, repr=False)
+class SelfCheck:
+    """The verdicts of one self-check."""
+
+    grade: Grade
+
+    def show(self, check_id: str) -> None:
+        """Print the verdict of one check, with the reason and the next step when it did not pass."""
+        verdict = next((verdict for verdict in self.grade.checks if verdict.id == check_id), None)
+        if verdict is None:
+            known = ", ".join(verdict.id for verdict in self.grade.checks)
+            raise KeyError(
+                f"there is no visible check {check_id!r} in {self.grade.exercise}; there are {known}"
+            )
+        print_verdict(_console(), verdict)
+
+    def hidden(self, number: int) -> None:
+        """Say when a hidden check is made."""
+        print(f"Hidden check {number} is made when your work is graded.")
+
+
+def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
+    """Check `file` (default: <exercise>.py here) with the visible checks and print the table.
+
+    Raises :class:`~autograder.submission.UnusableSubmission` when the file cannot be read.
+    """
+    console = _console()
+    submission = read_submission(Path(file or f"{exercise}.py"), exercise)
+    result = grade(
+        submission,
+        load_exercise(exercise, hidden=False),
+        report=lambda verdict: print_verdict(console, verdict),
+    )
+    console.print(grade_table(result))
+    return SelfCheck(result)
+
+
+def _console() -> Console:
+    return Console(highlight=False)

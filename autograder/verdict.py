@@ -1,0 +1,77 @@
+"""The one record of what a submission earned, from which every report is made."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from typing import Any, Literal
+
+CheckStatus = Literal["passed", "failed", "not run", "error"]
+GradeStatus = Literal["graded", "not graded"]
+
+
+@dataclass(frozen=True)
+class CheckVerdict:
+    """What one check found; `robot_time` is when, in seconds on the arena's clock."""
+
+    id: str
+    title: str
+    status: CheckStatus
+    points: int
+    max_points: int
+    expected: str = ""
+    observed: str = ""
+    help: str = ""
+    robot_time: float | None = None
+    log: str = ""
+    hidden: bool = False
+
+
+@dataclass(frozen=True)
+class Grade:
+    """Every verdict on one submission. One check that could not be judged makes the whole not graded."""
+
+    exercise: str
+    student: str
+    isolation: str
+    checks: list[CheckVerdict] = field(default_factory=list)
+    reason: str = ""
+
+    @property
+    def status(self) -> GradeStatus:
+        """'not graded' when the grader failed, never the student."""
+        broken = self.reason or not self.checks or any(check.status == "error" for check in self.checks)
+        return "not graded" if broken else "graded"
+
+    @property
+    def score(self) -> int | None:
+        """The points earned; None when not graded."""
+        return sum(check.points for check in self.checks) if self.status == "graded" else None
+
+    @property
+    def max_score(self) -> int:
+        """The points there are."""
+        return sum(check.max_points for check in self.checks)
+
+    @property
+    def all_passed(self) -> bool:
+        """Whether every check passed."""
+        return self.status == "graded" and all(check.status == "passed" for check in self.checks)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the record that `--json` writes."""
+        return {
+            "exercise": self.exercise,
+            "student": self.student,
+            "status": self.status,
+            "isolation": self.isolation,
+            "score": self.score,
+            "max_score": self.max_score,
+            "reason": self.reason,
+            "checks": [asdict(check) for check in self.checks],
+        }
+
+    @classmethod
+    def from_json(cls, record: dict[str, Any]) -> Grade:
+        """Read back what :meth:`to_json` returned."""
+        checks = [CheckVerdict(**check) for check in record["checks"]]
+        return cls(record["exercise"], record["student"], record["isolation"], checks, record["reason"])

@@ -1,0 +1,1 @@
+"""The console script `course`: one command a file under course_cli/commands/."""

@@ -1,0 +1,91 @@
+"""The commands of `course`; a command's module is imported only when that command runs.
+
+Exit status of every command: 0 it did its job, 1 it could not, 2 unusable arguments.
+To add a command, write course_cli/commands/<name>.py and a line in COMMANDS.
+"""
+
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from importlib.util import find_spec
+from typing import Any
+
+import typer
+
+HELP = "Learn ROS 2 services and actions on a humanoid that really balances."
+FORWARDING = {"ignore_unknown_options": True, "allow_extra_args": True, "help_option_names": []}
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command before its module is imported.
+
+    target: "module:name" of a function written for Typer, or of a typer.Typer with subcommands.
+    summary: its line in `course --help`.
+    forwards_arguments: it starts another program, which gets every argument from typer.Context.args.
+    """
+
+    target: str
+    summary: str
+    forwards_arguments: bool = False
+
+    @property
+    def module(self) -> str:
+        return self.target.partition(":")[0]
+
+    def load(self) -> Any:
+        return getattr(import_module(self.module), self.target.partition(":")[2])
+
+
+COMMANDS: dict[str, Command] = {
+    "demo": Command(
+        "course_cli.commands.demo:demo", "See it all work: a walk, a cancel, three graded submissions."
+    ),
+    "lab": Command(
+        "course_cli.commands.lab:lab", "Open the chapters and exercises.", forwards_arguments=True
+    ),
+    "check": Command("course_cli.commands.check:check", "Check your own solution of an exercise."),
+    "sim": Command("course_cli.commands.sim:sim", "The robot node alone.", forwards_arguments=True),
+    "ros": Command("course_cli.commands.ros:ros", "The ros2 verbs used in the chapters."),
+    "grade": Command("course_cli.commands.grade:grade", "Grade a batch of submissions."),
+    "export": Command("course_cli.commands.export:export", "Export the grades of the last batch."),
+    "release": Command("course_cli.commands.release:release", "Write the students' bundle."),
+    "audit": Command("course_cli.commands.audit:audit", "Grade submissions whose faults are known."),
+    "bench": Command("course_cli.commands.bench:bench", "Print the performance table."),
+    "test": Command("course_cli.commands.test:test", "Run the test suite.", forwards_arguments=True),
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command that `arguments` (default: the process's own) name, and exit with its status."""
+    arguments = sys.argv[1:] if arguments is None else list(arguments)
+    chosen = next((word for word in arguments if not word.startswith("-")), None)
+    app(chosen)(args=list(arguments), prog_name="course")
+
+
+def app(chosen: str | None) -> typer.Typer:
+    """The application with every command listed, and only `chosen` imported."""
+    course = typer.Typer(
+        help=HELP, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False
+    )
+    for name, command in COMMANDS.items():
+        if find_spec(command.module) is None:
+            continue
+        target = command.load() if name == chosen else _listed_only(command.summary)
+        if isinstance(target, typer.Typer):
+            course.add_typer(target, name=name, help=command.summary)
+        else:
+            course.command(name, context_settings=FORWARDING if command.forwards_arguments else None)(target)
+    # With a single command Typer would drop its name; a callback keeps it.
+    course.callback()(lambda: None)
+    return course
+
+
+def _listed_only(summary: str) -> Callable[[], None]:
+    """Stands for a command that this run does not call, so that help can list it."""
+
+    def listed() -> None: ...
+
+    listed.__doc__ = summary
+    return listed

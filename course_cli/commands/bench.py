@@ -1,0 +1,125 @@
+"""`course bench`: what the toolkit costs, measured on this machine, in this run."""
+
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import Progress
+from rich.table import Table
+
+from autograder.arena_run import ArenaRun, highest_scale, run_in_arena
+from autograder.bench.fairness import fairness_runs
+from autograder.exercise import Exercise, load_exercise
+from autograder.grading import grade
+from autograder.isolation.availability import available_isolation
+from autograder.submission import Submission, read_submission
+from autograder.verdict import CheckVerdict
+from robot_sim.trials import run_trials
+from robot_sim.trials.__main__ import table_of
+
+PROJECT = Path(__file__).resolve().parents[2]
+EXERCISE = "cancellable_walk"
+THREADED = PROJECT / "tests" / "submissions" / EXERCISE / "correct" / "threads_and_sleep.py"
+
+
+def bench(
+    runs: Annotated[int, typer.Option(min=1, help="walks at each scale for the fairness rows")] = 5,
+    scale: Annotated[
+        list[float] | None, typer.Option(help="scales for the fairness rows (repeat it)")
+    ] = None,
+    jobs: Annotated[int, typer.Option(min=1, help="arenas at a time; one a core")] = 2,
+    robot: Annotated[bool, typer.Option(help="also run the robot's quick trials")] = True,
+) -> None:
+    """Print the performance table."""
+    console = Console()
+    exercise = load_exercise(EXERCISE, hidden=available_isolation().trusted)
+    submission = read_submission(THREADED, EXERCISE)
+    console.print(_costs(exercise, submission, jobs))
+    console.print(_fairness(console, exercise, submission, runs, scale or [1.0, highest_scale()], jobs))
+    if robot:
+        with console.status("the robot's quick trials …"):
+            rows = run_trials(quick=True, jobs=jobs)
+        console.print(table_of(rows))
+
+
+def _costs(exercise: Exercise, submission: Submission, jobs: int) -> Table:
+    table = Table(title="What things cost (wall time, this run)")
+    table.add_column("")
+    table.add_column("seconds", justify="right")
+    console_script = _seconds(lambda: _quietly(str(PROJECT / ".venv" / "bin" / "course"), "--help"))
+    launcher = _seconds(lambda: _quietly(str(PROJECT / "course"), "--help"))
+    table.add_row("the launcher's own part of a second run", f"{launcher - console_script:.2f}")
+    shortest = exercise.checks[0].on[0]
+    run = ArenaRun(exercise, submission.files, shortest, 0, highest_scale())
+    table.add_row(
+        f"one arena, from start to end (scenario {shortest.name})",
+        f"{_seconds(lambda: run_in_arena(run)):.2f}",
+    )
+
+    verdicts: list[float] = []
+    started = time.monotonic()
+
+    def note(_verdict: CheckVerdict) -> None:
+        verdicts.append(time.monotonic() - started)
+
+    visible = load_exercise(EXERCISE, hidden=False)
+    grade(submission, visible, jobs=jobs, report=note)
+    table.add_row(f"course check {EXERCISE}: first verdict", f"{verdicts[0]:.1f}")
+    table.add_row(f"course check {EXERCISE}: all {len(verdicts)} verdicts", f"{verdicts[-1]:.1f}")
+    verdicts.clear()
+    started = time.monotonic()
+    grade(submission, exercise, jobs=jobs, report=note)
+    table.add_row(f"grading {EXERCISE}: all {len(verdicts)} verdicts", f"{verdicts[-1]:.1f}")
+    return table
+
+
+def _fairness(
+    console: Console, exercise: Exercise, submission: Submission, runs: int, scales: list[float], jobs: int
+) -> Table:
+    walk = next(check.on[0] for check in exercise.checks if check.on[0].name == "walk")
+    table = Table(title="The same sound MultiThreadedExecutor walk server, again and again")
+    for heading in ("scale", "fair", "feedback Hz", "largest gap s", "simulator late s"):
+        table.add_column(heading, justify="right")
+    failures = []
+    with Progress(console=console, transient=True) as progress:
+        for scale in scales:
+            task = progress.add_task(f"walks at scale {scale:g}", total=runs)
+            results = fairness_runs(
+                submission,
+                exercise,
+                walk,
+                runs=runs,
+                scale=scale,
+                jobs=jobs,
+                progress=lambda _run, task=task: progress.advance(task),  # type: ignore[misc]
+            )
+            rates = [run.rate for run in results]
+            table.add_row(
+                f"{scale:g}",
+                f"{sum(run.fair for run in results)}/{len(results)}",
+                f"{min(rates):.2f}–{max(rates):.2f}",
+                f"{max(run.gap for run in results):.2f}",
+                f"{max(run.lag for run in results):.2f}",
+            )
+            failures += [f"scale {scale:g}: {failure}" for run in results for failure in run.failed]
+    for failure in failures:
+        console.print(failure, markup=False)
+    return table
+
+
+def _seconds(action: Callable[[], object], repeats: int = 3) -> float:
+    """The shortest of a few runs: the machine's noise only ever adds."""
+    taken = []
+    for _ in range(repeats):
+        started = time.monotonic()
+        action()
+        taken.append(time.monotonic() - started)
+    return min(taken)
+
+
+def _quietly(*command: str) -> None:
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)

@@ -1,0 +1,57 @@
+"""`course check`: a student's own check, with the visible checks and the engine that grades."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from autograder.exercise import UnknownExercise, load_exercise
+from autograder.grading import grade
+from autograder.report.table import grade_table, print_verdict
+from autograder.submission import UnusableSubmission, read_submission
+
+UNUSABLE = 2
+
+
+def check(
+    exercise: Annotated[str, typer.Argument(help="the exercise, such as battery_service")],
+    file: Annotated[
+        Path | None,
+        typer.Argument(
+            help="your .py file or notebook (default: EXERCISE.py here, else exercises/EXERCISE/)"
+        ),
+    ] = None,
+    json_file: Annotated[Path | None, typer.Option("--json", help="write the verdicts to this file")] = None,
+    jobs: Annotated[int, typer.Option(min=1, help="arenas at a time; one a core")] = 2,
+) -> None:
+    """Check your own solution of an exercise."""
+    console = Console(highlight=False)
+    try:
+        loaded = load_exercise(exercise, hidden=False)
+        submission = read_submission(file or _default_file(exercise), exercise)
+    except (UnknownExercise, UnusableSubmission) as error:
+        console.print(str(error), style="red", markup=False)
+        raise typer.Exit(UNUSABLE) from error
+    result = grade(submission, loaded, jobs=jobs, report=lambda verdict: print_verdict(console, verdict))
+    console.print()
+    console.print(grade_table(result))
+    if json_file:
+        json_file.write_text(json.dumps(result.to_json(), indent=2) + "\n")
+    raise typer.Exit(0 if result.all_passed else 1)
+
+
+def _default_file(exercise: str) -> Path:
+    """Return the first that exists of the places a student's work lies."""
+    places = [
+        Path(f"{exercise}.py"),
+        Path("exercises") / exercise / f"{exercise}.ipynb",
+        Path(f"{exercise}.ipynb"),
+    ]
+    for place in places:
+        if place.exists():
+            return place
+    raise UnusableSubmission(
+        f"found none of {', '.join(map(str, places))}; name your file: ./course check {exercise} FILE"
+    )

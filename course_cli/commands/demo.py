@@ -1,0 +1,183 @@
+"""`course demo`: the whole idea in a minute, on a machine without a screen."""
+
+import contextlib
+import io
+import json
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+import lab
+from autograder.exercise import load_exercise
+from autograder.grading import grade
+from autograder.report.page import Section, write_page
+from autograder.report.sequence import transcript_svg
+from autograder.report.table import MARKS, summary
+from autograder.submission import Submission, read_submission
+from autograder.transcript import Transcript
+from autograder.verdict import CheckVerdict, Grade
+from humanoid_interfaces.action import WalkTo
+
+EXERCISE = "cancellable_walk"
+PROJECT = Path(__file__).resolve().parents[2]
+SOLUTION = PROJECT / "solutions" / EXERCISE / f"{EXERCISE}.ipynb"
+FAULTY = PROJECT / "tests" / "submissions" / EXERCISE / "faulty"
+SUBMISSIONS = {
+    "right": SOLUTION,
+    "ignores cancel": FAULTY / "ignores_cancel.py",
+    "crashes": FAULTY / "crashes_in_execute.py",
+}
+
+
+class DemoFailed(Exception):
+    """What was to be shown did not happen."""
+
+
+def demo(
+    out: Annotated[Path, typer.Option(help="where the report goes")] = PROJECT / "demo",
+    jobs: Annotated[int, typer.Option(min=1, help="arenas at a time; one a core")] = 2,
+) -> None:
+    """See it all work: a walk, a cancel, three graded submissions."""
+    # this very stream: below, the lab's words are kept off whatever sys.stdout is then
+    console = Console(file=sys.stdout, highlight=False)
+    try:
+        figures = _walk_and_cancel(console)
+        grades, sections = _grade_three(console, jobs)
+        _require_expected(grades)
+    except (DemoFailed, lab.LabError) as error:
+        console.print(f"The demo failed: {error}", style="red", markup=False)
+        raise typer.Exit(1) from error
+    console.print(_comparison(grades))
+    report = out / "report.html"
+    write_page(
+        report,
+        title="A humanoid that balances, a goal that is cancelled, three servers that are graded",
+        introduction="A reference server walked the robot 0.8 m and was cancelled in the middle of a second walk. "
+        "Then three submissions were graded by what they did in arenas of their own.",
+        figures=figures,
+        sections=sections,
+    )
+    (out / "grades.json").write_text(json.dumps([grade.to_json() for grade in grades], indent=2) + "\n")
+    console.print(f"Pictures, diagrams and every verdict: {report}", markup=False, soft_wrap=True)
+
+
+def _walk_and_cancel(console: Console) -> list[str]:
+    """Walk the live robot with the reference server and cancel a goal; returns figures for the report."""
+    console.print("1  The robot stands up in MuJoCo, and the reference server starts beside it", style="bold")
+    source = read_submission(SOLUTION, EXERCISE).source
+    with TemporaryDirectory() as folder, _quiet(), contextlib.ExitStack() as end:
+        end.callback(lab.stop_everything)
+        lab.start_robot()
+        file = Path(folder) / f"{EXERCISE}.py"
+        file.write_text(source)
+        lab.run_node(file)
+
+        console.print("2  It walks 0.8 m ahead", style="bold")
+        walk = _send_accepted(0.8)
+        lab.wait_until(lambda: len(walk.feedback) >= 8 or walk.is_over, timeout=30)
+        figures = [_html(lab.show_robot())]
+        outcome = walk.result(timeout=60)
+        figures.append(_html(lab.draw_sequence("A walk of 0.8 m")))
+        result = outcome.result
+        console.print(
+            f"   {outcome.status}: x = {result.final_pose.pose.position.x:.2f} m after {result.total_steps} steps, "
+            f"{len(walk.feedback)} feedback messages"
+        )
+        if outcome.status != "SUCCEEDED":
+            raise DemoFailed(f"the walk ended {outcome.status}: {result.error_msg}")
+
+        console.print("3  A second walk is cancelled in mid-stride", style="bold")
+        walk = _send_accepted(3.0)
+        lab.wait_until(lambda: len(walk.feedback) >= 10 or walk.is_over, timeout=30)
+        walk.cancel()
+        outcome = walk.result(timeout=30)
+        lab.wait_until(lambda: lab.mode() == "STANDING", timeout=10)
+        figures += [_html(lab.draw_sequence("A walk that is cancelled")), _html(lab.show_robot())]
+        console.print(f"   {outcome.status}: the robot stands at {lab.pose()}")
+        if outcome.status != "CANCELED":
+            raise DemoFailed(f"the canceled walk ended {outcome.status}")
+    return figures
+
+
+def _grade_three(console: Console, jobs: int) -> tuple[list[Grade], list[Section]]:
+    console.print("4  Three submissions are graded by what they do, each in arenas of its own", style="bold")
+    exercise = load_exercise(EXERCISE, hidden=False)
+    grades, sections = [], []
+    for name, path in SUBMISSIONS.items():
+        diagrams: dict[str, str] = {}
+
+        def keep(
+            verdict: CheckVerdict, runs: Sequence[Transcript], diagrams: dict[str, str] = diagrams
+        ) -> None:
+            if verdict.status == "failed":
+                diagrams[verdict.id] = transcript_svg(runs[-1], verdict.title)
+
+        submission = Submission(EXERCISE, name, read_submission(path, EXERCISE).source)
+        with console.status(f"   {name} …"):
+            result = grade(submission, exercise, jobs=jobs, evidence=keep)
+        console.print(f"   {name}: {summary(result)}", markup=False)
+        grades.append(result)
+        sections.append(Section(f"Submission: {name}", result, diagrams))
+    return grades, sections
+
+
+def _require_expected(grades: Sequence[Grade]) -> None:
+    right, *wrong = grades
+    if not right.all_passed:
+        raise DemoFailed("the reference solution did not get full marks; look at demo/grades.json")
+    for faulty in wrong:
+        if faulty.status != "graded" or faulty.all_passed:
+            raise DemoFailed(f"the submission “{faulty.student}” was not found faulty")
+
+
+def _comparison(grades: Sequence[Grade]) -> Table:
+    table = Table(show_edge=False)
+    table.add_column("check", overflow="fold")
+    for graded in grades:
+        table.add_column(graded.student, justify="center")
+    for row in zip(*(graded.checks for graded in grades), strict=True):
+        table.add_row(row[0].title, *(Text(*MARKS[verdict.status]) for verdict in row))
+    table.add_section()
+    table.add_row("points", *(f"{graded.score}/{graded.max_score}" for graded in grades))
+    return table
+
+
+def _send_accepted(distance: float) -> lab.Goal:
+    """Send a goal; a server that has only just started rejects goals until it has heard the robot."""
+    sent: list[lab.Goal] = []
+
+    def is_accepted() -> bool:
+        sent.append(lab.send_goal("walk_to", WalkTo, _ahead(distance)))
+        return sent[-1].accepted
+
+    lab.wait_until(is_accepted, timeout=20, what="the server accepts a goal")
+    return sent[-1]
+
+
+def _ahead(distance: float) -> WalkTo.Goal:
+    """A goal `distance` m in front of the robot, in odom."""
+    here = lab.pose()
+    goal = WalkTo.Goal()
+    goal.target_pose.header.frame_id = "odom"
+    goal.target_pose.pose.position.x = here.x + distance
+    goal.target_pose.pose.position.y = here.y
+    goal.target_pose.pose.orientation.w = 1.0
+    return goal
+
+
+def _html(display: object) -> str:
+    return str(getattr(display, "data"))  # noqa: B009  IPython's HTML declares no attributes
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    """The lab talks to a notebook's reader; here the steps above say enough."""
+    with contextlib.redirect_stdout(io.StringIO()):
+        yield

@@ -1,0 +1,148 @@
+"""`course grade`: an instructor's batch, from submissions to gradebook and feedback pages."""
+
+import os
+import sys
+from collections.abc import Sequence
+from contextlib import closing
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from autograder.batch.cache import GradeCache
+from autograder.batch.collection import Collection, NoSubmissions, collect
+from autograder.batch.records import GRADES, write_grades
+from autograder.batch.runner import BatchRunner, Graded
+from autograder.isolation.availability import Isolation, available_isolation
+from autograder.nbgrader_bridge.course_folder import NbgraderError
+from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
+from autograder.nbgrader_bridge.transplant import NoSolutionCell
+from autograder.report.class_table import class_table, progress_line
+
+SOLUTIONS = Path(__file__).resolve().parents[2] / "solutions"
+LOG = "nbgrader.log"
+COULD_NOT, UNUSABLE = 1, 2
+
+
+def grade(
+    submitted: Annotated[
+        Path,
+        typer.Argument(help="nbgrader's submitted/<student>/<exercise>/ layout, or <student>/<exercise>.py"),
+    ],
+    out: Annotated[Path, typer.Option(help="folder for grades.json, gradebook.db and feedback/")] = Path(
+        "graded"
+    ),
+    jobs: Annotated[int, typer.Option(min=1, help="arenas at a time; one a core")] = os.cpu_count() or 1,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="keep the grades an earlier run has found")
+    ] = False,
+    seed: Annotated[int, typer.Option(help="draws the inputs of hidden checks, the same for everyone")] = 0,
+    json_file: Annotated[
+        Path | None, typer.Option("--json", help="write all verdicts to this file as well")
+    ] = None,
+) -> None:
+    """Grade a batch of submissions."""
+    console = Console(highlight=False)
+    try:
+        collection = collect(submitted)
+    except NoSubmissions as error:
+        console.print(str(error), style="red", markup=False)
+        raise typer.Exit(UNUSABLE) from error
+    isolation = available_isolation()
+    if not isolation.trusted:
+        console.print(
+            f"No isolation: {isolation.reason}. Only visible checks are made and the grades are marked untrusted; run "
+            "this only with submissions you trust.",
+            style="yellow",
+            markup=False,
+        )
+    results = _grade_all(console, collection, out, isolation, jobs, seed, resume)
+    grades = [result.grade for result in results]
+    write_grades(out / GRADES, grades)
+    if json_file:
+        write_grades(json_file, grades)
+    unentered = _enter_all(console, results, out)
+    console.print(class_table(grades))
+    for line in collection.ignored:
+        console.print(f"left aside: {line}", style="yellow", markup=False)
+    for line in collection.refused:
+        console.print(f"not graded: {line}", style="red", markup=False)
+    for line in unentered:
+        console.print(f"not in the gradebook: {line}", style="red", markup=False)
+    not_graded = [result for result in results if result.grade.status == "not graded"]
+    if not_graded:
+        console.print(f"{len(not_graded)} not graded; try those again with --resume", style="magenta")
+    console.print(f"{out / GRADES}, {out / 'gradebook.db'}, {out / 'feedback'}/", style="dim", markup=False)
+    jupyter = Path(sys.executable).with_name("jupyter")
+    console.print(
+        f"to look at them in nbgrader: cd {out} && {jupyter} lab, then Nbgrader > Formgrader", style="dim"
+    )
+    raise typer.Exit(COULD_NOT if unentered or not_graded or collection.refused else 0)
+
+
+def _grade_all(
+    console: Console,
+    collection: Collection,
+    out: Path,
+    isolation: Isolation,
+    jobs: int,
+    seed: int,
+    resume: bool,
+) -> list[Graded]:
+    """Grade in parallel and return the results in the order of the works."""
+    with _progress(console) as progress:
+        task = progress.add_task("checks", total=None)
+        runner = BatchRunner(
+            GradeCache(out / "cache", seed, isolation),
+            isolation,
+            jobs=jobs,
+            seed=seed,
+            resume=resume,
+            report=lambda verdict: progress.advance(task),
+        )
+        progress.update(
+            task, total=sum(len(runner.exercise(work.exercise).checks) for work in collection.works)
+        )
+        results: dict[object, Graded] = {}
+        try:
+            with closing(runner.run(collection.works)) as graded:
+                for result in graded:
+                    results[result.work] = result
+                    progress.print(progress_line(result.grade, remembered=result.remembered))
+        except KeyboardInterrupt:
+            console.print("Interrupted. Add --resume to go on where it stopped.", style="yellow")
+            raise typer.Exit(COULD_NOT) from None
+    return [results[work] for work in collection.works]
+
+
+def _enter_all(console: Console, results: Sequence[Graded], out: Path) -> list[str]:
+    """Enter the grades into nbgrader's gradebook one by one; returns what could not be entered, with reasons."""
+    problems: list[str] = []
+    logs: list[str] = []
+    with _progress(console) as progress:
+        task = progress.add_task("gradebook", total=len(results))
+        gradebook = CourseGradebook(out, SOLUTIONS)
+        for result in results:
+            try:
+                gradebook.enter(Entry(result.grade, result.source, result.problem, result.work.timestamp))
+            except (NbgraderError, NoSolutionCell, OSError) as error:
+                problems.append(f"{result.work.student}'s {result.work.exercise}: {error}")
+                if isinstance(error, NbgraderError):
+                    logs.append(f"{problems[-1]}\n{error.log}")
+            progress.advance(task)
+    if logs:
+        (out / LOG).write_text("\n\n".join(logs))
+        problems.append(f"what nbgrader said about it is in {out / LOG}")
+    return problems
+
+
+def _progress(console: Console) -> Progress:
+    return Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(elapsed_when_finished=True),
+        console=console,
+    )

@@ -1,0 +1,44 @@
+"""`course release`: what students get, the archive or the notebooks alone."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from autograder.nbgrader_bridge.release import bring_in_step, out_of_step
+from course_cli.student_bundle import Leak, write_bundle
+
+ROOT = Path(__file__).resolve().parents[2]
+COULD_NOT = 1
+
+
+def release(
+    out: Annotated[Path, typer.Option(help="the archive to write")] = Path("students.zip"),
+    exercises: Annotated[
+        bool,
+        typer.Option("--exercises", help="instead, make exercises/ again from solutions/ and the checks"),
+    ] = False,
+    check: Annotated[
+        bool, typer.Option("--check", help="instead, fail when solutions/ or exercises/ is out of step")
+    ] = False,
+) -> None:
+    """Write the students' bundle: no solutions, no hidden checks."""
+    console = Console(highlight=False)
+    if check:
+        differing = out_of_step(ROOT / "solutions", ROOT / "exercises")
+        for path in differing:
+            console.print(f"{path.relative_to(ROOT)} is out of step", style="red", markup=False)
+        if differing:
+            console.print("Run ./course release --exercises and commit what it changes.")
+        raise typer.Exit(COULD_NOT if differing else 0)
+    if exercises:
+        for path in bring_in_step(ROOT / "solutions", ROOT / "exercises"):
+            console.print(f"{path.relative_to(ROOT)} renewed", markup=False)
+        return
+    try:
+        count = write_bundle(ROOT, out)
+    except Leak as error:
+        console.print(str(error), style="red", markup=False)
+        raise typer.Exit(COULD_NOT) from error
+    console.print(f"{out}: {count} files, {out.stat().st_size / 1e6:.1f} MB", markup=False)

@@ -1,0 +1,12 @@
+"""`course sim`: the robot node alone."""
+
+import os
+import sys
+
+import typer
+
+
+def sim(context: typer.Context) -> None:
+    """Run the robot node; it explains its own options."""
+    # The node replaces this process, so that signals and the exit status are its own.
+    os.execv(sys.executable, [sys.executable, "-m", "robot_sim", *context.args])

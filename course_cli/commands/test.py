@@ -1,0 +1,17 @@
+"""`course test`: the whole test suite."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import typer
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test(context: typer.Context) -> None:
+    """Run the test suite; further arguments go to pytest, for example `course test tests/setup -x`."""
+    # In a child, because pytest's plugins and the ROS libraries both hold on to a process's state.
+    command = [sys.executable, "-m", "pytest", *context.args]
+    status = subprocess.run(command, cwd=ROOT).returncode
+    raise typer.Exit(0 if status == 0 else 1)

@@ -1,0 +1,112 @@
+"""The archive that students get: everything to read, run and check, without solutions and hidden checks."""
+
+from __future__ import annotations
+
+import stat
+import tempfile
+import zipfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from autograder.exercise import exercise_names, load_exercise
+from autograder.nbgrader_bridge.release import generate_release
+
+TOP = "humanoid-course"  # the folder the archive unpacks to
+PARTS = (
+    "README.md",
+    "LICENSE",
+    "course",
+    "pyproject.toml",
+    "requirements.lock",
+    "setup",
+    "humanoid_interfaces",
+    "ros_runtime",
+    "robot_sim",
+    "lab",
+    "autograder",
+    "course_cli",
+    "chapters",
+    "docs/images",
+    "docs/robot.md",
+)
+# The instructor's side, and a walking server for measurements. `course` lists only commands whose modules are there.
+KEPT_BACK = (
+    "autograder/audit",
+    "autograder/batch",
+    "autograder/nbgrader_bridge",
+    "course_cli/demo",
+    "course_cli/student_bundle.py",
+    "ros_runtime/executor_bench",
+    *(
+        f"course_cli/commands/{name}.py"
+        for name in ("audit", "bench", "demo", "export", "grade", "release", "test")
+    ),
+)
+_EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest time a zip can hold; a fixed one makes the archive reproducible
+
+
+class Leak(Exception):
+    """A file of the bundle holds what students must not get."""
+
+
+def write_bundle(root: Path, archive: Path) -> int:
+    """Write the students' archive of the clone at `root`; return how many files it holds.
+
+    Raises :class:`Leak` when a solution or a hidden check is about to get in.
+    """
+    with tempfile.TemporaryDirectory() as temporary:
+        exercises = Path(temporary) / "exercises"
+        generate_release(root / "solutions", exercises)
+        files = {path.relative_to(root).as_posix(): path for path in _files_of(root)}
+        # Freshly generated, because whoever tries the exercises out leaves solutions beside them.
+        files |= {path.relative_to(temporary).as_posix(): path for path in exercises.rglob("*.ipynb")}
+        require_no_leak(files)
+        archive.parent.mkdir(parents=True, exist_ok=True)
+        with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as bundle:
+            for name in sorted(files):
+                _add(bundle, name, files[name])
+    return len(files)
+
+
+def require_no_leak(files: Mapping[str, Path]) -> None:
+    """Raise :class:`Leak` when a file names a hidden check or holds a solution."""
+    forbidden = ["### BEGIN SOLUTION", *hidden_check_ids()]
+    for name, path in files.items():
+        content = path.read_bytes()
+        found = next((word for word in forbidden if word.encode() in content), None)
+        if found or path.name == "hidden.py":
+            raise Leak(
+                f"{name} would show students {found or 'hidden checks'!r}; keep it back or take that out of it"
+            )
+
+
+def hidden_check_ids() -> list[str]:
+    """Return the ids of all hidden checks."""
+    return [
+        check.id
+        for name in exercise_names()
+        for check in load_exercise(name, hidden=True).checks
+        if check.hidden
+    ]
+
+
+def _files_of(root: Path) -> Iterator[Path]:
+    for part in PARTS:
+        place = root / part
+        candidates = sorted(place.rglob("*")) if place.is_dir() else [place]
+        yield from (path for path in candidates if path.is_file() and not _kept_back(path.relative_to(root)))
+
+
+def _kept_back(path: Path) -> bool:
+    derived = (
+        any(part == "__pycache__" or part.startswith(".") for part in path.parts) or path.suffix == ".pyc"
+    )
+    return derived or path.name == "hidden.py" or path.as_posix().startswith(KEPT_BACK)
+
+
+def _add(bundle: zipfile.ZipFile, name: str, path: Path) -> None:
+    entry = zipfile.ZipInfo(f"{TOP}/{name}", date_time=_EPOCH)
+    executable = path.stat().st_mode & stat.S_IXUSR
+    entry.external_attr = (stat.S_IFREG | (0o755 if executable else 0o644)) << 16
+    entry.compress_type = zipfile.ZIP_DEFLATED
+    bundle.writestr(entry, path.read_bytes())
