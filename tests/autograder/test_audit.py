@@ -1,0 +1,63 @@
+"""Submissions whose verdict is known get that verdict: the proof that the grader grades.
+
+`./course audit` grades all of them; here are as many as prove every check. They are graded a few at a time in the
+background from the first test that needs one on, in the order of the tests, so each test waits for its own and only
+those that were selected are graded (`-k battery_service`, `-k walks_on`).
+"""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+
+from autograder.audit.known_submission import known_submissions, require_known_checks
+from autograder.audit.proof import enough_to_prove
+from autograder.audit.run import audit_one
+from autograder.exercise import exercise_names, load_exercise
+from autograder.isolation.availability import available_isolation
+
+ARENAS_AT_A_TIME = 2
+EXERCISES = {name: load_exercise(name, hidden=True) for name in exercise_names()}
+KNOWN = [known for name in EXERCISES for known in known_submissions(name)]
+GRADED = [known for name in EXERCISES for known in enough_to_prove(known_submissions(name), of_each=3)]
+
+# Why they are kept: tests/submissions/README.md
+WITHOUT_A_KILLER = {"cancellable_walk": {"obeys_a_stranger"}}
+
+
+def label(known):
+    return f"{known.exercise}/{known.name}"
+
+
+@pytest.fixture(scope="session")
+def audited(request):
+    """Return a function that waits for the grading of a known submission."""
+    if not available_isolation().trusted:
+        pytest.skip(f"hidden checks need isolated arenas: {available_isolation().reason}")
+    wanted = [item.callspec.params["known"] for item in request.session.items if is_audit(item)]
+    with ThreadPoolExecutor(ARENAS_AT_A_TIME) as pool:
+        runs = {known.path: pool.submit(audit_one, known, EXERCISES[known.exercise]) for known in wanted}
+        yield lambda known: runs[known.path].result()
+        pool.shutdown(cancel_futures=True)
+
+
+def is_audit(item):
+    return getattr(item, "originalname", "") == "test_verdict_is_as_known"
+
+
+@pytest.mark.parametrize("known", KNOWN, ids=label)
+def test_header_names_checks_that_exist(known):
+    require_known_checks(known, [check.id for check in EXERCISES[known.exercise].checks])
+
+
+@pytest.mark.parametrize("name", EXERCISES)
+def test_every_check_is_named_by_a_faulty_submission(name):
+    named = {check for known in KNOWN if known.exercise == name for check in known.caught_by}
+    unnamed = {check.id for check in EXERCISES[name].checks} - named
+    assert unnamed == WITHOUT_A_KILLER.get(name, set())
+
+
+@pytest.mark.audit
+@pytest.mark.parametrize("known", GRADED, ids=label)
+def test_verdict_is_as_known(known, audited):
+    surprises = audited(known).surprises()
+    assert surprises == [], "\n".join(surprises)

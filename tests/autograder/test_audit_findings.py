@@ -1,0 +1,167 @@
+"""What the audit says about a grade that differs from what is known."""
+
+from io import StringIO
+
+import pytest
+from rich.console import Console
+
+from autograder.audit.kill_matrix import figures, kill_matrix
+from autograder.audit.known_submission import HeaderError, known_submissions, read_known_submission
+from autograder.audit.proof import enough_to_prove
+from autograder.audit.run import AuditedRun, checks_without_a_killer
+from autograder.checks import CheckList, Scenario
+from autograder.exercise import Exercise
+from autograder.verdict import CheckVerdict, Grade
+
+CORRECT = '"""Style: plain."""\n'
+FAULTY = '"""Fault: sleeps\nin the callback (M2)\nCaught by: answers\nAlso fails: ends\n\nCaught by nobody else."""\n'
+HOSTILE = '"""Attack: forks\nOutcome: dies of it\nCaught by: appears\n"""\n'
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Write submissions: folder(kind=source) returns the folder that holds them."""
+
+    def write(**sources):
+        for kind, source in sources.items():
+            (tmp_path / "service" / kind).mkdir(parents=True)
+            (tmp_path / "service" / kind / "one.py").write_text(source)
+        return tmp_path
+
+    return write
+
+
+@pytest.fixture
+def exercise():
+    checks = CheckList()
+    for name in ("appears", "answers", "ends"):
+
+        def judge(run):
+            """It does"""
+
+        judge.__name__ = name
+        checks.check(points=1, on=Scenario("ask"))(judge)
+    return Exercise("service", checks.checks, False)
+
+
+def read(folder, kind):
+    return read_known_submission(folder / "service" / kind / "one.py")
+
+
+def run_of(known, **statuses):
+    verdicts = [
+        CheckVerdict(
+            name, name, status.replace("_", " "), int(status == "passed"), 1, help="the machine slept"
+        )
+        for name, status in statuses.items()
+    ]
+    return AuditedRun(known, 0, Grade("service", known.name, "namespaces", verdicts), 1.0)
+
+
+def test_header_is_read_with_its_continued_lines(folder):
+    known = read(folder(faulty=FAULTY), "faulty")
+    assert known.about == "sleeps in the callback (M2)"
+    assert known.caught_by == ("answers",)
+    assert known.also_fails == ("ends",)
+    assert known.name == "faulty/one"
+
+
+def test_header_is_read_from_a_file_that_python_cannot_parse(folder):
+    known = read(folder(faulty=FAULTY + "def broken(:\n"), "faulty")
+    assert known.caught_by == ("answers",)
+
+
+@pytest.mark.parametrize(
+    ("kind", "source", "complaint"),
+    [
+        ("correct", "import rclpy\n", "Style"),
+        ("correct", '"""Style: plain\nCaught by: ends\n"""', "said to be correct"),
+        ("faulty", '"""Fault: sleeps"""', "Caught by"),
+        ("faulty", '"""Fault: sleeps\nCaught by: ends\nAlso fails: ends\n"""', "twice"),
+        ("hostile", '"""Attack: forks\nCaught by: ends\n"""', "Outcome"),
+        ("hostile", '"""Attack: forks\nOutcome: dies\n"""', "either"),
+        ("odd", '"""Style: plain"""', "expected one of"),
+    ],
+)
+def test_header_that_says_too_little_or_too_much_is_refused(folder, kind, source, complaint):
+    where = folder(**{kind: source})
+    with pytest.raises(HeaderError, match=complaint):
+        read(where, kind)
+
+
+def test_submissions_are_chosen_by_name_or_by_kind_and_name(folder):
+    where = folder(correct=CORRECT, faulty=FAULTY)
+    assert len(known_submissions("service", folder=where)) == 2
+    assert [known.kind for known in known_submissions("service", only="faulty/*", folder=where)] == ["faulty"]
+    assert len(known_submissions("service", only="one", folder=where)) == 2
+    assert known_submissions("service", only="two", folder=where) == []
+
+
+def test_correct_submission_with_full_marks_is_no_surprise(folder):
+    known = read(folder(correct=CORRECT), "correct")
+    assert run_of(known, appears="passed", answers="passed", ends="passed").surprises() == []
+
+
+def test_correct_submission_that_fails_is_a_false_failure(folder):
+    run = run_of(read(folder(correct=CORRECT), "correct"), appears="passed", answers="failed", ends="not_run")
+    assert run.unexpected() == ["answers"]
+    assert "answers failed" in run.surprises()[0]
+
+
+def test_fault_that_is_caught_with_its_consequence_is_no_surprise(folder):
+    known = read(folder(faulty=FAULTY), "faulty")
+    assert run_of(known, appears="passed", answers="failed", ends="failed").surprises() == []
+    assert run_of(known, appears="passed", answers="failed", ends="passed").surprises() == []
+
+
+@pytest.mark.parametrize("status", ["passed", "not_run"])
+def test_fault_that_is_not_caught_is_a_surprise(folder, status):
+    run = run_of(read(folder(faulty=FAULTY), "faulty"), appears="passed", answers=status, ends="passed")
+    assert run.missed() == ["answers"]
+    assert "did not catch it" in run.surprises()[0]
+
+
+def test_failure_of_an_unrelated_check_is_a_surprise(folder):
+    run = run_of(read(folder(faulty=FAULTY), "faulty"), appears="failed", answers="failed", ends="passed")
+    assert run.missed() == []
+    assert run.unexpected() == ["appears"]
+
+
+def test_hostile_submission_must_get_a_grade(folder):
+    run = run_of(read(folder(hostile=HOSTILE), "hostile"), appears="error", answers="not_run", ends="not_run")
+    assert any("the machine slept" in surprise for surprise in run.surprises())
+
+
+def test_check_is_without_a_killer_until_a_submission_that_names_it_fails_it(folder, exercise):
+    known = read(folder(faulty=FAULTY), "faulty")
+    killed = run_of(known, appears="passed", answers="failed", ends="failed")
+    assert checks_without_a_killer([killed], exercise) == ["appears", "ends"]
+
+
+def test_matrix_shows_every_submission_and_check_and_the_figures(folder, exercise):
+    where = folder(correct=CORRECT, faulty=FAULTY)
+    runs = [
+        run_of(read(where, "correct"), appears="passed", answers="passed", ends="passed"),
+        run_of(read(where, "faulty"), appears="passed", answers="failed", ends="passed"),
+    ]
+    console = Console(width=100, record=True, file=StringIO())
+    console.print(kill_matrix(runs, exercise))
+    printed = console.export_text()
+    for words in ("correct/one", "faulty/one", "appears", "answers", "ends", *figures(runs, exercise)):
+        assert words in printed
+    assert "kills: 1 of 1 faulty submissions (100 %)" in figures(runs, exercise)
+    assert "false failures: 0 in 1 runs of correct submissions" in figures(runs, exercise)
+
+
+def test_enough_to_prove_is_every_check_once_and_whatever_is_not_faulty(tmp_path):
+    def write(kind, name, header):
+        (tmp_path / "service" / kind).mkdir(parents=True, exist_ok=True)
+        (tmp_path / "service" / kind / f"{name}.py").write_text(f'"""{header}"""')
+
+    write("correct", "plain", "Style: plain")
+    write("faulty", "narrow", "Fault: slow\nCaught by: answers")
+    write("faulty", "wide", "Fault: slow\nCaught by: answers, ends")
+    write("faulty", "deaf", "Fault: sleeps (M2)\nCaught by: answers")
+    write("hostile", "bomb", "Attack: forks\nOutcome: dies\nCaught by: appears")
+    enough = enough_to_prove(known_submissions("service", folder=tmp_path))
+    assert [known.name for known in enough] == ["correct/plain", "faulty/deaf", "faulty/wide", "hostile/bomb"]

@@ -1,0 +1,180 @@
+"""How verdicts follow from given transcripts: dependencies, infrastructure failures, overload."""
+
+import pytest
+
+from autograder import events as ev
+from autograder import grading
+from autograder.arena_run import NotGraded
+from autograder.checks import CheckList, Scenario, expect
+from autograder.exercise import Exercise
+from autograder.isolation.arena_process import Kind
+from autograder.isolation.availability import Isolation
+from autograder.submission import Submission
+from autograder.transcript import Transcript
+
+ISOLATED = Isolation(Kind.NAMESPACES, "given")
+SUBMISSION = Submission("anything", "ada", "")
+FIRST, SECOND = Scenario("first"), Scenario("second")
+
+
+def robot(t, lag):
+    still = dict.fromkeys(("x", "y", "yaw", "speed", "turn_rate", "steps"), 0)
+    return ev.RobotTruth(
+        t=t, simulated=t, lag=lag, z=0.6, up=1, mode=1, motors_enabled=True, battery=1, **still
+    )
+
+
+def transcript(scenario, *, lag=0.0, mark=None, scale=5.0):
+    events = [ev.NodeReady(t=0.0, waited=0.1), robot(2.0, lag)]
+    if mark:
+        events.append(ev.Mark(t=3.0, name=mark))
+    return Transcript.from_events(scenario.name, {}, events, scale)
+
+
+def exercise(checks, **kwargs):
+    return Exercise("anything", checks.checks, False, **kwargs)
+
+
+@pytest.fixture
+def two_checks():
+    checks = CheckList()
+
+    @checks.check(points=2, on=FIRST)
+    def base(run):
+        """The base holds."""
+        expect(bool(run.all(ev.Mark)), expected="a mark", observed="none", help="Set a mark.", at=1.5)
+
+    @checks.check(points=3, on=SECOND, needs=["base"])
+    def above(run):
+        """What stands on it holds"""
+
+    return exercise(checks)
+
+
+def arenas(monkeypatch, answer):
+    """Let `answer(scenario, scale)` stand for an arena; returns the list of what was run."""
+    ran = []
+
+    def run_in_arena(run, stop=None):
+        ran.append((run.scenario.name, run.scale))
+        return answer(run.scenario, run.scale)
+
+    monkeypatch.setattr(grading, "run_in_arena", run_in_arena)
+    return ran
+
+
+def statuses(grade):
+    return {check.id: check.status for check in grade.checks}
+
+
+def test_full_marks(monkeypatch, two_checks):
+    arenas(monkeypatch, lambda scenario, scale: transcript(scenario, mark="here"))
+    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED)
+    assert (grade.status, grade.score, grade.max_score, grade.all_passed) == ("graded", 5, 5, True)
+
+
+def test_a_failure_says_what_when_and_what_next_and_what_stands_on_it_is_not_run(monkeypatch, two_checks):
+    arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
+    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED)
+    assert statuses(grade) == {"base": "failed", "above": "not run"}
+    failed, not_run = grade.checks
+    assert (failed.expected, failed.observed, failed.help, failed.robot_time) == (
+        "a mark",
+        "none",
+        "Set a mark.",
+        1.5,
+    )
+    assert "The base holds" in not_run.help
+    assert (grade.status, grade.score) == ("graded", 0)
+
+
+def test_an_arena_that_fails_is_tried_again_and_then_not_graded(monkeypatch, two_checks):
+    def answer(scenario, scale):
+        raise NotGraded("no room")
+
+    ran = arenas(monkeypatch, answer)
+    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, jobs=1)
+    assert statuses(grade) == {"base": "error", "above": "error"}
+    assert (grade.status, grade.score) == ("not graded", None)
+    assert "no room" in grade.checks[0].help
+    assert len(ran) > 1
+
+
+def test_a_check_that_breaks_costs_nothing(monkeypatch):
+    checks = CheckList()
+
+    @checks.check(points=1, on=FIRST)
+    def broken(run):
+        """Broken"""
+        raise KeyError("oops")
+
+    arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
+    grade = grading.grade(SUBMISSION, exercise(checks), isolation=ISOLATED)
+    assert (grade.status, grade.checks[0].status) == ("not graded", "error")
+    assert "oops" in grade.checks[0].help
+
+
+def test_an_overloaded_run_is_repeated_more_slowly_before_it_is_judged(monkeypatch, two_checks):
+    def answer(scenario, scale):
+        return transcript(
+            scenario, lag=2.0 if scale > 1 else 0.0, mark="here" if scale == 1 else None, scale=scale
+        )
+
+    ran = arenas(monkeypatch, answer)
+    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, jobs=1, scale=5.0)
+    assert grade.all_passed
+    assert [scale for name, scale in ran if name == "first"] == [5.0, 2.0, 1.0]
+
+
+def test_a_machine_that_is_too_slow_even_at_scale_1_gives_no_grade(monkeypatch, two_checks):
+    arenas(monkeypatch, lambda scenario, scale: transcript(scenario, lag=2.0, scale=scale))
+    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED)
+    assert grade.status == "not graded"
+    assert "too busy" in grade.checks[0].help
+
+
+def test_a_failure_on_a_strained_run_counts_only_if_it_is_seen_again_at_scale_1(monkeypatch, two_checks):
+    def answer(scenario, scale):
+        return transcript(
+            scenario, lag=0.3 if scale > 1 else 0.0, mark="here" if scale == 1 else None, scale=scale
+        )
+
+    arenas(monkeypatch, answer)
+    assert grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, scale=5.0).all_passed
+
+
+@pytest.mark.parametrize(
+    ("marks", "status"), [(["here"], "passed"), ([None, "here"], "passed"), ([None, None, "here"], "failed")]
+)
+def test_a_failure_to_be_confirmed_counts_only_if_it_is_seen_twice(monkeypatch, marks, status):
+    checks = CheckList()
+
+    @checks.check(points=1, on=FIRST, confirm=True)
+    def ends(run):
+        """It ends well"""
+        expect(bool(run.all(ev.Mark)), expected="a mark", observed="none", help="Set a mark.")
+
+    coming = iter(marks)
+    ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario, mark=next(coming)))
+    grade = grading.grade(SUBMISSION, exercise(checks), isolation=ISOLATED, scale=5.0)
+    assert statuses(grade) == {"ends": status}
+    assert len(ran) == min(len(marks), 2)
+
+
+def test_hidden_checks_are_refused_without_isolation(monkeypatch):
+    checks = CheckList(hidden=True)
+
+    @checks.check(points=1, on=FIRST)
+    def secret(run):
+        """Secret"""
+
+    ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
+    with pytest.raises(grading.HiddenChecksRefused, match="no namespaces here"):
+        grading.grade(SUBMISSION, exercise(checks), isolation=Isolation(Kind.NONE, "no namespaces here"))
+    assert ran == []
+
+
+def test_without_isolation_a_grade_is_labelled_untrusted(monkeypatch, two_checks):
+    arenas(monkeypatch, lambda scenario, scale: transcript(scenario, mark="here"))
+    grade = grading.grade(SUBMISSION, two_checks, isolation=Isolation(Kind.NONE, "no namespaces here"))
+    assert grade.to_json()["isolation"] == "untrusted"

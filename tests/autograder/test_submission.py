@@ -1,0 +1,58 @@
+import json
+
+import nbformat
+import pytest
+
+from autograder.submission import MAX_BYTES, UnusableSubmission, read_submission
+
+
+def notebook(*sources):
+    cells = [nbformat.v4.new_code_cell(source) for source in sources]
+    return nbformat.writes(nbformat.v4.new_notebook(cells=cells))
+
+
+def test_a_python_file_is_taken_as_it_is(tmp_path):
+    file = tmp_path / "battery_service.py"
+    file.write_text("print('π')\n")
+    assert read_submission(file, "battery_service").files == {"battery_service.py": "print('π')\n".encode()}
+
+
+def test_of_a_notebook_the_last_cell_that_writes_the_file_counts_and_nothing_is_run(tmp_path):
+    file = tmp_path / "work.ipynb"
+    file.write_text(
+        notebook(
+            "raise SystemExit",
+            "%%writefile battery_service.py\nold",
+            "%%writefile other.py\nno",
+            "%%writefile battery_service.py\nnew",
+        )
+    )
+    assert read_submission(file, "battery_service").source == "new"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "reason"),
+    [
+        ("work.ipynb", notebook("x = 1"), "no code cell that begins with '%%writefile battery_service.py'"),
+        ("work.ipynb", "not JSON", "is not a notebook"),
+        ("work.ipynb", json.dumps({"cells": 3}), "is not a notebook|no code cell"),
+        ("work.py", "x" * (MAX_BYTES + 1), "at most"),
+    ],
+)
+def test_what_cannot_be_read_is_refused_with_the_reason(tmp_path, name, content, reason):
+    file = tmp_path / name
+    file.write_text(content)
+    with pytest.raises(UnusableSubmission, match=reason):
+        read_submission(file, "battery_service")
+
+
+def test_text_in_another_encoding_is_refused(tmp_path):
+    file = tmp_path / "work.py"
+    file.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(UnusableSubmission, match="UTF-8"):
+        read_submission(file, "battery_service")
+
+
+def test_a_missing_file_is_refused(tmp_path):
+    with pytest.raises(UnusableSubmission, match="there is no file"):
+        read_submission(tmp_path / "nowhere.py", "battery_service")

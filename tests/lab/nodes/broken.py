@@ -1,0 +1,3 @@
+"""Ends before it is a node."""
+
+raise RuntimeError("no such robot")

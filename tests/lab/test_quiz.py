@@ -1,0 +1,58 @@
+"""The chapters' questions and how they are marked."""
+
+from __future__ import annotations
+
+import pkgutil
+from importlib import import_module
+
+import pytest
+
+import lab
+from lab import questions
+from lab.quiz import Choice, Question, Quiz
+
+CHAPTERS = [module.name for module in pkgutil.iter_modules(questions.__path__)]
+ALL = [
+    (chapter, number)
+    for chapter in CHAPTERS
+    for number in range(1, len(import_module(f"lab.questions.{chapter}").QUESTIONS) + 1)
+]
+EXAMPLE = Question("2 + 2?", (Choice("4", "Count.", right=True), Choice("5", "One too many.")))
+
+
+def test_the_right_choice_is_right_and_says_why() -> None:
+    assert Quiz("Question 1", EXAMPLE).mark("a") == "a: Right. Count."
+
+
+def test_a_wrong_choice_says_why_too() -> None:
+    assert Quiz("Question 1", EXAMPLE).mark("b") == "b: Not this one. One too many."
+
+
+def test_an_unknown_letter_names_the_choices() -> None:
+    with pytest.raises(lab.LabError, match="'c' is not a choice; they are a, b"):
+        Quiz("Question 1", EXAMPLE).mark("c")
+
+
+def test_clicking_a_button_shows_the_verdict() -> None:
+    buttons, verdict = Quiz("Question 1", EXAMPLE)._buttons().children
+    buttons.value = "b"
+    assert verdict.value == "b: Not this one. One too many."
+
+
+def test_a_question_has_one_right_choice() -> None:
+    with pytest.raises(ValueError, match="exactly one right choice"):
+        Question("?", (Choice("a", "why"), Choice("b", "why")))
+
+
+def test_a_missing_question_is_told() -> None:
+    with pytest.raises(lab.LabError, match="no question 99"):
+        lab.quiz(CHAPTERS[0], 99)
+
+
+@pytest.mark.parametrize(("chapter", "number"), ALL)
+def test_every_choice_of_every_question_is_marked_with_its_own_reason(chapter: str, number: int) -> None:
+    quiz = lab.quiz(chapter, number)
+    verdicts = [quiz.mark(letter) for letter in "abcdefgh"[: len(quiz.question.choices)]]
+    assert len(verdicts) >= 3
+    assert len(set(verdicts)) == len(verdicts)
+    assert all(len(verdict) > 40 for verdict in verdicts)

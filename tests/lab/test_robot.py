@@ -1,0 +1,125 @@
+"""The robot of a notebook: starting it, looking at it, and its end with the kernel."""
+
+from __future__ import annotations
+
+import signal
+import time
+
+import psutil
+import pytest
+from kernels import CellError, Kernel
+
+
+@pytest.fixture(scope="module")
+def robot(kernel: Kernel) -> Kernel:
+    kernel.run("lab.start_robot()")
+    return kernel
+
+
+def test_starting_twice_keeps_the_robot(robot: Kernel) -> None:
+    before = robot.children()
+    printed = robot.run("lab.start_robot()")
+    assert before
+    assert robot.children() == before
+    assert "The robot is up in namespace /robot" in printed
+
+
+def test_it_walks_as_long_as_the_block_and_its_pose_is_read(robot: Kernel) -> None:
+    printed = robot.run(
+        """
+        lab.restart_robot()
+        print(lab.mode(), lab.robot_state().motors_enabled)
+        with lab.walking(forward=0.3):
+            lab.wait_until(lambda: lab.pose().x > 0.3, timeout=20)
+            print(lab.mode())
+        lab.wait_until(lambda: lab.mode() == "STANDING")
+        print(lab.battery().percentage < 1.0, lab.battery().current < 0.0)
+    """.replace("\n        ", "\n")
+    )
+    assert printed.splitlines()[1:] == ["STANDING True", "WALKING", "True True"]
+
+
+def test_a_restarted_robot_stands_at_the_origin(robot: Kernel) -> None:
+    robot.run("from std_msgs.msg import Bool\nlab.publish('motor_power', Bool(data=False))")
+    robot.run("lab.wait_until(lambda: lab.mode() == 'FALLEN')")
+    printed = robot.run("lab.restart_robot(); print(lab.mode(), abs(lab.pose().x) < 0.05)")
+    assert printed.splitlines()[-1] == "STANDING True"
+
+
+def test_its_picture_has_an_alternative_text(robot: Kernel) -> None:
+    html = robot.run("print(lab.show_robot().data)")
+    assert 'alt="The robot: STANDING at x ' in html or "No picture: no OpenGL" in html
+
+
+def test_it_is_watched_while_it_walks(robot: Kernel) -> None:
+    kind = robot.run("view = lab.watch_robot(); print(type(view).__name__)").strip()
+    if kind == "Label":
+        pytest.skip(robot.run("print(view.value)"))
+    robot.run(
+        """
+        frames = set()
+        view.observe(lambda change: frames.add(change["new"]), "value")
+        with lab.walking(forward=0.3):
+            lab.wait_until(lambda: len(frames) >= 5, timeout=20)
+        lab.stop_watching()
+        seen = len(frames)
+    """.replace("\n        ", "\n")
+    )
+    assert (
+        robot.run("print(len(frames) == seen, next(iter(frames))[:2] == bytes((0xff, 0xd8)))")
+        == "True True\n"
+    )
+
+
+def test_a_camera_that_does_not_exist_is_refused(robot: Kernel) -> None:
+    with pytest.raises(CellError, match="camera 'roof' is not known; choose one of track"):
+        robot.run("lab.watch_robot('roof')")
+
+
+def test_without_a_robot_the_error_says_what_to_do(kernel: Kernel) -> None:
+    kernel.run("lab.stop_robot()")
+    with pytest.raises(CellError, match=r"nothing arrived on /robot/odom .* Try lab.start_robot\(\)"):
+        kernel.run("import time; time.sleep(1.2); lab.topics.latest('odom', timeout=0.5)")
+
+
+def test_stop_everything_leaves_no_process_and_can_start_again(kernel: Kernel) -> None:
+    kernel.run("lab.start_robot(); lab.run_node('adder.py')")
+    assert len(kernel.children()) == 2
+    kernel.run("lab.stop_everything()")
+    assert kernel.children() == []
+    assert "The robot is up" in kernel.run("lab.start_robot()")
+
+
+def test_interrupting_a_cell_harms_neither_robot_nor_node(own_kernel: Kernel) -> None:
+    own_kernel.run("lab.start_robot(); node = lab.run_node('adder.py')")
+    before = own_kernel.children()
+    own_kernel.client.execute("print('waiting', flush=True)\nlab.wait_until(lambda: False, timeout=60)")
+    _await_output(own_kernel, "waiting")
+    own_kernel.manager.interrupt_kernel()
+    assert own_kernel.client.get_shell_msg(timeout=30)["content"]["ename"] == "KeyboardInterrupt"
+    assert own_kernel.run("print(node.is_running, lab.mode())") == "True STANDING\n"
+    assert own_kernel.children() == before
+
+
+@pytest.mark.parametrize("end", [signal.SIGKILL, signal.SIGTERM])
+def test_nothing_survives_the_kernel(own_kernel: Kernel, end: signal.Signals) -> None:
+    own_kernel.run("lab.start_robot(); lab.run_node('adder.py')")
+    children = own_kernel.children()
+    own_kernel.process.send_signal(end)
+    _, alive = psutil.wait_procs(children, timeout=10)
+    assert len(children) == 2
+    assert alive == []
+
+
+def test_two_kernels_do_not_meet(kernel: Kernel, own_kernel: Kernel) -> None:
+    question = "print(lab.connection.connection().domain_id)"
+    assert kernel.run(question) != own_kernel.run(question)
+
+
+def _await_output(kernel: Kernel, text: str, timeout: float = 30.0) -> None:
+    deadline = time.monotonic() + timeout
+    while time.monotonic() < deadline:
+        message = kernel.client.get_iopub_msg(timeout=timeout)
+        if text in message["content"].get("text", ""):
+            return
+    raise AssertionError(f"the kernel has not printed {text!r}")

@@ -1,0 +1,101 @@
+"""Calling services of students' nodes, and what is said when that fails."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from kernels import CellError, Kernel
+
+
+@pytest.fixture
+def notebook(kernel: Kernel) -> Iterator[Kernel]:
+    kernel.run("from humanoid_interfaces.srv import AddTwoInts\nfrom std_srvs.srv import Trigger")
+    yield kernel
+    kernel.run("lab.stop_nodes()")
+
+
+def test_a_node_answers(notebook: Kernel) -> None:
+    printed = notebook.run("""
+node = lab.run_node("adder.py")
+print(lab.call("add", AddTwoInts, AddTwoInts.Request(a=2, b=3)).sum, node.is_running)
+node.stop()
+print(node.is_running, node.exit_status, node.log())""")
+    assert printed == "5 True\nFalse 0 answered 5\n\n"
+
+
+def test_the_same_file_again_replaces_the_old_node(notebook: Kernel) -> None:
+    printed = notebook.run("""
+old = lab.run_node("adder.py", "100")
+new = lab.run_node("adder.py", "200")
+print(old.is_running, [lab.call("add", AddTwoInts).sum for _ in range(5)])""")
+    assert printed == "False [200, 200, 200, 200, 200]\n"
+
+
+def test_no_server_names_those_there_are(notebook: Kernel) -> None:
+    notebook.run("lab.run_node('adder.py'); lab.call('add', AddTwoInts)")
+    with pytest.raises(CellError, match=r"nobody offers /robot/ad \(AddTwoInts\).*there are: /robot/add\."):
+        notebook.run("lab.call('ad', AddTwoInts, timeout=0.5)")
+
+
+def test_a_wrong_type_is_told_and_forgiven(notebook: Kernel) -> None:
+    notebook.run("lab.run_node('adder.py'); lab.call('add', AddTwoInts)")
+    with pytest.raises(CellError, match="but of type humanoid_interfaces/srv/AddTwoInts"):
+        notebook.run("lab.call('add', Trigger, timeout=0.5)")
+    assert notebook.run("print(lab.call('add', AddTwoInts).sum)") == "0\n"
+
+
+def test_a_request_of_a_wrong_type_is_refused(notebook: Kernel) -> None:
+    with pytest.raises(CellError, match=r"add takes a AddTwoInts\.Request"):
+        notebook.run("lab.call('add', AddTwoInts, Trigger.Request())")
+
+
+def test_a_slow_server_times_out_and_its_late_answer_is_ignored(notebook: Kernel) -> None:
+    notebook.run("node = lab.run_node('adder.py'); lab.call('add', AddTwoInts)")
+    with pytest.raises(CellError, match=r"no answer from add within 0\.5 s"):
+        notebook.run("lab.call('add', AddTwoInts, AddTwoInts.Request(a=-2), timeout=0.5)")
+    printed = notebook.run(
+        "print(lab.call('add', AddTwoInts, AddTwoInts.Request(a=7), timeout=10).sum)\n"
+        "lab.wait_until(lambda: 'answered 7' in node.log())\nprint(node.log())"
+    )
+    assert printed == "7\nanswered 0\nanswered -2\nanswered 7\n\n"
+
+
+def test_a_crashed_server_is_quoted(notebook: Kernel) -> None:
+    notebook.run("node = lab.run_node('adder.py'); lab.call('add', AddTwoInts)")
+    with pytest.raises(
+        CellError, match=r"adder\.py has ended with exit status 1[\s\S]*ValueError: b is negative"
+    ):
+        notebook.run("lab.call('add', AddTwoInts, AddTwoInts.Request(b=-1))")
+
+
+def test_a_killed_server_still_looks_ready(notebook: Kernel) -> None:
+    notebook.run("node = lab.run_node('adder.py'); lab.call('add', AddTwoInts)")
+    printed = notebook.run("node.kill(); print(lab.service_is_ready('add', AddTwoInts), node.is_running)")
+    assert printed == "True False\n"
+
+
+def test_a_file_that_fails_at_once_is_quoted(notebook: Kernel) -> None:
+    with pytest.raises(CellError, match=r"broken\.py ended at once with exit status 1[\s\S]*no such robot"):
+        notebook.run("lab.run_node('broken.py')")
+
+
+def test_a_missing_file_is_named(notebook: Kernel) -> None:
+    with pytest.raises(CellError, match=r"no file gone\.py .*%%writefile gone\.py"):
+        notebook.run("lab.run_node('gone.py')")
+
+
+def test_a_node_that_ignores_ctrl_c_is_killed_and_that_is_said(notebook: Kernel) -> None:
+    notebook.run("lab.student_nodes.START_TIMEOUT = 1.0\nnode = lab.run_node('stubborn.py')")
+    notebook.run("lab.wait_until(lambda: 'up' in node.log())")
+    assert "stubborn.py did not end within 3 s of Ctrl-C and was killed" in notebook.run("node.stop()")
+    notebook.run("lab.student_nodes.START_TIMEOUT = 10.0")
+
+
+def test_the_call_is_drawn_with_its_answer(notebook: Kernel) -> None:
+    notebook.run("lab.run_node('adder.py')")
+    svg = notebook.run(
+        "lab.call('add', AddTwoInts, AddTwoInts.Request(a=1, b=2)); print(lab.draw_sequence().data)"
+    )
+    assert "notebook to add server: add: a 1, b 2." in svg
+    assert "add server to notebook: sum 3." in svg

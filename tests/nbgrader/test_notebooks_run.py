@@ -1,0 +1,58 @@
+"""The source notebooks do what they say: on a live robot, with the reference solution in them."""
+
+from __future__ import annotations
+
+import nbformat
+import pytest
+from conftest import FAILED, SOLUTIONS, grade_of
+from nbclient import NotebookClient
+
+from autograder.self_check import SelfCheck
+
+CELL_TIMEOUT = 300  # s, for a self-check on a busy machine
+
+
+def run(exercise, folder, until=None):
+    """Execute a source notebook up to the cell of that id; return what each cell printed and gave, by its id."""
+    notebook = nbformat.read(SOLUTIONS / exercise / f"{exercise}.ipynb", as_version=4)
+    ids = [cell.id for cell in notebook.cells]
+    notebook.cells = notebook.cells[: ids.index(until) if until else None]
+    NotebookClient(notebook, timeout=CELL_TIMEOUT, resources={"metadata": {"path": str(folder)}}).execute()
+    return {cell.id: _text(cell.outputs) for cell in notebook.cells if cell.cell_type == "code"}
+
+
+def _text(outputs):
+    return "\n".join(
+        output.text if output.output_type == "stream" else output.data["text/plain"] for output in outputs
+    )
+
+
+def test_battery_service_from_the_task_to_the_verdicts(tmp_path):
+    seen = run("battery_service", tmp_path)
+    assert "at x " in seen["example-again"] or "no odom yet" in seen["example-again"]
+    assert "GetBatteryStatus_Response" in seen["try"]
+    assert "✓" in seen["self-check"]
+    assert "✗" not in seen["self-check"]
+    assert "The node offers get_battery_status" in seen["server_appears"]
+    assert seen["hidden_1"].strip() == "Hidden check 1 is made when your work is graded."
+
+
+def test_cancellable_walk_on_the_live_robot(tmp_path):
+    seen = run("cancellable_walk", tmp_path, until="self-check-intro")
+    assert "2.00 m forward, 0.00 m to the left" in seen["example-frames"]
+    assert "goal 1 gives way" in seen["example-turns"]
+    assert "goal 2 has arrived" in seen["example-turns"]
+    assert "CANCELED" in seen["try-cancel"]
+
+
+def test_a_verdict_cell_repeats_what_the_self_check_found(capsys):
+    checked = SelfCheck(grade_of("you", follows_the_battery=FAILED))
+    checked.show("follows_the_battery")
+    shown = capsys.readouterr().out
+    for words in ("what should be", "what was", "what to do", "0/1"):
+        assert words in shown
+
+
+def test_a_verdict_cell_with_an_unknown_check_names_those_there_are():
+    with pytest.raises(KeyError, match="server_appears"):
+        SelfCheck(grade_of("you")).show("servr_appears")

@@ -1,0 +1,133 @@
+"""The robot as another node meets it: topics, rates, frames, commands.
+
+One robot serves the tests that leave it standing.
+"""
+
+import math
+import time
+
+import pytest
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rclpy.qos import qos_profile_sensor_data
+from robot_process import LATCHED, running_robot
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import BatteryState, Imu, JointState
+from std_msgs.msg import Bool
+
+from humanoid_interfaces.msg import RobotState
+
+
+@pytest.fixture(scope="module")
+def robot():
+    with running_robot() as listener:
+        yield listener
+
+
+@pytest.fixture
+def robot_that_may_fall():
+    with running_robot() as listener:
+        yield listener
+
+
+def publish_until(robot, message, topic, done):
+    """Publish at 10 Hz until `done(odometry)`; returns that odometry."""
+    publisher = robot.node.create_publisher(type(message), topic, 10)
+    timer = robot.node.create_timer(0.1, lambda: publisher.publish(message))
+    try:
+        return robot.one(Odometry, "odom", until=done)
+    finally:
+        robot.node.destroy_timer(timer)
+        robot.node.destroy_publisher(publisher)
+
+
+def is_still(odometry):
+    return math.hypot(odometry.twist.twist.linear.x, odometry.twist.twist.linear.y) < 0.02
+
+
+def test_a_late_subscriber_still_gets_battery_and_state(robot):
+    battery = robot.one(BatteryState, "battery_state", LATCHED)
+    assert 0.0 < battery.percentage <= 1.0
+    assert battery.current < 0.0, "negative while discharging"
+    assert battery.voltage > 0.0
+    assert math.isnan(battery.temperature), "NaN where nothing is measured"
+    state = robot.one(RobotState, "robot_state", LATCHED)
+    assert (state.mode, state.motors_enabled) == (RobotState.STANDING, True)
+
+
+def test_odom_is_the_pelvis_in_odom(robot):
+    odometry = robot.one(Odometry, "odom")
+    assert (odometry.header.frame_id, odometry.child_frame_id) == ("odom", "base_link")
+    assert odometry.pose.pose.position.z == pytest.approx(0.6, abs=0.03)
+
+
+def test_joint_states_name_every_joint_once(robot):
+    joints = robot.one(JointState, "joint_states", qos_profile_sensor_data)
+    assert (
+        len(set(joints.name))
+        == len(joints.name)
+        == len(joints.position)
+        == len(joints.velocity)
+        == len(joints.effort)
+    )
+    assert {"l_knee", "r_knee", "waist_yaw", "l_elbow", "r_shoulder_pitch"} <= set(joints.name)
+
+
+def test_the_imu_feels_gravity(robot):
+    imu = robot.one(Imu, "imu", qos_profile_sensor_data)
+    assert imu.header.frame_id == "imu_link"
+    assert imu.linear_acceleration.z == pytest.approx(9.81, abs=0.5)
+    norm = math.hypot(imu.orientation.x, imu.orientation.y, imu.orientation.z, imu.orientation.w)
+    assert norm == pytest.approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("message_type", "topic", "rate"),
+    [(Odometry, "odom", 20.0), (JointState, "joint_states", 20.0), (Imu, "imu", 50.0)],
+)
+def test_messages_are_spaced_as_promised_in_simulated_time(robot, message_type, topic, rate):
+    messages = robot.collect(message_type, topic, 21, qos_profile_sensor_data)
+    stamps = [message.header.stamp.sec + message.header.stamp.nanosec * 1e-9 for message in messages]
+    assert stamps == sorted(stamps)
+    # best-effort messages may be lost on a loaded machine, which makes the mean longer, never shorter
+    assert (stamps[-1] - stamps[0]) / 20 > 0.7 / rate
+
+
+def test_the_simulator_publishes_the_clock(robot):
+    first, second = robot.collect(Clock, "/clock", 2)
+    assert second.clock.sec + second.clock.nanosec * 1e-9 > first.clock.sec + first.clock.nanosec * 1e-9
+
+
+def test_cmd_vel_walks_and_a_stale_command_stops(robot):
+    start = robot.one(Odometry, "odom", until=is_still).pose.pose.position.x
+    ahead = Twist()
+    ahead.linear.x = 0.3
+    walked = publish_until(
+        robot, ahead, "cmd_vel", lambda odometry: odometry.pose.pose.position.x > start + 0.3
+    )
+    assert walked.pose.pose.position.z > 0.5, "upright"
+    stopped = robot.collect(Odometry, "odom", 10, until=is_still)[-1]
+    assert stopped.pose.pose.position.x < walked.pose.pose.position.x + 0.6
+    assert (
+        robot.one(
+            RobotState, "robot_state", LATCHED, until=lambda state: state.mode == RobotState.STANDING
+        ).steps
+        > 0
+    )
+
+
+def test_a_command_that_is_not_finite_is_ignored(robot):
+    nonsense = Twist()
+    nonsense.linear.x = math.nan
+    deadline = time.monotonic() + 1.0
+    after = publish_until(robot, nonsense, "cmd_vel", lambda odometry: time.monotonic() > deadline)
+    assert is_still(after)
+    assert robot.one(RobotState, "robot_state", LATCHED).mode == RobotState.STANDING
+
+
+def test_without_motor_power_it_falls(robot_that_may_fall):
+    robot = robot_that_may_fall
+    publisher = robot.node.create_publisher(Bool, "motor_power", 10)
+    robot.node.create_timer(0.2, lambda: publisher.publish(Bool(data=False)))
+    state = robot.one(RobotState, "robot_state", LATCHED, until=lambda state: state.mode == RobotState.FALLEN)
+    assert not state.motors_enabled

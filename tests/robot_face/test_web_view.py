@@ -1,0 +1,96 @@
+"""The robot in a browser: reachable from this machine alone, and seen."""
+
+import io
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+
+import numpy as np
+import pytest
+from PIL import Image
+from playwright.sync_api import sync_playwright
+
+from ros_runtime.environment import ros_environment
+
+pytest.importorskip("mujoco.studio", reason="this MuJoCo is older than 4.0 and has no web viewer")
+
+CHROMIUM = shutil.which("chromium")
+# Without a graphics card Chromium draws WebGL with SwiftShader; the others keep it off the network.
+OPTIONS = (
+    *("--no-sandbox", "--disable-quic", "--disable-background-networking", "--disable-component-update"),
+    *("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
+)
+TIMEOUT = 60.0  # s
+
+
+@pytest.fixture(scope="module")
+def url():
+    """The view of a robot in a process of its own: MuJoCo's viewer can be opened once in a process."""
+    with viewed_robot() as (_, url):
+        yield url
+
+
+@contextmanager
+def viewed_robot(*options):
+    """A robot with a view; yields its process and the view's address, or "" if it has ended."""
+    command = [sys.executable, "-m", "robot_sim", "--view", *options]
+    environment = {**os.environ, **ros_environment(domain_id=79, localhost_only=True)}
+    process = subprocess.Popen(
+        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    try:
+        said = (line.removeprefix("view: ").strip() for line in process.stdout if line.startswith("view: "))
+        yield process, next(said, "")
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+
+
+def port_of(url):
+    return int(url.rstrip("/").rpartition(":")[2])
+
+
+def test_it_listens_on_this_machine_alone(url):
+    with socket.create_connection(("127.0.0.1", port_of(url)), timeout=5):
+        pass
+    # Every address of 127/8 reaches a socket that is bound to all interfaces.
+    with pytest.raises(ConnectionRefusedError):
+        socket.create_connection(("127.0.0.2", port_of(url)), timeout=5).close()
+
+
+def test_a_taken_port_is_said(url):
+    with viewed_robot("--port", str(port_of(url))) as (process, _):
+        assert f"Port {port_of(url)} is already in use" in process.stderr.read()
+        assert process.wait(30) == 1
+
+
+def test_ctrl_c_ends_a_robot_with_a_view():
+    with viewed_robot() as (process, url):
+        assert url.startswith("http://127.0.0.1:")
+    assert process.returncode == 0
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium to look with")
+def test_a_browser_shows_the_robot(url):
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OPTIONS)
+        page = browser.new_page(viewport={"width": 800, "height": 600})
+        page.goto(url)
+        deadline = time.monotonic() + TIMEOUT
+        while not shows_the_robot(page.screenshot()):
+            assert time.monotonic() < deadline, f"no robot is seen within {TIMEOUT:g} s"
+        browser.close()
+
+
+def shows_the_robot(screenshot):
+    """The plate on its chest is blue and its body bright, and nothing else in the scene is."""
+    pixels = np.asarray(Image.open(io.BytesIO(screenshot)).convert("RGB")).astype(int)
+    middle = pixels[50:450, 300:500].reshape(-1, 3)
+    blue = middle[:, 2] > middle[:, 0] + 60
+    bright = middle.min(axis=1) > 160
+    return blue.sum() > 500 and bright.sum() > 300

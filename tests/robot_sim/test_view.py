@@ -1,0 +1,69 @@
+"""Pictures without a screen."""
+
+import os
+import subprocess
+import sys
+from ctypes.util import find_library
+
+import numpy as np
+import pytest
+
+from robot_sim.gl_backend import NoOpenGLError, open_context
+from robot_sim.humanoid import Humanoid
+from robot_sim.view import View, snapshot
+
+ACCENT = (0.15, 0.45, 0.75)  # the blue plate on the chest, RGB
+
+
+def test_a_snapshot_shows_the_robot():
+    picture = snapshot(Humanoid(), 320, 240, camera="front")
+    assert picture.shape == (240, 320, 3)
+    assert picture.dtype == np.uint8
+    middle = picture[60:130, 130:190].reshape(-1, 3).astype(float)
+    blue = middle[:, 2] > 1.5 * middle[:, 0]
+    white = middle.min(axis=1) > 150
+    assert blue.sum() > 50
+    assert white.sum() > 200
+
+
+def test_a_view_follows_the_motion():
+    humanoid = Humanoid()
+    view = View(humanoid, 160, 120)
+    before = view.picture("side")
+    humanoid.set_motor_power(False)
+    for _ in range(100):
+        humanoid.step()
+    after = view.picture("side")
+    view.close()
+    assert (before != after).any(axis=2).mean() > 0.02
+
+
+def test_an_unknown_camera_is_refused_with_the_known_ones():
+    with pytest.raises(ValueError, match=r"'roof' is not known.*track.*head_camera"):
+        snapshot(Humanoid(), 64, 48, camera="roof")
+
+
+def test_a_backend_that_does_not_exist_is_refused(monkeypatch):
+    monkeypatch.setenv("MUJOCO_GL", "crayons")
+    with pytest.raises(NoOpenGLError, match=r"crayons.*install libegl1"):
+        open_context(16, 16)
+
+
+@pytest.mark.skipif(find_library("OSMesa") is None, reason="there is no OSMesa (package libosmesa6)")
+def test_osmesa_draws_where_egl_has_no_device():
+    environment = {
+        name: value for name, value in os.environ.items() if name not in ("MUJOCO_GL", "PYOPENGL_PLATFORM")
+    }
+    program = (
+        "import os; from robot_sim.humanoid import Humanoid; from robot_sim.view import snapshot;"
+        "print(os.environ.get('MUJOCO_GL'), snapshot(Humanoid(), 64, 48).std() > 5, os.environ['MUJOCO_GL'])"
+    )
+    outcome = subprocess.run(
+        [sys.executable, "-c", program],
+        env=environment | {"MUJOCO_EGL_DEVICE_ID": "99"},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert outcome.stdout.split() == ["None", "True", "osmesa"], outcome.stderr

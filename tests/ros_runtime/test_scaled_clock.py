@@ -1,0 +1,291 @@
+"""Processes that follow a scaled clock, timed from outside by the wall's."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+
+import pytest
+from waits import KERNEL_TIMERS, WAITS
+
+from ros_runtime.clock import ScaledClock
+from ros_runtime.clock.scaled_clock import real_monotonic_ns
+from ros_runtime.environment import ros_environment
+
+# Asks for both clocks of a process as fast as it can, the real time before and after.
+READ_CLOCKS = """
+import ctypes, json, sys, time
+real = ctypes.CDLL(None).scaled_clock_real_monotonic_ns
+real.restype = ctypes.c_int64
+print("begin", flush=True)
+samples, end = [], real() + int(float(sys.argv[1]) * 1e9)
+while real() < end:
+    samples.append((real(), time.monotonic_ns(), time.time_ns(), real()))
+print(json.dumps(samples[:: max(1, len(samples) // 3000)]))
+"""
+
+
+def following(clock):
+    return os.environ | clock.environment(os.environ)
+
+
+def time_wait(process):
+    """Seconds from "begin" to the end of the wait: by the wall, and by the process itself."""
+    begin = time.monotonic()
+    inside = float(process.stdout.readline())
+    return time.monotonic() - begin, inside
+
+
+@pytest.mark.parametrize("wait", [*WAITS, *KERNEL_TIMERS])
+def test_every_way_to_wait_follows_the_clock(clock, start, wait):
+    clock.run_at(10.0)
+    process = start("-S", "waits.py", wait, 2, environment=following(clock))
+    assert process.stdout.readline() == "begin\n"
+    outside, inside = time_wait(process)
+    assert 2.0 <= inside < 9.0
+    assert 0.15 < outside < 1.0  # 0.2 s when the machine is idle, 2 s if the wait were not scaled
+
+
+@pytest.mark.parametrize("wait", WAITS)
+def test_a_wait_begun_before_the_switch_ends_in_time(clock, start, wait):
+    process = start("-S", "waits.py", wait, 3, environment=following(clock))
+    assert process.stdout.readline() == "begin\n"
+    begin = time.monotonic()
+    clock.run_at(10.0)
+    inside = float(process.stdout.readline())
+    assert time.monotonic() - begin < 1.5  # 0.3 s when the machine is idle, 3 s if nothing woke it
+    assert 3.0 <= inside < 15.0
+
+
+# Twenty ticks of a ROS timer and twenty turns of a Rate, on an executor each kind of student node uses.
+ROS_WAITS = """
+import sys, threading, time, rclpy
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+rclpy.init()
+node = rclpy.create_node("node")
+executor = {"single": SingleThreadedExecutor, "multi": lambda: MultiThreadedExecutor(2)}[sys.argv[1]]()
+executor.add_node(node)
+done, ticks = threading.Event(), []
+def tick():
+    ticks.append(time.monotonic())
+    if len(ticks) == 20:
+        done.set()
+spinner = threading.Thread(target=executor.spin)
+spinner.start()
+print("begin", flush=True)
+start = time.monotonic()
+timer = node.create_timer(0.1, tick)
+assert done.wait(30)
+rate = node.create_rate(10)
+for _ in range(20):
+    rate.sleep()
+print(time.monotonic() - start, flush=True)
+executor.shutdown()
+spinner.join()
+"""
+
+
+@pytest.mark.parametrize("executor", ["single", "multi"])
+@pytest.mark.parametrize("switch", ["before", "during"])
+def test_timers_and_rates_of_a_node_follow_the_clock(clock, start, executor, switch):
+    if switch == "before":
+        clock.run_at(5.0)
+    environment = following(clock) | ros_environment(domain_id=os.getpid() % 100 + 1)
+    process = start("-c", ROS_WAITS, executor, environment=environment)
+    assert process.stdout.readline() == "begin\n"
+    if switch == "during":
+        clock.run_at(5.0)
+    outside, inside = time_wait(process)
+    assert 3.8 < inside < 8.0
+    assert 0.6 < outside < 2.0  # 0.8 s when the machine is idle, 4 s if it were not scaled
+
+
+def test_an_endless_wait_still_ends_with_the_news(clock, start):
+    code = "import select, sys; print('begin', flush=True); select.select([0], [], []); print(input())"
+    process = start("-c", code, environment=following(clock))
+    assert process.stdout.readline() == "begin\n"
+    process.stdin.write("news\n")
+    process.stdin.flush()
+    assert process.stdout.readline() == "news\n"
+
+
+def test_processes_agree_on_the_time_before_across_and_after_the_switch(clock, start):
+    processes = [start("-c", READ_CLOCKS, 0.4, environment=following(clock)) for _ in range(2)]
+    assert [process.stdout.readline() for process in processes] == ["begin\n", "begin\n"]
+    clock.run_at(5.0)
+    for process in processes:
+        samples = json.loads(process.stdout.readline())
+        before, monotonic, realtime, after = zip(*samples, strict=True)
+        assert clock.segments()[1].real_start_ns in range(before[0], after[-1]), "the switch was not seen"
+        assert list(monotonic) == sorted(monotonic)
+        assert list(realtime) == sorted(realtime)
+        assert all(
+            clock.scaled_ns(first) <= seen <= clock.scaled_ns(last)
+            for first, seen, last in zip(before, monotonic, after, strict=True)
+        )
+
+
+def test_the_clock_is_continuous_and_can_be_translated_both_ways(clock):
+    clock.run_at(5.0)
+    switch = clock.segments()[1].real_start_ns
+    assert clock.scaled_ns(switch) == switch  # it equalled the wall's until then
+    assert clock.scaled_ns(switch - 10) == switch - 10
+    assert clock.scaled_ns(switch + 1_000_000_000) == switch + 5_000_000_000
+    assert clock.real_ns(switch + 5_000_000_000) == switch + 1_000_000_000
+    assert clock.now() == pytest.approx(clock.scaled_ns(real_monotonic_ns()) * 1e-9, abs=1.0)
+
+
+def test_the_wall_clock_time_is_right_until_the_switch(clock, start):
+    process = start("-c", "import time; print(time.time())", environment=following(clock))
+    assert float(process.stdout.readline()) == pytest.approx(time.time(), abs=2.0)
+
+
+def test_a_forked_child_follows_the_same_clock(clock, start):
+    code = (
+        "import os, sys, time; child = os.fork(); start = time.monotonic(); time.sleep(2);"
+        "print(time.monotonic() - start, flush=True) if child == 0 else os.waitpid(child, 0)"
+    )
+    clock.run_at(5.0)
+    process = start("-c", code, environment=following(clock))
+    outside, inside = time_wait(process)
+    assert inside >= 2.0
+    assert outside < 1.5
+
+
+def test_a_signal_to_a_condition_variable_is_not_lost_while_the_clock_may_change(clock, start):
+    """The waiter sleeps in pieces; the signal comes at all phases of them."""
+    code = """
+import ctypes, threading, time
+from waits import libc, after
+condition, mutex = ctypes.create_string_buffer(64), ctypes.create_string_buffer(64)
+flag, latencies = False, []
+def signal_later(delay):
+    global flag, sent
+    time.sleep(delay)
+    libc.pthread_mutex_lock(mutex)
+    flag, sent = True, time.monotonic()
+    libc.pthread_cond_signal(condition)
+    libc.pthread_mutex_unlock(mutex)
+for i in range(40):
+    flag = False
+    threading.Thread(target=signal_later, args=[0.001 * i]).start()
+    deadline = after(30)
+    libc.pthread_mutex_lock(mutex)
+    while not flag:
+        libc.pthread_cond_timedwait(condition, mutex, deadline)
+    latencies.append(time.monotonic() - sent)
+    libc.pthread_mutex_unlock(mutex)
+print(max(latencies))
+"""
+    process = start("-c", code, environment=following(clock))
+    assert float(process.stdout.readline()) < 5.0
+
+
+@pytest.mark.parametrize(
+    ("change", "complaint"),
+    [
+        (lambda page: None, "cannot read a clock page"),
+        (lambda page: page.write_bytes(b"\0" * 4096), "not a clock page of version 1"),
+    ],
+    ids=["missing", "foreign"],
+)
+def test_without_a_usable_page_time_stays_as_it_is_and_the_library_says_so(
+    tmp_path, clock_library, change, complaint
+):
+    page = tmp_path / "page"
+    change(page)
+    environment = os.environ | {"LD_PRELOAD": str(clock_library), "SCALED_CLOCK_PAGE": str(page)}
+    done = subprocess.run(
+        [sys.executable, "-c", "import time; print(time.monotonic())"],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert complaint in done.stderr
+    assert float(done.stdout) == pytest.approx(time.monotonic(), abs=5.0)
+
+
+def test_without_the_variable_the_library_does_nothing(clock_library, start):
+    environment = {name: value for name, value in os.environ.items() if name != "SCALED_CLOCK_PAGE"}
+    process = start(
+        "waits.py", "time.sleep", 0.3, environment=environment | {"LD_PRELOAD": str(clock_library)}
+    )
+    assert process.stdout.readline() == "begin\n"
+    outside, inside = time_wait(process)
+    assert outside >= 0.25
+    assert inside == pytest.approx(outside, abs=0.1)
+
+
+@pytest.mark.skipif(not shutil.which("bwrap"), reason="needs bubblewrap")
+def test_a_sandboxed_process_follows_a_page_it_cannot_write(clock, start):
+    clock.run_at(5.0)
+    sandbox = ["bwrap", "--dev-bind", "/", "/", "--ro-bind", str(clock.path), str(clock.path)]
+    code = (
+        "import sys, time; start = time.monotonic(); time.sleep(2); print(time.monotonic() - start)\n"
+        "try: open(sys.argv[1], 'r+b')\n"
+        "except OSError: print('read-only')"
+    )
+    begin = time.monotonic()
+    done = subprocess.run(
+        [*sandbox, sys.executable, "-c", code, str(clock.path)],
+        env=following(clock),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert time.monotonic() - begin < 1.5
+    inside, access = done.stdout.split()
+    assert float(inside) >= 2.0
+    assert access == "read-only"
+
+
+def test_another_process_can_switch_the_clock_even_while_it_follows_it(clock, clock_library, start):
+    code = (
+        "import sys; from ros_runtime.clock import ScaledClock; from pathlib import Path\n"
+        "clock = ScaledClock.open(sys.argv[1], library=Path(sys.argv[2]))\n"
+        "clock.run_at(2.0, final=False); clock.run_at(5.0); print(clock.scale)"
+    )
+    process = start("-c", code, clock.path, clock_library, environment=following(clock))
+    assert process.stdout.readline() == "5.0\n"
+    assert clock.scale == 5.0
+    assert clock.is_final
+
+
+def test_a_final_clock_keeps_its_pace(clock):
+    clock.run_at(5.0)
+    with pytest.raises(RuntimeError, match=r"promised to stay at scale 5\.0"):
+        clock.run_at(1.0)
+
+
+@pytest.mark.parametrize("scale", [0.0, -1.0, 1000.0, float("nan")])
+def test_an_impossible_scale_is_refused(clock, scale):
+    with pytest.raises(ValueError, match=r"expected 0\.01 to 100"):
+        clock.run_at(scale)
+
+
+def test_where_the_library_is_missing_only_scale_1_is_possible(tmp_path, monkeypatch):
+    monkeypatch.setattr("ros_runtime.clock.scaled_clock.library_path", lambda: None)
+    clock = ScaledClock.create(tmp_path / "page")
+    assert clock.environment() == {}
+    with pytest.raises(RuntimeError, match="C compiler"):
+        clock.run_at(5.0)
+    clock.run_at(1.0)
+    assert clock.is_final
+
+
+def test_a_file_that_is_no_page_is_refused(tmp_path):
+    (tmp_path / "short").write_bytes(b"short")
+    (tmp_path / "other").write_bytes(b"\0" * 4096)
+    with pytest.raises(ValueError, match="5 bytes"):
+        ScaledClock.open(tmp_path / "short")
+    with pytest.raises(ValueError, match="another release"):
+        ScaledClock.open(tmp_path / "other")
+
+
+def test_libraries_that_were_preloaded_stay_preloaded(clock, clock_library):
+    assert (
+        clock.environment({"LD_PRELOAD": "/lib/other.so"})["LD_PRELOAD"] == f"{clock_library} /lib/other.so"
+    )

@@ -1,0 +1,29 @@
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+
+from ros_runtime.sequence_diagram import Arrow, sequence_svg
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def test_a_diagram_shows_every_label_and_says_it_in_words():
+    drawing = sequence_svg(
+        [
+            Arrow(1.0, "server", "client", "accepted", "answer"),
+            Arrow(0.5, "client", "server", "goal <1>", "request"),
+        ],
+        title="A goal",
+    )
+    root = ElementTree.fromstring(drawing)
+    texts = [element.text for element in root.iter(f"{SVG}text")]
+    assert texts.index("goal <1>") < texts.index("accepted"), "time runs downwards"
+    assert (
+        root.find(f"{SVG}desc").text
+        == "0.50 s: client to server: goal <1>. 1.00 s: server to client: accepted."
+    )
+
+
+def test_a_diagram_of_nothing_is_refused():
+    with pytest.raises(ValueError, match="nothing has happened"):
+        sequence_svg([], title="empty")
