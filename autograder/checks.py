@@ -58,11 +58,7 @@ class Scenario:
 
 @dataclass(frozen=True)
 class Check:
-    """One check: `id` and `title` come from the function, `on` are the scenarios it judges.
-
-    `confirm`: a failure counts only when a second run of the scenarios fails too. It is for behaviour that the
-    middleware itself gets wrong once in hundreds of runs; a fault of the submission shows every time.
-    """
+    """One check: `id` and `title` come from the function, `on` are the scenarios it judges."""
 
     id: str
     title: str
@@ -71,7 +67,6 @@ class Check:
     on: tuple[Scenario, ...]
     needs: tuple[str, ...]
     hidden: bool
-    confirm: bool = False
 
     def run(self, transcripts: Sequence[Transcript]) -> None:
         """Judge; a :class:`Failure` says what is wrong."""
@@ -91,12 +86,10 @@ class CheckList:
         points: int,
         on: Scenario | Sequence[Scenario],
         needs: Sequence[str] = (),
-        confirm: bool = False,
     ) -> Callable[[Judge], Judge]:
         """Register a function as a check worth `points`, judged on the transcript of each scenario in `on`.
 
-        `needs` names checks that must have passed; otherwise this one is reported as not run. `confirm` looks at a
-        failure a second time, see :class:`Check`.
+        `needs` names checks that must have passed; otherwise this one is reported as not run.
         """
         scenarios = (on,) if isinstance(on, Scenario) else tuple(on)
 
@@ -105,7 +98,7 @@ class CheckList:
                 raise ValueError(f"the check {judge.__name__} needs a docstring: it is its title")
             title = judge.__doc__.strip().splitlines()[0].rstrip(".")
             self.checks.append(
-                Check(judge.__name__, title, points, judge, scenarios, tuple(needs), self.hidden, confirm)
+                Check(judge.__name__, title, points, judge, scenarios, tuple(needs), self.hidden)
             )
             return judge
 

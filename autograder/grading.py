@@ -1,4 +1,8 @@
-"""Grades one submission: runs the scenarios its checks need, judges the transcripts, settles every check."""
+"""Grades one submission: runs the scenarios its checks need, judges the transcripts, settles every check.
+
+A failure costs points only when it is seen twice, in two arenas: middleware and machines have bad moments too, and a
+fault of the submission shows every time.
+"""
 
 from __future__ import annotations
 
@@ -19,11 +23,13 @@ from autograder.verdict import CheckStatus, CheckVerdict, Grade
 
 SLOWER = (2.0, 1.0)  # scales to fall back to when the machine cannot keep up
 OVERLOADED = 0.5  # s the simulator may be late before a run is not judged at all
-STRAINED = 0.15  # s it may be late before a failure on that run is looked at again at a lower scale
+STRAINED = 0.15  # s it may be late before the second look at a failure is taken at scale 1
 HOG = 0.8  # processors a submission may keep busy before a late simulator is its own doing
 LOG_LINES = 40
 
 Report = Callable[[CheckVerdict], None]
+LookAgain = Callable[[Check], None]
+Runs = dict[Scenario, Future[Transcript]]
 Evidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
 
 
@@ -40,23 +46,27 @@ def grade(
     scale: float | None = None,
     isolation: Isolation | None = None,
     report: Report = lambda verdict: None,
+    look_again: LookAgain = lambda check: None,
     evidence: Evidence = lambda verdict, transcripts: None,
 ) -> Grade:
     """Grade a submission with `jobs` arenas at a time, one a core.
 
-    `report` gets each verdict as soon as it is known, `evidence` the transcripts that a check was judged on.
+    `report` gets each verdict as soon as it is known, `look_again` each check that failed once, `evidence` the
+    transcripts that a check was judged on.
 
     Raises :class:`HiddenChecksRefused` for hidden checks where arenas cannot be isolated.
     """
     isolation = isolation or available_isolation()
     if not isolation.trusted and any(check.hidden for check in exercise.checks):
         raise HiddenChecksRefused(f"hidden checks need isolated arenas: {isolation.reason}")
-    session = _Session(submission, exercise, seed, scale or highest_scale(), isolation, report, evidence)
+    session = _Session(
+        submission, exercise, seed, scale or highest_scale(), isolation, report, look_again, evidence
+    )
     return session.run(jobs)
 
 
 class _Session:
-    """The state of one grading: transcripts by scenario, verdicts by check."""
+    """The state of one grading: transcripts by scenario, of the first look and the second; verdicts by check."""
 
     def __init__(
         self,
@@ -66,6 +76,7 @@ class _Session:
         scale: float,
         isolation: Isolation,
         report: Report,
+        look_again: LookAgain,
         evidence: Evidence,
     ) -> None:
         self._submission = submission
@@ -74,10 +85,13 @@ class _Session:
         self._scale = scale
         self._isolation = isolation
         self._report = report
+        self._look_again = look_again
         self._evidence = evidence
         self._stop = threading.Event()
         self._verdicts: dict[str, CheckVerdict] = {}
-        self._runs: dict[Scenario, Future[Transcript]] = {}
+        self._first: Runs = {}
+        self._second: Runs = {}
+        self._failed_once: set[str] = set()
 
     def run(self, jobs: int) -> Grade:
         with ThreadPoolExecutor(jobs) as pool:
@@ -99,34 +113,45 @@ class _Session:
                 continue
             if unmet := [need for need in check.needs if self._verdicts[need].status != "passed"]:
                 self._conclude(self._not_run(check, unmet))
-            elif all(scenario in self._runs and self._runs[scenario].done() for scenario in check.on):
-                self._conclude(self._judge(check))
+                continue
+            if check.id not in self._failed_once and _are_done(check.on, self._first):
+                self._judge(check, self._first)
+            if check.id in self._failed_once and _are_done(check.on, self._second):
+                self._judge(check, self._second)
 
     def _start(self, pool: ThreadPoolExecutor, jobs: int) -> list[Future[Transcript]]:
         """Keep `jobs` arenas busy, first with what is certainly needed; returns those that run."""
-        running = [future for future in self._runs.values() if not future.done()]
-        for scenario in self._wanted():
+        running = [run for run in (*self._first.values(), *self._second.values()) if not run.done()]
+        for scenario, runs in self._wanted():
             if len(running) >= jobs:
                 break
-            self._runs[scenario] = pool.submit(self._run, scenario, self._scale)
-            running.append(self._runs[scenario])
+            if scenario in runs:  # several checks want it
+                continue
+            scale = self._scale if runs is self._first else self._scale_of_the_second_look(scenario)
+            runs[scenario] = pool.submit(self._run, scenario, scale)
+            running.append(runs[scenario])
         return running
 
-    def _wanted(self) -> list[Scenario]:
-        """Scenarios not yet run, those of checks whose needs are met before those whose needs may still be met."""
-        certain: list[Scenario] = []
-        possible: list[Scenario] = []
+    def _wanted(self) -> list[tuple[Scenario, Runs]]:
+        """Scenarios to run and where their transcripts go: those whose checks' needs are met come first."""
+        certain: list[tuple[Scenario, Runs]] = []
+        possible: list[tuple[Scenario, Runs]] = []
         for check in self._exercise.checks:
             if check.id in self._verdicts:
                 continue
+            runs = self._second if check.id in self._failed_once else self._first
             met = all(need in self._verdicts for need in check.needs)
-            for scenario in check.on:
-                if scenario not in self._runs and scenario not in certain + possible:
-                    (certain if met else possible).append(scenario)
+            wanted = certain if met else possible
+            wanted += [(scenario, runs) for scenario in check.on if scenario not in runs]
         return certain + possible
 
+    def _scale_of_the_second_look(self, scenario: Scenario) -> float:
+        """The same as of the first, unless the machine was strained then."""
+        first = self._first[scenario].result()
+        return 1.0 if lateness(first) > STRAINED else first.scale
+
     def _run(self, scenario: Scenario, scale: float) -> Transcript:
-        """Run a scenario; on a machine that cannot keep up again at a lower scale, after a failure once more."""
+        """Run a scenario; on a machine that cannot keep up again at a lower scale, after an arena's failure again."""
         problem: NotGraded | None = None
         for attempt_scale in (scale, *(slower for slower in SLOWER if slower < scale), 1.0):
             try:
@@ -155,22 +180,20 @@ class _Session:
             )
         raise problem or NotGraded("no attempt was made")
 
-    def _judge(self, check: Check) -> CheckVerdict:
+    def _judge(self, check: Check, runs: Runs) -> None:
+        """Judge a check on one look; its verdict stands unless it is a failure seen for the first time."""
         try:
-            transcripts = [self._runs[scenario].result() for scenario in check.on]
+            transcripts = [runs[scenario].result() for scenario in check.on]
         except NotGraded as error:
-            return self._verdict(check, "error", help=f"Not graded: {error}")
+            self._conclude(self._verdict(check, "error", help=f"Not graded: {error}"))
+            return
         verdict = self._judge_transcripts(check, transcripts)
-        strained = any(lateness(run) > STRAINED and run.scale > 1 for run in transcripts)
-        if verdict.status == "failed" and (strained or check.confirm):
-            scale = 1.0 if strained else self._scale
-            try:
-                transcripts = [self._run(scenario, scale) for scenario in check.on]
-            except NotGraded as error:
-                return self._verdict(check, "error", help=f"Not graded: {error}")
-            verdict = self._judge_transcripts(check, transcripts)
+        if verdict.status == "failed" and runs is self._first:
+            self._failed_once.add(check.id)
+            self._look_again(check)
+            return
         self._evidence(verdict, transcripts)
-        return verdict
+        self._conclude(verdict)
 
     def _judge_transcripts(self, check: Check, transcripts: Sequence[Transcript]) -> CheckVerdict:
         log = "\n".join(_log(transcript) for transcript in transcripts)
@@ -232,6 +255,10 @@ class _Session:
             log,
             check.hidden,
         )
+
+
+def _are_done(scenarios: Sequence[Scenario], runs: Runs) -> bool:
+    return all(scenario in runs and runs[scenario].done() for scenario in scenarios)
 
 
 def lateness(transcript: Transcript) -> float:

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from autograder.exercise import load_exercise
 from autograder.grading import grade
-from autograder.report.table import grade_table, print_verdict
+from autograder.report.table import grade_table, print_second_look, print_verdict
 from autograder.submission import read_submission
 from autograder.verdict import Grade
 
@@ -46,6 +46,7 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
         submission,
         load_exercise(exercise, hidden=False),
         report=lambda verdict: print_verdict(console, verdict),
+        look_again=lambda check: print_second_look(console, check),
     )
     console.print(grade_table(result))
     return SelfCheck(result)

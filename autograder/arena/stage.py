@@ -21,12 +21,13 @@ from autograder.arena.simulator import Simulator
 from autograder.isolation.student_process import StudentProcess
 from ros_runtime.greeting import greet
 
-READY_TIMEOUT = 20.0  # s, on a clock that still runs at scale 1
-MATCHING_TIMEOUT = 10.0  # s, likewise, for robot and node to find each other's topics
-GREETING_TIMEOUT = (
-    1.0  # s, likewise; a sound node may be slow to answer anything yet, a faulty one never does
-)
-SETTLING = 0.3  # s, likewise, for the node's own side of those connections
+# s, on a clock that still runs at scale 1:
+READY_TIMEOUT = 20.0  # for the node to offer what is asked for
+COMPANY_TIMEOUT = 10.0  # for the rest of it, once the node offers anything
+MATCHING_TIMEOUT = 10.0  # for robot and node to find each other's topics
+GREETING_TIMEOUT = 1.0  # a sound node may be slow to answer anything yet, a faulty one never does
+SETTLING = 0.3  # for the node's own side of those connections
+# s, on the arena's clock:
 CALL_TIMEOUT = 5.0
 GOAL_TIMEOUT = 5.0
 CANCEL_TIMEOUT = 5.0
@@ -85,14 +86,7 @@ class Stage:
         started = time.monotonic()
         if not self.wait_until(lambda: self._simulator.robot is not None, ROBOT_TIMEOUT):
             raise RobotTrouble(f"the simulator was not ready within {ROBOT_TIMEOUT:g} s")
-        while missing := self._missing():
-            waited = time.monotonic() - started
-            if waited > READY_TIMEOUT or self._student.returncode is not None:
-                offered = self._offered()
-                self._recorder.record("node_not_ready", missing=missing, offered=offered, waited=waited)
-                raise NodeMissing
-            with self._changed:
-                self._changed.wait(0.02)
+        self._wait_for_endpoints(started)
         self._recorder.record("node_ready", waited=time.monotonic() - started)
         self.wait_until(self._robot_and_node_are_connected, MATCHING_TIMEOUT)
         self._greet_node()
@@ -225,6 +219,23 @@ class Stage:
         self._student.wait(CLEAN_EXIT_TIMEOUT)
 
     # -- helpers ------------------------------------------------------------------------------------------------------
+
+    def _wait_for_endpoints(self, started: float) -> None:
+        """Return when the student's endpoints are there; record what is missing when they do not come."""
+        first_offer: float | None = None
+        while missing := self._missing():
+            now = time.monotonic()
+            if first_offer is None and self._offered():
+                first_offer = now
+            late = now - started > READY_TIMEOUT
+            incomplete = first_offer is not None and now - first_offer > COMPANY_TIMEOUT
+            if late or incomplete or self._has_exited():
+                self._recorder.record(
+                    "node_not_ready", missing=missing, offered=self._offered(), waited=now - started
+                )
+                raise NodeMissing
+            with self._changed:
+                self._changed.wait(0.02)
 
     def _missing(self) -> list[str]:
         probes: list[ServiceProbe | ActionProbe] = [*self._services.values(), *self._actions.values()]

@@ -6,6 +6,7 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from autograder.checks import Check
 from autograder.verdict import CheckVerdict, Grade
 
 LOG_LINES = 6
@@ -24,6 +25,11 @@ def print_verdict(console: Console, verdict: CheckVerdict) -> None:
     console.print(Text.assemble((f"{mark} ", colour), verdict.title, (f"  {_points(verdict)}", "dim")))
     for line in explanation(verdict):
         console.print(Text("    ").append_text(line))
+
+
+def print_second_look(console: Console, check: Check) -> None:
+    """Say that a check failed once and is looked at again."""
+    console.print(Text(f"… {check.title}: failed once, looking again", "dim"))
 
 
 def explanation(verdict: CheckVerdict) -> list[Text]:

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from autograder.exercise import UnknownExercise, load_exercise
 from autograder.grading import grade
-from autograder.report.table import grade_table, print_verdict
+from autograder.report.table import grade_table, print_second_look, print_verdict
 from autograder.submission import UnusableSubmission, read_submission
 
 UNUSABLE = 2
@@ -34,7 +34,13 @@ def check(
     except (UnknownExercise, UnusableSubmission) as error:
         console.print(str(error), style="red", markup=False)
         raise typer.Exit(UNUSABLE) from error
-    result = grade(submission, loaded, jobs=jobs, report=lambda verdict: print_verdict(console, verdict))
+    result = grade(
+        submission,
+        loaded,
+        jobs=jobs,
+        report=lambda verdict: print_verdict(console, verdict),
+        look_again=lambda check: print_second_look(console, check),
+    )
     console.print()
     console.print(grade_table(result))
     if json_file:

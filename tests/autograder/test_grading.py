@@ -146,10 +146,10 @@ def test_a_failure_on_a_strained_run_counts_only_if_it_is_seen_again_at_scale_1(
 @pytest.mark.parametrize(
     ("marks", "status"), [(["here"], "passed"), ([None, "here"], "passed"), ([None, None, "here"], "failed")]
 )
-def test_a_failure_to_be_confirmed_counts_only_if_it_is_seen_twice(monkeypatch, marks, status):
+def test_a_failure_counts_only_if_it_is_seen_twice(monkeypatch, marks, status):
     checks = CheckList()
 
-    @checks.check(points=1, on=FIRST, confirm=True)
+    @checks.check(points=1, on=FIRST)
     def ends(run):
         """It ends well"""
         expect(bool(run.all(ev.Mark)), expected="a mark", observed="none", help="Set a mark.")

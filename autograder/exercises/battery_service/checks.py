@@ -60,7 +60,7 @@ def follows_the_battery(run: Transcript) -> None:
         require_last_message(run, answer_of(run, index))
 
 
-@CHECKS.check(points=1, on=INTERRUPT, needs=["server_appears"], confirm=True)
+@CHECKS.check(points=1, on=INTERRUPT, needs=["server_appears"])
 def ends_cleanly(run: Transcript) -> None:
     """Ctrl-C ends the node with exit status 0"""
     require_clean_exit(run)

@@ -9,7 +9,7 @@ from humanoid_interfaces.srv import GetBatteryStatus
 
 SERVICE = "get_battery_status"
 BATTERY_PERIOD = 0.5  # s between two messages of the robot
-SEVERAL_MESSAGES = 5 * BATTERY_PERIOD  # longer than the checks let a message be on its way
+SEVERAL_MESSAGES = 8 * BATTERY_PERIOD  # longer than the checks let a message be on its way
 
 
 def _open(stage: Stage) -> None:

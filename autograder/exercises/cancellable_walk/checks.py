@@ -161,7 +161,7 @@ def aborts_when_the_robot_falls(run: Transcript) -> None:
     require_error_code(result, FELL, "FELL")
 
 
-@CHECKS.check(points=1, on=INTERRUPT, needs=["server_appears"], confirm=True)
+@CHECKS.check(points=1, on=INTERRUPT, needs=["server_appears"])
 def ends_cleanly(run: Transcript) -> None:
     """Ctrl-C ends the node with exit status 0"""
     require_clean_exit(run)

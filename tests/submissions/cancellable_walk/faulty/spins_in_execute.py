@@ -13,7 +13,7 @@ from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
 from nav_msgs.msg import Odometry
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
 
@@ -146,7 +146,7 @@ class WalkServer(Node):
 def main(args=None):
     rclpy.init(args=args)
     node = WalkServer()
-    executor = MultiThreadedExecutor()
+    executor = SingleThreadedExecutor()
     executor.add_node(node)
     try:
         executor.spin()
