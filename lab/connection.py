@@ -59,7 +59,7 @@ class Connection:
     """A node in the robot's namespace, and what was made on it."""
 
     def __init__(self) -> None:
-        self.domain_id = join_own_network()
+        self.domain_id = join_own_network().domain_id
         self._context = Context()
         rclpy.init(
             args=[],

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from ros_runtime.clock.scaled_clock import ScaledClock
 from ros_runtime.environment import ros_environment
+from ros_runtime.own_network import loopback_variables
 
 CLOCK_PAGE = "ARENA_CLOCK_PAGE"
 SPEC_FILE = "ARENA_SPEC_FILE"
@@ -27,6 +28,7 @@ def main() -> None:
     environment = {
         **os.environ,
         **ros_environment(),
+        **loopback_variables(),
         **clock.environment(),
         CLOCK_PAGE: str(folder / "clock"),
         SPEC_FILE: str(folder / "spec.json"),

@@ -16,9 +16,9 @@ from pathlib import Path
 
 from autograder.isolation.arena_spec import ISOLATION_VARIABLE, ArenaSpec, Kind
 from autograder.isolation.bubblewrap import STUDENT_FILTER, Sandbox, SandboxError, same_paths
-from autograder.isolation.local_ros_network import reserve_domain
 from autograder.isolation.process_tree import ended_within
 from autograder.isolation.seccomp_filter import student_filter
+from ros_runtime.own_network import NoDomainLeft, ReservedDomain
 
 _END_TIMEOUT = 10.0  # s for the kernel, or the warden, to end every process
 
@@ -72,7 +72,12 @@ def start_without_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
     """Start the arena as ordinary processes under a warden, on a ROS domain of its own."""
     folder = Path(tempfile.mkdtemp(prefix="arena-"))
     stack.callback(shutil.rmtree, folder, ignore_errors=True)
-    network = stack.enter_context(reserve_domain(folder))
+    try:
+        domain = ReservedDomain()
+    except NoDomainLeft as error:
+        raise SandboxError(f"{error}: run fewer arenas at once") from error
+    stack.callback(domain.release)
+    network = {"ROS_DOMAIN_ID": str(domain.domain_id)}
     ready, tell = os.pipe()
     warden = [sys.executable, "-S", "-E", "-m", "autograder.isolation.warden", str(os.getpid()), str(tell)]
     try:

@@ -15,6 +15,7 @@ import pyseccomp
 import pytest
 from arenas import PACKAGE, Student, run_student
 
+import ros_runtime
 from autograder.isolation.arena_process import Ended, Kind, start_arena
 from autograder.isolation.limits import ArenaLimits
 
@@ -232,6 +233,7 @@ def test_an_ordinary_user_can_start_arenas_too(namespaces: Kind) -> None:
         pytest.skip(f"an ordinary user's Python is looked for in {python}")
     with tempfile.TemporaryDirectory(dir="/tmp") as folder:
         shutil.copytree(PACKAGE, f"{folder}/autograder/isolation")
+        shutil.copytree(Path(ros_runtime.__file__).parent, f"{folder}/ros_runtime")
         for module in (arenas, pyseccomp):
             shutil.copy(module.__file__, folder)
         subprocess.run(["/bin/chmod", "-R", "a+rX", folder], check=True)
