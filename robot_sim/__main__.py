@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import signal
 import sys
+from typing import TYPE_CHECKING
 
 import rclpy
 from rclpy.signals import SignalHandlerOptions
@@ -14,9 +15,10 @@ from robot_sim.node import HumanoidNode
 from robot_sim.pacing import Pacing
 from robot_sim.run import run
 from robot_sim.scenario_control import ScenarioControl
-from robot_sim.sim_controls import SimControls
 from robot_sim.truth import TruthWriter
-from robot_sim.web_view import WebView
+
+if TYPE_CHECKING:
+    from robot_sim.web_view import WebView
 
 CROUCH = 0.45  # m, height of the pelvis
 
@@ -44,6 +46,8 @@ def main() -> None:
     pacing = Pacing(arguments.rtf)
     controls = view = None
     if control is None:  # nobody is graded
+        from robot_sim.sim_controls import SimControls
+
         controls = SimControls(node, humanoid, pacing)
         node.heard += controls.heard
         view = _open_view(humanoid, arguments.port) if arguments.view else None
@@ -70,6 +74,8 @@ def main() -> None:
 
 
 def _open_view(humanoid: Humanoid, port: int) -> WebView:
+    from robot_sim.web_view import WebView
+
     try:
         view = WebView(humanoid, port)
     except ImportError:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 
-from robot_sim.balance_gains import BalanceGains
+from robot_sim.balance_gains import BalanceGains, trunk_of
 from robot_sim.battery import Battery
 from robot_sim.body_height import BodyHeight
 from robot_sim.footsteps import Command, Goal
@@ -57,6 +57,7 @@ class Humanoid:
         self.timestep = timestep
         self._seed = seed
         self._parameters = WalkerParameters()
+        self._trunk = trunk_of(self.model)
         self._limits = WalkingLimits()
         self._fall = FallThresholds()
         joints = [self.model.joint(name) for name in ACTUATED_JOINTS]
@@ -78,14 +79,18 @@ class Humanoid:
         self.battery = Battery()
         self._imu = Imu(self.model, self.data, self._seed)
         self._pusher = Pusher(self.model, self.data, "torso")
-        self._walker = Walker(self.model, self.data, self._parameters)
-        self._height = BodyHeight(self._walker, self._parameters.dimensions, HeightLimits())
+        self._take_control()
         self._height.set(size.stance_height)
-        self._pending: Command = None
-        self._upper_body = UpperBody(self.model, self.data)
         self.hands = {side: Hand(self.model, self.data, side) for side in SIDES}
         self._earlier_steps = 0
         self._fallen = False
+
+    def _take_control(self) -> None:
+        """Begin to balance from the state the robot is in."""
+        self._walker = Walker(self.model, self.data, self._trunk, self._parameters)
+        self._height = BodyHeight(self._walker, self._parameters.dimensions, HeightLimits())
+        self._pending: Command = None
+        self._upper_body = UpperBody(self.model, self.data)
 
     def step(self) -> None:
         """Simulate one timestep."""
@@ -145,11 +150,8 @@ class Humanoid:
         if on:
             self._earlier_steps = self.steps
             gains = self._walker.gains
-            self._walker = Walker(self.model, self.data, self._parameters)
+            self._take_control()
             self._walker.gains = gains
-            self._height = BodyHeight(self._walker, self._parameters.dimensions, HeightLimits())
-            self._pending = None
-            self._upper_body = UpperBody(self.model, self.data)
             self._upper_body.follow(HOLD)
         self._set_actuation(on)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from rclpy.executors import SingleThreadedExecutor
 
@@ -12,9 +13,11 @@ from robot_sim.node import HumanoidNode
 from robot_sim.pacing import Pacing
 from robot_sim.scenario_control import ScenarioControl, obey
 from robot_sim.schedule import Schedule
-from robot_sim.sim_controls import SimControls
 from robot_sim.truth import TRUTH_RATE, TruthWriter
-from robot_sim.web_view import WebView
+
+if TYPE_CHECKING:  # no arena needs them
+    from robot_sim.sim_controls import SimControls
+    from robot_sim.web_view import WebView
 
 STEPS_PER_CYCLE = 2  # 10 ms of physics between two looks at the commands
 CATCH_UP_CYCLES = 10  # after this many cycles without a wait, commands are heard all the same
@@ -55,8 +58,7 @@ def run(
                 if truth:
                     truth.commanded(command)
         if controls and controls.take_reset():
-            humanoid.reset()
-            node.restart()
+            obey({"do": "reset"}, humanoid, node)
             pacing.restart(humanoid.time)
         steps = controls.steps_due(STEPS_PER_CYCLE) if controls else STEPS_PER_CYCLE
         if steps == 0:

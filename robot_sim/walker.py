@@ -2,7 +2,7 @@
 
 import mujoco
 
-from robot_sim.balance_gains import BalanceGains
+from robot_sim.balance_gains import BalanceGains, Trunk
 from robot_sim.footsteps import Command
 from robot_sim.gait import Gait, Phase
 from robot_sim.parameters import WalkerParameters
@@ -14,12 +14,11 @@ class Walker:
     """Keeps a humanoid on its feet and walks it; make a fresh one whenever the data's state was replaced."""
 
     def __init__(
-        self, model: mujoco.MjModel, data: mujoco.MjData, parameters: WalkerParameters | None = None
+        self, model: mujoco.MjModel, data: mujoco.MjData, trunk: Trunk, parameters: WalkerParameters
     ) -> None:
-        parameters = parameters or WalkerParameters()
         self.gait = Gait(parameters)
         self.sensed = Sensing(model, data)
-        self._whole_body = WholeBody(model, data, parameters)
+        self._whole_body = WholeBody(model, data, trunk, parameters)
 
     @property
     def stands(self) -> bool:

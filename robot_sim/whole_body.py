@@ -14,7 +14,7 @@ import mujoco
 import numpy as np
 
 from robot_sim.attitude import to_body, upright_error
-from robot_sim.balance_gains import default_gains, trunk_of
+from robot_sim.balance_gains import Trunk, default_gains
 from robot_sim.balance_task import BalanceTask
 from robot_sim.contact_wrench import LoadSplit, contact_wrench
 from robot_sim.dcm_plan import Point
@@ -38,13 +38,15 @@ class WholeBody:
         gains: how stiffly the trunk is held upright.
     """
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, parameters: WalkerParameters) -> None:
+    def __init__(
+        self, model: mujoco.MjModel, data: mujoco.MjData, trunk: Trunk, parameters: WalkerParameters
+    ) -> None:
         self.cop_shift: Point = (0.0, 0.0)
         self._model, self._data = model, data
         self._balance = parameters.balance
         self.height = parameters.dimensions.stance_height
-        self._trunk = trunk_of(model)
-        self.gains = default_gains(self._trunk, parameters.balance)
+        self._trunk = trunk
+        self.gains = default_gains(trunk, parameters.balance)
         self._split = LoadSplit(parameters.dimensions, parameters.balance)
         self._mass = float(model.body_subtreemass[model.body("pelvis").id])
         self._yaw: float | None = None

@@ -20,6 +20,7 @@ GRIP_ABOVE_CENTRE = 0.01  # m
 CLOSED_FORCE = 8.0  # N, of both fingers, felt before lifting
 FIRM_GRIP = 0.035  # m, opening asked for around a cup of 6 cm
 LIFT = 0.12  # m
+PLACED_WITHIN = 0.03  # m
 
 
 class Grasp:
@@ -81,10 +82,20 @@ class Grasp:
         before = self._cup_in_hand()
         return lambda: float(np.linalg.norm(self._cup_in_hand() - before))
 
-    def place(self, x: float, y: float, height: float) -> bool:
+    def put_down(self, x: float, y: float, height: float) -> tuple[float, str]:
+        """Put the cup down at (x, y, height) m; returns how far (m) it stands from there, and what is wrong or ""."""
+        self._place(x, y, height)
+        simulate(self.robot, 0.5)
+        cup = self.robot.object_poses()["cup"].position
+        error = math.hypot(cup[0] - x, cup[1] - y)
+        if abs(cup[2] - height) > 0.01:
+            return error, f"the cup is {cup[2] - height:.3f} m above the table"
+        return error, f"placed {error:.3f} m away" if error > PLACED_WITHIN else ""
+
+    def _place(self, x: float, y: float, height: float) -> None:
         """Put the cup down with its centre at (x, y, height) m, correcting by where it is seen to be."""
         above = np.array([x, y, height + LIFT]) + self.grip_point() - self.cup()
-        reached = self.move_to(above, speed=0.2, within=0.01)
+        self.move_to(above, speed=0.2, within=0.01)
         simulate(self.robot, 0.4)
         seen = self.cup()
         grip = self.grip_point()
@@ -94,7 +105,6 @@ class Grasp:
         self._hand.open_to(0.09)
         simulate(self.robot, 0.5)
         self.move_to(self.grip_point() - 0.12 * self._ahead(), speed=0.15, within=0.01)
-        return reached
 
     def move_to(
         self,
