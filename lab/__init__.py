@@ -24,6 +24,7 @@ from lab.errors import (
     NoServerError,
     NotInTimeError,
 )
+from lab.film import film_robot
 from lab.goals import CancelAnswer, Goal, Outcome, send_goal
 from lab.live_view import stop_watching, watch_robot
 from lab.picture import show_robot
@@ -53,6 +54,7 @@ __all__ = [
     "call",
     "describe",
     "draw_sequence",
+    "film_robot",
     "mode",
     "node",
     "odometry",

@@ -8,9 +8,14 @@ from robot_sim.state import ImuSample
 
 
 class Imu:
-    """Gyro, accelerometer and orientation, with the small errors a real sensor has.
+    """Gyro, accelerometer and orientation, with the errors of a real sensor: noise, and a bias that stays.
 
-    The errors are a function of seed and time only: reading more or less often changes nothing.
+    The errors are a function of seed and time only: reading more or less often changes nothing. A bias is what
+    calibration finds while the robot stands: the mean of the gyro, and of the accelerometer less gravity.
+
+    Attributes:
+        gyro_bias: (3,) rad/s.
+        accelerometer_bias: (3,) m/s².
     """
 
     def __init__(
@@ -27,7 +32,9 @@ class Imu:
         self._orientation = data.sensor("imu_orientation").data
         self._gyro = data.sensor("imu_gyro").data
         self._accelerometer = data.sensor("imu_accelerometer").data
-        self.gyro_bias = np.random.default_rng(seed).normal(0.0, self._parameters.gyro_bias, 3)  # rad/s
+        bias = np.random.default_rng(seed).normal(size=6)
+        self.gyro_bias = self._parameters.gyro_bias * bias[:3]
+        self.accelerometer_bias = self._parameters.accelerometer_bias * bias[3:]
 
     def read(self) -> ImuSample:
         """The present sample."""
@@ -36,5 +43,7 @@ class Imu:
         return ImuSample(
             orientation=np.roll(self._orientation, -1),  # MuJoCo has w first
             angular_velocity=self._gyro + self.gyro_bias + self._parameters.gyro_noise * noise[:3],
-            linear_acceleration=self._accelerometer + self._parameters.accelerometer_noise * noise[3:],
+            linear_acceleration=self._accelerometer
+            + self.accelerometer_bias
+            + self._parameters.accelerometer_noise * noise[3:],
         )

@@ -151,6 +151,7 @@ class ImuParameters:
 
     gyro_bias: float = 0.002  # rad/s, drawn once for each seed
     gyro_noise: float = 0.001  # rad/s
+    accelerometer_bias: float = 0.05  # m/s², likewise
     accelerometer_noise: float = 0.02  # m/s²
 
 

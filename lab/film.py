@@ -1,0 +1,57 @@
+"""A film of the robot, to keep in the notebook."""
+
+from __future__ import annotations
+
+import base64
+import io
+import time
+from html import escape
+from pathlib import Path
+
+from IPython.display import HTML
+
+from lab import topics
+from lab.picture import HEIGHT, WIDTH, take_posture
+from robot_sim.film import Reel
+from robot_sim.gl_backend import NoOpenGLError
+from robot_sim.humanoid import Humanoid
+
+RATE = 12.5  # frames a second
+LONGEST = 60.0  # s, which are about 5 MB in the notebook
+
+
+def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: str = "track") -> HTML:
+    """Film the robot for `seconds` from now on, drawn from its own messages; also written to `file`, a .webp.
+
+    It blocks for that long: start the motion before, without waiting for its end. Where the machine has no OpenGL, the
+    text that would accompany the film is shown, with the reason.
+
+    Raises:
+        NoRobotError: no robot is up.
+        ValueError: the duration is not between 0 and 60 s, or there is no such camera.
+    """
+    if not 0 < seconds <= LONGEST:
+        raise ValueError(f"the film would last {seconds} s; expected more than 0, at most {LONGEST:g}")
+    words = f"The robot for {seconds:g} s, from {topics.pose()}"
+    body = Humanoid()
+    try:
+        reel = Reel(body, WIDTH, HEIGHT, camera=camera, rate=RATE)
+    except NoOpenGLError as error:
+        return HTML(f"<p>{escape(words)}. No film: {escape(str(error))}</p>")
+    webp = io.BytesIO()
+    try:
+        began = time.monotonic()
+        for frame in range(max(1, round(seconds * RATE))):
+            time.sleep(max(0.0, began + frame / RATE - time.monotonic()))
+            take_posture(body)
+            reel.add()
+        reel.save(webp)
+    finally:
+        reel.close()
+    if file is not None:
+        Path(file).write_bytes(webp.getvalue())
+    data = base64.b64encode(webp.getvalue()).decode()
+    return HTML(
+        f'<figure><img src="data:image/webp;base64,{data}" width="{WIDTH}" alt="{escape(words)}">'
+        f"<figcaption>{escape(words)}, to {escape(str(topics.pose()))}</figcaption></figure>"
+    )
