@@ -5,7 +5,10 @@ Lengths in m, masses in kg, angles in degrees as MJCF's compiler is told. x is f
 
 from robot_sim.parameters import Dimensions
 
-FOOT_CONTACT = {"l": (2, 1), "r": (0, 3)}  # contype, conaffinity: the feet meet the world and each other
+# Who meets whom, as contype and conaffinity. Bits: 1 the world, 2 the left foot, 4 the left arm, 8 the right arm.
+FOOT_CONTACT = {"l": (2, 1), "r": (0, 3)}  # the feet meet the world and each other
+ARM_CONTACT = {"l": (4, 9), "r": (8, 5)}  # an arm meets the world, the other arm and the body
+MEETS_ARMS = 'conaffinity="13"'  # the body meets the world and both arms
 
 
 def humanoid_body(size: Dimensions) -> str:
@@ -17,7 +20,7 @@ def humanoid_body(size: Dimensions) -> str:
   <camera name="track" mode="trackcom" pos="1.9 -1.9 0.75" xyaxes="0.7 0.7 0 -0.22 0.22 0.95" fovy="40"/>
   <camera name="side" mode="trackcom" pos="0 -2.9 0.25" xyaxes="1 0 0 0 0.06 1" fovy="40"/>
   <camera name="front" mode="trackcom" pos="2.9 0 0.3" xyaxes="0 1 0 -0.08 0 1" fovy="40"/>
-  <geom name="pelvis" type="box" size="0.07 0.10 0.05" pos="0 0 0.03" mass="5"/>
+  <geom name="pelvis" type="box" {MEETS_ARMS} size="0.07 0.10 0.05" pos="0 0 0.03" mass="5"/>
   <site name="imu" pos="0 0 0.05" size="0.01"/>
   {torso()}
   {leg("l", size)}
@@ -34,7 +37,7 @@ def torso() -> str:
   <geom class="dark" type="cylinder" size="0.05 0.03"/>
   <body name="torso">
     <joint name="waist_pitch" class="waist" axis="0 1 0" range="-30 60"/>
-    <geom name="torso" type="box" size="0.075 0.12 0.14" pos="0 0 0.19" mass="10"/>
+    <geom name="torso" type="box" {MEETS_ARMS} size="0.075 0.12 0.14" pos="0 0 0.19" mass="10"/>
     <geom class="accent" type="box" size="0.01 0.08 0.06" pos="0.07 0 0.22"/>
     {head()}
   </body>
@@ -45,14 +48,14 @@ def torso() -> str:
 
 def head() -> str:
     """Neck (pan) and head (tilt) with two eyes and a camera."""
-    return """
+    return f"""
 <body name="neck" pos="0 0 0.36">
   <joint name="head_pan" class="head" axis="0 0 1" range="-90 90"/>
   <inertial pos="0 0 0" mass="0.3" diaginertia="0.0005 0.0005 0.0005"/>
   <geom class="dark" type="cylinder" size="0.03 0.03"/>
   <body name="head" pos="0 0 0.03">
     <joint name="head_tilt" class="head" axis="0 1 0" range="-40 50"/>
-    <geom name="head" type="ellipsoid" size="0.085 0.075 0.095" pos="0 0 0.09" mass="1.5"/>
+    <geom name="head" type="ellipsoid" {MEETS_ARMS} size="0.085 0.075 0.095" pos="0 0 0.09" mass="1.5"/>
     <geom class="dark" type="ellipsoid" size="0.05 0.058 0.03" pos="0.042 0 0.105"/>
     <geom class="eye" type="sphere" size="0.012" pos="0.086 0.026 0.108"/>
     <geom class="eye" type="sphere" size="0.012" pos="0.086 -0.026 0.108"/>
@@ -75,7 +78,8 @@ def leg(side: str, size: Dimensions) -> str:
     <joint name="{side}_hip_roll" class="hip" axis="1 0 0" range="-45 45"/>
     <body name="{side}_thigh">
       <joint name="{side}_hip_pitch" class="hip" axis="0 1 0" range="-120 60"/>
-      <geom type="capsule" size="0.05" fromto="0 0 -0.04 0 0 {0.03 - size.thigh}" mass="3"/>
+      <geom name="{side}_thigh" type="capsule" {MEETS_ARMS}
+            size="0.05" fromto="0 0 -0.04 0 0 {0.03 - size.thigh}" mass="3"/>
       <body name="{side}_shank" pos="0 0 {-size.thigh}">
         <joint name="{side}_knee" class="hip" axis="0 1 0" range="0 140"/>
         <geom type="capsule" size="0.04" fromto="0 0 -0.02 0 0 {0.05 - size.shank}" mass="1.8"/>
@@ -105,6 +109,7 @@ def leg(side: str, size: Dimensions) -> str:
 def arm(side: str) -> str:
     """One arm of seven joints with a two-fingered hand that opens sideways."""
     y, roll_range = (0.17, "-20 120") if side == "l" else (-0.17, "-120 20")
+    meets = 'contype="{}" conaffinity="{}"'.format(*ARM_CONTACT[side])
     return f"""
 <body name="{side}_shoulder_pitch_link" pos="0 {y} 0.29">
   <joint name="{side}_shoulder_pitch" class="arm" axis="0 1 0" range="-170 70"/>
@@ -114,11 +119,11 @@ def arm(side: str) -> str:
     <joint name="{side}_shoulder_roll" class="arm" axis="1 0 0" range="{roll_range}"/>
     <body name="{side}_upper_arm">
       <joint name="{side}_shoulder_yaw" class="arm" axis="0 0 1" range="-90 90"/>
-      <geom type="capsule" size="0.035" fromto="0 0 -0.05 0 0 -0.20" mass="1"/>
+      <geom name="{side}_upper_arm" type="capsule" {meets} size="0.035" fromto="0 0 -0.05 0 0 -0.20" mass="1"/>
       <body name="{side}_forearm" pos="0 0 -0.22">
         <joint name="{side}_elbow" class="arm" axis="0 1 0" range="-135 0"/>
         <geom class="dark" type="sphere" size="0.037"/>
-        <geom type="capsule" size="0.03" fromto="0 0 0 0 0 -0.15" mass="0.7"/>
+        <geom name="{side}_forearm" type="capsule" {meets} size="0.03" fromto="0 0 0 0 0 -0.15" mass="0.7"/>
         <body name="{side}_wrist_yaw_link" pos="0 0 -0.19">
           <joint name="{side}_wrist_yaw" class="wrist" axis="0 0 1" range="-120 120"/>
           <geom type="sphere" size="0.027" mass="0.15"/>
@@ -127,7 +132,7 @@ def arm(side: str) -> str:
             <joint name="{side}_wrist_pitch" class="wrist" axis="0 1 0" range="-90 90"/>
             <body name="{side}_hand">
               <joint name="{side}_wrist_roll" class="wrist" axis="1 0 0" range="-60 60"/>
-              <geom name="{side}_palm" type="box" size="0.02 0.055 0.03" pos="0 0 -0.045" mass="0.25"/>
+              <geom name="{side}_palm" type="box" {meets} size="0.02 0.055 0.03" pos="0 0 -0.045" mass="0.25"/>
               <site name="{side}_grip" pos="0 0 -0.11" size="0.006" rgba="0 0 0 0"/>
               {finger(side, "finger_1", 1)}
               {finger(side, "finger_2", -1)}

@@ -27,8 +27,8 @@ def build_model(
 def model_xml(scene: str, timestep: float, size: Dimensions) -> str:
     """The model as MJCF text.
 
-    Elliptic friction cones with a high impratio keep a grasped object from creeping out of the hand. Robot
-    geoms (contype 0, conaffinity 1) meet the world but not each other, except for the feet.
+    Elliptic friction cones with a high impratio keep a grasped object from creeping out of the hand. All parts of
+    the robot meet the world; the arms also meet trunk, thighs and each other, and so do the feet.
     """
     return f"""
 <mujoco model="humanoid">

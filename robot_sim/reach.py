@@ -15,9 +15,9 @@ from robot_sim.posture import MIRRORED
 HARDLY = 1e-3  # damping that only keeps a matrix invertible
 RELAXED_ARM = {
     "shoulder_pitch": 0.3,
-    "shoulder_roll": 0.25,
+    "shoulder_roll": 0.7,
     "elbow": -1.4,
-}  # rad, left; where a free arm drifts to
+}  # rad, left; where a free arm drifts to: the elbow away from the body
 
 
 @dataclass(frozen=True)

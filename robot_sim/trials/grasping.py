@@ -52,9 +52,7 @@ class Grasp:
     def approach(self) -> bool:
         """Bring the open hand around the cup."""
         cup = self.cup()
-        shoulder = self.robot.data.body(f"{SIDE}_shoulder_pitch_link").xpos
-        # Half of the bearing: the hand need not point straight away from the shoulder, and the wrist turns less.
-        self.heading = 0.5 * math.atan2(cup[1] - shoulder[1], cup[0] - shoulder[0])
+        self.heading = self._heading_for(cup[0], cup[1])
         target = cup + np.array([0.0, 0.0, GRIP_ABOVE_CENTRE])
         back = self.move_to(target - APPROACH * self._ahead(), speed=0.3, within=0.008, turned=0.08)
         return back and self.move_to(target, speed=0.12, within=0.006)
@@ -94,6 +92,7 @@ class Grasp:
 
     def _place(self, x: float, y: float, height: float) -> None:
         """Put the cup down with its centre at (x, y, height) m, correcting by where it is seen to be."""
+        self.heading = self._heading_for(x, y)
         above = np.array([x, y, height + LIFT]) + self.grip_point() - self.cup()
         self.move_to(above, speed=0.2, within=0.01)
         simulate(self.robot, 0.4)
@@ -119,7 +118,7 @@ class Grasp:
         cos, sin = math.cos(self.heading), math.sin(self.heading)
         rotation = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]) @ FINGERS_FORWARD
         x, y, z = position.tolist()
-        reach = self.robot.reach(SIDE, HandTarget((x, y, z), rotation, speed))
+        reach = self.robot.reach(SIDE, HandTarget((x, y, z), rotation, speed, with_waist=True))
         limit = 2.0 + reach.error() / speed
 
         def there() -> bool:
@@ -130,6 +129,11 @@ class Grasp:
     def grip_point(self) -> np.ndarray:
         """Where the fingers meet, (3,) m."""
         return self.robot.data.site(f"{SIDE}_grip").xpos.copy()
+
+    def _heading_for(self, x: float, y: float) -> float:
+        """Half of the bearing from the shoulder: the wrist turns less than for a hand that points straight away."""
+        shoulder = self.robot.data.body(f"{SIDE}_shoulder_pitch_link").xpos
+        return 0.5 * math.atan2(y - shoulder[1], x - shoulder[0])
 
     def _ahead(self) -> np.ndarray:
         return np.array([math.cos(self.heading), math.sin(self.heading), 0.0])

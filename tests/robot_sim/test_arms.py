@@ -36,7 +36,7 @@ def to(position: float, time: float, velocity: float | None = None, name: str = 
 
 
 def test_a_trajectory_is_followed_to_the_milliradian(humanoid):
-    ready = (0.7, -0.15, 0.1, -2.0, 0.2, -0.1, 0.05)
+    ready = (0.7, -0.25, -0.1, -2.0, 0.2, -0.1, 0.05)
     names = tuple(arm_joints("r"))
     humanoid.move_joints(JointTrajectory(names, (Waypoint(1.0, ready, (0.0,) * 7),)))
     simulate(humanoid, 1.5)
