@@ -10,6 +10,7 @@ import numpy as np
 from robot_sim.balance_gains import BalanceGains, trunk_of
 from robot_sim.battery import Battery
 from robot_sim.body_height import BodyHeight
+from robot_sim.floor import Floor
 from robot_sim.footsteps import Command, Goal
 from robot_sim.gait import Phase
 from robot_sim.hand import Hand
@@ -38,6 +39,7 @@ class Humanoid:
         scene: "flat" or "table" (a table with a cup in front of the robot).
         seed: of the sensors' errors.
         timestep: of physics and controller, s.
+        floor: what it walks on; a level plane unless given.
 
     Raises:
         ValueError: the scene is not known.
@@ -50,9 +52,11 @@ class Humanoid:
         motors_enabled: torque is on. False after ``set_motor_power(False)``, after a fall and at zero charge.
     """
 
-    def __init__(self, scene: str = "flat", *, seed: int = 0, timestep: float = 0.005) -> None:
+    def __init__(
+        self, scene: str = "flat", *, seed: int = 0, timestep: float = 0.005, floor: Floor | None = None
+    ) -> None:
         self.scene = scene
-        self.model = build_model(scene, timestep=timestep)
+        self.model = build_model(scene, timestep=timestep, floor=floor)
         self.data = mujoco.MjData(self.model)
         self.timestep = timestep
         self._seed = seed

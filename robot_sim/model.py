@@ -4,12 +4,17 @@ import mujoco
 
 from robot_sim.actuators import actuators, sensors
 from robot_sim.body_parts import humanoid_body
+from robot_sim.floor import Floor
 from robot_sim.parameters import Dimensions
 from robot_sim.scenes import scene_bodies
 
 
 def build_model(
-    scene: str = "flat", *, timestep: float = 0.005, size: Dimensions | None = None
+    scene: str = "flat",
+    *,
+    timestep: float = 0.005,
+    size: Dimensions | None = None,
+    floor: Floor | None = None,
 ) -> mujoco.MjModel:
     """Compile the humanoid (38 kg, 34 actuators) standing in ``scene``.
 
@@ -17,14 +22,15 @@ def build_model(
         scene: "flat" or "table".
         timestep: of the simulation, s.
         size: lengths of the body.
+        floor: what it stands on; a level plane unless given.
 
     Raises:
         ValueError: the scene is not known.
     """
-    return mujoco.MjModel.from_xml_string(model_xml(scene, timestep, size or Dimensions()))
+    return mujoco.MjModel.from_xml_string(model_xml(scene, timestep, size or Dimensions(), floor or Floor()))
 
 
-def model_xml(scene: str, timestep: float, size: Dimensions) -> str:
+def model_xml(scene: str, timestep: float, size: Dimensions, floor: Floor) -> str:
     """The model as MJCF text.
 
     Elliptic friction cones with a high impratio keep a grasped object from creeping out of the hand. All parts of
@@ -38,7 +44,7 @@ def model_xml(scene: str, timestep: float, size: Dimensions) -> str:
   {LOOKS}
   {DEFAULTS}
   <worldbody>
-    <geom name="floor" type="plane" size="0 0 0.05" material="floor" contype="1" conaffinity="1"/>
+    {floor.mjcf()}
     {humanoid_body(size)}
     {scene_bodies(scene)}
   </worldbody>

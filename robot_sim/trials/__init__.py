@@ -4,7 +4,19 @@ from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
-from robot_sim.trials import carries, crouches, goals, grasps, pushes, reaches, servo, soak, speed, stops
+from robot_sim.trials import (
+    carries,
+    crouches,
+    goals,
+    grasps,
+    pushes,
+    reaches,
+    servo,
+    soak,
+    speed,
+    stops,
+    terrain,
+)
 from robot_sim.trials.trial import Summary, Trial
 
 TRIALS: dict[str, Trial] = {
@@ -13,6 +25,7 @@ TRIALS: dict[str, Trial] = {
     "servo": servo.TRIAL,
     "soak": soak.TRIAL,
     "pushes": pushes.TRIAL,
+    "terrain": terrain.TRIAL,
     "crouches": crouches.TRIAL,
     "reaches": reaches.TRIAL,
     "grasps": grasps.TRIAL,
