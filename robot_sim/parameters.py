@@ -105,6 +105,15 @@ class GaitParameters:
 
 
 @dataclass(frozen=True, slots=True)
+class SlopeParameters:
+    """How the slope of the floor is felt, and what is believed of it."""
+
+    filter_time: float = 0.2  # s
+    level: float = 0.0175  # m/m; less is level
+    steepest: float = 0.09  # m/m; more is a foot on its edge
+
+
+@dataclass(frozen=True, slots=True)
 class BalanceParameters:
     """Gains of the whole-body controller and limits of the contact forces."""
 

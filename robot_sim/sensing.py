@@ -8,6 +8,7 @@ import math
 
 import mujoco
 
+from robot_sim.floor_slope import FloorSlope
 from robot_sim.joint_names import LEFT, RIGHT, SIDES
 from robot_sim.parameters import GRAVITY
 from robot_sim.planar import wrap
@@ -22,6 +23,7 @@ class Sensing:
         dcm: divergent component of motion (x, y), m: com + com_velocity / omega.
         omega: natural frequency of the linear inverted pendulum √(g/h), 1/s.
         ground: height of the floor under the supporting foot, m.
+        slope: rise of the floor per m along x and y, as the soles feel it.
         soles: centres of the two soles (x, y, z), m; left first.
         sole_rotations: their rotation matrices, row by row.
         foot_yaws: headings of the feet, rad.
@@ -43,6 +45,7 @@ class Sensing:
         self._pelvis = data.xpos[pelvis]
         self._pelvis_rotation = data.xmat[pelvis]
         self._base_velocity = data.qvel[root : root + 6]
+        self._slope = FloorSlope(model.opt.timestep)
         self.read(swing_side=None)
 
     def read(self, swing_side: int | None) -> None:
@@ -58,6 +61,9 @@ class Sensing:
         self.base_velocity = self._base_velocity.tolist()
 
         left, right = self.soles
+        if swing_side is not None:
+            self._slope.feel(self.sole_rotations[1 - swing_side])
+        self.slope = self._slope.estimate()
         self.ground = min(left[2], right[2]) if swing_side is None else self.soles[1 - swing_side][2]
         self.omega = math.sqrt(GRAVITY / max(0.3, self.com[2] - self.ground))
         self.dcm = (

@@ -158,9 +158,15 @@ class Step:
             self._lift_off,
             self._lift_off_height,
             self._landing,
-            sensed.soles[self.stance_side][2],
+            self._floor_at(self._landing, sensed),
             self._parameters.gait.lift,
             self.progress,
             rate,
             overdue=self.time - self.duration,
+            slope=sensed.slope,
         )
+
+    def _floor_at(self, place: Footstep, sensed: Sensing) -> float:
+        """Height (m) of the floor where a foot shall land, from where the other stands."""
+        x, y, height = sensed.soles[self.stance_side]
+        return height + sensed.slope[0] * (place.x - x) + sensed.slope[1] * (place.y - y)

@@ -18,6 +18,7 @@ class SwingReference(NamedTuple):
     yaw: float  # rad
     yaw_rate: float  # rad/s
     yaw_acceleration: float  # rad/s²
+    slope: tuple[float, float]  # rise per m of the floor under it, along x and y
 
 
 PUSH_DOWN_SPEED = 0.3  # m/s, when the floor is later than expected
@@ -33,6 +34,7 @@ def swing_reference(
     progress: float,
     rate: float,
     overdue: float,
+    slope: tuple[float, float],
 ) -> SwingReference:
     """The reference of a foot at ``progress`` (0 to 1) of its swing, which passes at ``rate`` (1/s).
 
@@ -60,4 +62,5 @@ def swing_reference(
         start.yaw + turn * blend,
         turn * blend_rate,
         turn * blend_acceleration,
+        slope,
     )

@@ -163,7 +163,7 @@ class WholeBody:
         rotation: list[float],
         velocity: list[float],
     ) -> list[float]:
-        """Feed-forward plus PD on the path and on a level sole."""
+        """Feed-forward plus PD on the path and on a sole that lies as the floor does."""
         gains = self._balance
         linear = [
             feed_forward + gains.swing_stiffness * (goal - at) + gains.swing_damping * (goal_speed - speed)
@@ -171,7 +171,8 @@ class WholeBody:
                 swing.acceleration, swing.position, position, swing.velocity, velocity[:3], strict=True
             )
         ]
-        tilt = upright_error(rotation, math.cos(swing.yaw), math.sin(swing.yaw))
+        roll, pitch, turn = upright_error(rotation, math.cos(swing.yaw), math.sin(swing.yaw))
+        tilt = (roll + swing.slope[1], pitch - swing.slope[0], turn)
         angular = [
             gains.swing_turn_stiffness * error - gains.swing_turn_damping * rate
             for error, rate in zip(tilt, velocity[3:], strict=True)

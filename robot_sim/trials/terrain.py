@@ -15,6 +15,7 @@ CLEAR = 0.3  # m around the feet at the start
 REFERENCE = {  # runs of 24 that arrive, for slopes in degrees and bumps in m
     ("slope", 2.0): 24,
     ("slope", 3.0): 24,
+    ("slope", 5.0): 24,
     ("bumps", 0.005): 24,
     ("bumps", 0.010): 24,
 }

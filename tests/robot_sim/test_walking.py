@@ -5,7 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from robot_sim.floor import Floor
 from robot_sim.humanoid import Humanoid
+from robot_sim.parameters import Dimensions
 from robot_sim.planar import wrap
 from robot_sim.state import Mode
 from robot_sim.trials.trial import base_speed, simulate
@@ -146,3 +148,21 @@ def test_a_velocity_that_is_not_a_number_is_refused(humanoid, command):
 def test_a_pose_that_is_not_a_number_is_refused(humanoid):
     with pytest.raises(ValueError, match="expected finite numbers"):
         humanoid.walk_to(0.0, math.nan, 0.0)
+
+
+@pytest.mark.parametrize("uphill", [0.0, 1.6, 3.1, -1.6])
+def test_it_walks_on_a_slope_of_three_degrees(uphill):
+    humanoid = Humanoid(floor=Floor(slope=math.radians(3.0), uphill=uphill))
+    simulate(humanoid, 0.5)
+    humanoid.walk_to(1.0, 0.0, 0.0)
+    assert simulate(humanoid, 15.0, until=lambda: humanoid.arrived)
+    simulate(humanoid, 1.0)
+    rise = humanoid.base_pose().position[2] - Dimensions().stance_height
+    assert rise == pytest.approx(math.tan(math.radians(3.0)) * math.cos(uphill), abs=0.02)
+    assert humanoid.mode is Mode.STANDING
+
+
+def test_it_steps_over_a_bump():
+    humanoid = Humanoid(floor=Floor(bumps=((0.3, 0.09, 0.01), (0.6, -0.09, 0.01))))
+    humanoid.walk_to(1.0, 0.0, 0.0)
+    assert simulate(humanoid, 15.0, until=lambda: humanoid.arrived)
