@@ -9,6 +9,7 @@ from robot_sim.trials import (
     crouches,
     goals,
     grasps,
+    limits,
     pushes,
     reaches,
     servo,
@@ -21,6 +22,7 @@ from robot_sim.trials.trial import Summary, Trial
 
 TRIALS: dict[str, Trial] = {
     "goals": goals.TRIAL,
+    "limits": limits.TRIAL,
     "stops": stops.TRIAL,
     "servo": servo.TRIAL,
     "soak": soak.TRIAL,

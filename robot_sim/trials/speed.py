@@ -9,7 +9,7 @@ from robot_sim.parameters import Dimensions
 from robot_sim.posture import take_stance
 from robot_sim.trials.trial import Clock, Run, Summary, Trial, simulate, summary
 
-REQUIRED = 20.0  # simulated seconds per processor second
+REQUIRED = 30.0  # simulated seconds per processor second
 BARE, STANDING, WALKING = "bare mj_step", "standing", "walking"
 PROVEN = {STANDING: 44, WALKING: 39}  # what this controller can reach
 

@@ -26,5 +26,5 @@ def test_a_students_controller_reaches_its_goal(style):
 
 
 def test_an_unknown_trial_is_refused_with_the_known_ones():
-    with pytest.raises(ValueError, match=r"'dance' is not known.*goals, stops, servo"):
+    with pytest.raises(ValueError, match=r"'dance' is not known.*goals, limits, stops"):
         run_trials(["dance"])
