@@ -25,6 +25,7 @@ from robot_sim.push import Pusher
 from robot_sim.reach import HandTarget, Reach
 from robot_sim.scenes import OBJECTS
 from robot_sim.state import BasePose, BaseVelocity, ImuSample, JointState, Mode, ObjectPose
+from robot_sim.state_estimate import StateEstimate
 from robot_sim.upper_body import UpperBody
 from robot_sim.velocity_limits import walkable_velocity
 from robot_sim.walker import Walker
@@ -40,6 +41,7 @@ class Humanoid:
         seed: of the sensors' errors.
         timestep: of physics and controller, s.
         floor: what it walks on; a level plane unless given.
+        estimates_state: it acts on what its sensors tell instead of the simulator's truth.
 
     Raises:
         ValueError: the scene is not known.
@@ -53,13 +55,20 @@ class Humanoid:
     """
 
     def __init__(
-        self, scene: str = "flat", *, seed: int = 0, timestep: float = 0.005, floor: Floor | None = None
+        self,
+        scene: str = "flat",
+        *,
+        seed: int = 0,
+        timestep: float = 0.005,
+        floor: Floor | None = None,
+        estimates_state: bool = False,
     ) -> None:
         self.scene = scene
         self.model = build_model(scene, timestep=timestep, floor=floor)
         self.data = mujoco.MjData(self.model)
         self.timestep = timestep
         self._seed = seed
+        self._estimates_state = estimates_state
         self._parameters = WalkerParameters()
         self._trunk = trunk_of(self.model)
         self._limits = WalkingLimits()
@@ -91,7 +100,9 @@ class Humanoid:
 
     def _take_control(self) -> None:
         """Begin to balance from the state the robot is in."""
-        self._walker = Walker(self.model, self.data, self._trunk, self._parameters)
+        self._estimate = StateEstimate(self.model, self.data, self._imu) if self._estimates_state else None
+        believed = self._estimate.data if self._estimate else self.data
+        self._walker = Walker(self.model, self.data, believed, self._trunk, self._parameters)
         self._height = BodyHeight(self._walker, self._parameters.dimensions, HeightLimits())
         self._pending: Command = None
         self._upper_body = UpperBody(self.model, self.data)
@@ -100,6 +111,8 @@ class Humanoid:
         """Simulate one timestep."""
         mujoco.mj_step1(self.model, self.data)
         if self.motors_enabled:
+            if self._estimate:
+                self._estimate.tick(self.timestep)
             self._height.tick(self.timestep)
             if self._pending is not None and self._height.is_risen:
                 self._walker.follow(self._pending)

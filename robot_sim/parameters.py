@@ -165,6 +165,18 @@ class ImuParameters:
 
 
 @dataclass(frozen=True, slots=True)
+class EstimateParameters:
+    """How sensors are blended into the state the robot believes to be in."""
+
+    contact_force: float = 30.0  # N; a foot that bears more stands still
+    tilt_gain: float = 0.3  # 1/s, of the accelerometer's correction
+    odometry_gain: float = 0.2  # of the velocity's error, each timestep
+    anchor_gain: float = 0.1  # of the position's error, each timestep
+    still: float = 0.03  # rad/s; a slower gyro shows its bias
+    bias_time: float = 0.5  # s, to learn it
+
+
+@dataclass(frozen=True, slots=True)
 class FallThresholds:
     """Beyond either the robot has fallen."""
 

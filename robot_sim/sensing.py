@@ -17,6 +17,10 @@ from robot_sim.planar import wrap
 class Sensing:
     """The robot as its controller sees it, in the world frame.
 
+    Args:
+        data: the state it is in, or believes to be in.
+        measured: has the touch sensors.
+
     Attributes:
         com: centre of mass (x, y, z), m.
         com_velocity: (x, y, z), m/s.
@@ -33,13 +37,13 @@ class Sensing:
         base_velocity: linear in the world, angular in base_link: MuJoCo's six velocities of a free joint.
     """
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, measured: mujoco.MjData) -> None:
         pelvis = model.body("pelvis").id
         soles = [model.site(f"{side}_sole").id for side in SIDES]
         root = model.joint("root").dofadr[0]
-        self._com = _sensor(model, data, "com")
-        self._com_velocity = _sensor(model, data, "com_velocity")
-        self._loads = [_sensor(model, data, f"{side}_foot_touch") for side in SIDES]
+        self._com = data.subtree_com[pelvis]
+        self._com_velocity = data.subtree_linvel[pelvis]
+        self._loads = [_sensor(model, measured, f"{side}_foot_touch") for side in SIDES]
         self._soles = [data.site_xpos[sole] for sole in soles]
         self._sole_rotations = [data.site_xmat[sole] for sole in soles]
         self._pelvis = data.xpos[pelvis]

@@ -11,14 +11,24 @@ from robot_sim.whole_body import WholeBody
 
 
 class Walker:
-    """Keeps a humanoid on its feet and walks it; make a fresh one whenever the data's state was replaced."""
+    """Keeps a humanoid on its feet and walks it; make a fresh one whenever the data's state was replaced.
+
+    Args:
+        data: whose motors and touch sensors are used.
+        believed: the state to act on; ``data`` itself unless the state is estimated.
+    """
 
     def __init__(
-        self, model: mujoco.MjModel, data: mujoco.MjData, trunk: Trunk, parameters: WalkerParameters
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        believed: mujoco.MjData,
+        trunk: Trunk,
+        parameters: WalkerParameters,
     ) -> None:
         self.gait = Gait(parameters)
-        self.sensed = Sensing(model, data)
-        self._whole_body = WholeBody(model, data, trunk, parameters)
+        self.sensed = Sensing(model, believed, data)
+        self._whole_body = WholeBody(model, believed, data.ctrl, trunk, parameters)
 
     @property
     def stands(self) -> bool:

@@ -39,7 +39,12 @@ class WholeBody:
     """
 
     def __init__(
-        self, model: mujoco.MjModel, data: mujoco.MjData, trunk: Trunk, parameters: WalkerParameters
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        ctrl: np.ndarray,
+        trunk: Trunk,
+        parameters: WalkerParameters,
     ) -> None:
         self.cop_shift: Point = (0.0, 0.0)
         self._model, self._data = model, data
@@ -61,7 +66,7 @@ class WholeBody:
         self._torque_limits = [model.actuator_ctrlrange[motors].T.copy() for motors in self._motors]
         self._friction = [model.dof_damping[leg].copy() for leg in self._legs]
 
-        self._velocity, self._bias, self._ctrl = data.qvel, data.qfrc_bias, data.ctrl
+        self._velocity, self._bias, self._ctrl = data.qvel, data.qfrc_bias, ctrl
         self._inertia = np.zeros((model.nv, model.nv))
         self._jacobian = np.zeros((2, 6, model.nv))
         self._leg_jacobian = np.zeros((2, 6, 6))

@@ -7,6 +7,7 @@ from multiprocessing import get_context
 from robot_sim.trials import (
     carries,
     crouches,
+    estimates,
     goals,
     grasps,
     limits,
@@ -28,6 +29,7 @@ TRIALS: dict[str, Trial] = {
     "soak": soak.TRIAL,
     "pushes": pushes.TRIAL,
     "terrain": terrain.TRIAL,
+    "estimates": estimates.TRIAL,
     "crouches": crouches.TRIAL,
     "reaches": reaches.TRIAL,
     "grasps": grasps.TRIAL,

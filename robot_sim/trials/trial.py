@@ -108,15 +108,19 @@ def base_speed(humanoid: Humanoid) -> float:
 
 
 def run_of(
-    case: Sequence[float], humanoid: Humanoid, clock: Clock, note: str, values: dict[str, float]
+    case: Sequence[float | str],
+    humanoid: Humanoid,
+    clock: Clock,
+    note: str,
+    values: dict[str, float] | None = None,
 ) -> Run:
     """The run of a case that has ended now; a fall is noted before anything else."""
     note = "fell" if has_fallen(humanoid) else note
     return Run(
-        case=tuple(round(number, 3) for number in case),
+        case=tuple(part if isinstance(part, str) else round(part, 3) for part in case),
         success=not note,
         note=note,
-        values={"duration_s": humanoid.time, **values},
+        values={"duration_s": humanoid.time, **(values or {})},
         simulated=humanoid.time,
         cpu=clock.read(),
     )

@@ -1,0 +1,67 @@
+"""Walking by IMU, encoders and contacts, without the simulator's truth."""
+
+import numpy as np
+import pytest
+
+from robot_sim.humanoid import Humanoid
+from robot_sim.imu import Imu
+from robot_sim.state import Mode
+from robot_sim.state_estimate import StateEstimate
+from robot_sim.trials.trial import simulate
+
+
+def test_it_walks_to_a_goal_by_its_own_sensors():
+    humanoid = Humanoid(seed=2, estimates_state=True)
+    simulate(humanoid, 1.0)
+    humanoid.walk_to(0.6, 0.3, 0.5)
+    assert simulate(humanoid, 15.0, until=lambda: humanoid.arrived)
+    simulate(humanoid, 1.0)
+    assert humanoid.mode is Mode.STANDING
+    feet = (humanoid.data.site("l_sole").xpos + humanoid.data.site("r_sole").xpos)[:2] / 2
+    assert feet == pytest.approx([0.6, 0.3], abs=0.06)
+
+
+def test_the_estimate_follows_the_robot_through_a_walk():
+    humanoid = Humanoid(seed=3)
+    estimate = StateEstimate(humanoid.model, humanoid.data, Imu(humanoid.model, humanoid.data, 3))
+    position, velocity = [], []
+
+    def step():
+        humanoid.step()
+        estimate.tick(humanoid.timestep)
+        position.append(estimate.data.qpos[:3] - humanoid.data.qpos[:3])
+        velocity.append(estimate.data.qvel[:3] - humanoid.data.qvel[:3])
+
+    for _ in range(200):
+        step()
+    humanoid.walk_velocity(0.3, 0.0, 0.3)
+    for _ in range(1200):
+        step()
+    assert np.abs(position).max() < 0.08
+    assert np.abs(np.array(position)[:, 2]).max() < 0.01  # the feet tell the height
+    assert np.sqrt(np.mean(np.square(velocity))) < 0.03
+
+
+def test_it_does_not_look_at_the_truth():
+    """Carried away on a moving floor, as it were, it stands as before and believes to be where it was."""
+    humanoid = Humanoid(estimates_state=True)
+    simulate(humanoid, 1.0)
+    humanoid.data.qpos[:2] += 0.7, -0.4
+    simulate(humanoid, 0.2)
+    humanoid.walk_to(0.0, 0.0, 0.0)
+    simulate(humanoid, 3.0)
+    assert humanoid.mode is Mode.STANDING
+    assert humanoid.base_pose().position[:2] == pytest.approx([0.7, -0.4], abs=0.05)
+
+
+def test_reset_starts_the_estimate_anew():
+    humanoid = Humanoid(seed=5, estimates_state=True)
+
+    def walk():
+        humanoid.walk_velocity(0.2, 0.0, 0.1)
+        simulate(humanoid, 2.0)
+        return humanoid.data.qpos.tobytes()
+
+    first = walk()
+    humanoid.reset()
+    assert walk() == first
