@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import signal
 import sys
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import rclpy
@@ -35,6 +36,8 @@ def main() -> None:
     signal.signal(signal.SIGINT, stop)
     signal.signal(signal.SIGTERM, stop)
 
+    if arguments.robot:
+        return _show_other_robot(arguments.robot, arguments.port, lambda: running)
     truth = TruthWriter(arguments.truth_fd) if arguments.truth_fd is not None else None
     control = ScenarioControl(arguments.control_fd) if arguments.control_fd is not None else None
     humanoid = Humanoid(arguments.scene, seed=arguments.seed)
@@ -73,17 +76,32 @@ def main() -> None:
         rclpy.try_shutdown()
 
 
+def _show_other_robot(name: str, port: int, is_running: Callable[[], bool]) -> None:
+    from robot_sim.other_robots import RobotUnavailable, show
+
+    try:
+        show(name, port, is_running)
+    except RobotUnavailable as error:
+        sys.exit(f"course sim: {error}")
+    except (ImportError, OSError) as error:
+        sys.exit(_why_there_is_no_view(error))
+
+
 def _open_view(humanoid: Humanoid, port: int) -> WebView:
     from robot_sim.web_view import WebView
 
     try:
         view = WebView(humanoid, port)
-    except ImportError:
-        sys.exit("course sim: --view needs MuJoCo 4, which needs Python 3.11 or newer")
-    except OSError as error:
-        sys.exit(f"course sim: the view could not be opened: {error}")
+    except (ImportError, OSError) as error:
+        sys.exit(_why_there_is_no_view(error))
     print(f"view: {view.url}", flush=True)
     return view
+
+
+def _why_there_is_no_view(error: ImportError | OSError) -> str:
+    if isinstance(error, ImportError):
+        return "course sim: the view needs MuJoCo 4, which needs Python 3.11 or newer"
+    return f"course sim: the view could not be opened: {error}"
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -98,6 +116,11 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--view", action="store_true", help="show the robot in a browser on this machine")
     parser.add_argument(
         "--port", type=int, default=0, help="of the view (default: the first free from 8080 on)"
+    )
+    parser.add_argument(
+        "--robot",
+        metavar="NAME",
+        help="look at a real robot instead, such as unitree_g1: it stands in the browser view and has no ROS side",
     )
     parser.add_argument("--scene", choices=("flat", "table"), default="flat")
     parser.add_argument("--crouch", action="store_true", help="begin in a crouch instead of standing")

@@ -6,24 +6,30 @@ import copy
 import time
 from concurrent.futures import Future
 from socket import create_connection, socket
+from typing import Protocol
 
 import mujoco
-
-from robot_sim.humanoid import Humanoid
 
 FRAMES = 25.0  # a second, real
 LOOPBACK = "127.0.0.1"
 STARTED_WITHIN = 30.0  # s
 
 
+class Viewed(Protocol):
+    """A robot in MuJoCo."""
+
+    model: mujoco.MjModel
+    data: mujoco.MjData
+
+
 class WebView:
-    """Shows a humanoid at ``url`` while ``show()`` is called; ``close()`` ends it.
+    """Shows a robot at ``url`` while ``show()`` is called; ``close()`` ends it.
 
     The browser draws; what leaves this process is the state, a few KB a frame. MuJoCo's viewer has no password and
     would listen on every interface, so it is bound to the loopback interface here.
 
     Args:
-        humanoid: whom to show.
+        robot: whom to show.
         port: where to listen; 0 takes the first free one from 8080 on.
 
     Raises:
@@ -31,7 +37,7 @@ class WebView:
         ImportError: this MuJoCo is older than 4.0 and has no web viewer.
     """
 
-    def __init__(self, humanoid: Humanoid, port: int = 0) -> None:
+    def __init__(self, robot: Viewed, port: int = 0) -> None:
         # Only now: these imports take half a second, and a robot that nobody looks at does not need them.
         from mujoco.studio import launch_thread, viewer_protocol, web_viewer
         from mujoco.studio.web import web_server
@@ -53,8 +59,8 @@ class WebView:
             None
         )  # it names a network that this one is not bound to
         try:
-            config = viewer_protocol.ViewerConfig(title="humanoid", gfx="web", http_port=port)
-            camera = _following_camera(humanoid.model)
+            config = viewer_protocol.ViewerConfig(title="robot", gfx="web", http_port=port)
+            camera = _following_camera(robot.model)
             self._viewer = launch_thread.launch_thread(
                 lambda endpoint: viewer_protocol.run_viewer_loop(
                     web_viewer.WebViewer(config, endpoint, camera=camera)
@@ -63,9 +69,9 @@ class WebView:
             port = bound.result(STARTED_WITHIN)
         finally:
             web_server.bind_public_socket = bind
-        self._humanoid = humanoid
+        self._robot = robot
         # Copies, because the viewer lets its user drag, reset and load whatever it was given.
-        self._model = copy.copy(humanoid.model)
+        self._model = copy.copy(robot.model)
         self._data = mujoco.MjData(self._model)
         self._viewer.set_model(self._model, data=self._data)
         self._next_frame = 0.0
@@ -77,7 +83,7 @@ class WebView:
         now = time.monotonic()
         if now >= self._next_frame:
             self._next_frame = now + 1 / FRAMES
-            mujoco.mj_copyData(self._data, self._model, self._humanoid.data)
+            mujoco.mj_copyData(self._data, self._model, self._robot.data)
             self._viewer.sync()
 
     def close(self) -> None:
@@ -89,7 +95,8 @@ def _following_camera(model: mujoco.MjModel) -> mujoco.MjvCamera:
     """A camera in front of the robot that goes along with it and can be turned."""
     camera = mujoco.MjvCamera()
     camera.type = mujoco.mjtCamera.mjCAMERA_TRACKING
-    camera.trackbodyid = model.body("pelvis").id
+    free = int(model.jnt_type.argmin())  # mjJNT_FREE is 0, the least: a floating base has the first of them
+    camera.trackbodyid = model.jnt_bodyid[free]
     camera.distance, camera.azimuth, camera.elevation = 2.6, 150.0, -12.0
     return camera
 
