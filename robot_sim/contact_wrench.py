@@ -63,12 +63,12 @@ class LoadSplit:
         self._yaw_lever = limits.yaw_moment_per_load
 
     def foot_wrench(
-        self, side: int, wrench: ContactWrench, left_share: float, sensed: Sensing
+        self, side: int, wrench: ContactWrench, left_share: float, sensed: Sensing, shift: Point
     ) -> tuple[float, ...] | None:
         """Force (N) and moment (N·m) about the sole's centre, world frame; None for a foot without load.
 
         Both CoPs have the same offset from their soles' centres: the one of the total CoP from the load-
-        weighted mean of the centres.
+        weighted mean of the centres, and ``shift`` (m) of this foot.
         """
         share = left_share if side == LEFT else 1 - left_share
         if share < 1e-3:
@@ -78,7 +78,10 @@ class LoadSplit:
         middle_y = left_share * left[1] + (1 - left_share) * right[1]
         around_sole = Frame(0.0, 0.0, sensed.foot_yaws[side])
         offset_x, offset_y = around_sole.clamped(
-            wrench.cop[0] - middle_x, wrench.cop[1] - middle_y, self._length, self._width
+            wrench.cop[0] - middle_x + shift[0],
+            wrench.cop[1] - middle_y + shift[1],
+            self._length,
+            self._width,
         )
         fx, fy, fz = wrench.fx * share, wrench.fy * share, wrench.fz * share
         strongest = self._yaw_lever * fz

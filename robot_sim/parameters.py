@@ -114,6 +114,15 @@ class SlopeParameters:
 
 
 @dataclass(frozen=True, slots=True)
+class TippingParameters:
+    """How the centre of pressure answers a foot that tips."""
+
+    tolerated: float = 0.05  # rad, lean of the sole against the floor
+    stiffness: float = 1.0  # m/rad
+    damping: float = 0.03  # m·s/rad
+
+
+@dataclass(frozen=True, slots=True)
 class BalanceParameters:
     """Gains of the whole-body controller and limits of the contact forces."""
 
@@ -220,3 +229,4 @@ class WalkerParameters:
     steps: StepLimits = field(default_factory=StepLimits)
     gait: GaitParameters = field(default_factory=GaitParameters)
     balance: BalanceParameters = field(default_factory=BalanceParameters)
+    tipping: TippingParameters = field(default_factory=TippingParameters)

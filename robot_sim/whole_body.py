@@ -24,6 +24,7 @@ from robot_sim.planar import clamp, wrap
 from robot_sim.sensing import Sensing
 from robot_sim.support import left_share_of
 from robot_sim.swing import SwingReference
+from robot_sim.tipping import cop_against_tipping
 
 UPWARD_GRAVITY = np.array([0.0, 0.0, GRAVITY])
 REGULARIZATION = 1e-4  # keeps a leg's Jacobian invertible when the knee is straight
@@ -49,6 +50,7 @@ class WholeBody:
         self.cop_shift: Point = (0.0, 0.0)
         self._model, self._data = model, data
         self._balance = parameters.balance
+        self._tipping = parameters.tipping
         self.height = parameters.dimensions.stance_height
         self._trunk = trunk
         self.gains = default_gains(trunk, parameters.balance)
@@ -83,7 +85,10 @@ class WholeBody:
             left_share = left_share_of(wrench.cop, sensed)
         for side, leg in enumerate(self._legs):
             torque = forces[leg] + self._friction[side] * self._velocity[leg]
-            foot = self._split.foot_wrench(side, wrench, left_share, sensed)
+            shift = cop_against_tipping(
+                sensed.sole_rotations[side], sensed.slope, self._sole_spin[side], self._tipping
+            )
+            foot = self._split.foot_wrench(side, wrench, left_share, sensed, shift)
             if foot is not None:
                 torque -= np.array(foot) @ self._leg_jacobian[side]
             low, high = self._torque_limits[side]
@@ -153,6 +158,7 @@ class WholeBody:
     def _foot_acceleration(self, task: BalanceTask, sensed: Sensing) -> np.ndarray:
         """Accelerations (2, 6) wanted of the soles, world frame: come to rest, or follow the swing."""
         velocity = self._jacobian @ self._velocity
+        self._sole_spin = velocity[:, 3:].tolist()
         acceleration = -self._balance.stance_damping * velocity
         if task.swing is not None:
             side = task.swing.side
