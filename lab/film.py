@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import io
 import time
 from html import escape
@@ -11,7 +10,7 @@ from pathlib import Path
 from IPython.display import HTML
 
 from lab import topics
-from lab.picture import HEIGHT, WIDTH, take_posture
+from lab.picture import HEIGHT, WIDTH, figure, take_posture
 from robot_sim.film import Reel
 from robot_sim.gl_backend import NoOpenGLError
 from robot_sim.humanoid import Humanoid
@@ -50,8 +49,4 @@ def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: 
         reel.close()
     if file is not None:
         Path(file).write_bytes(webp.getvalue())
-    data = base64.b64encode(webp.getvalue()).decode()
-    return HTML(
-        f'<figure><img src="data:image/webp;base64,{data}" width="{WIDTH}" alt="{escape(words)}">'
-        f"<figcaption>{escape(words)}, to {escape(str(topics.pose()))}</figcaption></figure>"
-    )
+    return figure(webp.getvalue(), "webp", words, f"{words}, to {topics.pose()}")

@@ -33,10 +33,15 @@ def show_robot(camera: str = "track") -> HTML:
         return HTML(f"<p>{escape(words)}. No picture: {escape(str(error))}</p>")
     png = io.BytesIO()
     Image.fromarray(pixels).save(png, "PNG")
-    data = base64.b64encode(png.getvalue()).decode()
+    return figure(png.getvalue(), "png", words, words)
+
+
+def figure(image: bytes, kind: str, words: str, caption: str) -> HTML:
+    """A picture or film of that kind ("png", "webp") with an alternative text and a caption, inside the notebook."""
+    data = base64.b64encode(image).decode()
     return HTML(
-        f'<figure><img src="data:image/png;base64,{data}" width="{WIDTH}" alt="{escape(words)}">'
-        f"<figcaption>{escape(words)}</figcaption></figure>"
+        f'<figure><img src="data:image/{kind};base64,{data}" width="{WIDTH}" alt="{escape(words)}">'
+        f"<figcaption>{escape(caption)}</figcaption></figure>"
     )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from robot_sim.floor import Floor
 from robot_sim.humanoid import Humanoid
-from robot_sim.trials.trial import Clock, Run, Summary, Trial, has_fallen, simulate, summary
+from robot_sim.trials.trial import Clock, Run, Summary, Trial, run_of, simulate, summary
 
 DISTANCE = 2.0  # m
 TIME_LIMIT = 30.0  # s
@@ -38,8 +38,7 @@ def run(case: tuple[str, float, int]) -> Run:
     humanoid.walk_to(DISTANCE * math.cos(direction), DISTANCE * math.sin(direction), direction)
     arrived = simulate(humanoid, TIME_LIMIT, until=lambda: humanoid.arrived)
     simulate(humanoid, 1.0)
-    note = "fell" if has_fallen(humanoid) else "" if arrived else f"not there after {TIME_LIMIT:g} s"
-    return Run(case, not note, note, simulated=humanoid.time, cpu=clock.read())
+    return run_of(case, humanoid, clock, "" if arrived else f"not there after {TIME_LIMIT:g} s")
 
 
 def strewn(chance: random.Random, height: float) -> tuple[tuple[float, float, float], ...]:
