@@ -23,7 +23,7 @@ from autograder.verdict import CheckStatus, CheckVerdict, Grade
 
 SLOWER = (2.0, 1.0)  # scales to fall back to when the machine cannot keep up
 OVERLOADED = 0.5  # s the simulator may be late before a run is not judged at all
-STRAINED = 0.15  # s it may be late before the second look at a failure is taken at scale 1
+STRAINED = 0.15  # s it may be late in the second look at a failure
 HOG = 0.8  # processors a submission may keep busy before a late simulator is its own doing
 LOG_LINES = 40
 
@@ -127,8 +127,9 @@ class _Session:
                 break
             if scenario in runs:  # several checks want it
                 continue
-            scale = self._scale if runs is self._first else self._scale_of_the_second_look(scenario)
-            runs[scenario] = pool.submit(self._run, scenario, scale)
+            first_look = runs is self._first
+            scale = self._scale if first_look else self._scale_of_the_second_look(scenario)
+            runs[scenario] = pool.submit(self._run, scenario, scale, OVERLOADED if first_look else STRAINED)
             running.append(runs[scenario])
         return running
 
@@ -148,10 +149,15 @@ class _Session:
     def _scale_of_the_second_look(self, scenario: Scenario) -> float:
         """The same as of the first, unless the machine was strained then."""
         first = self._first[scenario].result()
-        return 1.0 if lateness(first) > STRAINED else first.scale
+        if lateness(first) <= STRAINED:
+            return first.scale
+        return next((slower for slower in SLOWER if slower < first.scale), 1.0)
 
-    def _run(self, scenario: Scenario, scale: float) -> Transcript:
-        """Run a scenario; on a machine that cannot keep up again at a lower scale, after an arena's failure again."""
+    def _run(self, scenario: Scenario, scale: float, tolerated: float) -> Transcript:
+        """Run a scenario, again at a lower scale when the simulator was more than `tolerated` s late.
+
+        At scale 1 a run counts if it can be judged at all. After an arena's failure the scenario is run again, too.
+        """
         problem: NotGraded | None = None
         for attempt_scale in (scale, *(slower for slower in SLOWER if slower < scale), 1.0):
             try:
@@ -171,7 +177,8 @@ class _Session:
                 if self._stop.is_set():
                     break
                 continue
-            if lateness(transcript) <= OVERLOADED or hogs_the_machine(transcript):
+            allowed = tolerated if attempt_scale > 1 else OVERLOADED
+            if lateness(transcript) <= allowed or hogs_the_machine(transcript):
                 return transcript
             problem = NotGraded(
                 f"the machine was too busy: the simulator was {lateness(transcript):.1f} s behind the "

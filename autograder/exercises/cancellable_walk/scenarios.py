@@ -37,11 +37,12 @@ def walk(stage: Stage, x: float, y: float, yaw: float) -> None:
 
 
 def walk_in_turn(stage: Stage, poses: Sequence[tuple[float, float, float]]) -> None:
-    """Walk to several poses, one after the other: goals 'leg 1', 'leg 2', …"""
+    """Walk to several poses, one after the other: goals 'leg 1', 'leg 2', … until one has no result."""
     _open(stage)
     for number, pose in enumerate(poses, start=1):
         stage.send_goal(ACTION, f"leg {number}", _goal(*pose))
-        stage.wait_for_result(ACTION, f"leg {number}")
+        if not stage.wait_for_result(ACTION, f"leg {number}"):
+            return
 
 
 def ask_for_the_impossible(stage: Stage, frame: str) -> None:
