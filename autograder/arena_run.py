@@ -8,7 +8,7 @@ import os
 import sys
 import threading
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -45,7 +45,6 @@ class ArenaRun:
     seed: int = 0
     scale: float = DEFAULT_SCALE
     kind: Kind | None = None
-    arguments: tuple[str, ...] = field(default=())
 
 
 def highest_scale() -> float:
@@ -95,10 +94,11 @@ def _specification(run: ArenaRun, params: dict[str, Any]) -> dict[str, Any]:
         "scenario": run.scenario.name,
         "params": params,
         "namespace": run.scenario.namespace,
-        "robot_options": list(run.scenario.robot),
+        "robot_options": None if run.scenario.robot is None else list(run.scenario.robot),
+        "student": run.scenario.student,
+        "parameters": dict(run.scenario.parameters),
         "file_name": run.exercise.file_name,
         "files": {name: base64.b64encode(content).decode() for name, content in run.files.items()},
-        "arguments": list(run.arguments),
         "scale": run.scale,
         "student_paths": [str(path) for path in (*_ros_paths(), PROJECT / "ros_runtime")],
     }

@@ -12,7 +12,7 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal
 
 from autograder.transcript import Transcript
 
@@ -41,13 +41,17 @@ def expect(condition: bool, *, expected: str, observed: str, help: str, at: floa
 class Scenario:
     """A stimulus by name, with its inputs: fixed, or drawn from a seeded generator when the submission is graded.
 
-    `robot` are options of the simulator. Each Scenario object is run once a submission, however many checks judge it.
+    `robot` are options of the simulator, None where no robot is needed. A 'node' of the student's is started beside it
+    and stays; a 'program' is started by the scenario and ends by itself. `parameters` are ROS parameters given to
+    either at its start. Each Scenario object is run once a submission, however many checks judge it.
     """
 
     name: str
     inputs: Inputs = field(default_factory=dict)
-    robot: tuple[str, ...] = ()
+    robot: tuple[str, ...] | None = ()
+    student: Literal["node", "program"] = "node"
     namespace: str = "/robot"
+    parameters: Mapping[str, Any] = field(default_factory=dict)
 
     def draw(self, seed: int) -> dict[str, Any]:
         """Return the inputs for one seed; the same seed draws the same inputs."""

@@ -145,12 +145,52 @@ class ResultReceived(_Event):
 
 
 class Unanswered(_Event):
-    """The scenario stopped waiting, after `waited` s, for the answer to a call, goal, cancel or result."""
+    """The scenario stopped waiting, after `waited` s, for the answer to a call, goal, cancel or result, or an end."""
 
     kind: Literal["unanswered"] = "unanswered"
-    what: Literal["call", "goal", "cancel", "result"]
+    what: Literal["call", "goal", "cancel", "result", "end"]
     id: str
     waited: float
+
+
+class ServiceOffered(_Event):
+    """The grader began to play a service; `server` names it, `type` is the ROS name of its type."""
+
+    kind: Literal["service_offered"] = "service_offered"
+    service: str
+    server: str
+    type: str
+
+
+class ServiceWithdrawn(_Event):
+    """A played service ceased to exist, together with the requests it was working on."""
+
+    kind: Literal["service_withdrawn"] = "service_withdrawn"
+    service: str
+    server: str
+
+
+class RequestReceived(_Event):
+    """A request of the student's client reached a played service."""
+
+    kind: Literal["request_received"] = "request_received"
+    request: str
+    service: str
+    server: str
+    fields: Message
+
+
+class ReplySent(_Event):
+    kind: Literal["reply_sent"] = "reply_sent"
+    request: str
+    response: Message
+
+
+class WokenLate(_Event):
+    """A sleep of the arena's trusted process took `late` s longer than asked for, more than any before it."""
+
+    kind: Literal["woken_late"] = "woken_late"
+    late: float
 
 
 class Mark(_Event):
@@ -242,6 +282,11 @@ Event = Annotated[
     | CancelAnswered
     | ResultReceived
     | Unanswered
+    | ServiceOffered
+    | ServiceWithdrawn
+    | RequestReceived
+    | ReplySent
+    | WokenLate
     | Mark
     | ScenarioEnded
     | ScenarioFailed

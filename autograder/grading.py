@@ -269,10 +269,16 @@ def _are_done(scenarios: Sequence[Scenario], runs: Runs) -> bool:
 
 
 def lateness(transcript: Transcript) -> float:
-    """Return how far (s, arena's clock) the simulator was behind at worst, once the node was ready."""
+    """Return how far (s, arena's clock) the simulator was behind at worst, once the node was ready.
+
+    Without a robot, by how much the arena's own process overslept.
+    """
     ready = transcript.first(ev.NodeReady)
     since = ready.t + 1.0 if ready else 0.0
-    return max((robot.lag for robot in transcript.truth if robot.t >= since), default=0.0)
+    lags = [robot.lag for robot in transcript.truth if robot.t >= since]
+    if not transcript.truth:
+        lags = [woken.late for woken in transcript.all(ev.WokenLate)]
+    return max(lags, default=0.0)
 
 
 def hogs_the_machine(transcript: Transcript) -> bool:

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import base64
 import importlib
 import json
 import os
@@ -13,18 +12,16 @@ import sys
 import threading
 import time
 import traceback
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import Any
 
 from autograder.arena.clocked_start import CLOCK_PAGE, SPEC_FILE
+from autograder.arena.punctuality import punctuality
 from autograder.arena.recorder import Recorder
 from autograder.arena.simulator import Simulator
-from autograder.arena.student_watch import StudentWatch
-from autograder.isolation.limits import StudentLimits
-from autograder.isolation.student_process import StudentProcess, start_student
+from autograder.arena.student import Student
 from ros_runtime.clock.scaled_clock import ScaledClock
-from ros_runtime.environment import ros_environment
 
 
 def main() -> None:
@@ -40,58 +37,33 @@ def main() -> None:
 
 def _carry_out(spec: dict[str, Any], recorder: Recorder, clock: ScaledClock) -> None:
     changed = threading.Condition()
-    namespace = spec["namespace"]
-    environment = dict(os.environ)
-    simulator = Simulator(recorder, changed, namespace, spec["robot_options"], environment)
-    finished = threading.Event()
-    student = _start_student(spec, recorder, changed, clock, finished)
-    watch = StudentWatch(student, recorder, StudentLimits())
+    simulator = _start_simulator(spec, recorder, changed)
+    student = Student(spec, recorder, changed, clock)
     try:
+        if spec["student"] == "node":
+            student.start()
         _perform(spec, recorder, changed, simulator, student, clock)
     finally:
-        watch.report()
-        finished.set()
-        student.kill()
-        simulator.stop()
+        student.close()
+        if simulator:
+            simulator.stop()
 
 
-def _start_student(
-    spec: dict[str, Any],
-    recorder: Recorder,
-    changed: threading.Condition,
-    clock: ScaledClock,
-    finished: threading.Event,
-) -> StudentProcess:
-    def on_exit(returncode: int) -> None:
-        if not finished.is_set():  # that end is ours
-            recorder.record("node_exited", returncode=returncode)
-        with changed:
-            changed.notify_all()
-
-    recorder.record("node_started")
-    return start_student(
-        [
-            sys.executable,
-            spec["file_name"],
-            *spec["arguments"],
-            "--ros-args",
-            "-r",
-            f"__ns:={spec['namespace']}",
-        ],
-        workdir_files={name: base64.b64decode(content) for name, content in spec["files"].items()},
-        env={**ros_environment(), **clock.environment()},
-        read_only_paths=[*spec["student_paths"], os.environ[CLOCK_PAGE]],
-        on_line=lambda t, stream, text: recorder.record("node_output", t=t, stream=stream, text=text),
-        on_exit=on_exit,
-    )
+def _start_simulator(
+    spec: dict[str, Any], recorder: Recorder, changed: threading.Condition
+) -> Simulator | None:
+    options = spec["robot_options"]
+    if options is None:
+        return None
+    return Simulator(recorder, changed, spec["namespace"], options, dict(os.environ))
 
 
 def _perform(
     spec: dict[str, Any],
     recorder: Recorder,
     changed: threading.Condition,
-    simulator: Simulator,
-    student: StudentProcess,
+    simulator: Simulator | None,
+    student: Student,
     clock: ScaledClock,
 ) -> None:
     # rclpy is imported only now, while the robot and the student's node are starting beside us
@@ -99,20 +71,29 @@ def _perform(
     from rclpy.executors import SingleThreadedExecutor
     from rclpy.signals import SignalHandlerOptions
 
+    from autograder.arena.client_stage import ClientStage
     from autograder.arena.stage import NodeMissing, Stage
+
+    def speed_up() -> None:
+        clock.run_at(spec["scale"])
 
     scenario = getattr(importlib.import_module(spec["module"]), spec["scenario"])
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     node = rclpy.create_node("observer", namespace=spec["namespace"])
-    stranger = rclpy.create_node("stranger", namespace=spec["namespace"])
     executor = SingleThreadedExecutor()
     executor.add_node(node)
-    executor.add_node(stranger)
+    stage: Stage | ClientStage
+    if spec["student"] == "program":
+        stage = ClientStage(node, recorder, changed, student, speed_up)
+    else:
+        stranger = rclpy.create_node("stranger", namespace=spec["namespace"])
+        executor.add_node(stranger)
+        stage = Stage(node, stranger, recorder, changed, simulator, student, speed_up)
     threading.Thread(target=executor.spin, daemon=True).start()
-    stage = Stage(node, stranger, recorder, changed, simulator, student, lambda: clock.run_at(spec["scale"]))
-    with suppress(NodeMissing):  # recorded already
+    lateness = nullcontext() if simulator else punctuality(recorder)  # a robot says itself how late it is
+    with suppress(NodeMissing), lateness:  # what is missing is recorded already
         scenario(stage, **spec["params"])
-    if not simulator.is_running():
+    if simulator and not simulator.is_running():
         raise RuntimeError(f"the simulator ended with status {simulator.process.returncode}")
     recorder.record("scenario_ended", t=time.monotonic())
 

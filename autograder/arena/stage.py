@@ -18,7 +18,8 @@ from autograder.arena.action_probe import ActionProbe
 from autograder.arena.recorder import Recorder
 from autograder.arena.service_probe import ServiceProbe
 from autograder.arena.simulator import Simulator
-from autograder.isolation.student_process import StudentProcess
+from autograder.arena.student import Student
+from autograder.arena.waiting import Waiting
 from ros_runtime.greeting import greet
 
 # s, on a clock that still runs at scale 1:
@@ -44,8 +45,8 @@ class RobotTrouble(Exception):
     """The simulator did not do what the scenario needs: our fault, never the student's."""
 
 
-class Stage:
-    """The robot, the student's node and a client for it."""
+class Stage(Waiting):
+    """The robot (unless the scenario needs none), the student's node and a client for it."""
 
     def __init__(
         self,
@@ -53,15 +54,14 @@ class Stage:
         stranger: Node,
         recorder: Recorder,
         changed: threading.Condition,
-        simulator: Simulator,
-        student: StudentProcess,
+        simulator: Simulator | None,
+        student: Student,
         speed_up: Callable[[], None],
     ) -> None:
+        super().__init__(recorder, changed)
         self._node = node
         self._stranger = stranger
-        self._recorder = recorder
-        self._changed = changed
-        self._simulator = simulator
+        self._robot = simulator
         self._student = student
         self._speed_up = speed_up
         self._services: dict[str, ServiceProbe] = {}
@@ -84,7 +84,7 @@ class Stage:
                 self._node, self._stranger, action_type, name, self._recorder, self._changed
             )
         started = time.monotonic()
-        if not self.wait_until(lambda: self._simulator.robot is not None, ROBOT_TIMEOUT):
+        if not self.wait_until(self._robot_is_there, ROBOT_TIMEOUT):
             raise RobotTrouble(f"the simulator was not ready within {ROBOT_TIMEOUT:g} s")
         self._wait_for_endpoints(started)
         self._recorder.record("node_ready", waited=time.monotonic() - started)
@@ -92,29 +92,6 @@ class Stage:
         self._greet_node()
         self.wait(SETTLING)
         self._speed_up()
-
-    # -- time ---------------------------------------------------------------------------------------------------------
-
-    def wait(self, duration: float) -> None:
-        """Let time pass."""
-        deadline = time.monotonic() + duration
-        while (left := deadline - time.monotonic()) > 0:
-            time.sleep(left)
-
-    def wait_until(self, condition: Callable[[], Any], timeout: float) -> bool:
-        """Wait for a condition on what has arrived so far; False when the time is over first."""
-        deadline = time.monotonic() + timeout
-        with self._changed:
-            while not condition():
-                left = deadline - time.monotonic()
-                if left <= 0:
-                    return False
-                self._changed.wait(min(left, 1.0))
-        return True
-
-    def mark(self, name: str) -> None:
-        """Name this moment for the checks."""
-        self._recorder.record("mark", name=name)
 
     # -- services -----------------------------------------------------------------------------------------------------
 
@@ -196,9 +173,10 @@ class Stage:
     @property
     def robot(self) -> dict[str, Any]:
         """The latest truth about the robot (fields of :class:`autograder.events.RobotTruth`)."""
-        if self._simulator.robot is None:
+        robot = self._simulator.robot
+        if robot is None:
             raise RobotTrouble("the simulator has said nothing yet")
-        return self._simulator.robot
+        return robot
 
     def command_robot(self, do: str, **arguments: Any) -> None:
         """Push the robot, set its battery, cut its motors…: the commands of :mod:`robot_sim.scenario_control`."""
@@ -219,6 +197,15 @@ class Stage:
         self._student.wait(CLEAN_EXIT_TIMEOUT)
 
     # -- helpers ------------------------------------------------------------------------------------------------------
+
+    @property
+    def _simulator(self) -> Simulator:
+        if self._robot is None:
+            raise RobotTrouble("this scenario has no robot; give its Scenario one (robot=())")
+        return self._robot
+
+    def _robot_is_there(self) -> bool:
+        return self._robot is None or self._robot.robot is not None
 
     def _wait_for_endpoints(self, started: float) -> None:
         """Return when the student's endpoints are there; record what is missing when they do not come."""
@@ -243,8 +230,8 @@ class Stage:
 
     def _robot_and_node_are_connected(self) -> bool:
         """Whether the robot has found every subscriber and publisher of its topics that the graph knows."""
-        robot, graph = self._simulator, self._node
-        return (
+        robot, graph = self._robot, self._node
+        return robot is None or (
             bool(robot.subscribers)
             and all(count >= graph.count_subscribers(topic) for topic, count in robot.subscribers.items())
             and all(count >= graph.count_publishers(topic) for topic, count in robot.publishers.items())

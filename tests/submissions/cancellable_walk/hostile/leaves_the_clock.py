@@ -1,8 +1,8 @@
 """Attack: writes over the arena's clock and starts itself again without it, to have five times as long for
 everything.
-Outcome: the page is read-only; its feedback is five times too slow for the others, whose time goes on. Where the machine
 Outcome: the page is read-only; its feedback is too slow for the others by the factor their clock runs at. Where the
 machine was so busy that the second look runs at scale 1, all have the same time: it passes, and has gained none.
+Passes: nothing it did not do
 Also fails: feedback_keeps_its_rate, arrives, works_in_any_namespace
 """
 

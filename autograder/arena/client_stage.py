@@ -1,0 +1,118 @@
+"""The verbs of a scenario for a client: the grader plays the servers, the student's program runs to its end.
+
+As on the other stage nothing is judged here, and all durations are seconds on the arena's clock.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Sequence
+from itertools import count
+from typing import Any
+
+from rclpy.node import Node
+
+from autograder.arena.played_service import PlayedService, Reply
+from autograder.arena.recorder import Recorder
+from autograder.arena.student import Student
+from autograder.arena.waiting import Waiting
+
+# s, on a clock that still runs at scale 1:
+APPEARING_TIMEOUT = 20.0  # for the student's node to appear
+MATCHING_TIMEOUT = 3.0  # for its first request, from then on: a sound client needs a tenth of it
+# s, on the arena's clock:
+END_TIMEOUT = 25.0
+
+
+class ClientStage(Waiting):
+    """Servers that the grader plays, and the student's program."""
+
+    def __init__(
+        self,
+        node: Node,
+        recorder: Recorder,
+        changed: threading.Condition,
+        student: Student,
+        speed_up: Callable[[], None],
+    ) -> None:
+        super().__init__(recorder, changed)
+        self._node = node
+        self._student = student
+        self._speed_up = speed_up
+        self._services: list[PlayedService] = []
+        self._request_numbers = count(1)
+        self._server_numbers = count(1)
+
+    # -- the servers --------------------------------------------------------------------------------------------------
+
+    def play_service(self, name: str, service_type: Any, replies: Sequence[Reply | None]) -> PlayedService:
+        """Offer a service whose first request gets the first of `replies`, and so on; the last one is repeated."""
+        service = PlayedService(
+            self._node,
+            service_type,
+            name,
+            replies,
+            f"server {next(self._server_numbers)}",
+            self._recorder,
+            self._changed,
+            lambda: f"request {next(self._request_numbers)}",
+        )
+        self._services.append(service)
+        return service
+
+    def wait_for_requests(self, service: PlayedService, number: int, timeout: float) -> bool:
+        """Wait until a played service has had so many requests; False when the time or the program is over first."""
+        self.wait_until(lambda: service.requests >= number or self._has_exited(), timeout)
+        return service.requests >= number
+
+    # -- the student's program ----------------------------------------------------------------------------------------
+
+    def start_program(self, arguments: Sequence[str] = ()) -> None:
+        """Run the student's program, and return when it has found the servers or there are none to find.
+
+        The clock is sped up from here on: looking for each other takes as long as the machine takes.
+        """
+        started = time.monotonic()
+        self._student.start(arguments)
+        appeared = self._poll(self._has_appeared, APPEARING_TIMEOUT)
+        if appeared and not self._has_exited():
+            self._recorder.record("node_ready", waited=time.monotonic() - started)
+        if appeared and self._services:
+            self.wait_until(lambda: self._had_a_request() or self._has_exited(), MATCHING_TIMEOUT)
+        self._speed_up()
+
+    def run_module(self, module: str, arguments: Sequence[str] = ()) -> None:
+        """Run a module of ours on the student's files, in the student's sandbox, to its end."""
+        self._student.start_module(module, arguments)
+        self.wait_for_end()
+
+    def wait_for_end(self, timeout: float = END_TIMEOUT) -> int | None:
+        """Wait until the program has ended by itself; returns its exit status, None when it still runs."""
+        started = time.monotonic()
+        self.wait_until(self._has_exited, timeout)
+        if not self._has_exited():
+            self._recorder.record("unanswered", what="end", id="program", waited=time.monotonic() - started)
+        return self._student.returncode
+
+    # -- helpers ------------------------------------------------------------------------------------------------------
+
+    def _has_exited(self) -> bool:
+        return self._student.returncode is not None
+
+    def _had_a_request(self) -> bool:
+        return any(service.requests for service in self._services)
+
+    def _has_appeared(self) -> bool:
+        """Whether there is a node beside ours, or none to be expected any more."""
+        return self._has_exited() or len(self._node.get_node_names()) > 1
+
+    def _poll(self, condition: Callable[[], bool], timeout: float) -> bool:
+        """Wait for what nobody notifies us of: changes of the graph."""
+        deadline = time.monotonic() + timeout
+        while not condition():
+            if time.monotonic() > deadline:
+                return False
+            with self._changed:
+                self._changed.wait(0.02)
+        return True

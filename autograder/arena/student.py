@@ -1,0 +1,100 @@
+"""The student's program in an arena: started once, watched, ended with the arena."""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+import sys
+import threading
+from collections.abc import Sequence
+from typing import Any
+
+from autograder.arena.clocked_start import CLOCK_PAGE
+from autograder.arena.recorder import Recorder
+from autograder.arena.student_watch import StudentWatch
+from autograder.isolation.limits import StudentLimits
+from autograder.isolation.student_process import StudentProcess, start_student
+from ros_runtime.clock.scaled_clock import ScaledClock
+from ros_runtime.environment import ros_environment
+
+
+class Student:
+    """Runs the files of a submission in the student's sandbox and records output and end.
+
+    `spec` is what the controller sent: the files by name, which of them is the program, namespace, paths to be seen.
+    """
+
+    def __init__(
+        self, spec: dict[str, Any], recorder: Recorder, changed: threading.Condition, clock: ScaledClock
+    ) -> None:
+        self._spec = spec
+        self._recorder = recorder
+        self._changed = changed
+        self._clock = clock
+        self._process: StudentProcess | None = None
+        self._watch: StudentWatch | None = None
+        self._closing = threading.Event()
+
+    def start(self, arguments: Sequence[str] = ()) -> None:
+        """Run the student's program as a ROS node in the robot's namespace."""
+        ros_arguments = ["--ros-args", "-r", f"__ns:={self._spec['namespace']}"]
+        for name, value in self._spec["parameters"].items():
+            ros_arguments += ["-p", f"{name}:={json.dumps(value)}"]
+        self._start([self._spec["file_name"], *arguments, *ros_arguments])
+
+    def start_module(self, module: str, arguments: Sequence[str]) -> None:
+        """Run a module of ours on the student's files, with no more rights than the student's program has."""
+        self._start(["-m", module, *arguments])
+
+    @property
+    def returncode(self) -> int | None:
+        """The program's exit status (negative: a signal); None before its end."""
+        return self._process.returncode if self._process else None
+
+    def interrupt(self) -> None:
+        """Send SIGINT, as Ctrl-C does."""
+        self._running.interrupt()
+
+    def wait(self, timeout: float) -> int | None:
+        """Wait for the end; returns the exit status, or None after `timeout` s."""
+        return self._running.wait(timeout)
+
+    def write_line(self, text: str) -> None:
+        """Type a line on the program's stdin."""
+        self._running.write_line(text)
+
+    def close(self) -> None:
+        """Record what has been used, and end the program."""
+        self._closing.set()
+        if self._process and self._watch:
+            self._watch.report()
+            self._process.kill()
+
+    @property
+    def _running(self) -> StudentProcess:
+        if self._process is None:
+            raise RuntimeError("the scenario has not started the student's program yet")
+        return self._process
+
+    def _start(self, python_arguments: Sequence[str]) -> None:
+        files = self._spec["files"]
+        self._recorder.record("node_started")
+        self._process = start_student(
+            [sys.executable, *python_arguments],
+            workdir_files={name: base64.b64decode(content) for name, content in files.items()},
+            env={**ros_environment(), **self._clock.environment()},
+            read_only_paths=[*self._spec["student_paths"], os.environ[CLOCK_PAGE]],
+            on_line=self._on_line,
+            on_exit=self._on_exit,
+        )
+        self._watch = StudentWatch(self._process, self._recorder, StudentLimits())
+
+    def _on_line(self, t: float, stream: str, text: str) -> None:
+        self._recorder.record("node_output", t=t, stream=stream, text=text)
+
+    def _on_exit(self, returncode: int) -> None:
+        if not self._closing.is_set():  # that end is ours
+            self._recorder.record("node_exited", returncode=returncode)
+        with self._changed:
+            self._changed.notify_all()

@@ -1,0 +1,39 @@
+"""What every stage has: time on the arena's clock, and waiting for things to happen."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+from autograder.arena.recorder import Recorder
+
+
+class Waiting:
+    """`changed` is notified whenever something has arrived; all durations are seconds on the arena's clock."""
+
+    def __init__(self, recorder: Recorder, changed: threading.Condition) -> None:
+        self._recorder = recorder
+        self._changed = changed
+
+    def wait(self, duration: float) -> None:
+        """Let time pass."""
+        deadline = time.monotonic() + duration
+        while (left := deadline - time.monotonic()) > 0:
+            time.sleep(left)
+
+    def wait_until(self, condition: Callable[[], Any], timeout: float) -> bool:
+        """Wait for a condition on what has arrived so far; False when the time is over first."""
+        deadline = time.monotonic() + timeout
+        with self._changed:
+            while not condition():
+                left = deadline - time.monotonic()
+                if left <= 0:
+                    return False
+                self._changed.wait(min(left, 1.0))
+        return True
+
+    def mark(self, name: str) -> None:
+        """Name this moment for the checks."""
+        self._recorder.record("mark", name=name)
