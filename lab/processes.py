@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
+from typing import IO
 
 LEASH = Path(__file__).with_name("leash.py")
 KEPT_LINES = 2000
@@ -25,13 +26,13 @@ class Process:
     """A running Python program in a session of its own, with its last output.
 
     The session keeps the SIGINT of Jupyter's stop button away from it; the leash ends it with the kernel.
+    What it writes to stderr is part of its output, unless `own_stderr` keeps the two apart.
     """
 
-    def __init__(self, arguments: Sequence[str]) -> None:
-        self._lines: deque[str] = deque(maxlen=KEPT_LINES)
-        self._popen = _spawner.submit(_start, arguments).result()
-        self._reader = threading.Thread(target=self._read, name="lab reader", daemon=True)
-        self._reader.start()
+    def __init__(self, arguments: Sequence[str], *, own_stderr: bool = False) -> None:
+        self._popen = _spawner.submit(_start, arguments, own_stderr).result()
+        self._output = _LastLines(self._popen.stdout)
+        self._errors = _LastLines(self._popen.stderr) if own_stderr else None
 
     @property
     def is_running(self) -> bool:
@@ -43,21 +44,35 @@ class Process:
         """None while it runs, -n when signal n ended it."""
         return self._popen.poll()
 
+    def cpu_time(self) -> float:
+        """Seconds of a processor that it has used so far, 0.01 s exact; it must be running."""
+        stat = Path(f"/proc/{self._popen.pid}/stat").read_text()
+        user, system = stat.rpartition(")")[2].split()[11:13]  # a program's name may have spaces
+        return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
+
     def output(self) -> str:
         """What it printed, stdout and stderr as they came; the last 2000 lines."""
-        if not self.is_running:
-            self._reader.join(LAST_WORDS)
-        return "".join(self._lines.copy())
+        return self._output.text(complete=not self.is_running)
+
+    def errors(self) -> str:
+        """What it wrote to a stderr of its own; the last 2000 lines."""
+        return self._errors.text(complete=not self.is_running) if self._errors else ""
+
+    def wait(self, timeout: float) -> bool:
+        """Whether it has ended or ends within `timeout` s."""
+        try:
+            self._popen.wait(timeout)
+        except subprocess.TimeoutExpired:
+            return False
+        return True
 
     def stop(self, grace: float = 3.0) -> bool:
         """Ctrl-C, then SIGKILL after `grace` s. Returns whether Ctrl-C was enough."""
         self.send(signal.SIGINT)
-        try:
-            self._popen.wait(grace)
-        except subprocess.TimeoutExpired:
-            self.kill()
-            return False
-        return True
+        if self.wait(grace):
+            return True
+        self.kill()
+        return False
 
     def kill(self) -> None:
         """SIGKILL for it and all that it started, and wait until it is gone."""
@@ -70,20 +85,36 @@ class Process:
             with suppress(ProcessLookupError):
                 os.killpg(self._popen.pid, signal_number)
 
+
+class _LastLines:
+    """Reads a pipe to its end, in a thread, and keeps the last lines."""
+
+    def __init__(self, pipe: IO[str] | None) -> None:
+        assert pipe
+        self._pipe = pipe
+        self._lines: deque[str] = deque(maxlen=KEPT_LINES)
+        self._reader = threading.Thread(target=self._read, name="lab reader", daemon=True)
+        self._reader.start()
+
+    def text(self, *, complete: bool) -> str:
+        """The lines so far. `complete`: nobody writes any more, so wait for what is still in the pipe."""
+        if complete:
+            self._reader.join(LAST_WORDS)
+        return "".join(self._lines.copy())
+
     def _read(self) -> None:
-        assert self._popen.stdout
-        for line in self._popen.stdout:
+        for line in self._pipe:
             self._lines.append(line)
 
 
-def _start(arguments: Sequence[str]) -> subprocess.Popen[str]:
+def _start(arguments: Sequence[str], own_stderr: bool) -> subprocess.Popen[str]:
     # -I and -S: the leash needs no site-packages, whose start-up files would only cost time.
     leash = [sys.executable, "-I", "-S", str(LEASH), str(os.getpid()), sys.executable]
     return subprocess.Popen(
         [*leash, *arguments],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
+        stderr=subprocess.PIPE if own_stderr else subprocess.STDOUT,
         start_new_session=True,
         encoding="utf-8",
         errors="replace",

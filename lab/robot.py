@@ -13,8 +13,10 @@ START_TIMEOUT = 30.0  # s
 _robot: Process | None = None
 
 
-def start_robot() -> None:
+def start_robot(scene: str = "flat") -> None:
     """Start the robot and wait until its topics arrive; does nothing when it runs already.
+
+    In the scene "stand" a stand holds it by the chest, so that it does not fall without power; "table" has a cup.
 
     Raises NoRobotError with the robot's last words when it does not come up within 30 s.
     """
@@ -22,7 +24,7 @@ def start_robot() -> None:
     domain_id = connection().domain_id  # also sets the environment that the child inherits
     if _robot is None or not _robot.is_running:
         topics.forget()
-        _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1"])
+        _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1", "--scene", scene])
     robot = _robot
     if not comes_true(lambda: topics.has_spoken() or not robot.is_running, START_TIMEOUT):
         raise NoRobotError(
@@ -36,10 +38,20 @@ def start_robot() -> None:
     print(f"The robot is up in namespace {NAMESPACE}, ROS_DOMAIN_ID {domain_id}.")
 
 
-def restart_robot() -> None:
+def robot_process() -> Process:
+    """The process of the robot that `start_robot()` started.
+
+    Raises NoRobotError when it does not run.
+    """
+    if _robot is None or not _robot.is_running:
+        raise NoRobotError("no robot runs; try lab.start_robot()")
+    return _robot
+
+
+def restart_robot(scene: str = "flat") -> None:
     """A robot that stands at the origin with a full battery, whatever happened to the last one."""
     stop_robot()
-    start_robot()
+    start_robot(scene)
 
 
 def stop_robot() -> None:

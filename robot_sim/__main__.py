@@ -16,6 +16,7 @@ from robot_sim.node import HumanoidNode
 from robot_sim.pacing import Pacing
 from robot_sim.run import run
 from robot_sim.scenario_control import ScenarioControl
+from robot_sim.scenes import SCENES
 from robot_sim.truth import TruthWriter
 
 if TYPE_CHECKING:
@@ -46,6 +47,8 @@ def main() -> None:
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     node = HumanoidNode(humanoid, arguments.namespace, truth)
     node.battery_sensor_connected = not arguments.battery_sensor_unplugged
+    node.joint_sensors_connected = not arguments.joint_sensors_unplugged
+    node.robot_state_published = not arguments.robot_state_unpublished
     pacing = Pacing(arguments.rtf)
     controls = view = None
     if control is None:  # nobody is graded
@@ -122,12 +125,14 @@ def _parser() -> argparse.ArgumentParser:
         metavar="NAME",
         help="look at a real robot instead, such as unitree_g1: it stands in the browser view and has no ROS side",
     )
-    parser.add_argument("--scene", choices=("flat", "table"), default="flat")
+    parser.add_argument("--scene", choices=tuple(SCENES), default="flat")
     parser.add_argument("--crouch", action="store_true", help="begin in a crouch instead of standing")
     parser.add_argument("--seed", type=int, default=0, help="seed of the sensors' noise (default 0)")
     parser.add_argument("--truth-fd", type=int, help=argparse.SUPPRESS)
     parser.add_argument("--control-fd", type=int, help=argparse.SUPPRESS)
     parser.add_argument("--battery-sensor-unplugged", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--joint-sensors-unplugged", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--robot-state-unpublished", action="store_true", help=argparse.SUPPRESS)
     return parser
 
 

@@ -14,6 +14,7 @@ from robot_sim.floor import Floor
 from robot_sim.footsteps import Command, Goal
 from robot_sim.gait import Phase
 from robot_sim.hand import Hand
+from robot_sim.height_change import HeightChange, HeightPhase
 from robot_sim.imu import Imu
 from robot_sim.joint_names import ACTUATED_JOINTS, SIDES
 from robot_sim.joint_trajectory import HOLD, JointTrajectory
@@ -37,7 +38,7 @@ class Humanoid:
     The same seed and the same commands give the same motion, bit by bit.
 
     Args:
-        scene: "flat" or "table" (a table with a cup in front of the robot).
+        scene: "flat", "table" (with a cup in front of the robot) or "stand" (which holds it, motors on or off).
         seed: of the sensors' errors.
         timestep: of physics and controller, s.
         floor: what it walks on; a level plane unless given.
@@ -191,6 +192,29 @@ class Humanoid:
         if self.motors_enabled:
             self._height.move(rate)
 
+    def crouch_to(self, height: float) -> HeightChange:
+        """Bring the pelvis to ``height`` (m, 0.45 to 0.60 above the floor) in phases that end by what is measured.
+
+        What comes back tells the phase, how far it is, and why it failed: a fall, motors off, another command to walk
+        or to move the body, a body that does not get there.
+
+        Raises:
+            ValueError: the height is not finite.
+        """
+        change = self._height.change_to(height)
+        if not self.motors_enabled:
+            change.fail("the motors are off")
+        return change
+
+    def stand_up(self) -> HeightChange:
+        """Rise from any crouch to the stance; as ``crouch_to`` otherwise."""
+        return self.crouch_to(self._parameters.dimensions.stance_height)
+
+    @property
+    def body_phase(self) -> HeightPhase | None:
+        """Where the last ``crouch_to`` or ``stand_up`` since reset is, if there was one."""
+        return self._height.change.phase if self._height.change else None
+
     @property
     def balance_gains(self) -> BalanceGains:
         """How stiffly the trunk is held upright; gains that are too weak or too stiff make the robot fall."""
@@ -296,6 +320,8 @@ class Humanoid:
         """Walk, after rising from a crouch; stop at once."""
         if not self.motors_enabled:
             return
+        if command is not None:
+            self._height.interrupt("it was told to walk")
         if command is None or self._height.is_risen:
             self._pending = None
             self._walker.follow(command)
@@ -313,4 +339,5 @@ class Humanoid:
         else:
             self.model.opt.disableflags |= disabled
             self.data.actuator_force[:] = 0.0
+            self._height.interrupt("the robot fell" if self._fallen else "the motors went off")
         self.motors_enabled = on

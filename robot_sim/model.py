@@ -6,7 +6,7 @@ from robot_sim.actuators import actuators, sensors
 from robot_sim.body_parts import humanoid_body
 from robot_sim.floor import Floor
 from robot_sim.parameters import Dimensions
-from robot_sim.scenes import scene_bodies
+from robot_sim.scenes import HOLDS, scene_bodies
 
 
 def build_model(
@@ -19,7 +19,7 @@ def build_model(
     """Compile the humanoid (38 kg, 34 actuators) standing in ``scene``.
 
     Args:
-        scene: "flat" or "table".
+        scene: "flat", "table" or "stand".
         timestep: of the simulation, s.
         size: lengths of the body.
         floor: what it stands on; a level plane unless given.
@@ -48,6 +48,7 @@ def model_xml(scene: str, timestep: float, size: Dimensions, floor: Floor) -> st
     {humanoid_body(size)}
     {scene_bodies(scene)}
   </worldbody>
+  <equality>{HOLDS.get(scene, "")}</equality>
   <actuator>{actuators()}</actuator>
   <sensor>{sensors()}</sensor>
 </mujoco>"""

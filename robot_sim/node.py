@@ -48,6 +48,9 @@ class HumanoidNode(Node):
         super().__init__("humanoid", namespace=namespace)
         self.humanoid = humanoid
         self.battery_sensor_connected = True
+        self.joint_sensors_connected = True
+        self.joint_states_reversed = False
+        self.robot_state_published = True
         self._truth = truth
         self._velocity_command_time: float | None = None
         self._last_announced: tuple[int, bool, int] | None = None
@@ -131,16 +134,19 @@ class HumanoidNode(Node):
     # -- state --------------------------------------------------------------------------------------------------------
 
     def _publish_joint_states(self) -> None:
-        if not is_heard(self._joint_states):
+        if not self.joint_sensors_connected or not is_heard(self._joint_states):
             return
         joints = self.humanoid.joint_state()
+        order = slice(None, None, -1 if self.joint_states_reversed else 1)
         message = JointState(
-            name=list(joints.names),
-            position=np.asarray(joints.position).tolist(),
-            velocity=np.asarray(joints.velocity).tolist(),
-            effort=np.asarray(joints.effort).tolist(),
+            name=list(joints.names)[order],
+            position=np.asarray(joints.position)[order].tolist(),
+            velocity=np.asarray(joints.velocity)[order].tolist(),
+            effort=np.asarray(joints.effort)[order].tolist(),
         )
         message.header.stamp = self._now()
+        if self._truth:  # before others can answer with it
+            self._truth.joints_published(message.name, message.position)
         self._joint_states.publish(message)
 
     def _publish_imu(self) -> None:
@@ -195,6 +201,8 @@ class HumanoidNode(Node):
 
     def _publish_robot_state(self) -> None:
         mode, motors_enabled, steps = self._last_announced = self._announcement()
+        if not self.robot_state_published:
+            return
         message = RobotState(mode=mode, motors_enabled=motors_enabled, steps=steps)
         message.header.stamp = self._now()
         self._robot_state.publish(message)

@@ -50,6 +50,21 @@ class HeightLimits:
 
 
 @dataclass(frozen=True, slots=True)
+class HeightChangeParameters:
+    """When a phase of crouching or standing up has ended."""
+
+    balanced: float = 0.02  # m, DCM from the middle of the feet, to set out
+    least_load_share: float = 0.4  # of what both feet bear, on either, to set out
+    thrown: float = 0.05  # m, DCM from the middle of the feet; the weight has to be shifted again
+    near: float = 0.01  # m, from the height wanted, to settle
+    settled: float = 0.005  # m, from the height wanted
+    upright: float = 0.998  # z component of the pelvis' up-vector
+    still: float = 0.02  # m/s
+    hold: float = 0.2  # s, that a condition has to last
+    patience: float = 12.0  # s, for all phases; the longest way takes 2 s
+
+
+@dataclass(frozen=True, slots=True)
 class StepLimits:
     """How far the body may move in one step, in the frame of the stance foot."""
 

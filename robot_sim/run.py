@@ -53,7 +53,7 @@ def run(
     while is_running():
         if control:
             for command in control.commands():
-                obey(command, humanoid, node)
+                obey(command, humanoid, node, truth)
                 pacing.restart(humanoid.time)
                 if truth:
                     truth.commanded(command)

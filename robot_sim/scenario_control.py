@@ -7,9 +7,14 @@ import os
 from collections.abc import Iterator
 
 from robot_sim.humanoid import Humanoid
+from robot_sim.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.node import HumanoidNode
+from robot_sim.truth import TruthWriter
 
-COMMANDS = ("push", "set_battery", "battery_sensor", "motor_power", "reset")
+COMMANDS = (
+    *("push", "walk", "set_battery", "battery_sensor", "robot_state", "motor_power"),
+    *("joint_sensors", "joint_states", "move_joints", "report_arm", "reset"),
+)
 
 
 class ScenarioControl:
@@ -32,15 +37,28 @@ class ScenarioControl:
             yield json.loads(line)
 
 
-def obey(command: dict, humanoid: Humanoid, node: HumanoidNode) -> None:
-    """Carry out one command; a ValueError names the commands there are."""
+def obey(command: dict, humanoid: Humanoid, node: HumanoidNode, truth: TruthWriter | None = None) -> None:
+    """Carry out one command; what it asks about goes to `truth`. A ValueError names the commands there are."""
     match command:
         case {"do": "push", "impulse": impulse, **rest}:
             humanoid.push(impulse, rest.get("duration", 0.1))
+        case {"do": "walk", "velocity": velocity}:
+            humanoid.walk_velocity(*velocity)
         case {"do": "set_battery", "percentage": percentage}:
             humanoid.battery.set_percentage(percentage)
         case {"do": "battery_sensor", "connected": connected}:
             node.battery_sensor_connected = connected
+        case {"do": "joint_sensors", "connected": connected}:
+            node.joint_sensors_connected = connected
+        case {"do": "joint_states", "reversed": is_reversed}:
+            node.joint_states_reversed = is_reversed
+        case {"do": "move_joints", "positions": positions, "duration": duration}:
+            goal = Waypoint(duration, tuple(positions.values()))
+            humanoid.move_joints(JointTrajectory(tuple(positions), (goal,)))
+        case {"do": "report_arm", "side": side} if truth:
+            truth.arm(humanoid, side)
+        case {"do": "robot_state", "published": published}:
+            node.robot_state_published = published
         case {"do": "motor_power", "on": on}:
             humanoid.set_motor_power(on)
         case {"do": "reset", **pose}:

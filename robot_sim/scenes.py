@@ -1,4 +1,4 @@
-"""What stands around the robot: nothing, or a table with a cup."""
+"""What stands around the robot: nothing, a table with a cup, or a stand that holds it by the chest."""
 
 TABLE_AND_CUP = """
 <body name="table" pos="0.42 0 0">
@@ -12,12 +12,22 @@ TABLE_AND_CUP = """
         contype="1" conaffinity="1" condim="4" friction="1 0.01 0.0001"/>
 </body>"""
 
-SCENES = {"flat": "", "table": TABLE_AND_CUP}
-OBJECTS = {"flat": (), "table": ("cup",)}  # what can be taken, by scene
+STAND = """
+<body name="stand">
+  <geom class="visual" type="box" size="0.03 0.03 0.5" pos="-0.4 0 0.5" rgba="0.6 0.45 0.3 1"/>
+  <geom class="visual" type="box" size="0.16 0.03 0.02" pos="-0.24 0 0.88" rgba="0.6 0.45 0.3 1"/>
+</body>"""
+
+SCENES = {"flat": "", "table": TABLE_AND_CUP, "stand": STAND}
+OBJECTS = {"flat": (), "table": ("cup",), "stand": ()}  # what can be taken, by scene
+HOLD_BY_THE_CHEST = "".join(
+    f'<weld body1="{body}" body2="stand" solref="0.05 1"/>' for body in ("torso", "waist")
+)
+HOLDS = {"stand": HOLD_BY_THE_CHEST}  # what holds the robot, by scene
 
 
 def scene_bodies(scene: str) -> str:
-    """MJCF of the bodies of a scene ("flat" or "table"), the floor excepted.
+    """MJCF of the bodies of a scene ("flat", "table" or "stand"), the floor excepted.
 
     Raises:
         ValueError: the scene is not known; the message lists the known ones.

@@ -1,8 +1,10 @@
 """`course bench`: what the toolkit costs, measured on this machine, in this run."""
 
+import io
 import subprocess
 import time
 from collections.abc import Callable
+from contextlib import redirect_stdout
 from pathlib import Path
 from typing import Annotated
 
@@ -18,6 +20,8 @@ from autograder.grading import grade
 from autograder.isolation.availability import available_isolation
 from autograder.submission import Submission, read_submission
 from autograder.verdict import CheckVerdict
+from lab.view_cost import view_cost
+from robot_sim.gl_backend import NoOpenGLError
 from robot_sim.trials import run_trials
 from robot_sim.trials.__main__ import table_of
 
@@ -40,6 +44,7 @@ def bench(
     submission = read_submission(THREADED, EXERCISE)
     console.print(_costs(exercise, submission, jobs))
     console.print(_fairness(console, exercise, submission, runs, scale or [1.0, highest_scale()], jobs))
+    console.print(_live_picture(console))
     if robot:
         with console.status("the robot's quick trials …"):
             rows = run_trials(quick=True, jobs=jobs)
@@ -108,6 +113,28 @@ def _fairness(
             failures += [f"scale {scale:g}: {failure}" for run in results for failure in run.failed]
     for failure in failures:
         console.print(failure, markup=False)
+    return table
+
+
+def _live_picture(console: Console) -> Table | str:
+    """What `lab.watch_robot()` gives and costs, or why there is no picture."""
+    try:
+        with console.status("a robot is watched while it walks …"), redirect_stdout(io.StringIO()):
+            cost = view_cost()
+    except NoOpenGLError as error:
+        return f"The live picture in a notebook was not measured. {error}"
+    table = Table(title="The live picture in a notebook, of a robot that walks")
+    for heading in ("", "frames/s", "simulated s/s", "simulator, of a core", "notebook, of a core"):
+        table.add_column(heading, justify="right" if heading else "left")
+    rows = (("without", "", cost.without), ("with (asked: 10 to 15)", f"{cost.frames:.1f}", cost.watched))
+    for name, frames, load in rows:
+        table.add_row(
+            name,
+            frames,
+            f"{load.pace:.3f}",
+            f"{100 * load.simulator_share:.0f} %",
+            f"{100 * load.notebook_share:.0f} %",
+        )
     return table
 
 

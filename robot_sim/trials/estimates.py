@@ -4,14 +4,13 @@ import math
 import random
 from collections.abc import Sequence
 
-import numpy as np
-
 from robot_sim.humanoid import Humanoid
 from robot_sim.trials.trial import (
     Clock,
     Run,
     Summary,
     Trial,
+    feet_midpoint,
     mean,
     run_of,
     simulate,
@@ -58,8 +57,7 @@ def run(case: tuple[str, float, float, float, int]) -> Run:
     arrived = simulate(humanoid, TIME_LIMIT, until=lambda: humanoid.arrived)
     simulate(humanoid, 1.0)
     note = "" if arrived else f"not there after {TIME_LIMIT:g} s"
-    left, right = (humanoid.data.site(f"{side}_sole").xpos for side in "lr")
-    error = float(np.hypot(*((left + right) / 2)[:2] - (x, y)))
+    error = math.dist(feet_midpoint(humanoid), (x, y))
     return run_of(case, humanoid, clock, note, {"error_m": error})
 
 

@@ -12,6 +12,7 @@ from robot_sim.trials.trial import (
     Summary,
     Trial,
     all_succeeded,
+    feet_midpoint,
     has_fallen,
     mean,
     simulate,
@@ -44,14 +45,13 @@ def run(goal: tuple[float, float, float]) -> Run:
     simulate(humanoid, 1.5)
     note = "fell" if has_fallen(humanoid) else "" if arrived else f"not there after {TIME_LIMIT:g} s"
     left, right = (humanoid.data.site(f"{side}_sole") for side in "lr")
-    x, y, _ = (left.xpos + right.xpos) / 2
     facing = (left.xmat + right.xmat).tolist()
     return Run(
         case=tuple(round(number, 2) for number in goal),
         success=not note,
         note=note,
         values={
-            "error_m": math.hypot(goal[0] - x, goal[1] - y),
+            "error_m": math.dist(goal[:2], feet_midpoint(humanoid)),
             "yaw_error_rad": abs(wrap(goal[2] - math.atan2(facing[3], facing[0]))),
             "duration_s": duration,
         },

@@ -107,6 +107,12 @@ def base_speed(humanoid: Humanoid) -> float:
     return math.sqrt(x * x + y * y + z * z)
 
 
+def feet_midpoint(humanoid: Humanoid) -> tuple[float, float]:
+    """Midway between the soles, where ``walk_to`` brings the robot: (x, y) m, odom frame."""
+    left, right = (humanoid.data.site(f"{side}_sole").xpos.tolist() for side in "lr")
+    return (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
+
+
 def run_of(
     case: Sequence[float | str],
     humanoid: Humanoid,

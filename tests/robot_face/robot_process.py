@@ -75,13 +75,14 @@ class Listener:
 
 
 @contextmanager
-def running_robot(*options):
+def running_robot(*options, pass_fds=()):
     domain = next(DOMAINS)
     environment = {**os.environ, **ros_environment(domain_id=domain)}
     process = subprocess.Popen(
         [sys.executable, "-m", "robot_sim", "--namespace", NAMESPACE, *options],
         env=environment,
         stdout=subprocess.DEVNULL,
+        pass_fds=pass_fds,
     )
     context = rclpy.Context()
     rclpy.init(context=context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)

@@ -7,7 +7,7 @@ from robot_sim.humanoid import Humanoid
 from robot_sim.imu import Imu
 from robot_sim.state import Mode
 from robot_sim.state_estimate import StateEstimate
-from robot_sim.trials.trial import simulate
+from robot_sim.trials.trial import feet_midpoint, simulate
 
 
 def test_it_walks_to_a_goal_by_its_own_sensors():
@@ -17,8 +17,7 @@ def test_it_walks_to_a_goal_by_its_own_sensors():
     assert simulate(humanoid, 15.0, until=lambda: humanoid.arrived)
     simulate(humanoid, 1.0)
     assert humanoid.mode is Mode.STANDING
-    feet = (humanoid.data.site("l_sole").xpos + humanoid.data.site("r_sole").xpos)[:2] / 2
-    assert feet == pytest.approx([0.6, 0.3], abs=0.06)
+    assert feet_midpoint(humanoid) == pytest.approx([0.6, 0.3], abs=0.06)
 
 
 def test_the_estimate_follows_the_robot_through_a_walk():

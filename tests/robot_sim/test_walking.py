@@ -10,16 +10,12 @@ from robot_sim.humanoid import Humanoid
 from robot_sim.parameters import Dimensions
 from robot_sim.planar import wrap
 from robot_sim.state import Mode
-from robot_sim.trials.trial import base_speed, simulate
+from robot_sim.trials.trial import base_speed, feet_midpoint, simulate
 
 
 @pytest.fixture
 def humanoid() -> Humanoid:
     return Humanoid()
-
-
-def feet_midpoint(humanoid: Humanoid) -> np.ndarray:
-    return (humanoid.data.site("l_sole").xpos + humanoid.data.site("r_sole").xpos)[:2] / 2
 
 
 def distance_walked(humanoid: Humanoid, command: tuple[float, float, float], seconds: float) -> np.ndarray:

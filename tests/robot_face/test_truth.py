@@ -1,0 +1,108 @@
+"""What the simulator tells the arena through its own pipe, and what a scenario tells it."""
+
+import json
+import os
+import threading
+
+import pytest
+from rclpy.qos import qos_profile_sensor_data
+from robot_process import TIMEOUT, running_robot
+from sensor_msgs.msg import JointState
+
+
+class Pipes:
+    """A robot's truth, collected by kind, and its commands."""
+
+    def __init__(self, listener, truth_fd, control_fd):
+        self.listener = listener
+        self.records = []
+        self._control_fd = control_fd
+        self._arrived = threading.Condition()
+        threading.Thread(target=self._read, args=(truth_fd,), daemon=True).start()
+
+    def command(self, do, **arguments):
+        """Send a command and wait until it has taken effect."""
+        command = {"do": do, **arguments}
+        os.write(self._control_fd, json.dumps(command).encode() + b"\n")
+        self.wait_for(lambda record: record.get("command") == command)
+
+    def wait_for(self, wanted):
+        with self._arrived:
+            assert self._arrived.wait_for(lambda: any(map(wanted, self.records)), TIMEOUT)
+
+    def simulate(self, duration):
+        """Let that much simulated time (s) pass."""
+        with self._arrived:
+            end = duration + max(record.get("simulated", 0.0) for record in self.records)
+        self.wait_for(lambda record: record.get("simulated", 0.0) >= end)
+
+    def joint_states(self, count=1, until=lambda message: True):
+        return self.listener.collect(JointState, "joint_states", count, qos_profile_sensor_data, until)
+
+    def joints_told(self):
+        with self._arrived:
+            return [record for record in self.records if record["kind"] == "joints"]
+
+    def _read(self, truth_fd):
+        with os.fdopen(truth_fd, "rb") as lines:
+            for line in lines:
+                with self._arrived:
+                    self.records.append(json.loads(line))
+                    self._arrived.notify_all()
+
+
+@pytest.fixture
+def robot():
+    """A robot whose joint sensors are unplugged."""
+    truth_read, truth_write = os.pipe()
+    control_read, control_write = os.pipe()
+    fds = ("--truth-fd", str(truth_write), "--control-fd", str(control_read))
+    with running_robot("--joint-sensors-unplugged", *fds, pass_fds=(truth_write, control_read)) as listener:
+        os.close(truth_write)
+        os.close(control_read)
+        yield Pipes(listener, truth_read, control_write)
+    os.close(control_write)
+
+
+def test_joint_positions_are_told_as_published_and_only_when_somebody_listens(robot):
+    robot.command("joint_sensors", connected=True)
+    robot.simulate(0.5)
+    assert robot.joints_told() == []
+    messages = robot.joint_states(count=3)
+    told = [(joints["names"], joints["positions"]) for joints in robot.joints_told()]
+    assert len(messages[0].name) == len(messages[0].position) > 30
+    for message in messages:
+        assert (list(message.name), list(message.position)) in told
+
+
+def test_unplugged_joint_sensors_are_silent_until_they_are_plugged_in(robot):
+    heard = threading.Event()
+    robot.listener.node.create_subscription(
+        JointState, "joint_states", lambda message: heard.set(), qos_profile_sensor_data
+    )
+    robot.wait_for(
+        lambda record: any(
+            topic.endswith("joint_states") and count for topic, count in record.get("subscribers", {}).items()
+        )
+    )
+    robot.simulate(0.5)  # s, ten times the period of joint_states
+    assert not heard.is_set()
+    assert robot.joints_told() == []
+    robot.command("joint_sensors", connected=True)
+    assert heard.wait(TIMEOUT)
+
+
+def test_a_scenario_moves_joints_and_turns_the_order_of_joint_states_round(robot):
+    robot.command("joint_sensors", connected=True)
+    (before,) = robot.joint_states()
+    robot.command("joint_states", reversed=True)
+    robot.command("move_joints", positions={"l_elbow": -1.5, "head_pan": 0.4}, duration=0.2)
+    (after,) = robot.joint_states(
+        until=lambda message: (
+            abs(dict(zip(message.name, message.position, strict=True))["l_elbow"] + 1.5) < 0.01
+        )
+    )
+    assert list(after.name) == list(reversed(before.name))
+    positions = dict(zip(after.name, after.position, strict=True))
+    assert positions["head_pan"] == pytest.approx(0.4, abs=0.01)
+    assert positions["r_elbow"] == pytest.approx(before.position[before.name.index("r_elbow")], abs=0.01)
