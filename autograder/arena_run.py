@@ -55,14 +55,15 @@ def highest_scale() -> float:
 def run_in_arena(run: ArenaRun, stop: threading.Event | None = None) -> Transcript:
     """Carry out the scenario; raises :class:`NotGraded` when the arena failed. `stop` ends the arena early."""
     params = run.scenario.draw(run.seed)
+    scale = run.scale if run.scenario.timed else 1.0
     read_end, write_end = os.pipe()
-    limits = ArenaLimits(deadline_s=STARTUP_ALLOWANCE + LONGEST_SCENARIO / run.scale)
+    limits = ArenaLimits(deadline_s=STARTUP_ALLOWANCE + LONGEST_SCENARIO / scale)
     spec = ArenaSpec(
         [sys.executable, "-m", "autograder.arena.clocked_start", str(write_end)],
         read_only_paths=[*_ros_paths(), *_trusted_paths(run.exercise)],
         pass_fds=[write_end],
         env={"PYTHONPATH": str(PROJECT), "PYTHONDONTWRITEBYTECODE": "1"},
-        stdin=json.dumps(_specification(run, params)).encode(),
+        stdin=json.dumps(_specification(run, params, scale)).encode(),
         limits=limits,
     )
     try:
@@ -85,10 +86,10 @@ def run_in_arena(run: ArenaRun, stop: threading.Event | None = None) -> Transcri
     if reason:
         details = f"{ended.explain(limits)}\n{ended.stderr.text[-2000:]}"
         raise NotGraded(f"scenario {run.scenario.name}: {reason}; {details}")
-    return Transcript.from_events(run.scenario.name, params, events, run.scale)
+    return Transcript.from_events(run.scenario.name, params, events, scale)
 
 
-def _specification(run: ArenaRun, params: dict[str, Any]) -> dict[str, Any]:
+def _specification(run: ArenaRun, params: dict[str, Any], scale: float) -> dict[str, Any]:
     return {
         "module": run.exercise.scenario_module,
         "scenario": run.scenario.name,
@@ -97,9 +98,10 @@ def _specification(run: ArenaRun, params: dict[str, Any]) -> dict[str, Any]:
         "robot_options": None if run.scenario.robot is None else list(run.scenario.robot),
         "student": run.scenario.student,
         "parameters": dict(run.scenario.parameters),
-        "file_name": run.exercise.file_name,
+        "file_name": run.exercise.file_names[0],
         "files": {name: base64.b64encode(content).decode() for name, content in run.files.items()},
-        "scale": run.scale,
+        "scale": scale,
+        "timed": run.scenario.timed,
         "student_paths": [str(path) for path in (*_ros_paths(), PROJECT / "ros_runtime")],
     }
 

@@ -43,7 +43,8 @@ class Scenario:
 
     `robot` are options of the simulator, None where no robot is needed. A 'node' of the student's is started beside it
     and stays; a 'program' is started by the scenario and ends by itself. `parameters` are ROS parameters given to
-    either at its start. Each Scenario object is run once a submission, however many checks judge it.
+    either at its start. Where nothing is `timed` (compiling, answers to a quiz) the clock is not sped up, and no
+    machine is too busy to judge it. Each Scenario object is run once a submission, however many checks judge it.
     """
 
     name: str
@@ -52,6 +53,7 @@ class Scenario:
     student: Literal["node", "program"] = "node"
     namespace: str = "/robot"
     parameters: Mapping[str, Any] = field(default_factory=dict)
+    timed: bool = True
 
     def draw(self, seed: int) -> dict[str, Any]:
         """Return the inputs for one seed; the same seed draws the same inputs."""

@@ -193,6 +193,13 @@ class WokenLate(_Event):
     late: float
 
 
+class Starved(_Event):
+    """The student's program was ready to run and got no processor, for so many seconds of the arena's clock."""
+
+    kind: Literal["starved"] = "starved"
+    seconds: float
+
+
 class Mark(_Event):
     """A moment the scenario names, so that checks can refer to it."""
 
@@ -248,6 +255,23 @@ class BatteryPublished(_Event):
     current: float
 
 
+class JointsPublished(_Event):
+    """What the robot published on joint_states: a position for each name, rad (fingers: m)."""
+
+    kind: Literal["joints"] = "joints"
+    names: list[str]
+    positions: list[float]
+
+
+class ArmReported(_Event):
+    """Where elbow and hand (between the fingers) of an arm were: m from its shoulder, along the torso's x, y and z."""
+
+    kind: Literal["arm"] = "arm"
+    side: str
+    elbow: list[float]
+    hand: list[float]
+
+
 class RobotPeers(_Event):
     """How many subscribers and publishers of other nodes the robot is connected to, by topic."""
 
@@ -287,12 +311,15 @@ Event = Annotated[
     | RequestReceived
     | ReplySent
     | WokenLate
+    | Starved
     | Mark
     | ScenarioEnded
     | ScenarioFailed
     | RobotReady
     | RobotTruth
     | BatteryPublished
+    | JointsPublished
+    | ArmReported
     | RobotPeers
     | RobotCommanded,
     Field(discriminator="kind"),

@@ -26,9 +26,9 @@ class Exercise:
     has_hidden_checks: bool
 
     @property
-    def file_name(self) -> str:
-        """The file a student writes."""
-        return f"{self.name}.py"
+    def file_names(self) -> tuple[str, ...]:
+        """The files a student writes."""
+        return file_names(self.name)
 
     @property
     def scenario_module(self) -> str:
@@ -43,6 +43,12 @@ class Exercise:
 def exercise_names() -> list[str]:
     """Name the exercises there are."""
     return sorted(folder.name for folder in FOLDER.iterdir() if (folder / "checks.py").exists())
+
+
+def file_names(exercise: str) -> tuple[str, ...]:
+    """Return the names of the files a student writes: one program, unless the exercise's package lists FILES."""
+    package = importlib.import_module(f"autograder.exercises.{exercise}")
+    return getattr(package, "FILES", (f"{exercise}.py",))
 
 
 def load_exercise(name: str, *, hidden: bool) -> Exercise:

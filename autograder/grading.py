@@ -178,10 +178,10 @@ class _Session:
                     break
                 continue
             allowed = tolerated if attempt_scale > 1 else OVERLOADED
-            if lateness(transcript) <= allowed or hogs_the_machine(transcript):
+            if not scenario.timed or lateness(transcript) <= allowed or hogs_the_machine(transcript):
                 return transcript
             problem = NotGraded(
-                f"the machine was too busy: the simulator was {lateness(transcript):.1f} s behind the "
+                f"the machine was too busy: what runs there was {lateness(transcript):.1f} s behind the "
                 "arena's clock at scale "
                 f"{attempt_scale:g}; grade again with fewer jobs"
             )
@@ -271,13 +271,14 @@ def _are_done(scenarios: Sequence[Scenario], runs: Runs) -> bool:
 def lateness(transcript: Transcript) -> float:
     """Return how far (s, arena's clock) the simulator was behind at worst, once the node was ready.
 
-    Without a robot, by how much the arena's own process overslept.
+    Without a robot, by how much the arena's own process overslept, or how long the program had no processor.
     """
     ready = transcript.first(ev.NodeReady)
     since = ready.t + 1.0 if ready else 0.0
     lags = [robot.lag for robot in transcript.truth if robot.t >= since]
     if not transcript.truth:
         lags = [woken.late for woken in transcript.all(ev.WokenLate)]
+        lags += [starved.seconds for starved in transcript.all(ev.Starved)]
     return max(lags, default=0.0)
 
 

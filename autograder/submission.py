@@ -1,14 +1,17 @@
-"""A student's work: one Python file, or a notebook with a cell that writes it."""
+"""A student's work: the file or files of an exercise, or a notebook with cells that write them."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import nbformat
 
-MAX_BYTES = 1_000_000  # of a student's program
+from autograder.exercise import file_names
+
+MAX_BYTES = 1_000_000  # of a file a student writes
 MAX_NOTEBOOK_BYTES = 50_000_000  # a notebook also holds pictures of the robot
 
 
@@ -18,50 +21,72 @@ class UnusableSubmission(Exception):
 
 @dataclass(frozen=True)
 class Submission:
-    """The source of `<exercise>.py` by one student."""
+    """What one student wrote: the text of each file by its name."""
 
     exercise: str
     student: str
-    source: str
+    sources: Mapping[str, str]
 
     @property
     def files(self) -> dict[str, bytes]:
         """The files to put beside each other when it runs."""
-        return {f"{self.exercise}.py": self.source.encode()}
+        return {name: text.encode() for name, text in self.sources.items()}
 
 
 def read_submission(path: Path, exercise: str, student: str = "you") -> Submission:
-    """Read a .py file or a notebook; raises :class:`UnusableSubmission`."""
+    """Read a notebook, the file itself, or a folder with the files; raises :class:`UnusableSubmission`."""
+    names = file_names(exercise)
     if not path.exists():
         raise UnusableSubmission(f"there is no file {path}")
-    is_notebook = path.suffix == ".ipynb"
-    _require_at_most(MAX_NOTEBOOK_BYTES if is_notebook else MAX_BYTES, path.stat().st_size, str(path))
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise UnusableSubmission(f"{path} is not UTF-8 text: {error}") from error
-    source = source_from_notebook(text, exercise, path) if is_notebook else text
-    _require_at_most(MAX_BYTES, len(source), f"{exercise}.py")
-    return Submission(exercise, student, source)
+    if path.suffix == ".ipynb":
+        sources = sources_from_notebook(_read(path, MAX_NOTEBOOK_BYTES), names, path)
+    elif path.is_dir():
+        sources = {name: _read(path / name, MAX_BYTES) for name in names if (path / name).exists()}
+    elif len(names) == 1:
+        sources = {names[0]: _read(path, MAX_BYTES)}
+    else:
+        raise UnusableSubmission(
+            f"{exercise} has several files, {', '.join(names)}: give the folder they lie in, or the notebook"
+        )
+    if not sources:
+        raise UnusableSubmission(f"{path} holds none of {', '.join(names)}")
+    for name, text in sources.items():
+        _require_at_most(MAX_BYTES, len(text), name)
+    return Submission(exercise, student, sources)
 
 
-def source_from_notebook(text: str, exercise: str, path: Path) -> str:
-    """Return the source in the last cell that begins `%%writefile <exercise>.py`; the notebook is not run."""
-    magic = re.compile(rf"\s*%%writefile\s+(?:\./)?{re.escape(exercise)}\.py\s*\n")
+def sources_from_notebook(text: str, names: tuple[str, ...], path: Path) -> dict[str, str]:
+    """Return, for each name, the source in the last cell that begins `%%writefile NAME`; the notebook is not run."""
     try:
         notebook = nbformat.reads(text, as_version=4)
-        found = [
-            source[match.end() :]
+        cells = [
+            source
             for cell in notebook.cells
-            if cell.get("cell_type") == "code"
-            and isinstance(source := cell.get("source"), str)
-            and (match := magic.match(source))
+            if cell.get("cell_type") == "code" and isinstance(source := cell.get("source"), str)
         ]
     except Exception as error:  # a broken file fails in many ways: no JSON, no cells, cells that are none
         raise UnusableSubmission(f"{path} is not a notebook: {error}") from error
+    found = {
+        name: source for name in names for cell in cells if (source := _written_by(cell, name)) is not None
+    }
     if not found:
-        raise UnusableSubmission(f"{path} has no code cell that begins with '%%writefile {exercise}.py'")
-    return found[-1]
+        wanted = " or ".join(f"'%%writefile {name}'" for name in names)
+        raise UnusableSubmission(f"{path} has no code cell that begins with {wanted}")
+    return found
+
+
+def _written_by(cell: str, name: str) -> str | None:
+    """What the cell writes into the file of that name, None when it does not."""
+    magic = re.match(rf"\s*%%writefile\s+(?:\./)?{re.escape(name)}\s*\n", cell)
+    return cell[magic.end() :] if magic else None
+
+
+def _read(path: Path, limit: int) -> str:
+    _require_at_most(limit, path.stat().st_size, str(path))
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise UnusableSubmission(f"{path} is not UTF-8 text: {error}") from error
 
 
 def _require_at_most(limit: int, size: int, what: str) -> None:

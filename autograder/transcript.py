@@ -60,6 +60,14 @@ class CallHistory:
 
 
 @dataclass(frozen=True)
+class RequestHistory:
+    """One request of the student's client to a service the grader played, and the reply it got (None: none)."""
+
+    received: ev.RequestReceived
+    reply: ev.ReplySent | None
+
+
+@dataclass(frozen=True)
 class Transcript:
     """The events of one arena, in order of time; `params` are the scenario's inputs."""
 
@@ -134,6 +142,14 @@ class Transcript:
     def call(self, name: str) -> CallHistory:
         """Return one service call by its name."""
         return next(call for call in self.calls if call.name == name)
+
+    def requests(self, service: str) -> list[RequestHistory]:
+        """Return the requests that a played service got, whichever of its servers, in order."""
+        return [
+            RequestHistory(received, self._one(ev.ReplySent, "request", received.request))
+            for received in self.all(ev.RequestReceived)
+            if received.service == service
+        ]
 
     # -- the robot ----------------------------------------------------------------------------------------------------
 

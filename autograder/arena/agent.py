@@ -84,14 +84,15 @@ def _perform(
     executor.add_node(node)
     stage: Stage | ClientStage
     if spec["student"] == "program":
-        stage = ClientStage(node, recorder, changed, student, speed_up)
+        stage = ClientStage(node, recorder, changed, student, speed_up, spec["scale"])
     else:
         stranger = rclpy.create_node("stranger", namespace=spec["namespace"])
         executor.add_node(stranger)
         stage = Stage(node, stranger, recorder, changed, simulator, student, speed_up)
     threading.Thread(target=executor.spin, daemon=True).start()
-    lateness = nullcontext() if simulator else punctuality(recorder)  # a robot says itself how late it is
-    with suppress(NodeMissing), lateness:  # what is missing is recorded already
+    # a robot says itself how late it is
+    watch = punctuality(recorder) if spec["timed"] and not simulator else nullcontext()
+    with suppress(NodeMissing), watch:  # what is missing is recorded already
         scenario(stage, **spec["params"])
     if simulator and not simulator.is_running():
         raise RuntimeError(f"the simulator ended with status {simulator.process.returncode}")

@@ -20,6 +20,7 @@ from autograder.arena.waiting import Waiting
 
 # s, on a clock that still runs at scale 1:
 APPEARING_TIMEOUT = 20.0  # for the student's node to appear
+MODULE_TIMEOUT = 150.0  # for work of ours in the student's sandbox, such as compiling
 MATCHING_TIMEOUT = 3.0  # for its first request, from then on: a sound client needs a tenth of it
 # s, on the arena's clock:
 END_TIMEOUT = 25.0
@@ -35,11 +36,14 @@ class ClientStage(Waiting):
         changed: threading.Condition,
         student: Student,
         speed_up: Callable[[], None],
+        scale: float,
     ) -> None:
         super().__init__(recorder, changed)
         self._node = node
         self._student = student
         self._speed_up = speed_up
+        self._scale = scale
+        self._starved_at_start = 0.0
         self._services: list[PlayedService] = []
         self._request_numbers = count(1)
         self._server_numbers = count(1)
@@ -80,12 +84,17 @@ class ClientStage(Waiting):
             self._recorder.record("node_ready", waited=time.monotonic() - started)
         if appeared and self._services:
             self.wait_until(lambda: self._had_a_request() or self._has_exited(), MATCHING_TIMEOUT)
+        self._starved_at_start = self._student.starved()
         self._speed_up()
 
-    def run_module(self, module: str, arguments: Sequence[str] = ()) -> None:
-        """Run a module of ours on the student's files, in the student's sandbox, to its end."""
-        self._student.start_module(module, arguments)
-        self.wait_for_end()
+    def run_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:
+        """Run a module of ours on some of the student's files, in the student's sandbox, to its end.
+
+        For scenarios in which nothing is timed. Raises RuntimeError when it takes too long, which is our fault.
+        """
+        self._student.start_module(module, arguments, files)
+        if not self.wait_until(self._has_exited, MODULE_TIMEOUT):
+            raise RuntimeError(f"{module} has not ended within {MODULE_TIMEOUT:g} s")
 
     def wait_for_end(self, timeout: float = END_TIMEOUT) -> int | None:
         """Wait until the program has ended by itself; returns its exit status, None when it still runs."""
@@ -93,6 +102,8 @@ class ClientStage(Waiting):
         self.wait_until(self._has_exited, timeout)
         if not self._has_exited():
             self._recorder.record("unanswered", what="end", id="program", waited=time.monotonic() - started)
+        starved = (self._student.starved() - self._starved_at_start) * self._scale
+        self._recorder.record("starved", seconds=starved)
         return self._student.returncode
 
     # -- helpers ------------------------------------------------------------------------------------------------------

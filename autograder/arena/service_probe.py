@@ -21,7 +21,7 @@ class ServiceProbe:
         self._type = service_type
         self._recorder = recorder
         self._changed = changed
-        self.answered: set[str] = set()
+        self.answers: dict[str, dict[str, Any]] = {}
         self._client = node.create_client(service_type, name)
 
     def missing(self) -> list[str]:
@@ -37,7 +37,8 @@ class ServiceProbe:
         )
 
     def _on_answer(self, call: str, response: Any) -> None:
-        self._recorder.record("service_answered", call=call, response=to_dict(response))
+        answer = to_dict(response)
+        self._recorder.record("service_answered", call=call, response=answer)
         with self._changed:
-            self.answered.add(call)
+            self.answers[call] = answer
             self._changed.notify_all()

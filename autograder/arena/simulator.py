@@ -31,6 +31,7 @@ class Simulator:
         self.robot: dict[str, Any] | None = None
         self.subscribers: dict[str, int] = {}
         self.publishers: dict[str, int] = {}
+        self._commands_left = 0
         self.process = subprocess.Popen(
             [
                 *(sys.executable, "-m", "robot_sim", "--namespace", namespace),
@@ -51,7 +52,13 @@ class Simulator:
 
     def command(self, do: str, **arguments: Any) -> None:
         """Send one command of :mod:`robot_sim.scenario_control`."""
+        with self._changed:
+            self._commands_left += 1
         os.write(self._control, json.dumps({"do": do, **arguments}).encode() + b"\n")
+
+    def has_obeyed(self) -> bool:
+        """Whether every command has taken effect, and what it asked for has been reported."""
+        return self._commands_left == 0
 
     def is_running(self) -> bool:
         """Whether the process is alive."""
@@ -75,6 +82,8 @@ class Simulator:
                 with self._changed:
                     if record["kind"] == "robot":
                         self.robot = record
+                    elif record["kind"] == "command":
+                        self._commands_left -= 1
                     elif record["kind"] == "peers":
                         self.subscribers, self.publishers = record["subscribers"], record["publishers"]
                     self._changed.notify_all()

@@ -12,9 +12,11 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any
 
+from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.node import Node
 
 from autograder.arena.action_probe import ActionProbe
+from autograder.arena.matching import count_matchable_subscribers
 from autograder.arena.recorder import Recorder
 from autograder.arena.service_probe import ServiceProbe
 from autograder.arena.simulator import Simulator
@@ -71,11 +73,17 @@ class Stage(Waiting):
     # -- getting ready ------------------------------------------------------------------------------------------------
 
     def open(
-        self, services: Mapping[str, Any] | None = None, actions: Mapping[str, Any] | None = None
+        self,
+        services: Mapping[str, Any] | None = None,
+        actions: Mapping[str, Any] | None = None,
+        *,
+        parameters_of: str = "",
     ) -> None:
         """Connect to the student's services and actions (name → type) and wait until they and the robot are there.
 
-        The clock is sped up from here on. Raises :class:`NodeMissing` when the endpoints do not come.
+        `parameters_of` names one of the services: get_parameters and set_parameters of the node that offers it,
+        whatever that is called, can then be called too. The clock is sped up from here on. Raises
+        :class:`NodeMissing` when the endpoints do not come.
         """
         for name, service_type in (services or {}).items():
             self._services[name] = ServiceProbe(self._node, service_type, name, self._recorder, self._changed)
@@ -87,6 +95,9 @@ class Stage(Waiting):
         if not self.wait_until(self._robot_is_there, ROBOT_TIMEOUT):
             raise RobotTrouble(f"the simulator was not ready within {ROBOT_TIMEOUT:g} s")
         self._wait_for_endpoints(started)
+        if parameters_of:
+            self._open_parameters(parameters_of)
+            self._wait_for_endpoints(started)
         self._recorder.record("node_ready", waited=time.monotonic() - started)
         self.wait_until(self._robot_and_node_are_connected, MATCHING_TIMEOUT)
         self._greet_node()
@@ -111,7 +122,11 @@ class Stage(Waiting):
 
     def wait_for_answer(self, service: str, call: str, timeout: float = CALL_TIMEOUT) -> bool:
         """Wait for the answer to a call sent before."""
-        return self._wait_for_reply("call", call, lambda: call in self._services[service].answered, timeout)
+        return self._wait_for_reply("call", call, lambda: call in self._services[service].answers, timeout)
+
+    def response(self, service: str, call: str) -> dict[str, Any] | None:
+        """Return the response to a call; None if it has not come."""
+        return self._services[service].answers.get(call)
 
     # -- actions ------------------------------------------------------------------------------------------------------
 
@@ -182,6 +197,11 @@ class Stage(Waiting):
         """Push the robot, set its battery, cut its motors…: the commands of :mod:`robot_sim.scenario_control`."""
         self._simulator.command(do, **arguments)
 
+    def wait_for_commands(self) -> bool:
+        """Wait until every command has taken effect, and what it asked for has been reported."""
+        robot = self._simulator
+        return self.wait_until(lambda: robot.has_obeyed() or not robot.is_running(), ROBOT_TIMEOUT)
+
     def wait_for_robot(
         self, condition: Callable[[dict[str, Any]], bool], timeout: float = ROBOT_TIMEOUT
     ) -> bool:
@@ -224,16 +244,34 @@ class Stage(Waiting):
             with self._changed:
                 self._changed.wait(0.02)
 
+    def _open_parameters(self, service: str) -> None:
+        """Connect to the parameters of the node that offers a service; without one, to what never comes."""
+        self.wait_until(lambda: self._node_that_offers(service), MATCHING_TIMEOUT)
+        owner = self._node_that_offers(service) or service
+        for name, service_type in (("get_parameters", GetParameters), ("set_parameters", SetParameters)):
+            self._services[name] = ServiceProbe(
+                self._node, service_type, f"{owner}/{name}", self._recorder, self._changed
+            )
+
+    def _node_that_offers(self, service: str) -> str | None:
+        """Return the full name of the student's node that offers a service."""
+        wanted = self._node.resolve_service_name(service)
+        for name, namespace in self._student_nodes():
+            offered = self._node.get_service_names_and_types_by_node(name, namespace)
+            if wanted in (offer for offer, _ in offered):
+                return f"{namespace.rstrip('/')}/{name}"
+        return None
+
     def _missing(self) -> list[str]:
         probes: list[ServiceProbe | ActionProbe] = [*self._services.values(), *self._actions.values()]
         return [name for probe in probes for name in probe.missing()]
 
     def _robot_and_node_are_connected(self) -> bool:
-        """Whether the robot has found every subscriber and publisher of its topics that the graph knows."""
+        """Whether the robot has found every subscriber and publisher of its topics that it can be matched with."""
         robot, graph = self._robot, self._node
         return robot is None or (
             bool(robot.subscribers)
-            and all(count >= graph.count_subscribers(topic) for topic, count in robot.subscribers.items())
+            and all(n >= count_matchable_subscribers(graph, topic) for topic, n in robot.subscribers.items())
             and all(count >= graph.count_publishers(topic) for topic, count in robot.publishers.items())
         )
 

@@ -41,11 +41,11 @@ class Student:
         ros_arguments = ["--ros-args", "-r", f"__ns:={self._spec['namespace']}"]
         for name, value in self._spec["parameters"].items():
             ros_arguments += ["-p", f"{name}:={json.dumps(value)}"]
-        self._start([self._spec["file_name"], *arguments, *ros_arguments])
+        self._start([self._spec["file_name"], *arguments, *ros_arguments], list(self._spec["files"]))
 
-    def start_module(self, module: str, arguments: Sequence[str]) -> None:
-        """Run a module of ours on the student's files, with no more rights than the student's program has."""
-        self._start(["-m", module, *arguments])
+    def start_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:
+        """Run a module of ours on some of the student's files, with no more rights than the student's program has."""
+        self._start(["-m", module, *arguments], files)
 
     @property
     def returncode(self) -> int | None:
@@ -64,6 +64,10 @@ class Student:
         """Type a line on the program's stdin."""
         self._running.write_line(text)
 
+    def starved(self) -> float:
+        """Return how long (s of real time) the program has waited for a processor."""
+        return self._watch.starved() if self._watch else 0.0
+
     def close(self) -> None:
         """Record what has been used, and end the program."""
         self._closing.set()
@@ -77,8 +81,8 @@ class Student:
             raise RuntimeError("the scenario has not started the student's program yet")
         return self._process
 
-    def _start(self, python_arguments: Sequence[str]) -> None:
-        files = self._spec["files"]
+    def _start(self, python_arguments: Sequence[str], names: Sequence[str]) -> None:
+        files = {name: text for name, text in self._spec["files"].items() if name in names}
         self._recorder.record("node_started")
         self._process = start_student(
             [sys.executable, *python_arguments],

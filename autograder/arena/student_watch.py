@@ -7,7 +7,7 @@ import time
 
 from autograder.arena.recorder import Recorder
 from autograder.isolation.limits import StudentLimits
-from autograder.isolation.process_tree import cpu_seconds, resident_mib
+from autograder.isolation.process_tree import cpu_seconds, resident_mib, seconds_without_a_processor
 from autograder.isolation.student_process import StudentProcess
 from ros_runtime.clock.scaled_clock import real_monotonic_ns
 
@@ -24,6 +24,7 @@ class StudentWatch:
         self._started = real_monotonic_ns()
         self._cpu = 0.0
         self._peak = 0.0
+        self._starved: dict[int, float] = {}
         threading.Thread(target=self._watch, name="student watch", daemon=True).start()
 
     def report(self) -> None:
@@ -31,6 +32,10 @@ class StudentWatch:
         self._look()
         wall = (real_monotonic_ns() - self._started) / 1e9
         self._recorder.record("node_usage", cpu=self._cpu, wall=wall, peak_memory_mib=self._peak)
+
+    def starved(self) -> float:
+        """Return how long (s of real time) its processes have waited for a processor until now."""
+        return sum(self._starved.values())
 
     def _watch(self) -> None:
         while self._student.returncode is None:
@@ -48,4 +53,8 @@ class StudentWatch:
         self._cpu = max(self._cpu, cpu_seconds(processes))
         used = resident_mib(processes)
         self._peak = max(self._peak, used)
+        for process in processes:
+            self._starved[process] = max(
+                self._starved.get(process, 0.0), seconds_without_a_processor(process)
+            )
         return used

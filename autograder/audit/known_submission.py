@@ -1,4 +1,4 @@
-"""A submission whose verdict is known beforehand, told in its first docstring.
+"""A submission whose verdict is known beforehand, told in its first docstring, or in the about.md of its folder.
 
 correct:  Style: how it is written
 faulty:   Fault: the mistake (M2)            the number of the misconception, where it has one
@@ -19,9 +19,12 @@ from fnmatch import fnmatch
 from pathlib import Path
 from typing import Literal, get_args
 
+from autograder.exercise import file_names
 from autograder.submission import Submission, read_submission
 
 SUBMISSIONS = Path(__file__).resolve().parents[2] / "tests" / "submissions"
+
+ABOUT = "about.md"
 
 Kind = Literal["correct", "faulty", "hostile"]
 
@@ -56,8 +59,12 @@ class KnownSubmission:
 
 
 def known_submissions(exercise: str, *, only: str = "*", folder: Path = SUBMISSIONS) -> list[KnownSubmission]:
-    """Read the submissions in `folder`/<exercise>/<kind>/; `only` is a glob on kind/stem or stem."""
-    paths = [path for kind in get_args(Kind) for path in sorted((folder / exercise / kind).glob("*.py"))]
+    """Read the submissions in `folder`/<exercise>/<kind>/; `only` is a glob on kind/stem or stem.
+
+    Each is a .py file, or a folder where students of the exercise write several files.
+    """
+    pattern = "*.py" if len(file_names(exercise)) == 1 else "*/"
+    paths = [path for kind in get_args(Kind) for path in sorted((folder / exercise / kind).glob(pattern))]
     return [
         read_known_submission(path)
         for path in paths
@@ -66,13 +73,17 @@ def known_submissions(exercise: str, *, only: str = "*", folder: Path = SUBMISSI
 
 
 def read_known_submission(path: Path) -> KnownSubmission:
-    """Read the header of <exercise>/<kind>/<name>.py; raises :class:`HeaderError`."""
+    """Read the header of <exercise>/<kind>/<name>; raises :class:`HeaderError`."""
     kind, exercise = _kind(path), path.parents[1].name
-    found = _FIRST_DOCSTRING.match(path.read_text(encoding="utf-8"))
-    header = _parse(found[1]) if found else {}
+    header = _parse(_header_text(path))
     headline = _HEADLINE[kind]
     if not header.get(headline):
-        raise HeaderError(f'{path} must begin with a docstring that has a line "{headline}: …"')
+        place = (
+            f"{ABOUT} in {path} must have"
+            if path.is_dir()
+            else f"{path} must begin with a docstring that has"
+        )
+        raise HeaderError(f'{place} a line "{headline}: …"')
     known = KnownSubmission(
         exercise, kind, path, header[headline], _ids(header, "Caught by"), _ids(header, "Also fails")
     )
@@ -88,6 +99,14 @@ def require_known_checks(known: KnownSubmission, check_ids: Sequence[str]) -> No
             f"{known.path} names {', '.join(unknown)}; "
             f"the checks of {known.exercise} are {', '.join(check_ids)}"
         )
+
+
+def _header_text(path: Path) -> str:
+    if path.is_dir():
+        about = path / ABOUT
+        return about.read_text(encoding="utf-8") if about.exists() else ""
+    found = _FIRST_DOCSTRING.match(path.read_text(encoding="utf-8"))
+    return found[1] if found else ""
 
 
 def _kind(path: Path) -> Kind:

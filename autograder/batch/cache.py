@@ -20,7 +20,7 @@ WITHOUT_INFLUENCE = ("batch", "nbgrader_bridge", "report", "audit", "exercises")
 
 
 class GradeCache:
-    """Grades by what they depend on: the source, the checks, the inputs drawn, the isolation.
+    """Grades by what they depend on: the sources, the checks, the inputs drawn, the isolation.
 
     What could not be graded is never remembered.
     """
@@ -51,7 +51,7 @@ class GradeCache:
         key = hashlib.sha256(
             json.dumps(
                 [
-                    submission.source,
+                    dict(submission.sources),
                     checks_version(exercise.name),
                     [check.id for check in exercise.checks],
                     self._seed,

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from nbgrader.utils import parse_utc
 
-from autograder.exercise import exercise_names
+from autograder.exercise import exercise_names, file_names
 from autograder.submission import Submission, UnusableSubmission, read_submission
 
 STUDENT = re.compile(r"[\w@+][\w@+.,' -]*")  # what nbgrader, a file system and a shell all take as a name
@@ -32,10 +32,11 @@ class Work:
     def read(self) -> Submission:
         """Read it; raises UnusableSubmission saying what is wrong with it."""
         if self.path is None:
+            names = " nor ".join(file_names(self.exercise))
             raise UnusableSubmission(
-                f"the folder {self.exercise} holds neither {self.exercise}.ipynb nor {self.exercise}.py"
+                f"the folder {self.exercise} holds neither {self.exercise}.ipynb nor {names}"
             )
-        if self.path.is_symlink() or not self.path.is_file():
+        if any(path.is_symlink() or not path.is_file() for path in self._files()):
             raise UnusableSubmission(f"{self.path.name} is not an ordinary file")
         try:
             submission = read_submission(self.path, self.exercise, self.student)
@@ -43,12 +44,19 @@ class Work:
             # Students read this, and the instructor's folders are not their business.
             raise UnusableSubmission(str(error).replace(str(self.path), self.path.name)) from error
         try:
-            submission.source.encode()
+            "".join(submission.sources.values()).encode()
         except UnicodeEncodeError as error:
             raise UnusableSubmission(
                 f"{self.path.name} holds characters that no text can: {error.reason}"
             ) from error
         return submission
+
+    def _files(self) -> list[Path]:
+        """The files that would be read."""
+        assert self.path is not None
+        if self.path.is_symlink() or not self.path.is_dir():
+            return [self.path]
+        return [place for name in file_names(self.exercise) if _is_there(place := self.path / name)]
 
 
 @dataclass(frozen=True)
@@ -91,12 +99,23 @@ def _works_of(student: Path) -> Iterator[Work]:
     """A folder for the exercise comes before a file beside it, a notebook before the file it writes when run."""
     for exercise in exercise_names():
         folder = student / exercise
-        places = [student / f"{exercise}.ipynb", student / f"{exercise}.py"]
-        if folder.is_dir():
-            places = [folder / f"{exercise}.ipynb", folder / f"{exercise}.py"]
-        path = next((place for place in places if place.exists() or place.is_symlink()), None)
+        home = folder if folder.is_dir() else student
+        path = next((place for place in _places(home, exercise) if _is_there(place)), None)
         if path is not None or folder.is_dir():
             yield Work(student.name, exercise, path, _timestamp(folder))
+
+
+def _places(folder: Path, exercise: str) -> list[Path]:
+    """The notebook; the program; where there are several files, their folder, if one of them lies there."""
+    names = file_names(exercise)
+    written = [folder / name for name in names]
+    if len(names) > 1:
+        written = [folder] if any(map(_is_there, written)) else []
+    return [folder / f"{exercise}.ipynb", *written]
+
+
+def _is_there(path: Path) -> bool:
+    return path.exists() or path.is_symlink()
 
 
 def _visible(folder: Path) -> list[Path]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import threading
 import traceback
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 
@@ -20,11 +20,11 @@ from autograder.verdict import CheckVerdict, Grade
 
 @dataclass(frozen=True)
 class Graded:
-    """One work with its grade; `source` is None and `problem` says why when it could not be read."""
+    """One work with its grade; `sources` is None and `problem` says why when it could not be read."""
 
     work: Work
     grade: Grade
-    source: str | None
+    sources: Mapping[str, str] | None
     problem: str = ""
     remembered: bool = False
 
@@ -88,10 +88,10 @@ class BatchRunner:
         if self._resume and (known := self._cache.get(submission, exercise)):
             for verdict in known.checks:
                 self._report(verdict)
-            return Graded(work, known, submission.source, remembered=True)
+            return Graded(work, known, submission.sources, remembered=True)
         result = self._grade_in_arenas(submission, exercise, jobs)
         self._cache.put(submission, exercise, result)
-        return Graded(work, result, submission.source)
+        return Graded(work, result, submission.sources)
 
     def _grade_in_arenas(self, submission: Submission, exercise: Exercise, jobs: int) -> Grade:
         try:
@@ -125,6 +125,7 @@ class BatchRunner:
 def unreadable(work: Work, exercise: Exercise, isolation: Isolation, problem: str) -> Grade:
     """Return the grade of a work that cannot be read: no points, and the reason where the student will look for it."""
     first, *others = exercise.checks
+    names = " and ".join(exercise.file_names)
     verdicts = [
         CheckVerdict(
             first.id,
@@ -132,7 +133,7 @@ def unreadable(work: Work, exercise: Exercise, isolation: Isolation, problem: st
             "failed",
             0,
             first.points,
-            expected=f"{exercise.file_name}, or a notebook with a cell that begins '%%writefile {exercise.file_name}'",
+            expected=f"{names}, or a notebook with cells that begin '%%writefile {exercise.file_names[0]}'",
             observed=problem,
             help="Open the file you handed in, put this right and hand it in again.",
         ),

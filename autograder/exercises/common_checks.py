@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 from autograder import events as ev
 from autograder.checks import Failure, expect
 from autograder.readiness import last_line, require_within_limits
-from autograder.transcript import Transcript
+from autograder.transcript import CallHistory, Transcript
+
+DELIVERY = 3.0  # s a message may be on its way: 0.6 s of wall time at scale 5, on a busy machine
+
+E = TypeVar("E", bound=ev.Event)
 
 
 def require_alive(run: Transcript) -> None:
@@ -19,6 +25,32 @@ def require_alive(run: Transcript) -> None:
             help="An exception in a callback ends rclpy.spin() and with it the node: find it in the log below.",
             at=exited.t,
         )
+
+
+def require_answer(run: Transcript, call: CallHistory) -> ev.ServiceAnswered:
+    """Return the answer to a service call, which must have come."""
+    if call.answer is None:
+        require_alive(run)
+        raise Failure(
+            expected=f"an answer to {call.sent.service}",
+            observed="none within 5 s",
+            help="The callback must return the response at once: it may not wait, sleep or call another "
+            "service while the node has only one thread.",
+            at=call.sent.t,
+        )
+    return call.answer
+
+
+def last_messages(run: Transcript, kind: type[E], call: CallHistory) -> list[E]:
+    """Return what may be 'the last message' at a server that answered `call`, oldest first.
+
+    That is the newest at the request, those still on their way, and those that came before the answer.
+    """
+    assert call.answer is not None
+    published = run.all(kind)
+    before = [message for message in published if message.t <= call.sent.t - DELIVERY]
+    around = [message for message in published if call.sent.t - DELIVERY < message.t <= call.answer.t]
+    return before[-1:] + around
 
 
 _CLEAN_END = (

@@ -51,6 +51,12 @@ def cpu_seconds(pids: Iterable[int]) -> float:
     return ticks / _TICKS_PER_SECOND
 
 
+def seconds_without_a_processor(pid: int) -> float:
+    """Return how long (s) a process's main thread was ready to run and did not; 0 where the kernel does not tell."""
+    fields = _read(f"/proc/{pid}/schedstat").split()
+    return int(fields[1]) / 1e9 if len(fields) > 1 else 0.0
+
+
 def is_asleep(pid: int) -> bool:
     """Whether a process waits for something."""
     return _read(f"/proc/{pid}/stat").rpartition(")")[2].split()[:1] == ["S"]

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import shutil
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import nbformat
 
-from autograder.exercise import load_exercise
+from autograder.exercise import file_names, load_exercise
 from autograder.nbgrader_bridge.check_cells import with_check_cells
 from autograder.nbgrader_bridge.course_folder import (
     RECORDS,
@@ -27,10 +28,10 @@ TIMESTAMP = "timestamp.txt"
 
 @dataclass(frozen=True)
 class Entry:
-    """A grade with what it was given for. `source` is None when the submission could not be read."""
+    """A grade with what it was given for. `sources` is None when the submission could not be read."""
 
     grade: Grade
-    source: str | None
+    sources: Mapping[str, str] | None
     problem: str = ""
     timestamp: str = ""  # when it was handed in, as nbgrader writes it
 
@@ -90,7 +91,7 @@ class CourseGradebook:
         """The files that nbgrader gets to see: the transplanted notebook and the time it was handed in."""
         name = entry.grade.exercise
         release = nbformat.read(self._folder / "release" / name / f"{name}.ipynb", as_version=4)
-        notebook = transplant(release, name, entry.source, entry.problem)
+        notebook = transplant(release, file_names(name), entry.sources, entry.problem)
         files = {f"{name}.ipynb": nbformat.writes(notebook) + "\n"}
         return files | ({TIMESTAMP: entry.timestamp} if entry.timestamp else {})
 

@@ -7,6 +7,7 @@ formgrader would render as live HTML. None of it is copied. Only the text that w
 from __future__ import annotations
 
 import copy
+from collections.abc import Mapping, Sequence
 
 from nbformat import NotebookNode
 from nbgrader.utils import is_solution
@@ -18,24 +19,35 @@ class NoSolutionCell(Exception):
     """The release notebook has no cell to put a student's work into."""
 
 
-def transplant(release: NotebookNode, exercise: str, source: str | None, problem: str = "") -> NotebookNode:
-    """Return the release notebook with `source`, the content of `<exercise>.py`, in its solution cell.
+def transplant(
+    release: NotebookNode, names: Sequence[str], sources: Mapping[str, str] | None, problem: str = ""
+) -> NotebookNode:
+    """Return the release notebook with the sources of the files `names` in its solution cells.
 
-    Without a source the cell says what the problem with the submission is.
+    Without them the cells say what the problem with the submission is.
     """
-    magic = f"%%writefile {exercise}.py"
     notebook = copy.deepcopy(release)
+    for name in names:
+        cell = _solution_cell(notebook, name)
+        cell.source = f"%%writefile {name}\n{_shown(sources, name, problem)}"
+        cell.outputs = []
+    return notebook
+
+
+def _solution_cell(notebook: NotebookNode, name: str) -> NotebookNode:
+    magic = f"%%writefile {name}"
     for cell in notebook.cells:
         if cell.cell_type == "code" and is_solution(cell) and cell.source.startswith(magic):
-            cell.source = f"{magic}\n{_shown(source, problem)}"
-            cell.outputs = []
-            return notebook
-    raise NoSolutionCell(f"the release notebook of {exercise} has no solution cell that begins {magic!r}")
+            return cell
+    raise NoSolutionCell(f"the release notebook has no solution cell that begins {magic!r}")
 
 
-def _shown(source: str | None, problem: str) -> str:
-    if source is None:
+def _shown(sources: Mapping[str, str] | None, name: str, problem: str) -> str:
+    if sources is None:
         return f"# The submission could not be read: {' '.join(problem.split())}"
+    if name not in sources:
+        return "# This file was not handed in."
+    source = sources[name]
     if len(source) > LONGEST_SOURCE:
         return f"{source[:LONGEST_SOURCE]}\n# … the file goes on; all of it was graded"
     return source

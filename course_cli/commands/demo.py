@@ -20,7 +20,7 @@ from autograder.grading import grade
 from autograder.report.page import Section, write_page
 from autograder.report.sequence import transcript_svg
 from autograder.report.table import MARKS, summary
-from autograder.submission import Submission, read_submission
+from autograder.submission import read_submission
 from autograder.transcript import Transcript
 from autograder.verdict import CheckVerdict, Grade
 from humanoid_interfaces.action import WalkTo
@@ -71,12 +71,12 @@ def demo(
 def _walk_and_cancel(console: Console) -> list[str]:
     """Walk the live robot with the reference server and cancel a goal; returns figures for the report."""
     console.print("1  The robot stands up in MuJoCo, and the reference server starts beside it", style="bold")
-    source = read_submission(SOLUTION, EXERCISE).source
+    submission = read_submission(SOLUTION, EXERCISE)
     with TemporaryDirectory() as folder, _quiet(), contextlib.ExitStack() as end:
         end.callback(lab.stop_everything)
         lab.start_robot()
         file = Path(folder) / f"{EXERCISE}.py"
-        file.write_text(source)
+        file.write_bytes(submission.files[file.name])
         lab.run_node(file)
 
         console.print("2  It walks 0.8 m ahead", style="bold")
@@ -119,7 +119,7 @@ def _grade_three(console: Console, jobs: int) -> tuple[list[Grade], list[Section
             if verdict.status == "failed":
                 diagrams[verdict.id] = transcript_svg(runs[-1], verdict.title)
 
-        submission = Submission(EXERCISE, name, read_submission(path, EXERCISE).source)
+        submission = read_submission(path, EXERCISE, student=name)
         with console.status(f"   {name} …"):
             result = grade(submission, exercise, jobs=jobs, evidence=keep)
         console.print(f"   {name}: {summary(result)}", markup=False)

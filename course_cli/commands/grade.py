@@ -126,7 +126,7 @@ def _enter_all(console: Console, results: Sequence[Graded], out: Path) -> list[s
         gradebook = CourseGradebook(out, SOLUTIONS)
         for result in results:
             try:
-                gradebook.enter(Entry(result.grade, result.source, result.problem, result.work.timestamp))
+                gradebook.enter(Entry(result.grade, result.sources, result.problem, result.work.timestamp))
             except (NbgraderError, NoSolutionCell, OSError) as error:
                 problems.append(f"{result.work.student}'s {result.work.exercise}: {error}")
                 if isinstance(error, NbgraderError):

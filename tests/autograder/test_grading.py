@@ -13,7 +13,7 @@ from autograder.submission import Submission
 from autograder.transcript import Transcript
 
 ISOLATED = Isolation(Kind.NAMESPACES, "given")
-SUBMISSION = Submission("anything", "ada", "")
+SUBMISSION = Submission("battery_service", "ada", {"battery_service.py": ""})
 FIRST, SECOND = Scenario("first"), Scenario("second")
 
 

@@ -27,7 +27,7 @@ def test_of_a_notebook_the_last_cell_that_writes_the_file_counts_and_nothing_is_
             "%%writefile battery_service.py\nnew",
         )
     )
-    assert read_submission(file, "battery_service").source == "new"
+    assert read_submission(file, "battery_service").sources == {"battery_service.py": "new"}
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from autograder.verdict import CheckVerdict, Grade
 
 ISOLATED = Isolation(Kind.NAMESPACES, "as a test says")
 EXERCISE = load_exercise("battery_service", hidden=True)
-ANNA = Submission("battery_service", "anna", "x = 1\n")
+ANNA = Submission("battery_service", "anna", {"battery_service.py": "x = 1\n"})
 
 
 def passed(submission, status="passed"):
@@ -36,12 +36,14 @@ def test_the_same_work_has_the_same_grade(cache):
 
 
 def test_the_same_source_by_another_student_has_it_in_that_students_name(cache):
-    bert = Submission("battery_service", "bert", ANNA.source)
+    bert = Submission("battery_service", "bert", ANNA.sources)
     assert cache.get(bert, EXERCISE) == passed(bert)
 
 
 def test_another_source_seed_isolation_or_set_of_checks_is_graded_anew(cache, tmp_path):
-    assert cache.get(Submission("battery_service", "anna", "x = 2\n"), EXERCISE) is None
+    assert (
+        cache.get(Submission("battery_service", "anna", {"battery_service.py": "x = 2\n"}), EXERCISE) is None
+    )
     assert GradeCache(tmp_path, 1, ISOLATED).get(ANNA, EXERCISE) is None
     assert GradeCache(tmp_path, 0, Isolation(Kind.NONE, "")).get(ANNA, EXERCISE) is None
     assert cache.get(ANNA, load_exercise("battery_service", hidden=False)) is None

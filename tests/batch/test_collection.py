@@ -38,13 +38,14 @@ def only(folder):
 def test_each_layout_is_found(tmp_path, name, text, source):
     put(tmp_path / name, text)
     work = only(tmp_path)
-    assert (work.student, work.exercise, work.read().source) == ("anna", "battery_service", source)
+    assert (work.student, work.exercise) == ("anna", "battery_service")
+    assert work.read().sources == {"battery_service.py": source}
 
 
 def test_the_notebook_counts_not_the_file_it_once_wrote(tmp_path):
     put(tmp_path / "anna/battery_service/battery_service.ipynb", NOTEBOOK)
     put(tmp_path / "anna/battery_service/battery_service.py", "stale = 1\n")
-    assert only(tmp_path).read().source == "from_notebook = 1\n"
+    assert only(tmp_path).read().sources == {"battery_service.py": "from_notebook = 1\n"}
 
 
 def test_works_come_in_order_of_student_and_exercise(tmp_path):

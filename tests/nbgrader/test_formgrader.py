@@ -24,7 +24,9 @@ PATIENCE = 90.0  # s for Jupyter to start on a busy machine
 @pytest.fixture
 def formgrader(gradebook, course) -> Iterator[Callable[[str], str]]:
     """A Jupyter server in a course folder with one grade; gives the text of its formgrader's pages."""
-    gradebook.enter(Entry(grade_of("anna", ends_cleanly=FAILED), "print('a program')\n"))
+    gradebook.enter(
+        Entry(grade_of("anna", ends_cleanly=FAILED), {"battery_service.py": "print('a program')\n"})
+    )
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]

@@ -118,8 +118,8 @@ def test_hostile_notebooks_are_entered_beside_all_others(gradebook, course, tmp_
     assert len(works) == len(HOSTILE) + 1
 
     for work in works:
-        source = work.read().source
-        assert gradebook.enter(Entry(grade_of(work.student), source)).exists(), work.student
+        sources = work.read().sources
+        assert gradebook.enter(Entry(grade_of(work.student), sources)).exists(), work.student
 
     with Gradebook(f"sqlite:///{course / 'gradebook.db'}") as db:
         entered = {
@@ -146,9 +146,9 @@ def test_of_two_solution_cells_the_one_that_was_graded_is_shown(gradebook, tmp_p
     duplicated_solution(notebook)
     handed_in(tmp_path / "submitted", "anna", json.dumps(notebook))
     (work,) = collect(tmp_path / "submitted").works
-    source = work.read().source
-    assert source == "print('the last one counts')\n"
-    assert "the last one counts" in gradebook.enter(Entry(grade_of("anna"), source)).read_text()
+    sources = work.read().sources
+    assert sources == {"battery_service.py": "print('the last one counts')\n"}
+    assert "the last one counts" in gradebook.enter(Entry(grade_of("anna"), sources)).read_text()
 
 
 @pytest.mark.parametrize(

@@ -60,7 +60,8 @@ def test_notebooks_are_valid_stripped_and_have_stable_cell_ids(folder, exercise)
 @pytest.mark.parametrize("exercise", exercise_names())
 def test_a_release_holds_no_solution_and_does_not_tell_what_is_hidden(exercise):
     release = (EXERCISES / exercise / f"{exercise}.ipynb").read_text()
-    assert "SOLUTION" not in release
+    assert "BEGIN SOLUTION" not in release
+    assert "END SOLUTION" not in release
     for check in load_exercise(exercise, hidden=True).checks:
         if check.hidden:
             assert check.id not in release

@@ -37,6 +37,34 @@ def test_battery_service_from_the_task_to_the_verdicts(tmp_path):
     assert seen["hidden_1"].strip() == "Hidden check 1 is made when your work is graded."
 
 
+def test_compute_ik_from_the_task_to_the_arm(tmp_path):
+    seen = run("compute_ik", tmp_path, until="self-check-intro")
+    assert "knees at 0.960 rad" in seen["example-run"]
+    assert "not 0.90" in seen["example-run"]
+    assert "knees at 0.902 rad" in seen["example-again"]
+    assert "code 1, shoulder 14.54°, elbow 49.46°" in seen["try"]
+    assert "code 1, shoulder 59.20°, elbow -49.46°" in seen["try"]
+    assert "code -31" in seen["try"]
+    assert "code 1" in seen["try-arm"]
+
+
+def test_joint_query_on_the_live_robot(tmp_path):
+    seen = run("joint_query", tmp_path, until="self-check-intro")
+    assert "m/s² along z" in seen["example-again"] or "no imu yet" in seen["example-again"]
+    assert "name=['r_elbow', 'l_knee']" in seen["try"]
+    assert "success=False, message='unknown joints: tail_yaw, l_wing_roll'" in seen["try-unknown"]
+
+
+def test_motor_services_on_the_stand_and_on_the_floor(tmp_path):
+    seen = run("motor_services", tmp_path, until="self-check-intro")
+    assert "Gaze: AHEAD" in seen["example-run"]
+    assert "Gaze: DOWN" in seen["example-again"]
+    assert seen["try"].count("Motors: ON") == 2
+    assert seen["try"].index("Motors: OFF") > seen["try"].index("power off was sent")
+    assert "refused" in seen["try-walking"]
+    assert "the robot is WALKING" in seen["try-walking"]
+
+
 def test_cancellable_walk_on_the_live_robot(tmp_path):
     seen = run("cancellable_walk", tmp_path, until="self-check-intro")
     assert "2.00 m forward, 0.00 m to the left" in seen["example-frames"]

@@ -6,26 +6,16 @@ import math
 
 from autograder import events as ev
 from autograder.checks import Failure, expect
-from autograder.exercises.common_checks import require_alive
+from autograder.exercises.common_checks import last_messages, require_answer
 from autograder.transcript import CallHistory, Transcript
 
-DELIVERY = 3.0  # s a message may be on its way: 0.6 s of wall time at scale 5, on a busy machine
 ROUNDING = 1e-5  # BatteryState holds float32
 
 
 def answer_of(run: Transcript, index: int) -> CallHistory:
     """Return the call at `index`, which must have been answered."""
     call = run.calls[index]
-    if call.answer is None:
-        require_alive(run)
-        raise Failure(
-            expected="an answer to get_battery_status",
-            observed="none within 5 s",
-            help="The callback must return the response at once: it may not wait, sleep or call another "
-            "service while the node has "
-            "only one thread.",
-            at=call.sent.t,
-        )
+    require_answer(run, call)
     return call
 
 
@@ -41,7 +31,7 @@ def require_last_message(run: Transcript, call: CallHistory) -> None:
         "is one.",
         at=call.answer.t,
     )
-    recent = _recent_messages(run, call)
+    recent = last_messages(run, ev.BatteryPublished, call)
     if any(_same(battery, message) for message in recent):
         return
     raise Failure(
@@ -50,15 +40,6 @@ def require_last_message(run: Transcript, call: CallHistory) -> None:
         help=_advice(battery, recent[-1], run, call),
         at=call.answer.t,
     )
-
-
-def _recent_messages(run: Transcript, call: CallHistory) -> list[ev.BatteryPublished]:
-    """The messages that may be 'the last' at the server: the newest at the request, and those still on their way."""
-    assert call.answer is not None
-    published = run.all(ev.BatteryPublished)
-    before = [message for message in published if message.t <= call.sent.t - DELIVERY]
-    around = [message for message in published if call.sent.t - DELIVERY < message.t <= call.answer.t]
-    return before[-1:] + around
 
 
 def _same(battery: dict, message: ev.BatteryPublished) -> bool:

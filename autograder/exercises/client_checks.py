@@ -1,0 +1,94 @@
+"""Questions that every client is asked: did it end, with which status, in time, and what did it say?"""
+
+from __future__ import annotations
+
+from autograder import events as ev
+from autograder.checks import Failure, expect
+from autograder.readiness import last_line, require_within_limits
+from autograder.transcript import RequestHistory, Transcript
+
+SLACK = 2.0  # s on the arena's clock for start and shutdown: 0.4 s of wall time at scale 5, on a busy machine
+
+
+def require_end(run: Transcript, within: float) -> ev.NodeExited:
+    """The program ended by itself within so many seconds of its node's appearance."""
+    require_within_limits(run)
+    started = run.first(ev.NodeReady) or run.first(ev.NodeStarted)
+    assert started is not None
+    exited = run.first(ev.NodeExited)
+    if exited is None:
+        raise Failure(
+            expected=f"the program to end by itself within {within:g} s",
+            observed=f"it still ran after {run.end - started.t:.0f} s",
+            help="Something waits without a time limit: give wait_for_service and spin_until_future_complete a "
+            "timeout_sec, do not spin after the last answer, and end every thread of your own.",
+            at=run.end,
+        )
+    expect(
+        exited.t - started.t <= within + SLACK,
+        expected=f"the program to end within {within:g} s",
+        observed=f"it took {exited.t - started.t:.1f} s",
+        help="Keep one deadline for the whole run, and wait for nothing longer than what is left until then.",
+        at=exited.t,
+    )
+    return exited
+
+
+def require_success(run: Transcript, within: float) -> None:
+    """The program ended with status 0, in time."""
+    exited = require_end(run, within)
+    expect(
+        exited.returncode == 0,
+        expected="exit status 0",
+        observed=_ending(run, exited),
+        help="Return 0 from main() when the answers have come, and end the file with sys.exit(main()). An exception "
+        "nobody catches ends a program with status 1.",
+        at=exited.t,
+    )
+
+
+def require_failure(run: Transcript, within: float, statuses: tuple[int, ...], because: str) -> None:
+    """The program ended in time with one of the statuses and said so on stderr, in words and not by a traceback."""
+    exited = require_end(run, within)
+    wanted = " or ".join(map(str, statuses))
+    expect(
+        exited.returncode in statuses,
+        expected=f"exit status {wanted}: {because}",
+        observed=_ending(run, exited),
+        help="Return the status from main() and end the file with sys.exit(main()): a main() that returns nothing "
+        "ends with 0, which says that all went well.",
+        at=exited.t,
+    )
+    words = run.output("stderr")
+    expect(
+        "Traceback (most recent call last)" not in words,
+        expected="one line on stderr that says what went wrong",
+        observed=f"a traceback: {last_line(words)}",
+        help="An expected failure is no crash: catch it, print one line with file=sys.stderr, return the status.",
+        at=exited.t,
+    )
+    expect(
+        bool(words.strip()),
+        expected="one line on stderr that says what went wrong",
+        observed="nothing on stderr",
+        help="print(..., file=sys.stderr) before the program ends: a status alone tells people nothing.",
+        at=exited.t,
+    )
+
+
+def require_requests(run: Transcript, service: str, number: int) -> list[RequestHistory]:
+    """The client sent exactly so many requests to a service."""
+    requests = run.requests(service)
+    expect(
+        len(requests) == number,
+        expected=f"{number} request{'s' if number != 1 else ''} to {service}",
+        observed=f"{len(requests)}",
+        help="Ask once; when no answer has come in time, remove that request and ask once more; then give up.",
+        at=requests[-1].received.t if requests else run.end,
+    )
+    return requests
+
+
+def _ending(run: Transcript, exited: ev.NodeExited) -> str:
+    words = last_line(run.output("stderr"))
+    return f"exit status {exited.returncode}; the last line on stderr: {words or 'none'}"
