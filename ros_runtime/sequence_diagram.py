@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from html import escape
 from typing import Literal
 
+from ros_runtime.svg import svg
+
 Kind = Literal["request", "answer", "message"]
 
 LANE_WIDTH = 250
@@ -45,19 +47,12 @@ def sequence_svg(arrows: Sequence[Arrow], *, title: str, participants: Sequence[
     centre = {name: LEFT + LANE_WIDTH // 2 + index * LANE_WIDTH for index, name in enumerate(lanes)}
     width = LEFT + LANE_WIDTH * len(lanes)
     height = TOP + ROW_HEIGHT * (len(ordered) + 1) + BOTTOM
-    parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" role="img" '
-        'font-family="sans-serif" font-size="13">',
-        f"<title>{escape(title)}</title>",
-        f"<desc>{escape(_in_words(ordered))}</desc>",
-        f'<rect width="{width}" height="{height}" fill="white"/>',
-        f'<text x="12" y="22" font-size="15" font-weight="bold">{escape(title)}</text>',
-    ]
+    parts: list[str] = []
     for name, x in centre.items():
         parts += _lifeline(name, x, height)
     for row, arrow in enumerate(ordered, start=1):
         parts += _arrow(arrow, centre, TOP + row * ROW_HEIGHT)
-    return "\n".join([*parts, "</svg>"])
+    return svg(parts, width=width, height=height, title=title, words=_in_words(ordered))
 
 
 def _lifeline(name: str, x: int, height: int) -> list[str]:

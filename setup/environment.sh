@@ -69,8 +69,9 @@ debian_name() {
 }
 
 install_everything() {
-    local extras=dev
-    [ "$ros" = wheels ] && extras=dev,ros-wheels
+    local extras=dev build_tools=()
+    # The ROS build tools stay: students build interfaces of their own. apt's ROS has them already.
+    [ "$ros" = wheels ] && extras=dev,ros-wheels build_tools=(-r "$root/setup/build-requirements.txt")
     write_constraints
     install_with_uv "$extras" || install_with_pip "$extras" || return 1
     compile_bytecode
@@ -99,7 +100,7 @@ install_with_uv() {
     for extra in ${1//,/ }; do extras+=(--extra "$extra"); done
     logged "$venv/bin/python" -m pip install -c "$venv/constraints.txt" uv || return 1
     say "installing packages (at first 300 MB to download: seconds to minutes, by your network)"
-    logged "${uv[@]}" -r "$root/pyproject.toml" "${extras[@]}" || return 1
+    logged "${uv[@]}" -r "$root/pyproject.toml" "${extras[@]}" "${build_tools[@]}" || return 1
     say "building humanoid_interfaces (about a minute; unchanged sources are not built again)"
     logged "${uv[@]}" --no-deps --reinstall-package humanoid-course --editable "$root"
 }
@@ -107,7 +108,7 @@ install_with_uv() {
 install_with_pip() {
     say "uv could not install, pip tries (2 to 6 minutes)"
     PIP_CONSTRAINT=$venv/constraints.txt PIP_BUILD_CONSTRAINT=$venv/constraints.txt \
-        logged "$venv/bin/python" -m pip install --editable "$root[$1]"
+        logged "$venv/bin/python" -m pip install --editable "$root[$1]" "${build_tools[@]}"
 }
 
 logged() {

@@ -16,10 +16,14 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from interface_package import build, built_prefix
-from ros_environment import PYTHON_LIB, sourced_prefixes
+from ros_runtime.interface_build.build_environment import PYTHON_LIB, sourced_prefixes
+from ros_runtime.interface_build.cmake_package import build, built_prefix
+
+ROOT = Path(__file__).resolve().parents[1]
+BUILD_REQUIREMENTS = ROOT / "setup/build-requirements.txt"
+TOOLS = (BUILD_REQUIREMENTS, ROOT / "requirements.lock")  # a change of these is a change of the interfaces
 
 
 class CourseBuildHook(BuildHookInterface):
@@ -27,16 +31,17 @@ class CourseBuildHook(BuildHookInterface):
 
     def dependencies(self) -> list[str]:
         """The ROS build tools, unless apt provides them or the interfaces are built already."""
-        if sourced_prefixes(os.environ) or built_prefix(self._interfaces, self._builds, os.environ).is_dir():
+        built = built_prefix(self._interfaces, self._builds, os.environ, TOOLS)
+        if sourced_prefixes(os.environ) or built.is_dir():
             return []
-        lines = (self._root / "setup/build-requirements.txt").read_text(encoding="utf-8").splitlines()
+        lines = BUILD_REQUIREMENTS.read_text(encoding="utf-8").splitlines()
         return [line for line in lines if line and not line.startswith("#")]
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Fill `build_data`; `version` is "editable" or "standard"."""
-        modules, prefix_files = _split(build(self._interfaces, self._builds, os.environ))
-        modules |= {str(path): path.name for path in sorted((self._root / "ros_runtime/pth").glob("*.pth"))}
-        clock = _build_scaled_clock(self._root / "ros_runtime/clock/compile_library.py", self._builds)
+        modules, prefix_files = _split(build(self._interfaces, self._builds, os.environ, TOOLS))
+        modules |= {str(path): path.name for path in sorted((ROOT / "ros_runtime/pth").glob("*.pth"))}
+        clock = _build_scaled_clock(ROOT / "ros_runtime/clock/compile_library.py", self._builds)
         if clock is not None:
             prefix_files[str(clock)] = "lib/libscaled_clock.so"
         build_data["force_include_editable" if version == "editable" else "force_include"].update(modules)
@@ -45,16 +50,12 @@ class CourseBuildHook(BuildHookInterface):
         build_data["infer_tag"] = True
 
     @property
-    def _root(self) -> Path:
-        return Path(self.root)
-
-    @property
     def _interfaces(self) -> Path:
-        return self._root / "humanoid_interfaces"
+        return ROOT / "humanoid_interfaces"
 
     @property
     def _builds(self) -> Path:
-        return self._root / "build/interfaces"
+        return ROOT / "build/interfaces"
 
 
 def _split(prefix: Path) -> tuple[dict[str, str], dict[str, str]]:

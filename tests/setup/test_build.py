@@ -1,27 +1,14 @@
 """The build hook: which ROS 2 it builds with, and when a finished build is used again."""
 
-import importlib
 import shutil
 import sys
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 
+from ros_runtime.interface_build import build_environment, cmake_package
+
 ROOT = Path(__file__).resolve().parents[2]
-
-
-@pytest.fixture
-def setup_module(monkeypatch: pytest.MonkeyPatch):
-    """Import a module of setup/, which is no package because the build backend loads it from its path."""
-    monkeypatch.syspath_prepend(str(ROOT / "setup"))
-
-    def load(name: str) -> ModuleType:
-        return importlib.import_module(name)
-
-    yield load
-    for name in ("ros_environment", "interface_package"):
-        sys.modules.pop(name, None)
 
 
 @pytest.fixture
@@ -33,18 +20,17 @@ def jazzy(tmp_path: Path) -> Path:
     return prefix
 
 
-def test_a_sourced_jazzy_is_used_as_colcon_would_use_it(setup_module, jazzy: Path) -> None:
-    ros_environment = setup_module("ros_environment")
+def test_a_sourced_jazzy_is_used_as_colcon_would_use_it(jazzy: Path) -> None:
     environ = {
         "ROS_DISTRO": "jazzy",
         "AMENT_PREFIX_PATH": f"/clone/.venv:{jazzy}",
         "VIRTUAL_ENV": "/clone/.venv",
     }
 
-    ros = ros_environment.ros_build(environ)
+    ros = build_environment.ros_build(environ)
 
     assert not ros.from_wheels
-    assert str(jazzy / ros_environment.PYTHON_LIB) in ros.environment["PYTHONPATH"].split(":")
+    assert str(jazzy / build_environment.PYTHON_LIB) in ros.environment["PYTHONPATH"].split(":")
     assert str(jazzy) in ros.environment["CMAKE_PREFIX_PATH"].split(":")
     assert "VIRTUAL_ENV" not in ros.environment
     assert ros.python.parent == Path(sys.base_prefix) / "bin"
@@ -53,50 +39,44 @@ def test_a_sourced_jazzy_is_used_as_colcon_would_use_it(setup_module, jazzy: Pat
 @pytest.mark.parametrize(
     "difference", [{"ROS_DISTRO": "humble"}, {"ROS_DISTRO": ""}, {"AMENT_PREFIX_PATH": "/elsewhere"}]
 )
-def test_another_ros_is_not_taken_for_a_sourced_jazzy(
-    setup_module, jazzy: Path, difference: dict[str, str]
-) -> None:
+def test_another_ros_is_not_taken_for_a_sourced_jazzy(jazzy: Path, difference: dict[str, str]) -> None:
     environ = {"ROS_DISTRO": "jazzy", "AMENT_PREFIX_PATH": str(jazzy)}
-    sourced_prefixes = setup_module("ros_environment").sourced_prefixes
+    sourced_prefixes = build_environment.sourced_prefixes
     assert sourced_prefixes(environ) == [jazzy]
 
     assert sourced_prefixes({**environ, **difference}) == []
 
 
-def test_without_any_ros_the_error_says_what_to_install(
-    setup_module, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    ros_environment = setup_module("ros_environment")
-    monkeypatch.setattr(ros_environment, "find_spec", lambda name: None)
+def test_without_any_ros_the_error_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(build_environment, "find_spec", lambda name: None)
 
     with pytest.raises(RuntimeError, match=r"setup/build-requirements\.txt"):
-        ros_environment.ros_build({})
+        build_environment.ros_build({})
 
 
-def test_a_finished_build_is_used_again_until_a_source_changes(setup_module, tmp_path: Path) -> None:
-    interface_package = setup_module("interface_package")
+def test_a_finished_build_is_used_again_until_a_source_changes(tmp_path: Path) -> None:
     source = tmp_path / "humanoid_interfaces"
     shutil.copytree(ROOT / "humanoid_interfaces", source)
-    prefix = interface_package.built_prefix(source, tmp_path / "build", {})
+    prefix = cmake_package.built_prefix(source, tmp_path / "build", {})
     prefix.mkdir(parents=True)
 
-    assert interface_package.build(source, tmp_path / "build", {}) == prefix
+    assert cmake_package.build(source, tmp_path / "build", {}) == prefix
 
     with (source / "msg/RobotState.msg").open("a", encoding="utf-8") as message:
         message.write("bool waving\n")
-    assert interface_package.built_prefix(source, tmp_path / "build", {}) != prefix
+    assert cmake_package.built_prefix(source, tmp_path / "build", {}) != prefix
 
 
-def test_without_a_compiler_the_error_says_what_to_install(setup_module, tmp_path: Path, monkeypatch) -> None:
-    interface_package = setup_module("interface_package")
+def test_without_a_compiler_the_error_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
 
     with pytest.raises(RuntimeError, match=r"apt-get install -y g\+\+"):
-        interface_package.build(ROOT / "humanoid_interfaces", tmp_path / "build", {})
+        cmake_package.build(ROOT / "humanoid_interfaces", tmp_path / "build", {})
 
 
-def test_a_failing_build_shows_the_end_of_its_output(setup_module, tmp_path: Path) -> None:
-    interface_package = setup_module("interface_package")
+def test_a_failing_build_shows_the_end_of_its_output(tmp_path: Path) -> None:
     log = tmp_path / "build.log"
     script = "echo 'RobotState.msg: unknown type'; exit 3"
 
@@ -104,4 +84,4 @@ def test_a_failing_build_shows_the_end_of_its_output(setup_module, tmp_path: Pat
         log.open("w") as output,
         pytest.raises(RuntimeError, match=r"status 3 of(.|\n)*unknown type(.|\n)*build\.log"),
     ):
-        interface_package._run(["sh", "-c", script], {"PATH": "/bin"}, output, log)
+        cmake_package._run(["sh", "-c", script], {"PATH": "/bin"}, output, log)

@@ -7,39 +7,39 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TextIO
 
-from ros_environment import PYTHON_LIB, RosBuild, ros_build, sourced_prefixes
+from ros_runtime.interface_build.build_environment import PYTHON_LIB, RosBuild, ros_build, sourced_prefixes
 
-SETUP = Path(__file__).resolve().parent
-BUILD_FILES = (
-    "interface_package.py",
-    "ros_environment.py",
-    "drop_missing_includes.cmake",
-    "build-requirements.txt",
-    "../requirements.lock",
-)
+FOLDER = Path(__file__).resolve().parent
+MISSING_INCLUDES = FOLDER / "drop_missing_includes.cmake"
+BUILD_FILES = (FOLDER / "cmake_package.py", FOLDER / "build_environment.py", MISSING_INCLUDES)
 LOG_TAIL_LINES = 40
 
 
-def built_prefix(source: Path, builds: Path, environ: Mapping[str, str]) -> Path:
-    """Folder under `builds` that holds, or will hold, the package built from `source` as it is now."""
+def built_prefix(
+    source: Path, builds: Path, environ: Mapping[str, str], made_with: Sequence[Path] = ()
+) -> Path:
+    """Folder under `builds` that holds, or will hold, the package built from `source` as it is now.
+
+    `made_with` are further files that decide the outcome, such as the lock of the tools' versions.
+    """
     digest = hashlib.sha256()
-    for path in (*_files(source), *(SETUP / name for name in BUILD_FILES)):
+    for path in (*_files(source), *BUILD_FILES, *made_with):
         digest.update(f"{path.name}\0".encode() + path.read_bytes() + b"\0")
     digest.update(repr([str(prefix) for prefix in sourced_prefixes(environ)]).encode())
     return builds / f"{source.name}-{sys.implementation.cache_tag}-{digest.hexdigest()[:16]}"
 
 
-def build(source: Path, builds: Path, environ: Mapping[str, str]) -> Path:
+def build(source: Path, builds: Path, environ: Mapping[str, str], made_with: Sequence[Path] = ()) -> Path:
     """Build the interface package in `source`; an earlier build of the same sources is used again.
 
-    Returns the prefix with lib/, share/ and include/. Raises RuntimeError with the end of the
-    build's output when CMake fails or there is no C++ compiler.
+    The folder `source` is called as the package. Returns the prefix with lib/, share/ and include/.
+    Raises RuntimeError with the end of the build's output when CMake fails or there is no C++ compiler.
     """
-    prefix = built_prefix(source, builds, environ)
+    prefix = built_prefix(source, builds, environ, made_with)
     if prefix.is_dir():
         return prefix
     if not (environ.get("CXX") or shutil.which("c++") or shutil.which("g++")):
@@ -69,7 +69,7 @@ def _run_cmake(source: Path, binary_dir: Path, prefix: Path, ros: RosBuild, log:
         configure += [
             "-G",
             "Ninja",
-            f"-DCMAKE_PROJECT_{source.name}_INCLUDE={SETUP / 'drop_missing_includes.cmake'}",
+            f"-DCMAKE_PROJECT_{source.name}_INCLUDE={MISSING_INCLUDES}",
         ]
     steps = [
         configure,

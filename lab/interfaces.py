@@ -1,0 +1,46 @@
+"""Build the interface package of a notebook: its .msg, .srv and .action files become types that nodes can import."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from lab.errors import LabError
+from ros_runtime.interface_build.definitions import InvalidDefinitions
+from ros_runtime.interface_build.student_package import BuiltPackage, build_package
+
+BUILDS = Path(".interfaces")  # hidden, like what a tool makes for itself
+
+
+def build_interfaces(folder: str | Path) -> None:
+    """Build the definitions in a folder; the folder's name becomes the package's.
+
+    Nodes that start afterwards, and this notebook, can import it. What runs already keeps the types it has.
+    Definitions that have not changed since they were built are not built again.
+
+    Raises:
+        LabError: there is nothing to build, or a definition is wrong: which file, which line, what was expected.
+    """
+    source = Path(folder)
+    if not source.is_dir():
+        raise LabError(f"there is no folder {folder} in {Path.cwd()}; run the cells that write its files")
+    try:
+        package = build_package(source, BUILDS, source.resolve().name)
+    except InvalidDefinitions as error:
+        raise LabError(f"{source.name} was not built.\n{error}") from error
+    except RuntimeError as error:
+        raise LabError(str(error)) from error
+    os.environ.update(package.variables(os.environ))
+    print(_summary(package))
+    if package.is_importable_here():
+        package.make_importable_here()
+    else:
+        print(
+            f"This notebook imported an earlier {package.name} and keeps it. Nodes that you start now have the "
+            "new one; to use it here as well, restart the kernel (menu Kernel)."
+        )
+
+
+def _summary(package: BuiltPackage) -> str:
+    types = ", ".join(sorted(f"{package.name}/{each.kind}/{each.name}" for each in package.definitions))
+    return f"{types}: {'built' if package.is_new else 'unchanged'} ({package.seconds:.1f} s)"

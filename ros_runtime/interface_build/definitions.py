@@ -1,0 +1,189 @@
+"""What stands in .msg, .srv and .action files, line by line, and what is wrong with it."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import redirect_stderr
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from rosidl_adapter.parser import Constant, Field, is_valid_message_name, parse_message_string
+
+from ros_runtime.interface_build.advice import Finding, explain_line, explain_type, name_is_reserved
+from ros_runtime.interface_build.known_types import KnownTypes
+
+SEPARATOR = "---"
+PARTS = {"msg": ("message",), "srv": ("request", "response"), "action": ("goal", "result", "feedback")}
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Why a definition cannot be built. `line` counts from 1 and is 0 where it is about the whole file."""
+
+    file: str
+    line: int
+    text: str
+    wrong: str
+    expected: str
+
+    def __str__(self) -> str:
+        place = f"{self.file}, line {self.line}: {self.text}" if self.line else self.file
+        return f"{place}\n    wrong:    {self.wrong}\n    expected: {self.expected}"
+
+
+class InvalidDefinitions(Exception):
+    """Definitions that cannot be built, with every problem found."""
+
+    def __init__(self, problems: Sequence[Problem]) -> None:
+        super().__init__("\n".join(map(str, problems)))
+        self.problems = list(problems)
+
+
+@dataclass(frozen=True)
+class Part:
+    """One half of a service, one third of an action, or a whole message: name → ROS type, name → (type, value)."""
+
+    fields: dict[str, str] = field(default_factory=dict)
+    constants: dict[str, tuple[str, Any]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Definition:
+    """One interface: `kind` is "msg", "srv" or "action"; `uses` are the packages its fields come from."""
+
+    file: Path
+    kind: str
+    name: str
+    parts: Mapping[str, Part]
+    uses: frozenset[str]
+
+
+def read_definitions(source: Path, package: str, known: KnownTypes) -> list[Definition]:
+    """Read every definition in `source` and its folders msg/, srv/ and action/.
+
+    Raises InvalidDefinitions with all that is wrong with them.
+    """
+    places = [place for kind in PARTS for place in (f"*.{kind}", f"{kind}/*.{kind}")]
+    files = sorted(path for place in places for path in source.glob(place) if path.is_file())
+    if not files:
+        wanted = "files that end in .msg, .srv or .action, in it or in its folders msg, srv and action"
+        raise InvalidDefinitions(
+            [Problem(str(source), 0, "", "there is no definition in this folder", wanted)]
+        )
+    known = known.with_package(package, {path.stem for path in files if path.suffix == ".msg"})
+    readers = [_Reader(path, path.relative_to(source).as_posix(), package, known) for path in files]
+    problems = [problem for reader in readers for problem in reader.problems]
+    problems += _twice(files)
+    if problems:
+        raise InvalidDefinitions(problems)
+    return [reader.definition() for reader in readers]
+
+
+def _twice(files: Iterable[Path]) -> Iterator[Problem]:
+    seen: set[str] = set()
+    for path in files:
+        if path.name in seen:
+            yield Problem(path.name, 0, "", "the folder has two files of this name", "one of them")
+        seen.add(path.name)
+
+
+class _Reader:
+    """Reads one file; goes on after a problem, so that all of them are told at once."""
+
+    def __init__(self, path: Path, shown: str, package: str, known: KnownTypes) -> None:
+        self.problems: list[Problem] = []
+        self._path, self._shown, self._package, self._known = path, shown, package, known
+        self._kind = path.suffix[1:]
+        self._sections: list[Part] = [Part()]
+        self._uses: set[str] = set()
+        if not is_valid_message_name(path.stem) or "_" in path.stem:
+            wanted = (
+                f"a name such as {_camel_case(path.stem)}.{self._kind}: a capital first, letters and digits"
+            )
+            self._complain(0, "", f"{path.stem!r} cannot be the name of a type", wanted)
+        for number, line in enumerate(self._lines(), start=1):
+            self._read(number, line)
+        self._check_sections()
+
+    def definition(self) -> Definition:
+        """The interface, where there is no problem."""
+        parts = dict(zip(PARTS[self._kind], self._sections, strict=True))
+        return Definition(self._path, self._kind, self._path.stem, parts, frozenset(self._uses))
+
+    def _lines(self) -> list[str]:
+        try:
+            return self._path.read_text(encoding="utf-8").splitlines()
+        except UnicodeDecodeError as error:
+            self._complain(
+                0, "", f"it is no text in UTF-8: {error.reason} at byte {error.start}", "plain text"
+            )
+            return []
+
+    def _read(self, number: int, line: str) -> None:
+        text = line.partition("#")[0].replace("\t", " ").rstrip()
+        if line == SEPARATOR:
+            self._sections.append(Part())
+        elif text and not text.strip("- "):
+            wanted = f"a line that is exactly {SEPARATOR}, with nothing before and after it"
+            self._complain(number, line, "this is no separator", wanted)
+        elif text:
+            self._read_element(number, text)
+
+    def _read_element(self, number: int, text: str) -> None:
+        """A field or a constant. rosidl's own parser decides; we say in plain words what it did not like."""
+        try:
+            with redirect_stderr(io.StringIO()):
+                message = parse_message_string(self._package, "Line", text)
+        except Exception as error:  # it raises whatever came up: IndexError, TypeError, NameError, its own
+            self._complain(number, text, *explain_line(text, str(error), self._known))
+            return
+        for element in (*message.fields, *message.constants):
+            if element.name in {**self._sections[-1].fields, **self._sections[-1].constants}:
+                self._complain(
+                    number, text, f"there is a {element.name} already in this part", "another name"
+                )
+            elif finding := self._dislike(element):
+                self._complain(number, text, *finding)
+            else:
+                self._keep(element)
+
+    def _dislike(self, element: Field | Constant) -> Finding | None:
+        """What rosidl's parser lets pass and the build does not."""
+        if isinstance(element, Constant):
+            return None
+        if name_is_reserved(element.name):
+            return Finding(
+                f"{element.name} is a word of C, C++ or Python, for which code is generated",
+                f"another name, such as {element.name}_value",
+            )
+        return explain_type(element.type, self._package, self._known)
+
+    def _keep(self, element: Field | Constant) -> None:
+        part = self._sections[-1]
+        if isinstance(element, Constant):
+            part.constants[element.name] = (element.type, element.value)
+            return
+        part.fields[element.name] = str(element.type)
+        if not element.type.is_primitive_type():
+            self._uses.add(element.type.pkg_name)
+
+    def _check_sections(self) -> None:
+        wanted = PARTS[self._kind]
+        if len(self._sections) != len(wanted):
+            shape = f" {SEPARATOR} ".join(wanted)
+            self._complain(
+                0,
+                "",
+                f"it has {len(self._sections) - 1} lines that are exactly {SEPARATOR}",
+                f"{len(wanted) - 1}: a .{self._kind} is {shape}, and each may be empty",
+            )
+
+    def _complain(self, line: int, text: str, wrong: str, expected: str) -> None:
+        self.problems.append(Problem(self._shown, line, text, wrong, expected))
+
+
+def _camel_case(name: str) -> str:
+    words = "".join(character if character.isalnum() else " " for character in name).split()
+    return "".join(word[0].upper() + word[1:] for word in words).lstrip("0123456789") or "FindReach"

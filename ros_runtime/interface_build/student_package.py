@@ -1,0 +1,93 @@
+"""Build a folder of somebody's definitions into a package, and let processes import it."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+import tempfile
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rosidl_adapter.parser import is_valid_package_name
+
+from ros_runtime.interface_build import cmake_package
+from ros_runtime.interface_build.build_environment import PYTHON_LIB, ros_build
+from ros_runtime.interface_build.definitions import Definition, InvalidDefinitions, Problem, read_definitions
+from ros_runtime.interface_build.known_types import KnownTypes
+from ros_runtime.interface_build.late_libraries import load_on_import
+from ros_runtime.interface_build.stock_package import write_package
+
+
+@dataclass(frozen=True)
+class BuiltPackage:
+    """A package that can be imported. `is_new`: it was built just now, in `seconds`, and not found from before."""
+
+    name: str
+    prefix: Path
+    definitions: Sequence[Definition]
+    seconds: float
+    is_new: bool
+
+    def variables(self, environ: Mapping[str, str]) -> dict[str, str]:
+        """What to set in the environment `environ` of a process that is to import the package."""
+        return {
+            "PYTHONPATH": self._put_first(self.prefix / PYTHON_LIB, environ.get("PYTHONPATH", "")),
+            "LD_LIBRARY_PATH": self._put_first(self.prefix / "lib", environ.get("LD_LIBRARY_PATH", "")),
+        }
+
+    def is_importable_here(self) -> bool:
+        """Whether this process can import it; not so when it has imported another build of the package before."""
+        imported = getattr(sys.modules.get(self.name), "__file__", None)
+        return imported is None or Path(imported).is_relative_to(self.prefix)
+
+    def make_importable_here(self) -> None:
+        """Let this process import it."""
+        load_on_import(self.name, self.prefix / "lib")
+        sys.path[:] = [str(self.prefix / PYTHON_LIB), *filter(self._is_no_other_build, sys.path)]
+        importlib.invalidate_caches()
+
+    def _put_first(self, path: Path, paths: str) -> str:
+        """A search path with `path` first, and without other builds of this package."""
+        others = [entry for entry in paths.split(os.pathsep) if entry]
+        return os.pathsep.join([str(path), *filter(self._is_no_other_build, others)])
+
+    def _is_no_other_build(self, path: str) -> bool:
+        return not path.startswith(f"{self.prefix.parent}{os.sep}{self.name}-{sys.implementation.cache_tag}-")
+
+
+def build_package(source: Path, builds: Path, name: str) -> BuiltPackage:
+    """Build the definitions in `source` as package `name` into a folder of its own below `builds`.
+
+    The same definitions are not built twice. Takes about ten seconds on two cores for a service and an action.
+
+    Raises:
+        InvalidDefinitions: naming file, line, what is wrong and what was expected.
+        RuntimeError: the build failed all the same; the message ends with its output.
+    """
+    started = time.monotonic()
+    builds = builds.resolve()
+    ros = ros_build(os.environ)
+    prefixes = [Path(entry) for entry in ros.environment["AMENT_PREFIX_PATH"].split(os.pathsep) if entry]
+    known = KnownTypes.installed(prefixes)
+    _require_free_name(name, prefixes)
+    definitions = read_definitions(source, name, known)
+    builds.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=f"{name}-source-", dir=builds) as scratch:
+        package = Path(scratch) / name
+        write_package(package, name, definitions)
+        is_new = not cmake_package.built_prefix(package, builds, os.environ).is_dir()
+        prefix = cmake_package.build(package, builds, os.environ)
+    return BuiltPackage(name, prefix, definitions, time.monotonic() - started, is_new)
+
+
+def _require_free_name(name: str, prefixes: Sequence[Path]) -> None:
+    if not is_valid_package_name(name):
+        wanted = "small letters, digits and single _, a letter first, such as my_interfaces"
+        raise InvalidDefinitions([Problem(name, 0, "", "this cannot be the name of a package", wanted)])
+    if any((prefix / "share" / name).is_dir() for prefix in prefixes):
+        raise InvalidDefinitions(
+            [Problem(name, 0, "", "a package of this name is installed", "another name")]
+        )

@@ -1,0 +1,22 @@
+"""The frame of every drawing: a white sheet that can be read on a dark page too, a title and a text alternative."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from html import escape
+
+
+def svg(parts: Iterable[str], *, width: int, height: int, title: str, words: str) -> str:
+    """Put SVG elements on a sheet of so many pixels. `words` say what can be seen, for those who cannot see it."""
+    return "\n".join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" role="img" '
+            'font-family="sans-serif" font-size="13">',
+            f"<title>{escape(title)}</title>",
+            f"<desc>{escape(words)}</desc>",
+            f'<rect width="{width}" height="{height}" fill="white"/>',
+            f'<text x="12" y="22" font-size="15" font-weight="bold">{escape(title)}</text>',
+            *parts,
+            "</svg>",
+        ]
+    )
