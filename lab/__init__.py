@@ -26,8 +26,12 @@ from lab.errors import (
 )
 from lab.film import film_robot
 from lab.goals import CancelAnswer, Goal, Outcome, send_goal
+from lab.graph import list_graph, nodes_in_graph
+from lab.graph_drawing import draw_graph
+from lab.interfaces import build_interfaces
 from lab.live_view import stop_watching, watch_robot
 from lab.picture import show_robot
+from lab.programs import Program, run_program, start_program
 from lab.quiz import Quiz, quiz
 from lab.robot import restart_robot, start_robot, stop_robot
 from lab.services import call, service_is_ready
@@ -48,15 +52,20 @@ __all__ = [
     "NotInTimeError",
     "Outcome",
     "Pose",
+    "Program",
     "Quiz",
     "StudentNode",
     "battery",
+    "build_interfaces",
     "call",
     "describe",
+    "draw_graph",
     "draw_sequence",
     "film_robot",
+    "list_graph",
     "mode",
     "node",
+    "nodes_in_graph",
     "odometry",
     "pose",
     "publish",
@@ -64,9 +73,11 @@ __all__ = [
     "restart_robot",
     "robot_state",
     "run_node",
+    "run_program",
     "send_goal",
     "service_is_ready",
     "show_robot",
+    "start_program",
     "start_robot",
     "stop_everything",
     "stop_nodes",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 from lab import story
@@ -28,17 +29,13 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
         LabError: there is no such file.
         NodeEndedError: it ended with an error at once; the message has what it printed.
     """
-    path = Path(file).resolve()
-    if not path.is_file():
-        raise LabError(
-            f"there is no file {file} in {Path.cwd()}; run the cell that begins %%writefile {file}"
-        )
+    path = existing_file(file)
     story.forget()  # what an earlier server left unanswered is not part of what follows
     earlier = _nodes.pop(path, None)
     if earlier is not None:
         earlier.stop()
     known = _nodes_seen()
-    node = StudentNode(path, Process([str(path), *arguments, "--ros-args", "-r", f"__ns:={NAMESPACE}"]))
+    node = StudentNode(path, Process([str(path), *in_namespace(arguments)]))
     _nodes[path] = node
     if comes_true(lambda: not node.is_running or _nodes_seen().keys() - known, START_TIMEOUT):
         deadline = time.monotonic() + START_TIMEOUT
@@ -57,6 +54,24 @@ def stop_nodes() -> None:
     for node in _nodes.values():
         node.stop()
     _nodes.clear()
+
+
+def existing_file(file: str | Path) -> Path:
+    """The full path of a student's file.
+
+    Raises LabError when there is none.
+    """
+    path = Path(file).resolve()
+    if not path.is_file():
+        raise LabError(
+            f"there is no file {file} in {Path.cwd()}; run the cell that begins %%writefile {file}"
+        )
+    return path
+
+
+def in_namespace(arguments: Sequence[str]) -> list[str]:
+    """A program's own arguments, and behind them those that put its node into the robot's namespace."""
+    return [*arguments, "--ros-args", "-r", f"__ns:={NAMESPACE}"]
 
 
 def last_words() -> str:

@@ -12,7 +12,9 @@ import psutil
 from nbclient import NotebookClient
 
 CHAPTERS = Path(__file__).resolve().parents[2] / "chapters"
-CELL_TIMEOUT = 120  # s
+CELL_TIMEOUT = (
+    300  # s; building interfaces takes ten seconds alone, and minutes on a machine that everybody uses
+)
 
 
 @dataclass(frozen=True)

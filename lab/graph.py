@@ -1,0 +1,111 @@
+"""The live graph: which topics there are, who publishes on them and who listens."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from rclpy.node import Node
+from rclpy.qos import (
+    DurabilityPolicy,
+    QoSCompatibility,
+    QoSProfile,
+    ReliabilityPolicy,
+    qos_check_compatible,
+)
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+from lab.connection import connection
+from lab.errors import LabError
+from lab.student_nodes import NOT_YET_KNOWN
+
+OF_EVERY_NODE = ("/parameter_events", "/rosout")
+
+
+@dataclass(frozen=True)
+class Endpoint:
+    """One end of a topic: the full name of its node, and what it offers (a publisher) or asks for (a listener)."""
+
+    node: str
+    qos: QoSProfile
+
+    def terms(self) -> str:
+        """Reliability and durability in words."""
+        reliable = self.qos.reliability == ReliabilityPolicy.RELIABLE
+        latched = self.qos.durability == DurabilityPolicy.TRANSIENT_LOCAL
+        return ("reliable" if reliable else "best effort") + (", transient local" if latched else "")
+
+
+@dataclass(frozen=True)
+class Topic:
+    """A topic with all its ends."""
+
+    name: str
+    type: str
+    publishers: tuple[Endpoint, ...]
+    listeners: tuple[Endpoint, ...]
+
+    def not_heard_by(self, listener: Endpoint) -> list[Endpoint]:
+        """The publishers that offer less than the listener asks for, so that nothing of theirs arrives."""
+        return [
+            publisher
+            for publisher in self.publishers
+            if qos_check_compatible(publisher.qos, listener.qos)[0] == QoSCompatibility.ERROR
+        ]
+
+
+def topics_in_graph(*names: str) -> list[Topic]:
+    """The topics of these names, or all but those that every node has, in the order of the alphabet.
+
+    A name without a slash in front is relative to the robot's namespace.
+    Raises LabError for a topic that nobody publishes or listens to; the message has those there are.
+    """
+    node = connection().node
+    types = dict(node.get_topic_names_and_types())
+    wanted = [node.resolve_topic_name(name) for name in names]
+    missing = [name for name in wanted if name not in types]
+    if missing:
+        raise LabError(f"nobody has the topic {', '.join(missing)}; there are: {', '.join(sorted(types))}")
+    return [
+        Topic(
+            name,
+            types[name][0],
+            _endpoints(node.get_publishers_info_by_topic(name)),
+            _endpoints(node.get_subscriptions_info_by_topic(name)),
+        )
+        for name in sorted(wanted or types.keys() - set(OF_EVERY_NODE))
+    ]
+
+
+def list_graph(*names: str) -> None:
+    """Print topics with their type, who publishes, who listens, and who cannot hear whom.
+
+    Without names all are listed but /rosout and /parameter_events, which every node has.
+    """
+    for topic in topics_in_graph(*names):
+        print(f"{topic.name}  {topic.type}")
+        for publisher in topic.publishers:
+            print(f"    from {publisher.node}: {publisher.terms()}")
+        for listener in topic.listeners:
+            print(f"    to   {listener.node}: {listener.terms()}")
+            for publisher in topic.not_heard_by(listener):
+                print(f"         hears nothing from {publisher.node}, which offers only {publisher.terms()}")
+
+
+def nodes_in_graph() -> list[str]:
+    """The full names of all nodes, in the order of the alphabet."""
+    node: Node = connection().node
+    return sorted(
+        _full_name(namespace, name)
+        for name, namespace in node.get_node_names_and_namespaces()
+        if name != NOT_YET_KNOWN
+    )
+
+
+def _endpoints(infos: Iterable[TopicEndpointInfo]) -> tuple[Endpoint, ...]:
+    ends = (Endpoint(_full_name(info.node_namespace, info.node_name), info.qos_profile) for info in infos)
+    return tuple(sorted(ends, key=lambda end: end.node))
+
+
+def _full_name(namespace: str, name: str) -> str:
+    return f"{namespace.rstrip('/')}/{name}"

@@ -1,0 +1,107 @@
+"""Run a student's client: a program that ends by itself, with an exit status."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from lab.connection import connection
+from lab.processes import Process
+from lab.student_nodes import existing_file, in_namespace
+
+_running: dict[Path, Program] = {}
+
+
+def run_program(file: str | Path, *arguments: str, timeout: float = 30.0) -> Program:
+    """Run a Python file in namespace /robot to its end: `start_program` and `wait` in one.
+
+    Raises LabError when there is no such file.
+    """
+    return start_program(file, *arguments).wait(timeout)
+
+
+def start_program(file: str | Path, *arguments: str) -> Program:
+    """Start a Python file as a process in namespace /robot and go on at once.
+
+    What an earlier cell started from the same file and left running is stopped first.
+
+    Raises LabError when there is no such file.
+    """
+    path = existing_file(file)
+    if path in _running:
+        _running.pop(path).stop()
+    connection()  # sets the environment that the child inherits
+    program = Program(path, Process([str(path), *in_namespace(arguments)], own_stderr=True))
+    _running[path] = program
+    return program
+
+
+def stop_programs() -> None:
+    """End every program that still runs."""
+    for program in _running.values():
+        program.stop()
+    _running.clear()
+
+
+class Program:
+    """A file that runs, or ran, as a process.
+
+    Attributes:
+        file: its path.
+        stopped: it did not end by itself.
+    """
+
+    def __init__(self, file: Path, process: Process) -> None:
+        self.file = file
+        self.stopped = False
+        self._process = process
+        self._started = time.monotonic()
+        self._seconds: float | None = None
+
+    @property
+    def exit_status(self) -> int | None:
+        """What it ended with by itself; None while it runs, and when it had to be stopped."""
+        return None if self.stopped else self._process.exit_status
+
+    @property
+    def stdout(self) -> str:
+        """What it has printed."""
+        return self._process.output()
+
+    @property
+    def stderr(self) -> str:
+        """Its complaints: its logger's lines, tracebacks and what it printed to sys.stderr."""
+        return self._process.errors()
+
+    @property
+    def seconds(self) -> float:
+        """How long `wait` saw it run, or how long it has run until now."""
+        return time.monotonic() - self._started if self._seconds is None else self._seconds
+
+    def wait(self, timeout: float = 30.0) -> Program:
+        """Wait for its end, and stop it when it has not ended after `timeout` s. Returns the program itself."""
+        ended = self._process.wait(timeout)
+        self._seconds = self._seconds or self.seconds
+        if not ended:
+            self.stop()
+        return self
+
+    def stop(self) -> None:
+        """Press Ctrl-C, and kill it when that does not help."""
+        if self._process.is_running:
+            self.stopped = True
+            self._process.stop()
+
+    def __repr__(self) -> str:
+        return f"<{self.file.name}: {self._state()}>"
+
+    def __str__(self) -> str:
+        said = (self.stdout + self.stderr).splitlines()
+        return "\n    ".join([repr(self), *said])
+
+    def _state(self) -> str:
+        if self.stopped:
+            return f"had not ended after {self.seconds:.1f} s and was stopped"
+        if self._process.is_running:
+            return f"running for {self.seconds:.1f} s"
+        return f"exit status {self.exit_status} after {self.seconds:.1f} s"

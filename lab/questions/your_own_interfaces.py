@@ -1,0 +1,123 @@
+"""Chapter 4: your own interfaces."""
+
+from lab.quiz import Choice, Question
+
+QUESTIONS = (
+    Question(
+        "A service shall switch the gripper's light on or off. Which type?",
+        (
+            Choice(
+                "One of my own, SwitchLight.srv, because the name says what it does.",
+                "The service's name says that. Every client would have to build your package for one bool.",
+            ),
+            Choice(
+                "std_srvs/srv/SetBool, on a service called switch_light.",
+                "One bool in, success and a sentence out: that is what it is for, and every tool knows it.",
+                right=True,
+            ),
+            Choice(
+                "A topic of std_msgs/msg/Bool.",
+                "It would do without an answer: nobody could say that the lamp is broken.",
+            ),
+        ),
+    ),
+    Question(
+        "Which field tells a stranger where the hand is to go?",
+        (
+            Choice(
+                "float64[2] position",
+                "Metres or millimetres? From the shoulder, the pelvis, the floor? "
+                "Each reader will guess, and they will guess differently.",
+            ),
+            Choice(
+                "geometry_msgs/Point position",
+                "Now it is metres by REP-103. From where is still not said.",
+            ),
+            Choice(
+                "geometry_msgs/PointStamped target  # m",
+                "It carries its frame_id, so the server can refuse a point in a frame that it does not know.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "The result of your action has `bool success`. What is better?",
+        (
+            Choice(
+                "A code with named constants, and a sentence for people.",
+                "The status says whether it ended well. The code says why not, "
+                "and a program can tell a fall from a time limit.",
+                right=True,
+            ),
+            Choice(
+                "Nothing, success is clear.",
+                "It repeats the goal's status and can contradict it: status SUCCEEDED with success false. "
+                "Which one counts?",
+            ),
+            Choice(
+                "A string with the reason.",
+                "For people it is. A program would have to search it for words, "
+                "and the next version spells them differently.",
+            ),
+        ),
+    ),
+    Question(
+        "You added a field in the middle of a message, built it, and started your new node. "
+        "The other node has run since yesterday. What happens?",
+        (
+            Choice(
+                "ROS refuses to connect the two, because the definitions differ.",
+                "Both call the type by the same name, and that is all that is compared. "
+                "The hashes differ, but nobody looks at them for you.",
+            ),
+            Choice(
+                "The old node picks up the new definition.",
+                "It read the definition when it imported it. A running process does not change.",
+            ),
+            Choice(
+                "They connect, and bytes are read as fields that they are not.",
+                "Only bytes travel, in the order of the file. "
+                "After a change every program that uses the type is started again.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "acos gets 1.38 for a target 0.6 m away, in a service callback. What should the client of the service see?",
+        (
+            Choice(
+                "An error code, NO_IK_SOLUTION, and a sentence with the distance and the reach.",
+                "Out of reach is an answer like any other: the interface has a code for it.",
+                right=True,
+            ),
+            Choice(
+                "The ValueError that acos raises.",
+                "It would end the server's spin, and with it the node. The client sees nothing at all.",
+            ),
+            Choice(
+                "The angles for the nearest point that can be reached.",
+                "That is an answer to another question. "
+                "The client believes that the hand is where it asked for, and closes the fingers on air.",
+            ),
+        ),
+    ),
+    Question(
+        "Your server declared the parameter forearm_length with the default 0.25. "
+        "Somebody starts it with -p forearm_length:=1. What happens?",
+        (
+            Choice(
+                "The forearm is 1.0 m long.",
+                "1 is an integer and the parameter is a double. ROS 2 does not convert one into the other.",
+            ),
+            Choice(
+                "The node ends at the declaration: the type is wrong.",
+                "Write 1.0. A parameter's type is fixed when it is declared.",
+                right=True,
+            ),
+            Choice(
+                "The default stays, with a warning.",
+                "There is no warning: declare_parameter raises.",
+            ),
+        ),
+    ),
+)
