@@ -23,6 +23,7 @@ from autograder.verdict import CheckStatus, CheckVerdict, Grade
 
 SLOWER = (2.0, 1.0)  # scales to fall back to when the machine cannot keep up
 OVERLOADED = 0.5  # s the simulator may be late before a run is not judged at all
+STARVED = 1.0  # s a student's program may wait for a processor before a run without a robot is not judged
 STRAINED = 0.15  # s it may be late in the second look at a failure
 HOG = 0.8  # processors a submission may keep busy before a late simulator is its own doing
 LOG_LINES = 40
@@ -271,14 +272,15 @@ def _are_done(scenarios: Sequence[Scenario], runs: Runs) -> bool:
 def lateness(transcript: Transcript) -> float:
     """Return how far (s, arena's clock) the simulator was behind at worst, once the node was ready.
 
-    Without a robot, by how much the arena's own process overslept, or how long the program had no processor.
+    Without a robot, by how much the arena's own process overslept, or in proportion how long the program had no
+    processor.
     """
     ready = transcript.first(ev.NodeReady)
     since = ready.t + 1.0 if ready else 0.0
     lags = [robot.lag for robot in transcript.truth if robot.t >= since]
     if not transcript.truth:
         lags = [woken.late for woken in transcript.all(ev.WokenLate)]
-        lags += [starved.seconds for starved in transcript.all(ev.Starved)]
+        lags += [starved.seconds * OVERLOADED / STARVED for starved in transcript.all(ev.Starved)]
     return max(lags, default=0.0)
 
 

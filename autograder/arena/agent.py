@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from autograder.arena.clocked_start import CLOCK_PAGE, SPEC_FILE
-from autograder.arena.punctuality import punctuality
+from autograder.arena.punctuality import Punctuality
 from autograder.arena.recorder import Recorder
 from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
@@ -74,7 +74,10 @@ def _perform(
     from autograder.arena.client_stage import ClientStage
     from autograder.arena.stage import NodeMissing, Stage
 
+    punctuality = Punctuality(recorder, student, spec["scale"])
+
     def speed_up() -> None:
+        punctuality.begin()
         clock.run_at(spec["scale"])
 
     scenario = getattr(importlib.import_module(spec["module"]), spec["scenario"])
@@ -84,14 +87,14 @@ def _perform(
     executor.add_node(node)
     stage: Stage | ClientStage
     if spec["student"] == "program":
-        stage = ClientStage(node, recorder, changed, student, speed_up, spec["scale"])
+        stage = ClientStage(node, recorder, changed, student, speed_up)
     else:
         stranger = rclpy.create_node("stranger", namespace=spec["namespace"])
         executor.add_node(stranger)
         stage = Stage(node, stranger, recorder, changed, simulator, student, speed_up)
     threading.Thread(target=executor.spin, daemon=True).start()
     # a robot says itself how late it is
-    watch = punctuality(recorder) if spec["timed"] and not simulator else nullcontext()
+    watch = punctuality.watch() if spec["timed"] and not simulator else nullcontext()
     with suppress(NodeMissing), watch:  # what is missing is recorded already
         scenario(stage, **spec["params"])
     if simulator and not simulator.is_running():

@@ -36,14 +36,11 @@ class ClientStage(Waiting):
         changed: threading.Condition,
         student: Student,
         speed_up: Callable[[], None],
-        scale: float,
     ) -> None:
         super().__init__(recorder, changed)
         self._node = node
         self._student = student
         self._speed_up = speed_up
-        self._scale = scale
-        self._starved_at_start = 0.0
         self._services: list[PlayedService] = []
         self._request_numbers = count(1)
         self._server_numbers = count(1)
@@ -84,7 +81,6 @@ class ClientStage(Waiting):
             self._recorder.record("node_ready", waited=time.monotonic() - started)
         if appeared and self._services:
             self.wait_until(lambda: self._had_a_request() or self._has_exited(), MATCHING_TIMEOUT)
-        self._starved_at_start = self._student.starved()
         self._speed_up()
 
     def run_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:
@@ -102,8 +98,6 @@ class ClientStage(Waiting):
         self.wait_until(self._has_exited, timeout)
         if not self._has_exited():
             self._recorder.record("unanswered", what="end", id="program", waited=time.monotonic() - started)
-        starved = (self._student.starved() - self._starved_at_start) * self._scale
-        self._recorder.record("starved", seconds=starved)
         return self._student.returncode
 
     # -- helpers ------------------------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""How late the arena's own processes are woken: what the machine takes from everybody who keeps a deadline there."""
+"""What a busy machine takes from those who keep deadlines in an arena without a robot, which would tell it itself."""
 
 from __future__ import annotations
 
@@ -8,28 +8,42 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from autograder.arena.recorder import Recorder
+from autograder.arena.student import Student
 
 PERIOD = 0.1  # s on the arena's clock
 
 
-@contextmanager
-def punctuality(recorder: Recorder) -> Iterator[None]:
-    """Sleep over and over beside the scenario, and record each sleep that was longer than any before by how much."""
-    over = threading.Event()
-    watch = threading.Thread(target=_watch, args=(recorder, over), name="punctuality", daemon=True)
-    watch.start()
-    try:
-        yield
-    finally:
-        over.set()
+class Punctuality:
+    """Records how late the arena's own process is woken, and how long the student's gets no processor."""
 
+    def __init__(self, recorder: Recorder, student: Student, scale: float) -> None:
+        self._recorder = recorder
+        self._student = student
+        self._scale = scale
+        self._starved_before = 0.0
 
-def _watch(recorder: Recorder, over: threading.Event) -> None:
-    worst = 0.0
-    while not over.is_set():
-        before = time.monotonic()
-        time.sleep(PERIOD)
-        late = time.monotonic() - before - PERIOD
-        if late > worst:
-            worst = late
-            recorder.record("woken_late", late=late)
+    def begin(self) -> None:
+        """From here on the arena's clock runs at its scale, and waiting for a processor counts."""
+        self._starved_before = self._student.starved()
+
+    @contextmanager
+    def watch(self) -> Iterator[None]:
+        """Sleep over and over beside the scenario, and record by how much each sleep was longer that set a record."""
+        over = threading.Event()
+        threading.Thread(target=self._sleep, args=(over,), name="punctuality", daemon=True).start()
+        try:
+            yield
+        finally:
+            over.set()
+            starved = (self._student.starved() - self._starved_before) * self._scale
+            self._recorder.record("starved", seconds=starved)
+
+    def _sleep(self, over: threading.Event) -> None:
+        worst = 0.0
+        while not over.is_set():
+            before = time.monotonic()
+            time.sleep(PERIOD)
+            late = time.monotonic() - before - PERIOD
+            if late > worst:
+                worst = late
+                self._recorder.record("woken_late", late=late)

@@ -1,0 +1,51 @@
+"""The planar two-link arm, forwards: where elbow and hand are at given angles. x is forward, y up, in m."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+Point = tuple[float, float]
+
+TOLERANCE = 0.001  # m, of the hand at the target
+
+
+@dataclass(frozen=True)
+class TwoLinkArm:
+    """Lengths in m. Angles are in rad, counter-clockwise: the upper arm from x, the forearm from the upper arm."""
+
+    upper_arm: float = 0.30
+    forearm: float = 0.25
+
+    def elbow_at(self, shoulder: float) -> Point:
+        """Return the place of the elbow."""
+        return self.upper_arm * math.cos(shoulder), self.upper_arm * math.sin(shoulder)
+
+    def hand_at(self, shoulder: float, elbow: float) -> Point:
+        """Return the place of the hand."""
+        x, y = self.elbow_at(shoulder)
+        return x + self.forearm * math.cos(shoulder + elbow), y + self.forearm * math.sin(shoulder + elbow)
+
+    def misses(self, shoulder: float, elbow: float, target: Point) -> float:
+        """Return how far (m) the hand is from a point; infinite for angles that are no numbers, or absurd ones."""
+        if not math.isfinite(shoulder + elbow):
+            return math.inf
+        return math.dist(self.hand_at(shoulder, elbow), target)
+
+    def elbow_is_above(self, shoulder: float, target: Point) -> bool:
+        """Whether the elbow lies above the line from the shoulder to a point ahead of it (x > 0)."""
+        x, y = self.elbow_at(shoulder)
+        return target[0] * y - target[1] * x > 0
+
+    @property
+    def nearest(self) -> float:
+        """How near (m) to the shoulder the hand can come."""
+        return abs(self.upper_arm - self.forearm)
+
+    @property
+    def farthest(self) -> float:
+        """How far (m) from the shoulder the hand can get."""
+        return self.upper_arm + self.forearm
+
+
+DEFAULT = TwoLinkArm()

@@ -1,0 +1,54 @@
+"""Fault: finds the shoulder's angle by a division by the distance, which is 0 at the shoulder (M9)
+Caught by: says_what_is_out_of_reach
+"""
+
+import math
+
+import rclpy
+from humanoid_interfaces.srv import ComputeIK
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+
+
+class ArmKinematics(Node):
+    def __init__(self):
+        super().__init__("arm_kinematics")
+        self.declare_parameter("upper_arm_length", 0.30)
+        self.declare_parameter("forearm_length", 0.25)
+        self.create_service(ComputeIK, "compute_ik", self.on_request)
+
+    def on_request(self, request, response):
+        if request.target.header.frame_id != "shoulder":
+            response.error_code = ComputeIK.Response.FRAME_TRANSFORM_FAILURE
+            response.message = f"the target is in frame {request.target.header.frame_id!r}, not in 'shoulder'"
+            return response
+        l1 = self.get_parameter("upper_arm_length").value
+        l2 = self.get_parameter("forearm_length").value
+        x, y = request.target.point.x, request.target.point.y
+        distance = math.hypot(x, y)
+        aside = (l1 * l1 + distance * distance - l2 * l2) / (2.0 * l1 * distance)
+        if not -1.0 <= aside <= 1.0:
+            response.error_code = ComputeIK.Response.NO_IK_SOLUTION
+            return response
+        side = 1.0 if request.elbow_up else -1.0
+        response.shoulder = math.atan2(y, x) + side * math.acos(aside)
+        inside = (l1 * l1 + l2 * l2 - distance * distance) / (2.0 * l1 * l2)
+        response.elbow = side * (math.acos(inside) - math.pi)
+        response.error_code = ComputeIK.Response.SUCCESS
+        return response
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = ArmKinematics()
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

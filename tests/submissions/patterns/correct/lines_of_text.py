@@ -1,0 +1,26 @@
+"""Style: the lines themselves, with other signs between the words
+"""
+
+TEXT = """
+1: topic, a
+2: service, b
+3: action, c
+4: topic, a
+5: service, b
+6: action, a
+7: topic, b
+8: service, c
+9: action, b
+10: topic, c
+11: service, a
+12: action, c
+"""
+
+
+def main(args=None):
+    print("My answers:")
+    print(TEXT)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,27 @@
+"""Fault: publishes a switch, so that nobody can say no
+Caught by: situation_2
+"""
+
+ANSWERS = {
+    1: ("topic", "a"),
+    2: ("topic", "c"),
+    3: ("action", "c"),
+    4: ("topic", "a"),
+    5: ("service", "b"),
+    6: ("action", "a"),
+    7: ("topic", "b"),
+    8: ("service", "c"),
+    9: ("action", "b"),
+    10: ("topic", "c"),
+    11: ("service", "a"),
+    12: ("action", "c"),
+}
+
+
+def main(args=None):
+    for number, (pattern, reason) in ANSWERS.items():
+        print(number, pattern, reason)
+
+
+if __name__ == "__main__":
+    main()

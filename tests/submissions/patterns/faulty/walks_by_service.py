@@ -1,0 +1,27 @@
+"""Fault: a walk as a service: minutes without a word, and no way to stop it
+Caught by: situation_3
+"""
+
+ANSWERS = {
+    1: ("topic", "a"),
+    2: ("service", "b"),
+    3: ("service", "b"),
+    4: ("topic", "a"),
+    5: ("service", "b"),
+    6: ("action", "a"),
+    7: ("topic", "b"),
+    8: ("service", "c"),
+    9: ("action", "b"),
+    10: ("topic", "c"),
+    11: ("service", "a"),
+    12: ("action", "c"),
+}
+
+
+def main(args=None):
+    for number, (pattern, reason) in ANSWERS.items():
+        print(number, pattern, reason)
+
+
+if __name__ == "__main__":
+    main()
