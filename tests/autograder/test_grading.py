@@ -133,6 +133,29 @@ def test_a_machine_that_is_too_slow_even_at_scale_1_gives_no_grade(monkeypatch, 
     assert "too busy" in grade.checks[0].help
 
 
+def without_robot(scenario, scale, *, starved):
+    events = [ev.NodeReady(t=0.0, waited=0.1), ev.Starved(t=3.0, seconds=starved)]
+    return Transcript.from_events(scenario.name, {}, events, scale)
+
+
+@pytest.mark.parametrize(("timed", "scales"), [(True, [5.0, 2.0]), (False, [5.0])])
+def test_a_program_that_got_no_processor_is_run_again_more_slowly_where_time_counts(
+    monkeypatch, timed, scales
+):
+    checks = CheckList()
+
+    @checks.check(points=1, on=Scenario("program", robot=None, student="program", timed=timed))
+    def ends(run):
+        """It ends"""
+
+    ran = arenas(
+        monkeypatch,
+        lambda scenario, scale: without_robot(scenario, scale, starved=3.0 if scale > 2 else 0.1),
+    )
+    assert grading.grade(SUBMISSION, exercise(checks), isolation=ISOLATED, scale=5.0).all_passed
+    assert [scale for _, scale in ran] == scales
+
+
 @pytest.mark.parametrize("fast_enough", [2.0, 1.0])
 def test_a_failure_on_a_strained_run_counts_only_if_it_is_seen_again_on_one_that_is_not(
     monkeypatch, two_checks, fast_enough

@@ -30,6 +30,31 @@ def test_of_a_notebook_the_last_cell_that_writes_the_file_counts_and_nothing_is_
     assert read_submission(file, "battery_service").sources == {"battery_service.py": "new"}
 
 
+def test_several_files_are_read_from_a_notebook_or_a_folder(tmp_path):
+    written = {"GetBatteryStatus.srv": "---\nbool available\n", "NavigateToPose.action": "---\n---\n"}
+    file = tmp_path / "work.ipynb"
+    file.write_text(notebook(*(f"%%writefile {name}\n{text}" for name, text in written.items())))
+    for name, text in written.items():
+        (tmp_path / name).write_text(text)
+    assert read_submission(file, "interfaces").sources == written
+    assert read_submission(tmp_path, "interfaces").sources == written
+
+
+def test_of_several_files_one_may_be_missing_but_not_all(tmp_path):
+    (tmp_path / "GetBatteryStatus.srv").write_text("---\n")
+    assert list(read_submission(tmp_path, "interfaces").sources) == ["GetBatteryStatus.srv"]
+    (tmp_path / "GetBatteryStatus.srv").unlink()
+    with pytest.raises(UnusableSubmission, match=r"none of GetBatteryStatus\.srv, NavigateToPose\.action"):
+        read_submission(tmp_path, "interfaces")
+
+
+def test_one_of_several_files_alone_says_what_to_give(tmp_path):
+    file = tmp_path / "GetBatteryStatus.srv"
+    file.write_text("---\n")
+    with pytest.raises(UnusableSubmission, match="give the folder they lie in"):
+        read_submission(file, "interfaces")
+
+
 @pytest.mark.parametrize(
     ("name", "content", "reason"),
     [

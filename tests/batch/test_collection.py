@@ -48,6 +48,21 @@ def test_the_notebook_counts_not_the_file_it_once_wrote(tmp_path):
     assert only(tmp_path).read().sources == {"battery_service.py": "from_notebook = 1\n"}
 
 
+@pytest.mark.parametrize("place", ["anna/interfaces", "anna"])
+def test_an_exercise_of_several_files_is_a_folder_that_holds_one_of_them(tmp_path, place):
+    put(tmp_path / place / "GetBatteryStatus.srv", "---\n")
+    assert only(tmp_path).exercise == "interfaces"
+    assert only(tmp_path).read().sources == {"GetBatteryStatus.srv": "---\n"}
+
+
+def test_a_link_in_place_of_one_of_several_files_is_not_followed(tmp_path):
+    (tmp_path / "secret.txt").write_text("secret")
+    put(tmp_path / "submitted/anna/interfaces/NavigateToPose.action", "---\n---\n")
+    (tmp_path / "submitted/anna/interfaces/GetBatteryStatus.srv").symlink_to(tmp_path / "secret.txt")
+    with pytest.raises(UnusableSubmission, match="not an ordinary file"):
+        only(tmp_path / "submitted").read()
+
+
 def test_works_come_in_order_of_student_and_exercise(tmp_path):
     for name in ("zoe/battery_service.py", "anna/cancellable_walk.py", "anna/battery_service.py"):
         put(tmp_path / name)

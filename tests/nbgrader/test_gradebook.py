@@ -195,6 +195,13 @@ def test_a_students_record_keeps_one_grade_an_exercise(course):
     ]
 
 
+def test_each_of_several_files_is_shown_in_its_own_cell(gradebook):
+    sources = {"GetBatteryStatus.srv": "---\nbool of_the_service\n"}
+    page = gradebook.enter(Entry(grade_of("anna", "interfaces"), sources)).read_text()
+    assert "of_the_service" in page
+    assert "This file was not handed in." in page
+
+
 def test_a_reason_makes_a_grade_not_graded(gradebook):
     grade = dataclasses.replace(grade_of("anna"), reason="the machine was too busy")
     assert gradebook.enter(Entry(grade, SOURCES)) is None
