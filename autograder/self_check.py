@@ -14,6 +14,9 @@ from autograder.submission import read_submission
 from autograder.verdict import Grade
 
 
+NOTEBOOK_WIDTH = 100  # characters; JupyterLab shows about 110 beside its file browser
+
+
 @dataclass(frozen=True, repr=False)
 class SelfCheck:
     """The verdicts of one self-check."""
@@ -42,9 +45,11 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
     """
     console = _console()
     submission = read_submission(Path(file or f"{exercise}.py"), exercise)
+    loaded = load_exercise(exercise, hidden=False)
+    console.print(f"{len(loaded.checks)} checks; each is told as soon as it is known, the last within a minute or two.")
     result = grade(
         submission,
-        load_exercise(exercise, hidden=False),
+        loaded,
         report=lambda verdict: print_verdict(console, verdict),
         look_again=lambda check: print_second_look(console, check),
     )
@@ -53,4 +58,12 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
 
 
 def _console() -> Console:
-    return Console(highlight=False)
+    """Coloured text: as rich's HTML for notebooks every line would stand alone, and a long one would be cut off."""
+    in_notebook = Console().is_jupyter
+    return Console(
+        highlight=False,
+        force_jupyter=False,
+        force_terminal=in_notebook or None,
+        color_system="standard" if in_notebook else "auto",
+        width=NOTEBOOK_WIDTH if in_notebook else None,
+    )

@@ -18,6 +18,10 @@ MAX_NOTEBOOK_BYTES = 50_000_000  # a notebook also holds pictures of the robot
 class UnusableSubmission(Exception):
     """The submission cannot be read; the message says what was found and what is expected."""
 
+    def _render_traceback_(self) -> list[str]:
+        """Jupyter shows this instead of a traceback."""
+        return [f"{type(self).__name__}: {self}"]
+
 
 @dataclass(frozen=True)
 class Submission:
@@ -37,7 +41,8 @@ def read_submission(path: Path, exercise: str, student: str = "you") -> Submissi
     """Read a notebook, the file itself, or a folder with the files; raises :class:`UnusableSubmission`."""
     names = file_names(exercise)
     if not path.exists():
-        raise UnusableSubmission(f"there is no file {path}")
+        hint = f"; run the cell that begins %%writefile {path.name}" if path.name in names else ""
+        raise UnusableSubmission(f"there is no file {path}{hint}")
     if path.suffix == ".ipynb":
         sources = sources_from_notebook(_read(path, MAX_NOTEBOOK_BYTES), names, path)
     elif path.is_dir():

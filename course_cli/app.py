@@ -14,7 +14,7 @@ from typing import Any
 import typer
 
 HELP = "Learn ROS 2 services and actions on a humanoid that really balances."
-FORWARDING = {"ignore_unknown_options": True, "allow_extra_args": True, "help_option_names": []}
+FORWARDING = {"ignore_unknown_options": True, "allow_extra_args": True}
 
 
 @dataclass(frozen=True)
@@ -24,15 +24,24 @@ class Command:
     target: "module:name" of a function written for Typer, or of a typer.Typer with subcommands.
     summary: its line in `course --help`.
     forwards_arguments: it starts another program, which gets every argument from typer.Context.args.
+    forwards_help: --help, too, goes to that program.
     """
 
     target: str
     summary: str
     forwards_arguments: bool = False
+    forwards_help: bool = True
 
     @property
     def module(self) -> str:
         return self.target.partition(":")[0]
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """What Typer shall do with its arguments."""
+        if not self.forwards_arguments:
+            return {}
+        return FORWARDING | ({"help_option_names": []} if self.forwards_help else {})
 
     def load(self) -> Any:
         return getattr(import_module(self.module), self.target.partition(":")[2])
@@ -43,7 +52,10 @@ COMMANDS: dict[str, Command] = {
         "course_cli.commands.demo:demo", "See it all work: a walk, a cancel, three graded submissions."
     ),
     "lab": Command(
-        "course_cli.commands.lab:lab", "Open the chapters and exercises.", forwards_arguments=True
+        "course_cli.commands.lab:lab",
+        "Open the chapters and exercises.",
+        forwards_arguments=True,
+        forwards_help=False,
     ),
     "check": Command("course_cli.commands.check:check", "Check your own solution of an exercise."),
     "sim": Command("course_cli.commands.sim:sim", "The robot node alone.", forwards_arguments=True),
@@ -76,7 +88,7 @@ def app(chosen: str | None) -> typer.Typer:
         if isinstance(target, typer.Typer):
             course.add_typer(target, name=name, help=command.summary)
         else:
-            course.command(name, context_settings=FORWARDING if command.forwards_arguments else None)(target)
+            course.command(name, context_settings=command.settings)(target)
     # With a single command Typer would drop its name; a callback keeps it.
     course.callback()(lambda: None)
     return course

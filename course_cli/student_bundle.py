@@ -12,8 +12,8 @@ from autograder.exercise import exercise_names, load_exercise
 from autograder.nbgrader_bridge.release import generate_release
 
 TOP = "humanoid-course"  # the folder the archive unpacks to
+README = "docs/for_students.md"  # is their README.md: the clone's own is for whoever teaches
 PARTS = (
-    "README.md",
     "LICENSE",
     "course",
     "pyproject.toml",
@@ -25,7 +25,9 @@ PARTS = (
     "lab",
     "autograder",
     "course_cli",
-    "chapters",
+    "chapters/*.ipynb",
+    "chapters/README.md",
+    "chapters/images",
     "docs/images",
     "docs/robot.md",
 )
@@ -60,6 +62,7 @@ def write_bundle(root: Path, archive: Path) -> int:
         files = {path.relative_to(root).as_posix(): path for path in _files_of(root)}
         # Freshly generated, because whoever tries the exercises out leaves solutions beside them.
         files |= {path.relative_to(temporary).as_posix(): path for path in exercises.rglob("*.ipynb")}
+        files["README.md"] = root / README
         require_no_leak(files)
         archive.parent.mkdir(parents=True, exist_ok=True)
         with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as bundle:
@@ -91,8 +94,7 @@ def hidden_check_ids() -> list[str]:
 
 
 def _files_of(root: Path) -> Iterator[Path]:
-    for part in PARTS:
-        place = root / part
+    for place in (place for part in PARTS for place in root.glob(part)):
         candidates = sorted(place.rglob("*")) if place.is_dir() else [place]
         yield from (path for path in candidates if path.is_file() and not _kept_back(path.relative_to(root)))
 

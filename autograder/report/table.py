@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rich.console import Console, Group, RenderableType
+from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
@@ -23,8 +24,9 @@ def print_verdict(console: Console, verdict: CheckVerdict) -> None:
     """Print one verdict as soon as it is known, with the reason when it is not 'passed'."""
     mark, colour = MARKS[verdict.status]
     console.print(Text.assemble((f"{mark} ", colour), verdict.title, (f"  {_points(verdict)}", "dim")))
-    for line in explanation(verdict):
-        console.print(Text("    ").append_text(line))
+    reason = explanation(verdict)
+    if reason.row_count:
+        console.print(Padding.indent(reason, 4))
 
 
 def print_second_look(console: Console, check: Check) -> None:
@@ -32,20 +34,23 @@ def print_second_look(console: Console, check: Check) -> None:
     console.print(Text(f"… {check.title}: failed once, looking again", "dim"))
 
 
-def explanation(verdict: CheckVerdict) -> list[Text]:
-    """Return what went wrong as lines: expected, observed with its time, next step, the end of the node's output."""
+def explanation(verdict: CheckVerdict) -> Table:
+    """Return what went wrong, a row each: expected, observed with its time, next step, the end of the node's output."""
+    table = Table.grid(padding=(0, 2), pad_edge=False)
+    table.add_column(style="bold", no_wrap=True)
+    table.add_column(overflow="fold")
     if verdict.status == "passed":
-        return []
+        return table
     when = f"  (at {verdict.robot_time:.1f} s)" if verdict.robot_time is not None else ""
-    lines = [
-        Text.assemble(("expected  ", "bold"), verdict.expected) if verdict.expected else None,
-        Text.assemble(("observed  ", "bold"), verdict.observed, (when, "dim")) if verdict.observed else None,
-        Text.assemble(("next      ", "bold"), verdict.help) if verdict.help else None,
-    ]
-    log = [
-        Text.assemble(("log       ", "bold"), (line, "dim")) for line in verdict.log.splitlines()[-LOG_LINES:]
-    ]
-    return [line for line in lines if line is not None] + log
+    if verdict.expected:
+        table.add_row("expected", Text(verdict.expected))
+    if verdict.observed:
+        table.add_row("observed", Text.assemble(verdict.observed, (when, "dim")))
+    if verdict.help:
+        table.add_row("next", Text(verdict.help))
+    for line in verdict.log.splitlines()[-LOG_LINES:]:
+        table.add_row("log", Text(line, "dim"))
+    return table
 
 
 def grade_table(grade: Grade) -> RenderableType:

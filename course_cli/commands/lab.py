@@ -9,17 +9,25 @@ import typer
 from ros_runtime.environment import ros_environment
 
 ROOT = Path(__file__).resolve().parents[2]
+# Only what a student needs: nbgrader's "Validate" would run the notebook and call its own time limit a failed check.
+CONFIGURATION = ROOT / "course_cli" / "jupyter"
 
 
 def lab(context: typer.Context) -> None:
-    """Open JupyterLab on chapters and exercises; further arguments go to it, for example --no-browser."""
+    """Open JupyterLab on chapters and exercises, at the page that lists them.
+
+    The address is printed, too. Further arguments go to JupyterLab: --no-browser, --port 8890, --help-all.
+    """
     command = [
         *(sys.executable, "-m", "jupyterlab"),
         f"--ServerApp.root_dir={ROOT}",
-        "--LabApp.default_url=/lab/tree/chapters",
+        "--LabApp.default_url=/lab/tree/chapters/README.md",
         *context.args,
     ]
     if os.geteuid() == 0:
         command.append("--allow-root")
     # Notebooks and the terminals beside them behave alike: wrong field types are errors in both.
-    os.execve(sys.executable, command, {**os.environ, **ros_environment()})
+    environment = {**os.environ, **ros_environment()}
+    others = environment.get("JUPYTER_CONFIG_PATH")
+    environment["JUPYTER_CONFIG_PATH"] = os.pathsep.join(filter(None, [str(CONFIGURATION), others]))
+    os.execve(sys.executable, command, environment)
