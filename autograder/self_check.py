@@ -9,12 +9,11 @@ from rich.console import Console
 
 from autograder.exercise import load_exercise
 from autograder.grading import grade
-from autograder.report.table import grade_table, print_second_look, print_verdict
+from autograder.report.table import grade_table, print_beginning, print_second_look, print_verdict
 from autograder.submission import read_submission
 from autograder.verdict import Grade
 
-
-NOTEBOOK_WIDTH = 100  # characters; JupyterLab shows about 110 beside its file browser
+NOTEBOOK_WIDTH = 104  # characters; JupyterLab shows as many beside its file browser on 1280 pixels
 
 
 @dataclass(frozen=True, repr=False)
@@ -44,15 +43,17 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
     Raises :class:`~autograder.submission.UnusableSubmission` when the file cannot be read.
     """
     console = _console()
-    submission = read_submission(Path(file or f"{exercise}.py"), exercise)
+    path = Path(file or f"{exercise}.py")
+    submission = read_submission(path, exercise)
     loaded = load_exercise(exercise, hidden=False)
-    console.print(f"{len(loaded.checks)} checks; each is told as soon as it is known, the last within a minute or two.")
+    print_beginning(console, path, loaded)
     result = grade(
         submission,
         loaded,
         report=lambda verdict: print_verdict(console, verdict),
         look_again=lambda check: print_second_look(console, check),
     )
+    console.print()
     console.print(grade_table(result))
     return SelfCheck(result)
 

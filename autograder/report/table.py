@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from rich.console import Console, Group, RenderableType
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
 from autograder.checks import Check
+from autograder.exercise import Exercise
 from autograder.verdict import CheckVerdict, Grade
 
 LOG_LINES = 6
@@ -18,6 +21,14 @@ MARKS = {
     "not run": ("–", "yellow"),
     "error": ("!", "magenta"),
 }
+
+
+def print_beginning(console: Console, path: Path, exercise: Exercise) -> None:
+    """Say what is checked, before minutes in which nothing may be heard."""
+    count = len(exercise.checks)
+    console.print(
+        f"{path}: {count} checks, each told as soon as it is known; it takes a minute or two.", markup=False
+    )
 
 
 def print_verdict(console: Console, verdict: CheckVerdict) -> None:

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from autograder.exercise import UnknownExercise, load_exercise
 from autograder.grading import grade
-from autograder.report.table import grade_table, print_second_look, print_verdict
+from autograder.report.table import grade_table, print_beginning, print_second_look, print_verdict
 from autograder.submission import UnusableSubmission, read_submission
 
 UNUSABLE = 2
@@ -30,10 +30,12 @@ def check(
     console = Console(highlight=False)
     try:
         loaded = load_exercise(exercise, hidden=False)
-        submission = read_submission(file or _default_file(exercise), exercise)
+        path = file or _default_file(exercise)
+        submission = read_submission(path, exercise)
     except (UnknownExercise, UnusableSubmission) as error:
         console.print(str(error), style="red", markup=False)
         raise typer.Exit(UNUSABLE) from error
+    print_beginning(console, path, loaded)
     result = grade(
         submission,
         loaded,

@@ -81,3 +81,8 @@ def test_text_in_another_encoding_is_refused(tmp_path):
 def test_a_missing_file_is_refused(tmp_path):
     with pytest.raises(UnusableSubmission, match="there is no file"):
         read_submission(tmp_path / "nowhere.py", "battery_service")
+
+
+def test_a_program_that_was_not_written_yet_names_its_cell(tmp_path):
+    with pytest.raises(UnusableSubmission, match="run the cell that begins %%writefile"):
+        read_submission(tmp_path / "battery_service.py", "battery_service")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 import zipfile
@@ -121,6 +122,23 @@ def test_its_commands_are_the_students(unpacked):
         assert f" {command} " in ran.stdout
     for command in ("grade", "audit", "release"):
         assert f" {command} " not in ran.stdout
+
+
+def test_its_readme_names_only_commands_that_students_have(unpacked):
+    readme = (unpacked / "README.md").read_text()
+    named = set(re.findall(r"\./course (\w+)", readme))
+    assert {"lab", "check"} <= named
+    assert all((unpacked / f"course_cli/commands/{name}.py").exists() for name in named)
+    pictures = re.findall(r"\]\((\S+)\)", readme)
+    assert all((unpacked / picture).exists() for picture in pictures)
+
+
+def test_what_cells_have_written_beside_the_chapters_stays_here(unpacked):
+    assert {path.suffix for path in (unpacked / "chapters").rglob("*") if path.is_file()} == {
+        ".ipynb",
+        ".md",
+        ".svg",
+    }
 
 
 def test_it_is_small_and_the_same_every_time(archive, tmp_path):

@@ -64,3 +64,10 @@ def test_jupyterlab_gets_its_own_arguments() -> None:
 
     assert finished.returncode == 0
     assert finished.stdout.strip() == version("jupyterlab")
+
+
+def test_the_lab_says_itself_what_it_opens() -> None:
+    finished = course("lab", "--help")
+
+    assert finished.returncode == 0
+    assert "chapters and exercises" in finished.stdout
