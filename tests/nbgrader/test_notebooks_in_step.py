@@ -12,7 +12,7 @@ from conftest import ROOT, SOLUTIONS
 from nbgrader.nbgraderformat import MetadataValidator
 from nbgrader.utils import is_grade, is_solution
 
-from autograder.exercise import exercise_names, load_exercise
+from autograder.exercise import exercise_names, file_names, load_exercise
 from autograder.nbgrader_bridge.release import bring_in_step, generate_release, out_of_step, source_notebooks
 
 EXERCISES = ROOT / "exercises"
@@ -69,17 +69,22 @@ def test_a_release_holds_no_solution_and_does_not_tell_what_is_hidden(exercise):
 
 
 @pytest.mark.parametrize("exercise", exercise_names())
-def test_the_starter_code_is_a_program_and_the_reference_another(exercise):
-    sources = []
-    for folder in (SOLUTIONS, EXERCISES):
-        (cell,) = (cell for cell in read(folder, exercise).cells if is_solution(cell))
-        magic, _, source = cell.source.partition("\n")
-        assert magic == f"%%writefile {exercise}.py"
-        ast.parse(source)
-        sources.append(source)
-    reference, starter = sources
-    assert "# YOUR CODE HERE" in starter
-    assert len(starter) < 0.9 * len(reference)
+def test_the_starter_lacks_what_the_reference_has(exercise):
+    reference, starter = (solutions_in(folder, exercise) for folder in (SOLUTIONS, EXERCISES))
+    assert list(reference) == list(starter) == list(file_names(exercise))
+    for name, source in starter.items():
+        assert "# YOUR CODE HERE" in source
+        assert len(source) < 0.9 * len(reference[name])
+        if name.endswith(".py"):
+            ast.parse(source)
+            ast.parse(reference[name])
+
+
+def solutions_in(folder, exercise):
+    """The source of each file that the notebook's solution cells write, by its name."""
+    cells = [cell for cell in read(folder, exercise).cells if is_solution(cell)]
+    written = (cell.source.partition("\n") for cell in cells)
+    return {magic.removeprefix("%%writefile "): source for magic, _, source in written}
 
 
 def test_making_the_release_again_gives_the_same_bytes(tmp_path):
