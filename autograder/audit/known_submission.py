@@ -19,7 +19,6 @@ from fnmatch import fnmatch
 from pathlib import Path
 from typing import Literal, get_args
 
-from autograder.exercise import file_names
 from autograder.submission import Submission, read_submission
 
 SUBMISSIONS = Path(__file__).resolve().parents[2] / "tests" / "submissions"
@@ -63,8 +62,8 @@ def known_submissions(exercise: str, *, only: str = "*", folder: Path = SUBMISSI
 
     Each is a .py file, or a folder where students of the exercise write several files.
     """
-    pattern = "*.py" if len(file_names(exercise)) == 1 else "*/"
-    paths = [path for kind in get_args(Kind) for path in sorted((folder / exercise / kind).glob(pattern))]
+    folders = [folder / exercise / kind for kind in get_args(Kind)]
+    paths = [path for place in folders for path in sorted([*place.glob("*.py"), *place.glob("[!_]*/")])]
     return [
         read_known_submission(path)
         for path in paths
