@@ -25,7 +25,7 @@ def markdown(name: str) -> str:
 
 
 def test_there_are_chapters() -> None:
-    assert {"02_services", "07_cancel_and_preempt"} <= set(NAMES)
+    assert [name[:2] for name in NAMES] == ["01", "02", "03", "04", "07"]
 
 
 @pytest.mark.parametrize("name", NAMES)
