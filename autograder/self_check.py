@@ -7,10 +7,10 @@ from pathlib import Path
 
 from rich.console import Console
 
-from autograder.exercise import load_exercise
+from autograder.exercise import file_names, load_exercise
 from autograder.grading import grade
 from autograder.report.table import grade_table, print_beginning, print_second_look, print_verdict
-from autograder.submission import read_submission
+from autograder.submission import place_of_work, read_submission
 from autograder.verdict import Grade
 
 NOTEBOOK_WIDTH = 104  # characters; JupyterLab shows as many beside its file browser on 1280 pixels
@@ -38,12 +38,12 @@ class SelfCheck:
 
 
 def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
-    """Check `file` (default: <exercise>.py here) with the visible checks and print the table.
+    """Check `file` (default: what the notebook has written here) with the visible checks and print the table.
 
     Raises :class:`~autograder.submission.UnusableSubmission` when the file cannot be read.
     """
     console = _console()
-    path = Path(file or f"{exercise}.py")
+    path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
     submission = read_submission(path, exercise)
     loaded = load_exercise(exercise, hidden=False)
     print_beginning(console, path, loaded)

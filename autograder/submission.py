@@ -37,6 +37,14 @@ class Submission:
         return {name: text.encode() for name, text in self.sources.items()}
 
 
+def place_of_work(exercise: str, folder: Path) -> Path | None:
+    """Return an exercise's program in a folder; the folder where several files are written; None when none is there."""
+    names = file_names(exercise)
+    if not any((folder / name).exists() for name in names):
+        return None
+    return folder / names[0] if len(names) == 1 else folder
+
+
 def read_submission(path: Path, exercise: str, student: str = "you") -> Submission:
     """Read a notebook, the file itself, or a folder with the files; raises :class:`UnusableSubmission`."""
     names = file_names(exercise)

@@ -7,10 +7,10 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.exercise import UnknownExercise, load_exercise
+from autograder.exercise import UnknownExercise, file_names, load_exercise
 from autograder.grading import grade
 from autograder.report.table import grade_table, print_beginning, print_second_look, print_verdict
-from autograder.submission import UnusableSubmission, read_submission
+from autograder.submission import UnusableSubmission, place_of_work, read_submission
 
 UNUSABLE = 2
 
@@ -52,14 +52,11 @@ def check(
 
 def _default_file(exercise: str) -> Path:
     """Return the first that exists of the places a student's work lies."""
-    places = [
-        Path(f"{exercise}.py"),
-        Path("exercises") / exercise / f"{exercise}.ipynb",
-        Path(f"{exercise}.ipynb"),
-    ]
-    for place in places:
-        if place.exists():
-            return place
-    raise UnusableSubmission(
-        f"found none of {', '.join(map(str, places))}; name your file: ./course check {exercise} FILE"
-    )
+    if written := place_of_work(exercise, Path()):
+        return written
+    notebooks = [Path("exercises") / exercise / f"{exercise}.ipynb", Path(f"{exercise}.ipynb")]
+    for notebook in notebooks:
+        if notebook.exists():
+            return notebook
+    looked_for = ", ".join([*file_names(exercise), *map(str, notebooks)])
+    raise UnusableSubmission(f"found none of {looked_for}; name your file: ./course check {exercise} FILE")

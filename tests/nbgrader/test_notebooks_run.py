@@ -67,6 +67,31 @@ def test_motor_services_on_the_stand_and_on_the_floor(tmp_path):
     assert "the robot is WALKING" in seen["try-walking"]
 
 
+def test_patterns_from_the_task_to_the_verdicts(tmp_path):
+    seen = run("patterns", tmp_path)
+    assert "odom" in seen["example"]
+    assert "12 action c" in seen["try"]
+    assert "Situation 6" in seen["self-check"]
+    assert "✗" not in seen["self-check"]
+
+
+def test_robot_controller_without_servers_with_good_ones_and_with_silent_ones(tmp_path):
+    seen = run("robot_controller", tmp_path, until="self-check-intro")
+    assert "nobody offers get_battery_status" in seen["example-run"]
+    assert "exit status 1" in seen["try-alone"]
+    assert "Robot status: Motors: ON" in seen["try"]
+    assert "enable_motors does not answer" in seen["try-silent"]
+    assert seen["try-silent"].count("enable_motors: True") == 2
+
+
+def test_interfaces_from_the_task_to_the_verdicts(tmp_path):
+    seen = run("interfaces", tmp_path)
+    assert "ReachPoint" in seen["example-run"]
+    assert "'available': 'boolean'" in seen["try-use"]
+    assert "NavigateToPose.action builds" in seen["self-check"]
+    assert "✗" not in seen["self-check"]
+
+
 def test_cancellable_walk_on_the_live_robot(tmp_path):
     seen = run("cancellable_walk", tmp_path, until="self-check-intro")
     assert "2.00 m forward, 0.00 m to the left" in seen["example-frames"]

@@ -7,6 +7,7 @@ import sys
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.task import Future
 from std_srvs.srv import SetBool, Trigger
 
 PER_CALL = 2.0  # s
@@ -39,7 +40,7 @@ class RobotController(Node):
                 future.add_done_callback(lambda done: print(f"Robot status: {done.result().message}"))
             rclpy.spin_until_future_complete(self, future, timeout_sec=PER_CALL)
             if future.done():
-                rclpy.spin_once(self, timeout_sec=0.1)  # lets the callback print
+                rclpy.spin_until_future_complete(self, Future(), timeout_sec=0.3)  # lets the callback print
                 return future.result()
         raise NoAnswer(f"{client.srv_name} has not answered within {PER_CALL:g} s, twice")
 
