@@ -15,7 +15,7 @@ from autograder.audit.run import audit_one
 from autograder.exercise import exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
 
-ARENAS_AT_A_TIME = 3  # an arena waits for a third of its time
+ARENAS_AT_A_TIME = 2
 EXERCISES = {name: load_exercise(name, hidden=True) for name in exercise_names()}
 KNOWN = [known for name in EXERCISES for known in known_submissions(name)]
 GRADED = [known for name in EXERCISES for known in enough_to_prove(known_submissions(name), of_each=2)]
