@@ -62,6 +62,11 @@ class Scenario:
         return dict(self.inputs)
 
 
+def program(name: str, inputs: Inputs | None = None, **options: Any) -> Scenario:
+    """Return a scenario without a robot for a student's program that ends by itself; `options` are its other fields."""
+    return Scenario(name, inputs or {}, robot=None, student="program", **options)
+
+
 @dataclass(frozen=True)
 class Check:
     """One check: `id` and `title` come from the function, `on` are the scenarios it judges."""

@@ -46,15 +46,18 @@ def exercise_names() -> list[str]:
 
 
 def file_names(exercise: str) -> tuple[str, ...]:
-    """Return the names of the files a student writes: one program, unless the exercise's package lists FILES."""
+    """Return the names of the files a student writes: one program, unless the exercise's package lists FILES.
+
+    Raises :class:`UnknownExercise` naming those there are.
+    """
+    _require_known(exercise)
     package = importlib.import_module(f"autograder.exercises.{exercise}")
     return getattr(package, "FILES", (f"{exercise}.py",))
 
 
 def load_exercise(name: str, *, hidden: bool) -> Exercise:
     """Load an exercise with or without its hidden checks; raises :class:`UnknownExercise` naming those there are."""
-    if name not in exercise_names():
-        raise UnknownExercise(f"there is no exercise {name!r}; there are {', '.join(exercise_names())}")
+    _require_known(name)
     package = f"autograder.exercises.{name}"
     checks = list(importlib.import_module(f"{package}.checks").CHECKS.checks)
     has_hidden = importlib.util.find_spec(f"{package}.hidden") is not None
@@ -62,6 +65,11 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
         checks += importlib.import_module(f"{package}.hidden").CHECKS.checks
     _require_sound(name, checks)
     return Exercise(name, checks, has_hidden)
+
+
+def _require_known(name: str) -> None:
+    if name not in exercise_names():
+        raise UnknownExercise(f"there is no exercise {name!r}; there are {', '.join(exercise_names())}")
 
 
 def _require_sound(name: str, checks: Sequence[Check]) -> None:

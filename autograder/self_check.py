@@ -44,18 +44,27 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
     """
     console = _console()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
-    submission = read_submission(path, exercise)
+    return SelfCheck(check_aloud(console, path, exercise))
+
+
+def check_aloud(console: Console, path: Path, exercise: str, *, jobs: int = 2) -> Grade:
+    """Check a student's work with the visible checks; print each verdict as soon as it is known, then the table.
+
+    Raises :class:`~autograder.submission.UnusableSubmission` and :class:`~autograder.exercise.UnknownExercise`.
+    """
     loaded = load_exercise(exercise, hidden=False)
+    submission = read_submission(path, exercise)
     print_beginning(console, path, loaded)
     result = grade(
         submission,
         loaded,
+        jobs=jobs,
         report=lambda verdict: print_verdict(console, verdict),
         look_again=lambda check: print_second_look(console, check),
     )
     console.print()
     console.print(grade_table(result))
-    return SelfCheck(result)
+    return result
 
 
 def _console() -> Console:

@@ -64,7 +64,7 @@ class ClientStage(Waiting):
 
     def wait_for_requests(self, service: PlayedService, number: int, timeout: float) -> bool:
         """Wait until a played service has had so many requests; False when the time or the program is over first."""
-        self.wait_until(lambda: service.requests >= number or self._has_exited(), timeout)
+        self.wait_until(lambda: service.requests >= number or self._student.has_exited(), timeout)
         return service.requests >= number
 
     # -- the student's program ----------------------------------------------------------------------------------------
@@ -77,10 +77,10 @@ class ClientStage(Waiting):
         started = time.monotonic()
         self._student.start(arguments)
         appeared = self._poll(self._has_appeared, APPEARING_TIMEOUT)
-        if appeared and not self._has_exited():
+        if appeared and not self._student.has_exited():
             self._recorder.record("node_ready", waited=time.monotonic() - started)
         if appeared and self._services:
-            self.wait_until(lambda: self._had_a_request() or self._has_exited(), MATCHING_TIMEOUT)
+            self.wait_until(lambda: self._had_a_request() or self._student.has_exited(), MATCHING_TIMEOUT)
         self._speed_up()
 
     def run_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:
@@ -89,28 +89,23 @@ class ClientStage(Waiting):
         For scenarios in which nothing is timed. Raises RuntimeError when it takes too long, which is our fault.
         """
         self._student.start_module(module, arguments, files)
-        if not self.wait_until(self._has_exited, MODULE_TIMEOUT):
+        if not self.wait_until(self._student.has_exited, MODULE_TIMEOUT):
             raise RuntimeError(f"{module} has not ended within {MODULE_TIMEOUT:g} s")
 
-    def wait_for_end(self, timeout: float = END_TIMEOUT) -> int | None:
-        """Wait until the program has ended by itself; returns its exit status, None when it still runs."""
+    def wait_for_end(self) -> None:
+        """Wait until the program has ended by itself; record it when it still runs."""
         started = time.monotonic()
-        self.wait_until(self._has_exited, timeout)
-        if not self._has_exited():
+        if not self.wait_until(self._student.has_exited, END_TIMEOUT):
             self._recorder.record("unanswered", what="end", id="program", waited=time.monotonic() - started)
-        return self._student.returncode
 
     # -- helpers ------------------------------------------------------------------------------------------------------
-
-    def _has_exited(self) -> bool:
-        return self._student.returncode is not None
 
     def _had_a_request(self) -> bool:
         return any(service.requests for service in self._services)
 
     def _has_appeared(self) -> bool:
         """Whether there is a node beside ours, or none to be expected any more."""
-        return self._has_exited() or len(self._node.get_node_names()) > 1
+        return self._student.has_exited() or len(self._node.get_node_names()) > 1
 
     def _poll(self, condition: Callable[[], bool], timeout: float) -> bool:
         """Wait for what nobody notifies us of: changes of the graph."""

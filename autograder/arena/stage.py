@@ -151,7 +151,9 @@ class Stage(Waiting):
         """Wait until `count` feedback messages of a goal have come, or its result."""
         probe = self._actions[action]
         return self.wait_until(
-            lambda: probe.feedback_counts[goal] >= count or goal in probe.results or self._has_exited(),
+            lambda: (
+                probe.feedback_counts[goal] >= count or goal in probe.results or self._student.has_exited()
+            ),
             timeout,
         )
 
@@ -236,7 +238,7 @@ class Stage(Waiting):
                 first_offer = now
             late = now - started > READY_TIMEOUT
             incomplete = first_offer is not None and now - first_offer > COMPANY_TIMEOUT
-            if late or incomplete or self._has_exited():
+            if late or incomplete or self._student.has_exited():
                 self._recorder.record(
                     "node_not_ready", missing=missing, offered=self._offered(), waited=now - started
                 )
@@ -300,14 +302,11 @@ class Stage(Waiting):
     def _wait_for_reply(self, what: str, name: str, has_come: Callable[[], bool], timeout: float) -> bool:
         """Wait for a reply; record that it is missing when the time is over or the student's process has ended."""
         started = time.monotonic()
-        self.wait_until(lambda: has_come() or self._has_exited(), timeout)
+        self.wait_until(lambda: has_come() or self._student.has_exited(), timeout)
         if has_come():
             return True
         self._recorder.record("unanswered", what=what, id=name, waited=time.monotonic() - started)
         return False
-
-    def _has_exited(self) -> bool:
-        return self._student.returncode is not None
 
     def _name(self, kind: str) -> str:
         self._count += 1

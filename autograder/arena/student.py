@@ -47,6 +47,10 @@ class Student:
         """Run a module of ours on some of the student's files, with no more rights than the student's program has."""
         self._start(["-m", module, *arguments], files)
 
+    def has_exited(self) -> bool:
+        """Whether the program was started and has ended."""
+        return self.returncode is not None
+
     @property
     def returncode(self) -> int | None:
         """The program's exit status (negative: a signal); None before its end."""
@@ -59,10 +63,6 @@ class Student:
     def wait(self, timeout: float) -> int | None:
         """Wait for the end; returns the exit status, or None after `timeout` s."""
         return self._running.wait(timeout)
-
-    def write_line(self, text: str) -> None:
-        """Type a line on the program's stdin."""
-        self._running.write_line(text)
 
     def starved(self) -> float:
         """Return how long (s of real time) the program has waited for a processor."""

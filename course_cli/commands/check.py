@@ -7,10 +7,9 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.exercise import UnknownExercise, file_names, load_exercise
-from autograder.grading import grade
-from autograder.report.table import grade_table, print_beginning, print_second_look, print_verdict
-from autograder.submission import UnusableSubmission, place_of_work, read_submission
+from autograder.exercise import UnknownExercise, file_names
+from autograder.self_check import check_aloud
+from autograder.submission import UnusableSubmission, place_of_work
 
 UNUSABLE = 2
 
@@ -29,22 +28,10 @@ def check(
     """Check your own solution of an exercise."""
     console = Console(highlight=False)
     try:
-        loaded = load_exercise(exercise, hidden=False)
-        path = file or _default_file(exercise)
-        submission = read_submission(path, exercise)
+        result = check_aloud(console, file or _default_file(exercise), exercise, jobs=jobs)
     except (UnknownExercise, UnusableSubmission) as error:
         console.print(str(error), style="red", markup=False)
         raise typer.Exit(UNUSABLE) from error
-    print_beginning(console, path, loaded)
-    result = grade(
-        submission,
-        loaded,
-        jobs=jobs,
-        report=lambda verdict: print_verdict(console, verdict),
-        look_again=lambda check: print_second_look(console, check),
-    )
-    console.print()
-    console.print(grade_table(result))
     if json_file:
         json_file.write_text(json.dumps(result.to_json(), indent=2) + "\n")
     raise typer.Exit(0 if result.all_passed else 1)

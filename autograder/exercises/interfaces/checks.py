@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from autograder.checks import CheckList, Scenario
+from autograder.checks import CheckList, program
 from autograder.exercises.interfaces.judging import require_built, require_fields
 from autograder.transcript import Transcript
 
 CHECKS = CheckList()
 
-SERVICE = Scenario("build", {"file": "GetBatteryStatus.srv"}, robot=None, student="program", timed=False)
-ACTION = Scenario("build", {"file": "NavigateToPose.action"}, robot=None, student="program", timed=False)
+SERVICE = program("build", {"file": "GetBatteryStatus.srv"}, timed=False)
+ACTION = program("build", {"file": "NavigateToPose.action"}, timed=False)
 
 RESPONSE = {"available": "bool", "battery": "sensor_msgs/BatteryState", "message": "string"}
 GOAL = {"pose": "geometry_msgs/PoseStamped", "tolerance": "float32"}

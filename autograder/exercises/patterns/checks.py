@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from autograder.checks import CheckList, Scenario
+from autograder.checks import CheckList, program
 from autograder.exercises.patterns.judging import Situation, judge_of, require_answers
 from autograder.transcript import Transcript
 
 CHECKS = CheckList()
 
-ANSWERS = Scenario("print_answers", robot=None, student="program", timed=False)
+ANSWERS = program("print_answers", timed=False)
 
 
 @CHECKS.check(points=1, on=ANSWERS)

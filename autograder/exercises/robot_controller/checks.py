@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.checks import CheckList, Scenario, expect
+from autograder.checks import CheckList, expect, program
 from autograder.exercises.client_checks import require_failure, require_requests
 from autograder.exercises.robot_controller.judging import (
     NO_SERVER,
@@ -14,10 +14,10 @@ from autograder.transcript import Transcript
 
 CHECKS = CheckList()
 
-GOOD = Scenario("good", {"status": "Motors: ON"}, robot=None, student="program")
-NOBODY = Scenario("nobody", robot=None, student="program")
-SILENT_ENABLE = Scenario("silent_enable", robot=None, student="program")
-FIRST_LOST = Scenario("first_lost", {"status": "Motors: ON"}, robot=None, student="program")
+GOOD = program("good", {"status": "Motors: ON"})
+NOBODY = program("nobody")
+SILENT_ENABLE = program("silent_enable")
+FIRST_LOST = program("first_lost", {"status": "Motors: ON"})
 
 SOONEST, LATEST = 1.5, 3.5  # s between a request and its repetition; 2 s are asked for
 

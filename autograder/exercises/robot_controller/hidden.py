@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 
-from autograder.checks import CheckList, Scenario
+from autograder.checks import CheckList, program
 from autograder.exercises.client_checks import require_failure, require_requests
 from autograder.exercises.robot_controller.judging import NO_SERVER, WITHIN, require_printed_status
 from autograder.transcript import Transcript
@@ -20,21 +20,17 @@ def _any_status(generator: random.Random) -> dict[str, str]:
     }
 
 
-def _program(name: str, inputs=_any_status, namespace: str = "/robot") -> Scenario:
-    return Scenario(name, inputs, robot=None, student="program", namespace=namespace)
-
-
-ANY_STATUS = _program("good")
-OTHER_NAMESPACE = _program("good", namespace="/lab_7/robot")
-ONE_OF_TWO = _program("one_of_two", {})
-ANOTHER_TYPE = _program("another_type", {})
-SILENT_STATUS = _program("silent_status", {})
-SLOW = _program("slow", lambda generator: _any_status(generator) | {"after": 1.0})
-LATE = _program("late", {"statuses": ["Motors: OFF", "Motors: ON"], "after": [2.6, 1.2]})
-DYING = _program("dying", {})
-RESTARTING = _program("restarting")
-TWO = _program("two_of_one_name")
-REFUSING = _program("refusing", {"reason": "the emergency stop is pressed"})
+ANY_STATUS = program("good", _any_status)
+OTHER_NAMESPACE = program("good", _any_status, namespace="/lab_7/robot")
+ONE_OF_TWO = program("one_of_two")
+ANOTHER_TYPE = program("another_type")
+SILENT_STATUS = program("silent_status")
+SLOW = program("slow", lambda generator: _any_status(generator) | {"after": 1.0})
+LATE = program("late", {"statuses": ["Motors: OFF", "Motors: ON"], "after": [2.6, 1.2]})
+DYING = program("dying")
+RESTARTING = program("restarting", _any_status)
+TWO = program("two_of_one_name", _any_status)
+REFUSING = program("refusing", {"reason": "the emergency stop is pressed"})
 
 
 @CHECKS.check(points=1, on=ANY_STATUS, needs=["prints_the_status"])

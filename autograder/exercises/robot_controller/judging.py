@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from autograder.checks import expect
 from autograder.exercises.client_checks import require_end, require_success
+from autograder.readiness import last_line
 from autograder.transcript import Transcript
 
 WITHIN = 10.0  # s for everything
@@ -21,8 +22,7 @@ def require_enabled_before_asked(run: Transcript) -> None:
     expect(
         bool(requests),
         expected="a request to enable_motors",
-        observed="none; the last line on stderr: "
-        + (run.output("stderr").strip().splitlines() or ["none"])[-1],
+        observed=f"none; the last line on stderr: {last_line(run.output('stderr')) or 'none'}",
         help="Create the client with the relative name 'enable_motors' and type std_srvs/srv/SetBool, wait until the "
         "service is there, and send the request.",
         at=run.end,
