@@ -13,8 +13,8 @@ from autograder.audit.run import AuditedRun
 from autograder.audit.run import audit as run_audit
 from autograder.exercise import UnknownExercise, exercise_names, load_exercise
 from autograder.grading import HiddenChecksRefused
+from course_cli.ending import COULD_NOT, UNUSABLE, ended
 
-UNUSABLE = 2
 MATRIX_WIDTH = 140
 
 
@@ -45,16 +45,13 @@ def audit(
             console.print()
             audited[name] = runs
     except (UnknownExercise, HeaderError) as error:
-        console.print(str(error), style="red", markup=False)
-        raise typer.Exit(UNUSABLE) from error
+        raise ended(console, error, UNUSABLE) from error
     except HiddenChecksRefused as error:
-        console.print(str(error), style="red", markup=False)
-        raise typer.Exit(1) from error
+        raise ended(console, error, COULD_NOT) from error
     if json_file:
         record = {name: [run.to_json() for run in runs] for name, runs in audited.items()}
         json_file.write_text(json.dumps(record, indent=2) + "\n")
     every_run = [run for runs in audited.values() for run in runs]
     if not every_run:
-        console.print(f"no submission matches {only!r}", style="red", markup=False)
-        raise typer.Exit(UNUSABLE)
-    raise typer.Exit(1 if any(run.surprises() for run in every_run) else 0)
+        raise ended(console, f"no submission matches {only!r}", UNUSABLE)
+    raise typer.Exit(COULD_NOT if any(run.surprises() for run in every_run) else 0)

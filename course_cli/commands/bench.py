@@ -14,12 +14,14 @@ from rich.progress import Progress
 from rich.table import Table
 
 from autograder.arena_run import ArenaRun, highest_scale, run_in_arena
+from autograder.bench.check_costs import cost_of_checks
 from autograder.bench.fairness import fairness_runs
-from autograder.exercise import Exercise, load_exercise
+from autograder.exercise import Exercise, UnknownExercise, exercise_names, load_exercise
 from autograder.grading import grade
 from autograder.isolation.availability import available_isolation
 from autograder.submission import Submission, read_submission
 from autograder.verdict import CheckVerdict
+from course_cli.ending import UNUSABLE, ended
 from lab.view_cost import view_cost
 from robot_sim.gl_backend import NoOpenGLError
 from robot_sim.trials import run_trials
@@ -37,9 +39,22 @@ def bench(
     ] = None,
     jobs: Annotated[int, typer.Option(min=1, help="arenas at a time; one a core")] = 2,
     robot: Annotated[bool, typer.Option(help="also run the robot's quick trials")] = True,
+    checks_of: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="instead of all this, the time of each check of this exercise (repeat it, or 'all')"
+        ),
+    ] = None,
 ) -> None:
     """Print the performance table."""
     console = Console()
+    if checks_of:
+        try:
+            for name in exercise_names() if "all" in checks_of else checks_of:
+                console.print(_checks(console, name, jobs))
+        except UnknownExercise as error:
+            raise ended(console, error, UNUSABLE) from error
+        return
     exercise = load_exercise(EXERCISE, hidden=available_isolation().trusted)
     submission = read_submission(THREADED, EXERCISE)
     console.print(_costs(exercise, submission, jobs))
@@ -79,6 +94,33 @@ def _costs(exercise: Exercise, submission: Submission, jobs: int) -> Table:
     started = time.monotonic()
     grade(submission, exercise, jobs=jobs, report=note)
     table.add_row(f"grading {EXERCISE}: all {len(verdicts)} verdicts", f"{verdicts[-1]:.1f}")
+    return table
+
+
+def _checks(console: Console, name: str, jobs: int) -> Table:
+    exercise = load_exercise(name, hidden=available_isolation().trusted)
+    reference = read_submission(PROJECT / "solutions" / name / f"{name}.ipynb", name)
+    scale = highest_scale()
+    with Progress(console=console, transient=True) as progress:
+        task = progress.add_task(f"{name}: one arena for each scenario", total=None)
+        cost = cost_of_checks(
+            reference, exercise, scale=scale, jobs=jobs, progress=lambda _scenario: progress.advance(task)
+        )
+    table = Table(
+        title=f"The checks of {name} and their arenas, with the reference, {jobs} at a time",
+        caption="An arena that several checks judge is counted at each of them, and once in the last row.",
+    )
+    table.add_column("check")
+    for heading in ("points", "arenas", "arena's clock s", "wall s"):
+        table.add_column(heading, justify="right")
+    for row in cost.checks:
+        table.add_row(
+            row.check.id, str(row.check.points), str(len(row.arenas)), f"{row.clock:.1f}", f"{row.wall:.1f}"
+        )
+    table.add_section()
+    points, clock = sum(check.points for check in exercise.checks), sum(arena.clock for arena in cost.arenas)
+    wall = sum(arena.wall for arena in cost.arenas)
+    table.add_row("all", str(points), str(len(cost.arenas)), f"{clock:.1f}", f"{wall:.1f}")
     return table
 
 

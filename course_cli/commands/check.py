@@ -10,8 +10,7 @@ from rich.console import Console
 from autograder.exercise import UnknownExercise, file_names
 from autograder.self_check import check_aloud
 from autograder.submission import UnusableSubmission, place_of_work
-
-UNUSABLE = 2
+from course_cli.ending import COULD_NOT, UNUSABLE, ended
 
 
 def check(
@@ -30,11 +29,10 @@ def check(
     try:
         result = check_aloud(console, file or _default_file(exercise), exercise, jobs=jobs)
     except (UnknownExercise, UnusableSubmission) as error:
-        console.print(str(error), style="red", markup=False)
-        raise typer.Exit(UNUSABLE) from error
+        raise ended(console, error, UNUSABLE) from error
     if json_file:
         json_file.write_text(json.dumps(result.to_json(), indent=2) + "\n")
-    raise typer.Exit(0 if result.all_passed else 1)
+    raise typer.Exit(0 if result.all_passed else COULD_NOT)
 
 
 def _default_file(exercise: str) -> Path:

@@ -23,6 +23,7 @@ from autograder.report.table import MARKS, summary
 from autograder.submission import read_submission
 from autograder.transcript import Transcript
 from autograder.verdict import CheckVerdict, Grade
+from course_cli.ending import COULD_NOT, ended
 from humanoid_interfaces.action import WalkTo
 
 EXERCISE = "cancellable_walk"
@@ -52,8 +53,7 @@ def demo(
         grades, sections = _grade_three(console, jobs)
         _require_expected(grades)
     except (DemoFailed, lab.LabError) as error:
-        console.print(f"The demo failed: {error}", style="red", markup=False)
-        raise typer.Exit(1) from error
+        raise ended(console, f"The demo failed: {error}", COULD_NOT) from error
     console.print(_comparison(grades))
     report = out / "report.html"
     write_page(

@@ -20,10 +20,10 @@ from autograder.nbgrader_bridge.course_folder import NbgraderError
 from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
 from autograder.nbgrader_bridge.transplant import NoSolutionCell
 from autograder.report.class_table import class_table, progress_line
+from course_cli.ending import COULD_NOT, UNUSABLE, ended
 
 SOLUTIONS = Path(__file__).resolve().parents[2] / "solutions"
 LOG = "nbgrader.log"
-COULD_NOT, UNUSABLE = 1, 2
 
 
 def grade(
@@ -48,8 +48,7 @@ def grade(
     try:
         collection = collect(submitted)
     except NoSubmissions as error:
-        console.print(str(error), style="red", markup=False)
-        raise typer.Exit(UNUSABLE) from error
+        raise ended(console, error, UNUSABLE) from error
     isolation = available_isolation()
     if not isolation.trusted:
         console.print(

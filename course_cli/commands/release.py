@@ -7,10 +7,10 @@ import typer
 from rich.console import Console
 
 from autograder.nbgrader_bridge.release import bring_in_step, out_of_step
+from course_cli.ending import COULD_NOT, ended
 from course_cli.student_bundle import Leak, write_bundle
 
 ROOT = Path(__file__).resolve().parents[2]
-COULD_NOT = 1
 
 
 def release(
@@ -39,6 +39,5 @@ def release(
     try:
         count = write_bundle(ROOT, out)
     except Leak as error:
-        console.print(str(error), style="red", markup=False)
-        raise typer.Exit(COULD_NOT) from error
+        raise ended(console, error, COULD_NOT) from error
     console.print(f"{out}: {count} files, {out.stat().st_size / 1e6:.1f} MB", markup=False)
