@@ -1,11 +1,13 @@
-"""Which submissions are enough to prove every check once, for those who cannot wait for all of them."""
+"""What is enough to prove every check once, for those who cannot wait for every submission and every check."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from autograder.audit.known_submission import KnownSubmission
+from autograder.exercise import Exercise
 
 _MISCONCEPTION = re.compile(r"\(M\d+\)")
 
@@ -32,6 +34,20 @@ def enough_to_prove(
         proved |= left.pop(best)
         chosen.add(best.path)
     return [known for known in submissions if known.path in chosen]
+
+
+def enough_to_catch(known: KnownSubmission, exercise: Exercise) -> Exercise:
+    """Return the exercise with only the checks that a faulty submission names, and those they need.
+
+    For a correct or a hostile one every check stays: what it must not lose counts as much.
+    """
+    if known.kind != "faulty":
+        return exercise
+    checks = {check.id: check for check in exercise.checks}
+    wanted = list(known.caught_by)
+    for check_id in wanted:  # grows as it goes
+        wanted += [need for need in checks[check_id].needs if need not in wanted]
+    return replace(exercise, checks=[check for check in exercise.checks if check.id in wanted])
 
 
 def _proves(known: KnownSubmission) -> set[str]:

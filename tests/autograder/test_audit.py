@@ -1,8 +1,9 @@
 """Submissions whose verdict is known get that verdict: the proof that the grader grades.
 
-`./course audit` grades all of them; here are as many as prove every check. They are graded a few at a time in the
-background from the first test that needs one on, in the order of the tests, so each test waits for its own and only
-those that were selected are graded (`-k battery_service`, `-k walks_on`).
+`./course audit` grades all of them with every check; here are as many as prove every check, the faulty ones with the
+checks that must catch them. They are graded a few at a time in the background from the first test that needs one on,
+in the order of the tests, so each test waits for its own and only those that were selected are graded
+(`-k battery_service`, `-k walks_on`).
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -10,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from autograder.audit.known_submission import known_submissions, require_known_checks
-from autograder.audit.proof import enough_to_prove
+from autograder.audit.proof import enough_to_catch, enough_to_prove
 from autograder.audit.run import audit_one
 from autograder.exercise import exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
@@ -35,7 +36,10 @@ def audited(request):
         pytest.skip(f"hidden checks need isolated arenas: {available_isolation().reason}")
     wanted = [item.callspec.params["known"] for item in request.session.items if is_audit(item)]
     with ThreadPoolExecutor(ARENAS_AT_A_TIME) as pool:
-        runs = {known.path: pool.submit(audit_one, known, EXERCISES[known.exercise]) for known in wanted}
+        runs = {
+            known.path: pool.submit(audit_one, known, enough_to_catch(known, EXERCISES[known.exercise]))
+            for known in wanted
+        }
         yield lambda known: runs[known.path].result()
         pool.shutdown(cancel_futures=True)
 

@@ -7,7 +7,7 @@ from rich.console import Console
 
 from autograder.audit.kill_matrix import figures, kill_matrix
 from autograder.audit.known_submission import HeaderError, known_submissions, read_known_submission
-from autograder.audit.proof import enough_to_prove
+from autograder.audit.proof import enough_to_catch, enough_to_prove
 from autograder.audit.run import AuditedRun, checks_without_a_killer
 from autograder.checks import CheckList, Scenario
 from autograder.exercise import Exercise
@@ -34,13 +34,13 @@ def folder(tmp_path):
 @pytest.fixture
 def exercise():
     checks = CheckList()
-    for name in ("appears", "answers", "ends"):
+    for name, needs in (("appears", []), ("answers", ["appears"]), ("ends", ["answers"])):
 
         def judge(run):
             """It does"""
 
         judge.__name__ = name
-        checks.check(points=1, on=Scenario("ask"))(judge)
+        checks.check(points=1, on=Scenario("ask"), needs=needs)(judge)
     return Exercise("service", checks.checks, False)
 
 
@@ -165,3 +165,18 @@ def test_enough_to_prove_is_every_check_once_and_whatever_is_not_faulty(tmp_path
     write("hostile", "bomb", "Attack: forks\nOutcome: dies\nCaught by: appears")
     enough = enough_to_prove(known_submissions("service", folder=tmp_path))
     assert [known.name for known in enough] == ["correct/plain", "faulty/deaf", "faulty/wide", "hostile/bomb"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "source", "checks"),
+    [
+        ("correct", CORRECT, ["appears", "answers", "ends"]),
+        ("faulty", FAULTY, ["appears", "answers"]),
+        ("hostile", HOSTILE, ["appears", "answers", "ends"]),
+    ],
+)
+def test_enough_to_catch_is_what_a_faulty_one_names_and_what_that_needs(
+    folder, exercise, kind, source, checks
+):
+    known = read(folder(**{kind: source}), kind)
+    assert [check.id for check in enough_to_catch(known, exercise).checks] == checks
