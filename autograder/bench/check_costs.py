@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
@@ -28,16 +28,6 @@ class CheckCost:
     check: Check
     arenas: tuple[ArenaCost, ...]
 
-    @property
-    def wall(self) -> float:
-        """Seconds of wall time of its arenas, one after another."""
-        return sum(arena.wall for arena in self.arenas)
-
-    @property
-    def clock(self) -> float:
-        """Seconds that passed on their clocks."""
-        return sum(arena.clock for arena in self.arenas)
-
 
 @dataclass(frozen=True)
 class ExerciseCost:
@@ -45,6 +35,11 @@ class ExerciseCost:
 
     checks: tuple[CheckCost, ...]
     arenas: tuple[ArenaCost, ...]
+
+
+def total(arenas: Sequence[ArenaCost]) -> ArenaCost:
+    """Return what arenas cost one after another."""
+    return ArenaCost(sum(arena.wall for arena in arenas), sum(arena.clock for arena in arenas))
 
 
 def cost_of_checks(

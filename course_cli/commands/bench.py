@@ -3,7 +3,7 @@
 import io
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import redirect_stdout
 from pathlib import Path
 from typing import Annotated
@@ -14,7 +14,7 @@ from rich.progress import Progress
 from rich.table import Table
 
 from autograder.arena_run import ArenaRun, highest_scale, run_in_arena
-from autograder.bench.check_costs import cost_of_checks
+from autograder.bench.check_costs import ArenaCost, cost_of_checks, total
 from autograder.bench.fairness import fairness_runs
 from autograder.exercise import Exercise, UnknownExercise, exercise_names, load_exercise
 from autograder.grading import grade
@@ -114,14 +114,16 @@ def _checks(console: Console, name: str, jobs: int) -> Table:
     for heading in ("points", "arenas", "arena's clock s", "wall s"):
         table.add_column(heading, justify="right")
     for row in cost.checks:
-        table.add_row(
-            row.check.id, str(row.check.points), str(len(row.arenas)), f"{row.clock:.1f}", f"{row.wall:.1f}"
-        )
+        table.add_row(row.check.id, str(row.check.points), *_arenas(row.arenas))
     table.add_section()
-    points, clock = sum(check.points for check in exercise.checks), sum(arena.clock for arena in cost.arenas)
-    wall = sum(arena.wall for arena in cost.arenas)
-    table.add_row("all", str(points), str(len(cost.arenas)), f"{clock:.1f}", f"{wall:.1f}")
+    table.add_row("all", str(exercise.max_score()), *_arenas(cost.arenas))
     return table
+
+
+def _arenas(arenas: Sequence[ArenaCost]) -> tuple[str, str, str]:
+    """The cells that say how many arenas, and what they cost."""
+    cost = total(arenas)
+    return str(len(arenas)), f"{cost.clock:.1f}", f"{cost.wall:.1f}"
 
 
 def _fairness(
