@@ -12,15 +12,14 @@ from pydantic import ValidationError
 
 from autograder import events as ev
 from autograder.checks import Scenario
+from autograder.clock_scale import USUAL
 from autograder.exercise import Exercise
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.bubblewrap import SandboxError
 from autograder.submission_arena import ArenaEnded, student_paths
 from autograder.submission_arenas import SubmissionArenas
 from autograder.transcript import Transcript
-from ros_runtime.clock.scaled_clock import library_path
 
-DEFAULT_SCALE = 5.0
 STARTUP_ALLOWANCE = 60.0  # s of wall time for the processes of an arena to start on a loaded machine
 LONGEST_SCENARIO = 150.0  # s on the arena's clock
 
@@ -41,15 +40,10 @@ class ArenaRun:
     files: Mapping[str, bytes]
     scenario: Scenario
     seed: int = 0
-    scale: float = DEFAULT_SCALE
+    scale: float = USUAL
     kind: Kind | None = None
     cold: bool = True
     more_to_come: bool = False
-
-
-def highest_scale() -> float:
-    """Return the scale arenas run at unless told otherwise: 1 where the clock's library could not be built."""
-    return DEFAULT_SCALE if library_path() else 1.0
 
 
 def run_in_arena(
@@ -74,9 +68,7 @@ def run_in_arena(
         raise NotGraded(f"scenario {run.scenario.name}: {error}") from error
 
 
-def _specification(
-    run: ArenaRun, params: dict[str, Any], scale: float, is_isolated: bool
-) -> dict[str, Any]:
+def _specification(run: ArenaRun, params: dict[str, Any], scale: float, is_isolated: bool) -> dict[str, Any]:
     return {
         "module": run.exercise.scenario_module,
         "scenario": run.scenario.name,

@@ -120,6 +120,5 @@ def _perform(
     with suppress(NodeMissing), watch:  # what is missing is recorded already
         scenario(stage, **spec["params"])
     if simulator and not simulator.is_running():
-        raise RuntimeError(f"the simulator ended with status {simulator.process.returncode}")
+        raise RuntimeError(f"the simulator ended with status {simulator.process.exitcode}")
     recorder.record("scenario_ended", t=time.monotonic())
-

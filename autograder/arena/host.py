@@ -57,7 +57,9 @@ class Host:
         agent.start()
         os.close(events_fd)
         if spec["more_to_come"] and self._interpreter is None:
-            self._interpreter = WarmInterpreter(program_environment({**ros_environment(), **preload_variables()}))
+            self._interpreter = WarmInterpreter(
+                program_environment({**ros_environment(), **preload_variables()})
+            )
         agent.join()
         self._end_what_is_left()
 

@@ -29,7 +29,7 @@ READY_TIMEOUT = 20.0  # for the node to offer what is asked for
 COMPANY_TIMEOUT = 10.0  # for the rest of it, once the node offers anything
 MATCHING_TIMEOUT = 10.0  # for robot and node to find each other's topics
 GREETING_TIMEOUT = 1.0  # a sound node may be slow to answer anything yet, a faulty one never does
-SETTLING = 0.3  # for the node's own side of those connections
+SETTLING = 0.05  # for the node's own side of those connections
 # s, on the arena's clock:
 CALL_TIMEOUT = 5.0
 GOAL_TIMEOUT = 5.0

@@ -41,11 +41,11 @@ def start_student(
 ) -> StudentProcess:
     """Run Python with `arguments` in a fresh writable folder that holds `workdir_files` (relative name → content).
 
-    `interpreter` is one that waits to become the program, instead of a new one. `env` is its environment, to which the arena's network settings are added. `read_only_paths` are files and
-    folders of the arena that it sees at the same place. `on_line(time, "stdout" | "stderr", text)` is called
-    for each kept line and `on_exit(returncode)` once at the end, after the last line, both on a thread of
-    their own. Raises :class:`.bubblewrap.SandboxError` when the sandbox cannot be started, ValueError for a
-    file name that leaves the folder.
+    `interpreter` is one that waits to become the program, instead of a new one. `env` is its environment, to which
+    the arena's network settings are added. `read_only_paths` are files and folders of the arena that it sees at the
+    same place. `on_line(time, "stdout" | "stderr", text)` is called for each kept line and `on_exit(returncode)` once
+    at the end, after the last line, both on a thread of their own. Raises :class:`.bubblewrap.SandboxError` when the
+    sandbox cannot be started, ValueError for a file name that leaves the folder.
     """
     for name in workdir_files:
         if PurePosixPath(name).is_absolute() or ".." in PurePosixPath(name).parts:

@@ -63,10 +63,10 @@ def _start_in_sandbox(program: Program, stack: ExitStack) -> ChildProgram:
     with Sandbox() as sandbox:
         _describe(sandbox, program)
         sandbox.add_environment(program_environment(program.env))
-        nproc = f"--nproc={program.limits.processes}"  # counted in this sandbox alone, as it has its own users
-        started = sandbox.start(
-            [*_limited(program.limits), nproc, "--", sys.executable, *program.arguments]
+        nproc = (
+            f"--nproc={program.limits.processes}"  # counted in this sandbox alone, as it has its own users
         )
+        started = sandbox.start([*_limited(program.limits), nproc, "--", sys.executable, *program.arguments])
     stack.callback(os.close, started.init_pidfd)
     return ChildProgram(started.process, started.command_pid, started.init_pid)
 

@@ -13,9 +13,10 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
-from autograder.arena_run import ArenaRun, highest_scale, run_in_arena
+from autograder.arena_run import ArenaRun, run_in_arena
 from autograder.bench.check_costs import ArenaCost, cost_of_checks, total
 from autograder.bench.fairness import fairness_runs
+from autograder.clock_scale import highest_scale
 from autograder.exercise import Exercise, UnknownExercise, exercise_names, load_exercise
 from autograder.grading import grade
 from autograder.isolation.availability import available_isolation

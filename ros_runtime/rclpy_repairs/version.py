@@ -5,7 +5,10 @@ from __future__ import annotations
 import os
 import sys
 
-PACKAGES = ("ros_rclpy", "rclpy")  # the wheels' metadata, then apt's, whose egg-info lags behind in the wheels
+PACKAGES = (
+    "ros_rclpy",
+    "rclpy",
+)  # the wheels' metadata, then apt's, whose egg-info lags behind in the wheels
 
 
 def installed_version() -> str:

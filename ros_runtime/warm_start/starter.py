@@ -18,6 +18,7 @@ with Recording() as recording:
     import gc
     import json
     import os
+    import signal
     import socket
 
     from ros_runtime.clock.scaled_clock import follow
@@ -35,6 +36,7 @@ DESCRIPTORS = 5
 def wait_for_order(orders: socket.socket) -> dict:
     """Serve orders; returns, with the order, in the process that is to become the program and in no other."""
     guard = ForkGuard()
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the kernel shall bury them
     while True:
         text, descriptors, _, _ = socket.recv_fds(orders, LONGEST_ORDER, DESCRIPTORS)
         if not text:
@@ -46,14 +48,15 @@ def wait_for_order(orders: socket.socket) -> dict:
         guard.after_in_parent()
         for descriptor in descriptors:
             os.close(descriptor)
-        _reap()
 
 
 def keep(order: dict, descriptors: list[int], guard: ForkGuard) -> dict:
     """Enter the sandbox, fork the program and stay outside its process namespace until it has ended."""
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     *streams, report, filter_file = descriptors
     seccomp_filter = os.pread(filter_file, os.fstat(filter_file).st_size, 0)
     os.close(filter_file)
+    os.setsid()
     try:
         join_namespaces(order["sandbox"])
         pid = os.fork()
@@ -67,7 +70,6 @@ def keep(order: dict, descriptors: list[int], guard: ForkGuard) -> dict:
         status = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
         os.write(report, f"{status}\n".encode())
         os._exit(0)
-    os.setsid()
     for number, stream in enumerate(streams):
         os.dup2(stream, number)
     for descriptor in (*streams, report):
@@ -77,15 +79,6 @@ def keep(order: dict, descriptors: list[int], guard: ForkGuard) -> dict:
     give_up_privileges(order["limits"], seccomp_filter)
     guard.after_in_child()
     return order
-
-
-def _reap() -> None:
-    while True:
-        try:
-            if os.waitpid(-1, os.WNOHANG)[0] == 0:
-                return
-        except ChildProcessError:
-            return
 
 
 hide(recording, FRESH)
