@@ -220,6 +220,46 @@ class ScenarioFailed(_Event):
     reason: str
 
 
+class RecordDropped(_Event):
+    """What the student's processes sent and was not kept: `count` events of the kind `what`.
+
+    `seconds` is the time from the first event of that kind to the last one dropped.
+    """
+
+    kind: Literal["dropped"] = "dropped"
+    what: str
+    count: int
+    seconds: float
+
+
+class TooLarge(_Event):
+    """Something the student's processes sent ("answer", "feedback", …) had more `bytes` than are read: the `limit`.
+
+    `id` names the call, goal or cancel it belongs to, where it has one.
+    """
+
+    kind: Literal["too_large"] = "too_large"
+    what: str
+    id: str
+    bytes: int
+    limit: int
+
+
+class GraphFlooded(_Event):
+    """The ROS graph held what no sound program puts there; `nodes` is how many nodes were seen in it."""
+
+    kind: Literal["graph_flooded"] = "graph_flooded"
+    nodes: int
+    reason: str
+
+
+class CommandSent(_Event):
+    """The scenario sent a command to the simulator; :class:`RobotCommanded` says when it took effect."""
+
+    kind: Literal["command_sent"] = "command_sent"
+    command: Message
+
+
 class RobotReady(_Event):
     kind: Literal["ready"] = "ready"
 
@@ -315,6 +355,10 @@ Event = Annotated[
     | Mark
     | ScenarioEnded
     | ScenarioFailed
+    | RecordDropped
+    | TooLarge
+    | GraphFlooded
+    | CommandSent
     | RobotReady
     | RobotTruth
     | BatteryPublished

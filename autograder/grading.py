@@ -13,6 +13,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
 from autograder import events as ev
 from autograder.arena_run import ArenaRun, NotGraded, run_in_arena
+from autograder.bounds import require_bounded
 from autograder.checks import Check, Failure, Scenario
 from autograder.clock_scale import ClockScale
 from autograder.exercise import Exercise
@@ -225,6 +226,7 @@ class _Session:
         try:
             for transcript in transcripts:
                 require_ready(transcript)
+                require_bounded(transcript)
             check.run(transcripts)
         except Failure as failure:
             return self._verdict(

@@ -94,6 +94,7 @@ def _perform(
     from rclpy.signals import SignalHandlerOptions
 
     from autograder.arena.client_stage import ClientStage
+    from autograder.arena.spinning import keep_spinning
     from autograder.arena.stage import NodeMissing, Stage
 
     punctuality = Punctuality(recorder, student, spec["scale"])
@@ -114,11 +115,12 @@ def _perform(
         stranger = rclpy.create_node("stranger", namespace=spec["namespace"])
         executor.add_node(stranger)
         stage = Stage(node, stranger, recorder, changed, simulator, student, speed_up)
-    threading.Thread(target=executor.spin, daemon=True).start()
+    threading.Thread(target=keep_spinning, args=(executor, recorder), daemon=True).start()
     # a robot says itself how late it is
     watch = punctuality.watch() if spec["timed"] and not simulator else nullcontext()
     with suppress(NodeMissing), watch:  # what is missing is recorded already
         scenario(stage, **spec["params"])
+    stage.close()
     if simulator and not simulator.is_running():
         raise RuntimeError(f"the simulator ended with status {simulator.process.exitcode}")
     recorder.record("scenario_ended", t=time.monotonic())

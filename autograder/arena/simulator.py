@@ -50,9 +50,11 @@ class Simulator:
 
     def command(self, do: str, **arguments: Any) -> None:
         """Send one command of :mod:`robot_sim.scenario_control`."""
+        command = {"do": do, **arguments}
+        self._recorder.record("command_sent", command=command)
         with self._changed:
             self._commands_left += 1
-        os.write(self._control, json.dumps({"do": do, **arguments}).encode() + b"\n")
+        os.write(self._control, json.dumps(command).encode() + b"\n")
 
     def has_obeyed(self) -> bool:
         """Whether every command has taken effect, and what it asked for has been reported."""

@@ -7,13 +7,17 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from autograder.arena.graph import Graph
 from autograder.arena.recorder import Recorder
+
+POLLING = 0.005  # s between two looks at what nobody notifies us of, such as changes of the graph
 
 
 class Waiting:
     """`changed` is notified whenever something has arrived; all durations are seconds on the arena's clock."""
 
-    def __init__(self, recorder: Recorder, changed: threading.Condition) -> None:
+    def __init__(self, graph: Graph, recorder: Recorder, changed: threading.Condition) -> None:
+        self._graph = graph
         self._recorder = recorder
         self._changed = changed
 
@@ -33,6 +37,20 @@ class Waiting:
                     return False
                 self._changed.wait(min(left, 1.0))
         return True
+
+    def poll_until(self, condition: Callable[[], Any], timeout: float) -> bool:
+        """Wait for a condition of which nobody is notified; False when the time is over first."""
+        deadline = time.monotonic() + timeout
+        while not condition():
+            if time.monotonic() > deadline:
+                return False
+            time.sleep(POLLING)
+        return True
+
+    def close(self) -> None:
+        """Record what there was too much of: the scenario is over."""
+        self._graph.inspect()
+        self._recorder.finish()
 
     def mark(self, name: str) -> None:
         """Name this moment for the checks."""

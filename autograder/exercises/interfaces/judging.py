@@ -6,26 +6,31 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+from autograder import events as ev
 from autograder.checks import Failure, expect
+from autograder.readiness import require_within_limits
 from autograder.transcript import Transcript
+
+BUSY = 60.0  # s of processor time; a sound file is built with 25, so one that took more is what took so long
+LONGEST = 300  # characters of what a verdict quotes
 
 
 def require_built(run: Transcript) -> dict[str, Any]:
     """The file was built; returns its parts (request, response; goal, result, feedback) with fields and constants."""
-    report = json.loads(_last_line(run.output("stdout")))
+    report = _report(run)
     file = run.params["file"]
     if report["built"]:
         (parts,) = report["types"].values()
         return parts
-    problems = report["problems"]
+    problems, more = report["problems"], report["more"]
     if not problems:
+        _require_time_for_it(run)
         raise RuntimeError(f"the build of a sound {file} failed: {report['log'][-2000:]}")
-    first = problems[0]
+    first, more = problems[0], more + len(problems) - 1
     place = f"line {first['line']}, “{first['text'].strip()}”: " if first["line"] else ""
     raise Failure(
         expected=f"{file} to build as part of an interface package",
-        observed=f"{place}{first['wrong']}"
-        + (f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""),
+        observed=f"{place}{first['wrong']}" + (f" (and {more:,} more)" if more else ""),
         help=f"Expected here: {first['expected']}",
     )
 
@@ -51,7 +56,7 @@ def require_fields(run: Transcript, part: str, wanted: Mapping[str, str]) -> Non
     expect(
         not others,
         expected=f"nothing in the {part} but {_listed(wanted) if wanted else 'an empty part'}",
-        observed=f"also {', '.join(others)}",
+        observed=f"also {_cut(', '.join(others))}",
         help="Whoever uses the interface has to fill and read every field: leave out what the task does not name.",
     )
 
@@ -64,17 +69,38 @@ def require_constants(run: Transcript, part: str, ros_type: str, wanted: Mapping
         expect(
             observed == {"type": ros_type, "value": value},
             expected=f"the constant “{ros_type} {name}={value}” in the {part}",
-            observed=f"“{observed['type']} {name}={observed['value']}”"
+            observed=f"“{observed['type']} {name}={str(observed['value'])[:LONGEST]}”"
             if observed
             else "no constant of that name",
             help="A constant is a line TYPE NAME=VALUE in the part where it is used, its name in capitals.",
         )
 
 
-def _last_line(text: str) -> str:
-    """Return the last line that is not blank."""
-    return [line for line in text.splitlines() if line.strip()][-1]
+def _report(run: Transcript) -> dict[str, Any]:
+    """What the build printed at its end; the student's failure where it was ended before, by what the file asks for."""
+    try:
+        return json.loads(run.output("stdout"))
+    except ValueError as error:
+        require_within_limits(run)
+        _require_time_for_it(run)
+        raise RuntimeError(f"the build of {run.params['file']} has left no report: {error}") from error
+
+
+def _require_time_for_it(run: Transcript) -> None:
+    """The build has not used more time than any sound file needs."""
+    usage = run.first(ev.NodeUsage)
+    if usage and usage.cpu > BUSY:
+        raise Failure(
+            expected=f"{run.params['file']} to build within some seconds",
+            observed=f"its build was ended after {usage.cpu:.0f} s of a processor",
+            help="Leave out what the task does not ask for: every field, and every element of an array of fixed "
+            "size, is code that is generated and compiled.",
+        )
 
 
 def _listed(fields: Mapping[str, str]) -> str:
-    return ", ".join(f"{ros_type} {name}" for name, ros_type in fields.items()) or "no fields"
+    return _cut(", ".join(f"{ros_type} {name}" for name, ros_type in fields.items())) or "no fields"
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]}…"
