@@ -79,6 +79,14 @@ class NodeUsage(_Event):
     peak_memory_mib: float
 
 
+class RecordDropped(_Event):
+    """More events of one kind came than are kept: `count` of them, after those that are here, were not recorded."""
+
+    kind: Literal["dropped"] = "dropped"
+    what: str
+    count: int
+
+
 class ServiceCalled(_Event):
     kind: Literal["service_called"] = "service_called"
     call: str
@@ -280,6 +288,23 @@ class RobotPeers(_Event):
     publishers: dict[str, int]
 
 
+class RobotRefused(_Event):
+    """The robot did not take `count` messages on a topic, of `bytes` in all, since it last said so; `reason` is why."""
+
+    kind: Literal["refused"] = "refused"
+    topic: str
+    count: int
+    bytes: int
+    reason: str
+
+
+class CommandSent(_Event):
+    """The scenario sent the robot a command; RobotCommanded with the same command follows when it takes effect."""
+
+    kind: Literal["command_sent"] = "command_sent"
+    command: Message
+
+
 class RobotCommanded(_Event):
     """A command of the scenario took effect in the simulator."""
 
@@ -296,6 +321,7 @@ Event = Annotated[
     | NodeExited
     | NodeKilled
     | NodeUsage
+    | RecordDropped
     | ServiceCalled
     | ServiceAnswered
     | GoalSent
@@ -321,6 +347,8 @@ Event = Annotated[
     | JointsPublished
     | ArmReported
     | RobotPeers
+    | RobotRefused
+    | CommandSent
     | RobotCommanded,
     Field(discriminator="kind"),
 ]
