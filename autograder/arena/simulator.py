@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 import threading
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -31,6 +32,7 @@ class Simulator:
         self.robot: dict[str, Any] | None = None
         self.subscribers: dict[str, int] = {}
         self.publishers: dict[str, int] = {}
+        self.reports: Counter[str] = Counter()
         self._commands_left = 0
         self.process = subprocess.Popen(
             [
@@ -80,6 +82,7 @@ class Simulator:
                 self._recorder.forward(line)
                 record = json.loads(line)
                 with self._changed:
+                    self.reports[record["kind"]] += 1
                     if record["kind"] == "robot":
                         self.robot = record
                     elif record["kind"] == "command":

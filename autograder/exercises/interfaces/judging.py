@@ -6,20 +6,22 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from autograder.checks import Failure, expect
+from autograder import events as ev
+from autograder.checks import CannotBeJudged, Failure, expect
+from autograder.missing import unseen
+from autograder.readiness import require_within_limits
 from autograder.transcript import Transcript
 
 
 def require_built(run: Transcript) -> dict[str, Any]:
     """The file was built; returns its parts (request, response; goal, result, feedback) with fields and constants."""
-    report = json.loads(_last_line(run.output("stdout")))
-    file = run.params["file"]
+    report, file = _report(run), run.params["file"]
     if report["built"]:
         (parts,) = report["types"].values()
         return parts
     problems = report["problems"]
     if not problems:
-        raise RuntimeError(f"the build of a sound {file} failed: {report['log'][-2000:]}")
+        raise CannotBeJudged(f"the build of a sound {file} failed: {report['log'][-2000:]}")
     first = problems[0]
     place = f"line {first['line']}, “{first['text'].strip()}”: " if first["line"] else ""
     raise Failure(
@@ -32,7 +34,7 @@ def require_built(run: Transcript) -> dict[str, Any]:
 
 def require_fields(run: Transcript, part: str, wanted: Mapping[str, str]) -> None:
     """One part of the definition has these fields (name → ROS type) and no others."""
-    fields = require_built(run)[part]["fields"]
+    fields = _part(run, part)["fields"]
     for name, ros_type in wanted.items():
         expect(
             name in fields,
@@ -58,7 +60,7 @@ def require_fields(run: Transcript, part: str, wanted: Mapping[str, str]) -> Non
 
 def require_constants(run: Transcript, part: str, ros_type: str, wanted: Mapping[str, int]) -> None:
     """One part of the definition has these constants, of one type."""
-    constants = require_built(run)[part]["constants"]
+    constants = _part(run, part)["constants"]
     for name, value in wanted.items():
         observed = constants.get(name)
         expect(
@@ -71,9 +73,29 @@ def require_constants(run: Transcript, part: str, ros_type: str, wanted: Mapping
         )
 
 
-def _last_line(text: str) -> str:
-    """Return the last line that is not blank."""
-    return [line for line in text.splitlines() if line.strip()][-1]
+def _part(run: Transcript, part: str) -> dict[str, Any]:
+    parts = require_built(run)
+    if part not in parts:
+        raise unseen(run, f"the build said nothing of the {part}")
+    return parts[part]
+
+
+def _report(run: Transcript) -> dict[str, Any]:
+    """Read what the build printed at its end, which it must have come to."""
+    require_within_limits(run)
+    exited = run.first(ev.NodeExited)
+    lines = [line for line in run.output("stdout").splitlines() if line.strip()]
+    if exited is None or not lines:
+        raise unseen(run, f"the build said nothing: {run.last_words or 'nothing on stderr either'}")
+    try:
+        return json.loads(lines[-1])
+    except ValueError:
+        raise Failure(
+            expected=f"a {run.params['file']} with the few lines that the task asks for",
+            observed="so much is wrong with it that the report on it has no end",
+            help="Write the fields by hand, one a line, and build it again.",
+            at=exited.t,
+        ) from None
 
 
 def _listed(fields: Mapping[str, str]) -> str:
