@@ -14,29 +14,15 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from autograder.failure import CannotBeJudged, Failure, expect
 from autograder.transcript import Transcript
+
+__all__ = ["MAY_REST", "CannotBeJudged", "Check", "CheckList", "Failure", "Scenario", "expect", "program"]
 
 MAY_REST = "--may-rest"  # option of a robot that is not integrated while it only stands: nothing is asked of its body
 
 Judge = Callable[..., None]
 Inputs = Mapping[str, Any] | Callable[[random.Random], Mapping[str, Any]]
-
-
-class Failure(Exception):
-    """A fault of the submission: expected, observed, when (arena s), and one next step in plain words."""
-
-    def __init__(self, *, expected: str, observed: str, help: str, at: float | None = None) -> None:
-        super().__init__(f"expected {expected}; observed {observed}")
-        self.expected = expected
-        self.observed = observed
-        self.help = help
-        self.at = at
-
-
-def expect(condition: bool, *, expected: str, observed: str, help: str, at: float | None = None) -> None:
-    """Raise a :class:`Failure` unless the condition holds."""
-    if not condition:
-        raise Failure(expected=expected, observed=observed, help=help, at=at)
 
 
 @dataclass(frozen=True, eq=False)

@@ -253,13 +253,6 @@ class GraphFlooded(_Event):
     reason: str
 
 
-class CommandSent(_Event):
-    """The scenario sent a command to the simulator; :class:`RobotCommanded` says when it took effect."""
-
-    kind: Literal["command_sent"] = "command_sent"
-    command: Message
-
-
 class RobotReady(_Event):
     kind: Literal["ready"] = "ready"
 
@@ -320,6 +313,23 @@ class RobotPeers(_Event):
     publishers: dict[str, int]
 
 
+class RobotRefused(_Event):
+    """The robot did not take `count` messages on a topic, of `bytes` in all, since it last said so; `reason` is why."""
+
+    kind: Literal["refused"] = "refused"
+    topic: str
+    count: int
+    bytes: int
+    reason: str
+
+
+class CommandSent(_Event):
+    """The scenario sent the robot a command; RobotCommanded with the same command follows when it takes effect."""
+
+    kind: Literal["command_sent"] = "command_sent"
+    command: Message
+
+
 class RobotCommanded(_Event):
     """A command of the scenario took effect in the simulator."""
 
@@ -336,6 +346,7 @@ Event = Annotated[
     | NodeExited
     | NodeKilled
     | NodeUsage
+    | RecordDropped
     | ServiceCalled
     | ServiceAnswered
     | GoalSent
@@ -355,7 +366,6 @@ Event = Annotated[
     | Mark
     | ScenarioEnded
     | ScenarioFailed
-    | RecordDropped
     | TooLarge
     | GraphFlooded
     | CommandSent
@@ -365,6 +375,7 @@ Event = Annotated[
     | JointsPublished
     | ArmReported
     | RobotPeers
+    | RobotRefused
     | RobotCommanded,
     Field(discriminator="kind"),
 ]

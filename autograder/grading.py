@@ -7,28 +7,25 @@ fault of the submission shows every time.
 from __future__ import annotations
 
 import threading
-import traceback
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
 from autograder import events as ev
 from autograder.arena_run import ArenaRun, NotGraded, run_in_arena
-from autograder.bounds import require_bounded
-from autograder.checks import Check, Failure, Scenario
+from autograder.blame import hogs_the_machine
+from autograder.checks import Check, Scenario
 from autograder.clock_scale import ClockScale
 from autograder.exercise import Exercise
 from autograder.isolation.availability import Isolation, available_isolation
-from autograder.readiness import require_ready
+from autograder.judging import judge, verdict_on
 from autograder.submission import Submission
 from autograder.submission_arenas import SubmissionArenas
 from autograder.transcript import Transcript
-from autograder.verdict import CheckStatus, CheckVerdict, Grade
+from autograder.verdict import CheckVerdict, Grade
 
 OVERLOADED = 0.5  # s the simulator may be late before a run is not judged at all
 STARVED = 1.0  # s a student's program may wait for a processor before a run without a robot is not judged
 STRAINED = 0.15  # s it may be late in the second look at a failure
-HOG = 0.8  # processors a submission may keep busy before a late simulator is its own doing
-LOG_LINES = 40
 
 Report = Callable[[CheckVerdict], None]
 Running = Callable[[Sequence[Scenario]], None]
@@ -207,81 +204,29 @@ class _Session:
         raise problem or NotGraded("no attempt was made")
 
     def _judge(self, check: Check, runs: Runs) -> None:
-        """Judge a check on one look; its verdict stands unless it is a failure seen for the first time."""
+        """Judge a check on one look; its verdict stands unless it is one that is no pass, seen for the first time."""
         try:
             transcripts = [runs[scenario].result() for scenario in check.on]
         except NotGraded as error:
-            self._conclude(self._verdict(check, "error", help=f"Not graded: {error}"))
+            self._conclude(verdict_on(check, "error", help=f"Not graded: {error}"))
             return
-        verdict = self._judge_transcripts(check, transcripts)
-        if verdict.status == "failed" and runs is self._first:
+        verdict = judge(check, transcripts)
+        if verdict.status != "passed" and runs is self._first:
             self._failed_once.add(check.id)
             self._look_again(check)
             return
         self._evidence(verdict, transcripts)
         self._conclude(verdict)
 
-    def _judge_transcripts(self, check: Check, transcripts: Sequence[Transcript]) -> CheckVerdict:
-        log = "\n".join(_log(transcript) for transcript in transcripts)
-        try:
-            for transcript in transcripts:
-                require_ready(transcript)
-                require_bounded(transcript)
-            check.run(transcripts)
-        except Failure as failure:
-            return self._verdict(
-                check,
-                "failed",
-                expected=failure.expected,
-                observed=failure.observed,
-                help=failure.help,
-                robot_time=failure.at,
-                log=log,
-            )
-        except Exception:  # a check that breaks is our fault, and must not cost the student anything
-            return self._verdict(
-                check,
-                "error",
-                help=f"Not graded: the check itself failed.\n{traceback.format_exc()}",
-                log=log,
-            )
-        return self._verdict(check, "passed", points=check.points, log=log)
-
     def _not_run(self, check: Check, unmet: Sequence[str]) -> CheckVerdict:
         if any(self._verdicts[need].status == "error" for need in unmet):
-            return self._verdict(check, "error", help=f"Not graded, because {unmet[0]} was not graded.")
+            return verdict_on(check, "error", help=f"Not graded, because {unmet[0]} was not graded.")
         titles = {other.id: other.title for other in self._exercise.checks}
-        return self._verdict(check, "not run", help=f"Needs a check that did not pass: “{titles[unmet[0]]}”.")
+        return verdict_on(check, "not run", help=f"Needs a check that did not pass: “{titles[unmet[0]]}”.")
 
     def _conclude(self, verdict: CheckVerdict) -> None:
         self._verdicts[verdict.id] = verdict
         self._report(verdict)
-
-    @staticmethod
-    def _verdict(
-        check: Check,
-        status: CheckStatus,
-        *,
-        points: int = 0,
-        expected: str = "",
-        observed: str = "",
-        help: str = "",
-        robot_time: float | None = None,
-        log: str = "",
-    ) -> CheckVerdict:
-        return CheckVerdict(
-            check.id,
-            check.title,
-            status,
-            points,
-            check.points,
-            expected,
-            observed,
-            help,
-            robot_time,
-            log,
-            check.hidden,
-        )
 
 
 def _are_done(scenarios: Sequence[Scenario], runs: Runs) -> bool:
@@ -301,15 +246,3 @@ def lateness(transcript: Transcript) -> float:
         lags = [woken.late for woken in transcript.all(ev.WokenLate)]
         lags += [starved.seconds * OVERLOADED / STARVED for starved in transcript.all(ev.Starved)]
     return max(lags, default=0.0)
-
-
-def hogs_the_machine(transcript: Transcript) -> bool:
-    """Whether the submission itself kept the processors busy: then it is judged as it is."""
-    usage = transcript.first(ev.NodeUsage)
-    return usage is not None and usage.cpu > HOG * usage.wall
-
-
-def _log(transcript: Transcript) -> str:
-    """The last lines the student's process printed, with their times."""
-    lines = [f"{event.t:7.2f} s  {event.text}" for event in transcript.all(ev.NodeOutput)][-LOG_LINES:]
-    return "\n".join(lines)

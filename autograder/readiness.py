@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from autograder import events as ev
-from autograder.checks import Failure
+from autograder.failure import Failure
+from autograder.missing import unseen
 from autograder.transcript import Transcript
 
 
@@ -11,12 +12,15 @@ def require_ready(run: Transcript) -> None:
     """The endpoints the scenario used were offered in time; a :class:`Failure` says what was offered instead."""
     absent = run.first(ev.NodeNotReady)
     if absent is None:
+        require_started(run)
+        if run.first(ev.NodeReady) is None:
+            raise unseen(run, "nobody looked whether the node was there")
         return
     names = _readable(absent.missing)
     require_within_limits(run)
     exited = run.first(ev.NodeExited)
     if exited:
-        reason = last_line(run.output("stderr"))
+        reason = run.last_words
         raise Failure(
             expected=f"a node that offers {names} and keeps running",
             observed=f"the program ended with status {exited.returncode}" + (f": {reason}" if reason else ""),
@@ -34,6 +38,12 @@ def require_ready(run: Transcript) -> None:
     )
 
 
+def require_started(run: Transcript) -> None:
+    """The student's program was started at all, which is ours to do."""
+    if run.first(ev.NodeStarted) is None:
+        raise unseen(run, "the student's program was never started")
+
+
 def require_within_limits(run: Transcript) -> None:
     """The student's processes were not ended for using too much."""
     killed = run.first(ev.NodeKilled)
@@ -44,12 +54,6 @@ def require_within_limits(run: Transcript) -> None:
             help="Look for a list that grows without end, or for processes and threads started in a loop.",
             at=killed.t,
         )
-
-
-def last_line(text: str) -> str:
-    """Return the last line that is not blank, cut to a readable length."""
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    return lines[-1][:300] if lines else ""
 
 
 def _readable(missing: list[str]) -> str:

@@ -1,4 +1,8 @@
-"""Everything one arena saw, on one time axis, with the questions checks ask of it."""
+"""Everything one arena saw, on one time axis, with the questions checks ask of it.
+
+What a check asks for and is not there is a failure with a reason (:class:`~autograder.missing.Missing`), or, where
+the arena did not do its part, no grade (:class:`~autograder.failure.CannotBeJudged`).
+"""
 
 from __future__ import annotations
 
@@ -10,8 +14,12 @@ from functools import cached_property
 from typing import Any, TypeVar
 
 from autograder import events as ev
+from autograder.missing import Missing, ordinal, unseen
 
 E = TypeVar("E")
+A = TypeVar("A", ev.GoalAnswered, ev.ResultReceived, ev.CancelAnswered, ev.ServiceAnswered)
+
+LONGEST_GAP = 0.5  # s between what is asked about the robot and the nearest sample; it is sampled at 50 Hz
 
 
 @dataclass(frozen=True)
@@ -98,75 +106,124 @@ class Transcript:
         return next(iter(self.all(kind)), None)
 
     def mark(self, name: str) -> float:
-        """Return the time (s) of a moment the scenario named; KeyError if it never came."""
+        """Return the time (s) of a moment the scenario named."""
         for mark in self.all(ev.Mark):
             if mark.name == name:
                 return mark.t
-        raise KeyError(f"the scenario {self.scenario} never marked {name!r}")
+        raise Missing(self, expected=f"a scenario that gets to “{name}”", never="it never got there")
+
+    # -- actions ------------------------------------------------------------------------------------------------------
 
     def goal(self, name: str) -> GoalHistory:
-        """Return the life of one goal; KeyError names the goals there are."""
-        sent = {event.goal: event for event in self.all(ev.GoalSent)}
-        if name not in sent:
-            raise KeyError(f"no goal {name!r} in {self.scenario}; there are {sorted(sent)}")
+        """Return the life of one goal, which must have been sent."""
+        sent = next((event for event in self.all(ev.GoalSent) if event.goal == name), None)
+        if sent is None:
+            raise Missing(
+                self,
+                expected=f"a server that gets as far as the goal “{name}”",
+                never=f"the goal “{name}” was never sent",
+            )
         return GoalHistory(
             name,
-            sent[name],
-            self._one(ev.GoalAnswered, "goal", name),
+            sent,
+            self._in_time(ev.GoalAnswered, "goal", name, of="goal"),
             [event for event in self.all(ev.FeedbackReceived) if event.goal == name],
             [event for event in self.all(ev.StatusSeen) if event.goal == name],
             [cancel for cancel in self.cancels if cancel.sent.goal == name],
-            self._one(ev.ResultReceived, "goal", name),
+            self._in_time(ev.ResultReceived, "goal", name, of="result"),
         )
 
     @cached_property
     def cancels(self) -> list[CancelHistory]:
         """Every cancel request, in order."""
+        sent = {event.cancel: event for event in reversed(self.all(ev.CancelSent))}
         return [
-            CancelHistory(c, self._one(ev.CancelAnswered, "cancel", c.cancel))
-            for c in self.all(ev.CancelSent)
+            CancelHistory(event, self._in_time(ev.CancelAnswered, "cancel", name, of="cancel"))
+            for name, event in reversed(sent.items())
         ]
 
-    def cancel(self, name: str) -> CancelHistory:
-        """Return one cancel request by its name."""
-        return next(cancel for cancel in self.cancels if cancel.sent.cancel == name)
+    def cancels_of(self, goal: str) -> list[CancelHistory]:
+        """Return the requests to cancel one goal (none named: every goal), of which there must be one."""
+        requests = [cancel for cancel in self.cancels if cancel.sent.goal == goal]
+        if not requests:
+            which = f"the goal “{goal}”" if goal else "every goal"
+            raise Missing(
+                self,
+                expected=f"a server that gets as far as the request to cancel {which}",
+                never=f"nobody asked to cancel {which}",
+            )
+        return requests
+
+    # -- services -----------------------------------------------------------------------------------------------------
 
     @cached_property
     def calls(self) -> list[CallHistory]:
         """Every service call, in order."""
+        sent = {event.call: event for event in reversed(self.all(ev.ServiceCalled))}
         return [
-            CallHistory(c.call, c, self._one(ev.ServiceAnswered, "call", c.call))
-            for c in self.all(ev.ServiceCalled)
+            CallHistory(name, event, self._in_time(ev.ServiceAnswered, "call", name, of="call"))
+            for name, event in reversed(sent.items())
         ]
 
-    def call(self, name: str) -> CallHistory:
-        """Return one service call by its name."""
-        return next(call for call in self.calls if call.name == name)
+    def calls_to(self, service: str) -> list[CallHistory]:
+        """Return the calls of one service, in order."""
+        return [call for call in self.calls if call.sent.service == service]
+
+    def call(self, service: str, number: int) -> CallHistory:
+        """Return the first (`number` 1), second, … call of a service, which must have been made."""
+        calls = self.calls_to(service)
+        if len(calls) < number:
+            raise Missing(
+                self,
+                expected=f"a server that gets as far as the {ordinal(number)} question to {service}",
+                never=f"{service} was never asked a {ordinal(number)} time"
+                if number > 1
+                else f"{service} was never asked",
+            )
+        return calls[number - 1]
+
+    # -- services that the grader plays -------------------------------------------------------------------------------
 
     def requests(self, service: str) -> list[RequestHistory]:
         """Return the requests that a played service got, whichever of its servers, in order."""
+        received = {event.request: event for event in reversed(self.all(ev.RequestReceived))}
         return [
-            RequestHistory(received, self._one(ev.ReplySent, "request", received.request))
-            for received in self.all(ev.RequestReceived)
-            if received.service == service
+            RequestHistory(event, self._one(ev.ReplySent, "request", name))
+            for name, event in reversed(received.items())
+            if event.service == service
         ]
 
     # -- the robot ----------------------------------------------------------------------------------------------------
 
     def robot_at(self, t: float) -> ev.RobotTruth:
         """Return the robot at time `t` (s): the last sample not later, or the first there is."""
-        if not self.truth:
-            raise LookupError(f"the simulator reported nothing in {self.scenario}")
+        self._require_samples(t, t)
         return self.truth[max(0, bisect_right(self._truth_times, t) - 1)]
 
     def robot_between(self, start: float, end: float) -> Sequence[ev.RobotTruth]:
-        """Return the samples from `start` to `end` (s), both included."""
+        """Return the samples from `start` to `end` (s), both included; there must be some from end to end."""
+        self._require_samples(start, end)
         times = self._truth_times
-        return self.truth[bisect_left(times, start) : bisect_right(times, end)]
+        return self.truth[bisect_left(times, start) : bisect_right(times, end)] or [self.robot_at(end)]
+
+    def told(self, do: str, *, before: float = math.inf, **arguments: Any) -> ev.RobotCommanded:
+        """Return the last command of the scenario to the robot that took effect `before` a time (s), with some of
+        its arguments; there must be one.
+        """
+        wanted = {"do": do, **arguments}
+        for event in reversed(self.all(ev.RobotCommanded)):
+            if event.t <= before and wanted.items() <= event.command.items():
+                return event
+        raise unseen(self, f"the robot did not get the command {do}")
 
     @cached_property
     def _truth_times(self) -> list[float]:
         return [sample.t for sample in self.truth]
+
+    def _require_samples(self, start: float, end: float) -> None:
+        times = self._truth_times
+        if not times or times[0] > start + LONGEST_GAP or times[-1] < end - LONGEST_GAP:
+            raise unseen(self, f"nothing is known of the robot at {end:.1f} s")
 
     # -- the student's process ----------------------------------------------------------------------------------------
 
@@ -176,9 +233,24 @@ class Transcript:
         return "\n".join(lines)
 
     @property
+    def last_words(self) -> str:
+        """The last line on stderr that is not blank, cut to a readable length."""
+        lines = [line.strip() for line in self.output("stderr").splitlines() if line.strip()]
+        return lines[-1][:300] if lines else ""
+
+    @property
     def end(self) -> float:
-        """The time (s) of the last event."""
+        """The time (s) at which the scenario ended, or of the last event."""
+        ended = self.first(ev.ScenarioEnded)
+        if ended:
+            return ended.t
         return self.events[-1].t if self.events else 0.0
+
+    def _in_time(self, kind: type[A], key: str, value: str, *, of: str) -> A | None:
+        """Return the answer to something, unless the scenario had stopped to wait for it and gone on."""
+        given_up = [event.t for event in self.all(ev.Unanswered) if (event.what, event.id) == (of, value)]
+        answer = self._one(kind, key, value)
+        return None if answer is None or (given_up and answer.t > given_up[0]) else answer
 
     def _one(self, kind: type[E], key: str, value: str) -> E | None:
         return next((event for event in self.all(kind) if getattr(event, key) == value), None)

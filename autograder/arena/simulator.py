@@ -6,6 +6,7 @@ import json
 import multiprocessing
 import os
 import threading
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
@@ -34,6 +35,7 @@ class Simulator:
         self.robot: dict[str, Any] | None = None
         self.subscribers: dict[str, int] = {}
         self.publishers: dict[str, int] = {}
+        self.reports: Counter[str] = Counter()
         self._commands_left = 0
         more = ("--namespace", namespace, "--truth-fd", str(truth_write), "--control-fd", str(control_read))
         self.process = multiprocessing.get_context("fork").Process(
@@ -73,9 +75,12 @@ class Simulator:
     def _read_truth(self, fd: int) -> None:
         with os.fdopen(fd, "rb") as lines:
             for line in lines:
+                if not line.endswith(b"\n"):
+                    return  # it was ended while it wrote
                 self._recorder.forward(line)
                 record = json.loads(line)
                 with self._changed:
+                    self.reports[record["kind"]] += 1
                     if record["kind"] == "robot":
                         self.robot = record
                     elif record["kind"] == "command":

@@ -205,6 +205,13 @@ class Stage(Waiting):
         robot = self._simulator
         return self.wait_until(lambda: robot.has_obeyed() or not robot.is_running(), ROBOT_TIMEOUT)
 
+    def wait_for_published(self, kind: str, number: int) -> bool:
+        """Wait until every command has taken effect, and then for `number` messages ('battery', 'joints') more."""
+        self.wait_for_commands()
+        robot = self._simulator
+        enough = robot.reports[kind] + number
+        return self.wait_until(lambda: robot.reports[kind] >= enough or not robot.is_running(), ROBOT_TIMEOUT)
+
     def wait_for_robot(
         self, condition: Callable[[dict[str, Any]], bool], timeout: float = ROBOT_TIMEOUT
     ) -> bool:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from autograder import events as ev
 from autograder.checks import Failure, expect
-from autograder.readiness import last_line, require_within_limits
+from autograder.missing import Missing, ordinal, unseen
+from autograder.readiness import require_within_limits
 from autograder.transcript import RequestHistory, Transcript
 
 SLACK = 2.0  # s on the arena's clock for start and shutdown: 0.4 s of wall time at scale 5, on a busy machine
@@ -14,7 +15,8 @@ def require_end(run: Transcript, within: float) -> ev.NodeExited:
     """The program ended by itself within so many seconds of its node's appearance."""
     require_within_limits(run)
     started = run.first(ev.NodeReady) or run.first(ev.NodeStarted)
-    assert started is not None
+    if started is None:
+        raise unseen(run, "the program was never started")
     exited = run.first(ev.NodeExited)
     if exited is None:
         raise Failure(
@@ -63,7 +65,7 @@ def require_failure(run: Transcript, within: float, statuses: tuple[int, ...], b
     expect(
         "Traceback (most recent call last)" not in words,
         expected="one line on stderr that says what went wrong",
-        observed=f"a traceback: {last_line(words)}",
+        observed=f"a traceback: {run.last_words}",
         help="An expected failure is no crash: catch it, print one line with file=sys.stderr, return the status.",
         at=exited.t,
     )
@@ -89,6 +91,40 @@ def require_requests(run: Transcript, service: str, number: int) -> list[Request
     return requests
 
 
+def require_played(run: Transcript, service: str, servers: int = 1, service_type: str = "") -> None:
+    """The grader offered a service, with so many servers in all and of one type: what the client had to deal with."""
+    offered = [
+        event
+        for event in run.all(ev.ServiceOffered)
+        if event.service == service and service_type in ("", event.type)
+    ]
+    if len({event.server for event in offered}) != servers:
+        raise unseen(run, f"{service} was played by {len(offered)} servers instead of {servers}")
+
+
+def require_withdrawn(run: Transcript, service: str) -> ev.ServiceWithdrawn:
+    """The grader's server died while it worked on a request of the client, which must have come."""
+    requests = run.requests(service)
+    if not requests:
+        raise Missing(run, expected=f"a request to {service}", never=f"{service} was never asked")
+    first = requests[0].received
+    for withdrawn in run.all(ev.ServiceWithdrawn):
+        if withdrawn.server == first.server and withdrawn.t >= first.t:
+            return withdrawn
+    raise unseen(run, f"the server of {service} did not die")
+
+
+def require_reply(run: Transcript, service: str, number: int = 1) -> ev.ReplySent:
+    """Return the first (`number` 1), second, … reply of a played service that the client was there to get."""
+    replies = [request.reply for request in run.requests(service) if request.reply]
+    if len(replies) < number:
+        raise Missing(
+            run,
+            expected=f"a client that asks {service} and waits for its answer",
+            never=f"{service} never gave it a{'' if number == 1 else ' ' + ordinal(number)} reply",
+        )
+    return replies[number - 1]
+
+
 def _ending(run: Transcript, exited: ev.NodeExited) -> str:
-    words = last_line(run.output("stderr"))
-    return f"exit status {exited.returncode}; the last line on stderr: {words or 'none'}"
+    return f"exit status {exited.returncode}; the last line on stderr: {run.last_words or 'none'}"

@@ -6,10 +6,12 @@ from typing import TypeVar
 
 from autograder import events as ev
 from autograder.checks import Failure, expect
-from autograder.readiness import last_line, require_within_limits
+from autograder.missing import Missing, unseen
+from autograder.readiness import require_within_limits
 from autograder.transcript import CallHistory, Transcript
 
-DELIVERY = 3.0  # s a message may be on its way: 0.6 s of wall time at scale 5, on a busy machine
+# s a message may be on its way: 0.2 s of wall time at scale 5, 0.1 s at scale 10. Scenarios wait a little longer.
+DELIVERY = 1.0
 
 E = TypeVar("E", bound=ev.Event)
 
@@ -21,19 +23,21 @@ def require_alive(run: Transcript) -> None:
     if exited and run.first(ev.NodeSignalled) is None:
         raise Failure(
             expected="a node that keeps running",
-            observed=f"the program ended with status {exited.returncode}: {last_line(run.output('stderr'))}",
+            observed=f"the program ended with status {exited.returncode}: {run.last_words}",
             help="An exception in a callback ends rclpy.spin() and with it the node: find it in the log below.",
             at=exited.t,
         )
 
 
 def require_answer(run: Transcript, call: CallHistory) -> ev.ServiceAnswered:
-    """Return the answer to a service call, which must have come."""
+    """Return the answer to a service call, which must have come while it was waited for."""
     if call.answer is None:
         require_alive(run)
+        given_up = next((event for event in run.all(ev.Unanswered) if event.id == call.name), None)
+        waited = given_up.waited if given_up else run.end - call.sent.t
         raise Failure(
             expected=f"an answer to {call.sent.service}",
-            observed="none within 5 s",
+            observed=f"none within {waited:.0f} s",
             help="The callback must return the response at once: it may not wait, sleep or call another "
             "service while the node has only one thread.",
             at=call.sent.t,
@@ -41,16 +45,31 @@ def require_answer(run: Transcript, call: CallHistory) -> ev.ServiceAnswered:
     return call.answer
 
 
-def last_messages(run: Transcript, kind: type[E], call: CallHistory) -> list[E]:
+def last_messages(run: Transcript, kind: type[E], call: CallHistory, *, since: float) -> list[E]:
     """Return what may be 'the last message' at a server that answered `call`, oldest first.
 
-    That is the newest at the request, those still on their way, and those that came before the answer.
+    That is the newest at the request, what it may not have taken the place of yet, since it was still on its way, and
+    what came before the answer. A message sent after `since` (s) must have had the time to arrive: it is the stimulus.
     """
-    assert call.answer is not None
-    published = run.all(kind)
-    before = [message for message in published if message.t <= call.sent.t - DELIVERY]
-    around = [message for message in published if call.sent.t - DELIVERY < message.t <= call.answer.t]
-    return before[-1:] + around
+    answer = require_answer(run, call)
+    published = [message for message in run.all(kind) if message.t <= answer.t]
+    arrived = [message for message in published if message.t <= call.sent.t - DELIVERY]
+    if not arrived or arrived[-1].t <= since:
+        raise unseen(run, f"the robot published nothing in time for {call.name} to {call.sent.service}")
+    return published[len(arrived) - 1 :]
+
+
+def require_calls(run: Transcript, number: int) -> list[CallHistory]:
+    """Return every call of the scenario, of which there must be `number`, each answered."""
+    for call in run.calls:
+        require_answer(run, call)
+    if len(run.calls) < number:
+        raise Missing(
+            run,
+            expected=f"answers to {number} requests",
+            never=f"only {len(run.calls)} of {number} were sent",
+        )
+    return run.calls
 
 
 _CLEAN_END = (
@@ -72,19 +91,27 @@ def require_clean_exit(run: Transcript) -> None:
 
     Output is not judged: rclpy prints tracebacks of its own when Ctrl-C meets one of its threads.
     """
+    require_within_limits(run)
     signalled = run.first(ev.NodeSignalled)
-    assert signalled is not None
+    if signalled is None:
+        raise unseen(run, "nobody pressed Ctrl-C")
     exited = run.first(ev.NodeExited)
+    if exited is None:
+        raise Failure(
+            expected="the program to end after SIGINT (Ctrl-C)",
+            observed=f"it still ran {run.end - signalled.t:.1f} s later",
+            help="Something keeps the process alive: a loop that does not look at rclpy.ok(), or a thread that is "
+            "not a daemon. " + _CLEAN_END,
+            at=signalled.t,
+        )
     expect(
-        exited is not None,
-        expected="the program to end after SIGINT (Ctrl-C)",
-        observed=f"it still ran {run.end - signalled.t:.1f} s later",
-        help="Something keeps the process alive: a loop that does not look at rclpy.ok(), or a thread that is "
-        "not a daemon. " + _CLEAN_END,
-        at=signalled.t,
+        exited.t >= signalled.t,
+        expected="a node that runs until Ctrl-C",
+        observed=f"it had ended before, with status {exited.returncode}: {run.last_words or 'nothing on stderr'}",
+        help="An exception in a callback ends rclpy.spin() and with it the node: find it in the log below.",
+        at=exited.t,
     )
-    assert exited is not None
-    last_words = last_line(run.output("stderr"))
+    last_words = run.last_words
     expect(
         exited.returncode == 0,
         expected="exit status 0 after SIGINT (Ctrl-C)",

@@ -9,13 +9,17 @@ import pytest
 
 from autograder import events as ev
 from autograder.bounds import require_bounded
-from autograder.checks import Failure
+from autograder.checks import Failure, Scenario
 from autograder.exercises.interfaces.judging import LONGEST, require_built, require_fields
 from autograder.transcript import Transcript
 
 
 def run_with(*events: Any, **params: Any) -> Transcript:
     return Transcript.from_events("any", params, [ev.NodeStarted(t=0.0), *events])
+
+
+def bounded(run: Transcript) -> None:
+    require_bounded(run, Scenario("any"))
 
 
 def failure_of(question: Any, *arguments: Any) -> Failure:
@@ -29,26 +33,26 @@ def feedback(goal: str, number: int) -> list[Any]:
 
 
 def test_a_run_of_which_everything_was_read_is_bounded() -> None:
-    require_bounded(run_with(*feedback("walk", 5)))
+    bounded(run_with(*feedback("walk", 5)))
 
 
 def test_dropped_feedback_is_the_students_failure_with_all_numbers() -> None:
     dropped = ev.RecordDropped(t=9.0, what="feedback", count=600, seconds=4.2)
-    failure = failure_of(require_bounded, run_with(*feedback("walk", 50), dropped))
+    failure = failure_of(bounded, run_with(*feedback("walk", 50), dropped))
     assert failure.observed == "it sent 650 feedback messages in 4.2 s; 50 of them are read"
     assert failure.at == 9.0
 
 
 def test_an_answer_that_is_too_large_is_named_with_its_size() -> None:
     large = ev.TooLarge(t=3.0, what="answer", id="call 2", bytes=12 * 2**20, limit=64 * 2**10)
-    failure = failure_of(require_bounded, run_with(large))
+    failure = failure_of(bounded, run_with(large))
     assert failure.expected == "every answer to have at most 64 KiB"
     assert failure.observed == "one of 12.0 MiB (“call 2”); it was not read"
 
 
 def test_a_flooded_graph_is_told_in_its_own_words_cut_to_a_readable_length() -> None:
     reason = "there were 30,000 nodes" + "!" * 5000
-    failure = failure_of(require_bounded, run_with(ev.GraphFlooded(t=1.0, nodes=30_000, reason=reason)))
+    failure = failure_of(bounded, run_with(ev.GraphFlooded(t=1.0, nodes=30_000, reason=reason)))
     assert failure.observed.startswith("there were 30,000 nodes")
     assert len(failure.observed) == 300
 

@@ -1,5 +1,7 @@
 """How verdicts follow from given transcripts: dependencies, infrastructure failures, overload."""
 
+from dataclasses import replace
+
 import pytest
 
 from autograder import events as ev
@@ -15,6 +17,7 @@ from autograder.transcript import Transcript
 ISOLATED = Isolation(Kind.NAMESPACES, "given")
 SUBMISSION = Submission("battery_service", "ada", {"battery_service.py": ""})
 FIRST, SECOND = Scenario("first"), Scenario("second")
+BEGINNING = (ev.NodeStarted(t=0.0), ev.NodeReady(t=0.0, waited=0.1))
 
 
 def robot(t, lag):
@@ -25,9 +28,10 @@ def robot(t, lag):
 
 
 def transcript(scenario, *, lag=0.0, mark=None, scale=5.0):
-    events = [ev.NodeReady(t=0.0, waited=0.1), robot(2.0, lag)]
+    events = [*BEGINNING, robot(1.0, 0.0), robot(2.0, lag)]
     if mark:
         events.append(ev.Mark(t=3.0, name=mark))
+    events.append(ev.ScenarioEnded(t=3.0))
     return Transcript.from_events(scenario.name, {}, events, scale)
 
 
@@ -114,6 +118,18 @@ def test_a_check_that_breaks_costs_nothing(monkeypatch):
     assert "oops" in grade.checks[0].help
 
 
+def test_what_the_arena_left_out_is_looked_for_again_and_then_not_graded(monkeypatch, two_checks):
+    def answer(scenario, scale):
+        whole = transcript(scenario, mark="here")
+        return replace(whole, events=[event for event in whole.events if event.kind != "scenario_ended"])
+
+    ran = arenas(monkeypatch, answer)
+    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, jobs=1)
+    assert (grade.status, statuses(grade)["base"]) == ("not graded", "error")
+    assert grade.checks[0].help == "Not graded: first: the record breaks off at 3.0 s"
+    assert [name for name, _ in ran].count("first") == 2
+
+
 def test_an_overloaded_run_is_repeated_more_slowly_before_it_is_judged(monkeypatch, two_checks):
     def answer(scenario, scale):
         return transcript(
@@ -134,7 +150,7 @@ def test_a_machine_that_is_too_slow_even_at_scale_1_gives_no_grade(monkeypatch, 
 
 
 def without_robot(scenario, scale, *, starved):
-    events = [ev.NodeReady(t=0.0, waited=0.1), ev.Starved(t=3.0, seconds=starved)]
+    events = [*BEGINNING, ev.Starved(t=3.0, seconds=starved), ev.ScenarioEnded(t=3.0)]
     return Transcript.from_events(scenario.name, {}, events, scale)
 
 

@@ -5,7 +5,11 @@ from __future__ import annotations
 import math
 
 from autograder.checks import CheckList, Scenario, expect
-from autograder.exercises.battery_service.judging import answer_of, require_last_message
+from autograder.exercises.battery_service.judging import (
+    require_first_answer,
+    require_last_message,
+    require_last_message_at_each_level,
+)
 from autograder.exercises.common_checks import require_clean_exit
 from autograder.readiness import require_ready
 from autograder.transcript import Transcript
@@ -27,21 +31,20 @@ def server_appears(run: Transcript) -> None:
 @CHECKS.check(points=1, on=ASK_ONCE, needs=["server_appears"])
 def answers_with_the_last_message(run: Transcript) -> None:
     """It answers with the robot's last battery_state, field by field"""
-    require_last_message(run, answer_of(run, 0))
+    require_last_message(run)
 
 
 @CHECKS.check(points=2, on=SENSOR_UNPLUGGED, needs=["server_appears"])
 def says_when_it_knows_nothing(run: Transcript) -> None:
     """Before the first message it answers available: false and a percentage of NaN"""
-    call = answer_of(run, 0)
-    assert call.answer is not None
-    response = call.answer.response
+    answer = require_first_answer(run)
+    response = answer.response
     expect(
         response["available"] is False,
         expected="available: false, because the robot has not published its battery yet",
         observed=f"available: {str(response['available']).lower()}",
         help="Start with no message (None) and answer available: false as long as none has arrived.",
-        at=call.answer.t,
+        at=answer.t,
     )
     percentage = response["battery"]["percentage"]
     expect(
@@ -49,15 +52,14 @@ def says_when_it_knows_nothing(run: Transcript) -> None:
         expected="battery.percentage: NaN, ROS's sign for 'not measured'",
         observed=f"battery.percentage: {percentage:g}, which a client would take for a measured value",
         help="A new BatteryState holds 0.0 everywhere: set the fields that are not measured to float('nan').",
-        at=call.answer.t,
+        at=answer.t,
     )
 
 
 @CHECKS.check(points=1, on=LEVELS, needs=["answers_with_the_last_message"])
 def follows_the_battery(run: Transcript) -> None:
     """When the charge changes, so does the answer"""
-    for index in range(len(run.params["levels"])):
-        require_last_message(run, answer_of(run, index))
+    require_last_message_at_each_level(run)
 
 
 @CHECKS.check(points=1, on=INTERRUPT, needs=["server_appears"])

@@ -8,28 +8,35 @@ from autograder.arena.stage import Stage
 from humanoid_interfaces.srv import GetBatteryStatus
 
 SERVICE = "get_battery_status"
-BATTERY_PERIOD = 0.5  # s between two messages of the robot
-SEVERAL_MESSAGES = 8 * BATTERY_PERIOD  # longer than the checks let a message be on its way
+PERIOD = 0.5  # s between two messages of the robot
+ON_ITS_WAY = 1.1  # s; longer than the checks let a message be on its way
+SILENCE = 2.5  # s; longer than the checks ask for
 
 
 def _open(stage: Stage) -> None:
     stage.open(services={SERVICE: GetBatteryStatus})
 
 
+def _let_it_be_known(stage: Stage) -> None:
+    """Return when the battery has been published as it is now, and everybody has had the time to hear of it."""
+    stage.wait_for_published("battery", 1)
+    stage.wait(ON_ITS_WAY)
+
+
 def ask_once(stage: Stage) -> None:
-    """Ask when the robot has published for a while."""
+    """Ask when the robot has published."""
     _open(stage)
-    stage.wait(SEVERAL_MESSAGES)
+    _let_it_be_known(stage)
     stage.call(SERVICE)
 
 
 def ask_before_the_first_message(stage: Stage) -> None:
     """Ask while the battery sensor is unplugged; plug it in; ask again."""
     _open(stage)
-    stage.wait(SEVERAL_MESSAGES)
+    stage.wait(PERIOD)
     stage.call(SERVICE)
     stage.command_robot("battery_sensor", connected=True)
-    stage.wait(SEVERAL_MESSAGES)
+    _let_it_be_known(stage)
     stage.call(SERVICE)
 
 
@@ -38,16 +45,17 @@ def ask_at_levels(stage: Stage, levels: Sequence[float]) -> None:
     _open(stage)
     for level in levels:
         stage.command_robot("set_battery", percentage=level)
-        stage.wait(SEVERAL_MESSAGES)
+        _let_it_be_known(stage)
         stage.call(SERVICE)
 
 
 def ask_after_the_sensor_stopped(stage: Stage) -> None:
     """Let the sensor publish, unplug it, ask."""
     _open(stage)
-    stage.wait(SEVERAL_MESSAGES)
+    _let_it_be_known(stage)
     stage.command_robot("battery_sensor", connected=False)
-    stage.wait(SEVERAL_MESSAGES)
+    stage.wait_for_commands()
+    stage.wait(SILENCE)
     stage.call(SERVICE)
 
 
@@ -57,7 +65,7 @@ def ask_many_at_once(stage: Stage, bursts: int, burst: int) -> None:
     A service keeps its last 10 requests: more than that at once would be lost through no fault of the node.
     """
     _open(stage)
-    stage.wait(SEVERAL_MESSAGES)
+    _let_it_be_known(stage)
     for _ in range(bursts):
         calls = [stage.send_call(SERVICE) for _ in range(burst)]
         answered = [stage.wait_for_answer(SERVICE, call) for call in calls]
@@ -67,5 +75,6 @@ def ask_many_at_once(stage: Stage, bursts: int, burst: int) -> None:
 
 def interrupt(stage: Stage) -> None:
     """Ask once, then press Ctrl-C."""
-    ask_once(stage)
+    _open(stage)
+    stage.call(SERVICE)
     stage.interrupt_node()

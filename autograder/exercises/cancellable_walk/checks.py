@@ -21,7 +21,9 @@ from autograder.exercises.cancellable_walk.reports import (
 )
 from autograder.exercises.cancellable_walk.robot import (
     require_arrival,
+    require_fall,
     require_stopped,
+    require_walking,
 )
 from autograder.exercises.common_checks import require_clean_exit
 from autograder.readiness import require_ready
@@ -37,6 +39,8 @@ WALK_AGAIN = Scenario("walk_again_after_a_cancel", {"x": 0.8, "y": 0.0, "yaw": 0
 PREEMPT = Scenario("preempt", {"x": 0.7, "y": 0.2, "yaw": 0.3})
 FALL = Scenario("fall", {"impulse": [0.0, 60.0, 0.0]})
 INTERRUPT = Scenario("interrupt")
+
+KNOWN = 0.6  # s for a change of the robot to be known to the node
 
 
 @CHECKS.check(points=1, on=INTERRUPT)  # the shortest scenario: its verdict comes first
@@ -109,6 +113,7 @@ def rejects_nan(run: Transcript) -> None:
 @CHECKS.check(points=1, on=UNPOWERED, needs=["accepts_a_goal"])
 def rejects_without_power(run: Transcript) -> None:
     """It rejects a goal while the motors are off"""
+    _require_power_cut(run)
     require_rejected(
         run,
         "unpowered",
@@ -118,21 +123,37 @@ def rejects_without_power(run: Transcript) -> None:
     )
 
 
+def _require_power_cut(run: Transcript) -> None:
+    """The motors were off when the goal came, and the robot had said so."""
+    sent = run.goal("unpowered").sent
+    run.told("motor_power", before=sent.t, on=False)
+    powered = [robot for robot in run.robot_between(sent.t - KNOWN, sent.t) if robot.motors_enabled]
+    expect(
+        not powered,
+        expected="the robot's motors off, as the grader has switched them",
+        observed="they were switched on again",
+        help="Publish nothing on motor_power: this node only walks.",
+        at=sent.t,
+    )
+
+
 @CHECKS.check(points=2, on=MID_STRIDE, needs=["accepts_a_goal"])
 def cancels_in_mid_stride(run: Transcript) -> None:
     """A cancel while the robot walks is agreed to and ends CANCELED"""
-    require_canceled(run, "after 1 s")
+    request = require_canceled(run, "after 1 s")
+    require_walking(run, request.t)
 
 
 @CHECKS.check(points=2, on=MID_STRIDE, needs=["cancels_in_mid_stride"])
 def stops_when_canceled(run: Transcript) -> None:
     """Within 2 s of the cancel the robot stands still and upright"""
-    require_stopped(run, run.cancels[-1].sent.t)
+    require_stopped(run, run.cancels_of("after 1 s")[-1].sent.t)
 
 
 @CHECKS.check(points=1, on=WALK_AGAIN, needs=["cancels_in_mid_stride", "arrives"])
 def walks_again_after_a_cancel(run: Transcript) -> None:
     """A new goal after a cancel is walked to"""
+    require_walking(run, run.cancels_of("canceled")[-1].sent.t)
     require_arrival(run, "again")
 
 
@@ -140,9 +161,17 @@ def walks_again_after_a_cancel(run: Transcript) -> None:
 def new_goal_preempts_the_old(run: Transcript) -> None:
     """A new goal aborts the old one with PREEMPTED and is walked to"""
     require_accepted(run, "old")
-    require_accepted(run, "new")
+    new = require_accepted(run, "new")
+    require_walking(run, new.sent.t)
     old = require_result(run, run.goal("old"), ABORTED)
     require_error_code(old, PREEMPTED, "PREEMPTED")
+    expect(
+        old.t >= new.sent.t,
+        expected="the old goal to go on until the new one comes",
+        observed=f"it ended {new.sent.t - old.t:.1f} s before",
+        help="Abort with PREEMPTED only when another goal has been accepted.",
+        at=old.t,
+    )
     require_arrival(run, "new")
 
 
@@ -150,11 +179,12 @@ def new_goal_preempts_the_old(run: Transcript) -> None:
 def aborts_when_the_robot_falls(run: Transcript) -> None:
     """When the robot falls the goal is ABORTED with FELL"""
     goal = require_accepted(run, "walk")
+    fallen = require_fall(run)
     result = require_result(run, goal, ABORTED)
     expect(
-        result.t >= run.mark("fallen") - 1.0,
+        result.t >= fallen.t - 1.0,
         expected="the goal to go on until the robot falls",
-        observed=f"it ended {run.mark('fallen') - result.t:.1f} s before the robot fell",
+        observed=f"it ended {fallen.t - result.t:.1f} s before the robot fell",
         help="A push alone is no reason to give up: abort when robot_state.mode is FALLEN.",
         at=result.t,
     )

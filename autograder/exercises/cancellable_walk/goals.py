@@ -5,7 +5,7 @@ from __future__ import annotations
 from autograder import events as ev
 from autograder.checks import Failure, expect
 from autograder.exercises.common_checks import require_alive
-from autograder.transcript import GoalHistory, Transcript
+from autograder.transcript import CancelHistory, GoalHistory, Transcript
 
 STATUS = {1: "ACCEPTED", 2: "EXECUTING", 3: "CANCELING", 4: "SUCCEEDED", 5: "CANCELED", 6: "ABORTED"}
 SUCCEEDED, CANCELED, ABORTED = 4, 5, 6
@@ -19,7 +19,7 @@ def require_accepted(run: Transcript, name: str) -> GoalHistory:
         require_alive(run)
         raise Failure(
             expected="the goal to be accepted",
-            observed="no answer to the goal within 5 s",
+            observed=_no_answer(run, goal),
             help="The executor was busy: on one thread a callback that sleeps or waits keeps goals and cancels "
             "from being served. "
             "Use MultiThreadedExecutor, or an async execute callback that awaits.",
@@ -45,10 +45,17 @@ def require_rejected(run: Transcript, name: str, why: str, help: str) -> None:
     expect(
         goal.answer is not None and not goal.answer.accepted,
         expected=f"the goal to be rejected: {why}",
-        observed="it was accepted" if goal.answer else "no answer to the goal within 5 s",
+        observed="it was accepted" if goal.answer else _no_answer(run, goal),
         help=help,
         at=goal.answer.t if goal.answer else goal.sent.t,
     )
+
+
+def _no_answer(run: Transcript, goal: GoalHistory) -> str:
+    given_up = next(
+        (event for event in run.all(ev.Unanswered) if (event.what, event.id) == ("goal", goal.name)), None
+    )
+    return f"no answer to the goal within {given_up.waited if given_up else run.end - goal.sent.t:.0f} s"
 
 
 def require_result(run: Transcript, goal: GoalHistory, status: int) -> ev.ResultReceived:
@@ -97,9 +104,8 @@ def _status_advice(observed: int, wanted: int) -> str:
     return "Look at which terminal call (succeed, canceled, abort) execute makes on this path."
 
 
-def require_cancel_accepted(run: Transcript, cancel_name: str, goal: GoalHistory) -> None:
+def require_cancel_accepted(run: Transcript, cancel: CancelHistory, goal: GoalHistory) -> None:
     """The server agreed to cancel the goal."""
-    cancel = run.cancel(cancel_name)
     if cancel.answer is None:
         require_alive(run)
         raise Failure(
@@ -127,15 +133,15 @@ def require_cancel_accepted(run: Transcript, cancel_name: str, goal: GoalHistory
     )
 
 
-def require_canceled(run: Transcript, goal_name: str, *, by_request_for_all: bool = False) -> None:
-    """The goal was accepted, the cancel agreed to, the goal ended CANCELED and the robot stopped upright."""
+def require_canceled(run: Transcript, goal_name: str, *, by_request_for_all: bool = False) -> ev.CancelSent:
+    """The goal was accepted, the cancel agreed to, the goal ended CANCELED; returns the request."""
     goal = require_accepted(run, goal_name)
-    requests = [
-        cancel for cancel in run.cancels if cancel.sent.goal == ("" if by_request_for_all else goal_name)
-    ]
-    request = requests[-1]  # an earlier one may have overtaken its goal
-    require_cancel_accepted(run, request.sent.cancel, goal)
+    request = run.cancels_of("" if by_request_for_all else goal_name)[
+        -1
+    ]  # earlier ones may have overtaken their goal
+    require_cancel_accepted(run, request, goal)
     require_result(run, goal, CANCELED)
+    return request.sent
 
 
 def require_error_code(result: ev.ResultReceived, code: int, name: str) -> None:

@@ -11,14 +11,17 @@ from autograder.exercises.cancellable_walk.goals import (
     require_canceled,
     require_result,
 )
+from autograder.exercises.cancellable_walk.planar import error
 from autograder.exercises.cancellable_walk.reports import (
     require_silence_after_the_end,
 )
 from autograder.exercises.cancellable_walk.robot import (
     require_arrival,
     require_stopped,
+    require_walking,
 )
 from autograder.exercises.common_checks import require_alive
+from autograder.missing import unseen
 from autograder.transcript import Transcript
 
 CHECKS = CheckList(hidden=True)
@@ -51,6 +54,7 @@ NEAR_ARRIVAL = Scenario(
 AFTER_THE_END = Scenario("cancel_after_the_end")
 TWICE = Scenario("cancel_twice")
 BY_A_STRANGER = Scenario("cancel_by_a_stranger")
+NEAR = 0.1  # m the robot may have walked on, or back, until it was cancelled
 OTHER_NAMESPACE = Scenario("walk", {"x": 0.3, "y": 0.0, "yaw": 0.0}, namespace="/lab_7/robot")
 
 
@@ -65,8 +69,8 @@ def arrives_anywhere(run: Transcript) -> None:
 def cancels_at_the_start(run: Transcript) -> None:
     """A cancel before execution, or at the first feedback, ends CANCELED with the robot still"""
     require_canceled(run, "at once")
-    require_canceled(run, "first feedback")
-    require_stopped(run, run.goal("first feedback").cancels[-1].sent.t)
+    request = require_canceled(run, "first feedback")
+    require_stopped(run, request.t)
 
 
 @CHECKS.check(points=2, on=SEVERAL_PHASES, needs=["stops_when_canceled"])
@@ -74,27 +78,41 @@ def stops_in_any_phase_of_the_gait(run: Transcript) -> None:
     """Wherever its feet are when the cancel comes, the robot stops upright"""
     for delay in run.params["delays"]:
         goal = f"after {delay:g} s"
-        require_canceled(run, goal)
-        require_stopped(run, run.goal(goal).cancels[-1].sent.t)
+        request = require_canceled(run, goal)
+        require_walking(run, request.t)
+        require_stopped(run, request.t)
 
 
 @CHECKS.check(points=1, on=NEAR_ARRIVAL, needs=["stops_when_canceled"])
 def cancels_near_arrival(run: Transcript) -> None:
     """A cancel just before arrival ends CANCELED, or SUCCEEDED at the goal, with the robot still"""
     goal = require_accepted(run, "near")
+    cancel = run.cancels_of("near")[-1]
+    distance, _turn = error(run.robot_at(cancel.sent.t), goal)
+    expect(
+        distance <= run.params["distance"] + NEAR,
+        expected="the robot near its goal after 15 s, where it is cancelled",
+        observed=f"it is {distance:.2f} m away",
+        help="Walk at 0.3 m/s or so: 0.7 m take a few seconds.",
+        at=cancel.sent.t,
+    )
     if goal.status == SUCCEEDED:
         require_arrival(run, "near")
     else:
-        require_cancel_accepted(run, goal.cancels[-1].sent.cancel, goal)
+        require_cancel_accepted(run, cancel, goal)
         require_result(run, goal, CANCELED)
-    require_stopped(run, goal.cancels[-1].sent.t)
+    require_stopped(run, cancel.sent.t)
 
 
 @CHECKS.check(points=1, on=AFTER_THE_END, needs=["arrives"])
 def survives_a_cancel_after_the_end(run: Transcript) -> None:
     """A cancel after the result changes nothing, and the next goal is walked to"""
     require_arrival(run, "first")
-    cancel = run.cancels[0]
+    cancel = run.cancels_of("first")[0]
+    result = run.goal("first").result
+    if result is None or result.t > cancel.sent.t:
+        raise unseen(run, "the cancel did not come after the end")
+    require_alive(run)
     expect(
         cancel.answer is not None and not cancel.answer.canceling,
         expected="the cancel of a goal that has ended to be refused",
@@ -110,13 +128,17 @@ def survives_two_cancels(run: Transcript) -> None:
     """The same cancel asked for twice ends CANCELED once, and both are answered"""
     require_canceled_by_first(run)
     require_alive(run)
+    cancels = run.cancels_of("walk")
+    if len(cancels) < 2:
+        raise unseen(run, "the cancel was asked for only once")
+    require_walking(run, cancels[0].sent.t)
     expect(
-        all(cancel.answer is not None for cancel in run.cancels),
+        all(cancel.answer is not None for cancel in cancels),
         expected="an answer to both cancel requests",
         observed="one was not answered within 5 s",
         help="cancel_callback may be called again for the same goal: return CancelResponse.ACCEPT and change "
         "nothing else in it.",
-        at=run.cancels[-1].sent.t,
+        at=cancels[-1].sent.t,
     )
     require_silence_after_the_end(run, "walk")
 
@@ -124,15 +146,16 @@ def survives_two_cancels(run: Transcript) -> None:
 def require_canceled_by_first(run: Transcript) -> None:
     """The first of several requests was agreed to, and the goal ended CANCELED."""
     goal = require_accepted(run, "walk")
-    require_cancel_accepted(run, goal.cancels[0].sent.cancel, goal)
+    require_cancel_accepted(run, run.cancels_of("walk")[0], goal)
     require_result(run, goal, CANCELED)
 
 
 @CHECKS.check(points=1, on=BY_A_STRANGER, needs=["stops_when_canceled"])
 def obeys_a_stranger(run: Transcript) -> None:
     """Another client may cancel every goal"""
-    require_canceled(run, "walk", by_request_for_all=True)
-    require_stopped(run, run.cancels[-1].sent.t)
+    request = require_canceled(run, "walk", by_request_for_all=True)
+    require_walking(run, request.t)
+    require_stopped(run, request.t)
 
 
 @CHECKS.check(points=1, on=OTHER_NAMESPACE, needs=["arrives"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 from autograder import events as ev
@@ -15,6 +16,7 @@ from autograder.exercises.cancellable_walk.goals import (
     require_result,
 )
 from autograder.exercises.cancellable_walk.planar import error, wrap, yaw
+from autograder.missing import unseen
 from autograder.transcript import Transcript
 
 MIN_RATE, MAX_RATE = 3.0, 10.0  # Hz
@@ -22,6 +24,7 @@ MAX_GAP = 1.0  # s
 REPORT_SLACK = 0.08  # m or rad, over what the robot moved while the message was made and delivered
 REPORT_AGE = 0.6  # s a reported pose may be old: odom's period, the feedback's period, delivery
 STEP_SLACK = 3  # footsteps between robot_state's rate and the moment of the report
+LISTENED = 1.0  # s after a result in which no feedback may come
 RATE_SLACK = 0.5  # Hz of measuring error over a short walk
 
 
@@ -44,9 +47,8 @@ def require_good_feedback_rate(run: Transcript, name: str) -> None:
         help="Publish every 0.2 s: a loop with time.sleep(0.05) publishes in every fourth round.",
         at=times[0],
     )
-    assert goal.answer is not None
-    gaps = [(b - a, a) for a, b in zip([goal.answer.t, *times], times, strict=False)]
-    gap, at = max(gaps)
+    start = goal.answer.t if goal.answer else goal.sent.t
+    gap, at = max((later - earlier, earlier) for earlier, later in pairwise([start, *times]))
     expect(
         gap <= MAX_GAP,
         expected=f"no gap over {MAX_GAP:.0f} s in the feedback",
@@ -92,16 +94,16 @@ def require_true_feedback(run: Transcript, name: str) -> None:
 
 
 def require_silence_after_the_end(run: Transcript, name: str) -> None:
-    """No feedback came after the result."""
+    """No feedback came after the result, and the scenario watched for some."""
     goal = run.goal(name)
-    assert goal.result is not None
-    late = [feedback for feedback in goal.feedback if feedback.t > goal.result.t + 0.3]
+    result = goal.result
+    if result is None or run.end < result.t + LISTENED:
+        raise unseen(run, f"nobody listened for feedback after the result of “{name}”")
+    late = [feedback for feedback in goal.feedback if feedback.t > result.t + 0.3]
     expect(
         not late,
         expected="no feedback after the result",
-        observed=f"{len(late)} message(s), the last {late[-1].t - goal.result.t:.1f} s after it"
-        if late
-        else "",
+        observed=f"{len(late)} message(s), the last {late[-1].t - result.t:.1f} s after it" if late else "",
         help="Stop the timer or thread that publishes feedback before the terminal call.",
         at=late[0].t if late else None,
     )
@@ -165,4 +167,4 @@ def _require_true_steps(
 
 
 def _recent(run: Transcript, t: float) -> Sequence[ev.RobotTruth]:
-    return run.robot_between(t - REPORT_AGE, t) or [run.robot_at(t)]
+    return run.robot_between(t - REPORT_AGE, t)

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from autograder import events as ev
-from autograder.checks import expect
+from autograder.checks import Failure, expect
 from autograder.exercises.cancellable_walk.goals import SUCCEEDED, require_accepted, require_result
 from autograder.exercises.cancellable_walk.planar import error
 from autograder.transcript import Transcript
 
+WALKING, FALLEN = 2, 3  # humanoid_interfaces/RobotState
+SHORTLY = 0.6  # s
 POSITION_TOLERANCE = 0.10  # m
 YAW_TOLERANCE = 0.15  # rad
 STOP_TIME = 2.0  # s
@@ -33,10 +35,21 @@ def require_arrival(run: Transcript, name: str) -> None:
     )
 
 
+def require_walking(run: Transcript, at: float) -> None:
+    """The robot walked shortly before a moment (s) of the scenario's: without that there is nothing to stop."""
+    expect(
+        any(robot.mode == WALKING for robot in run.robot_between(at - SHORTLY, at)),
+        expected="the robot walking to its goal by then",
+        observed=f"it does not walk at {at:.1f} s",
+        help="Publish a velocity on cmd_vel as soon as the goal executes, and again all the time: the robot stops by "
+        "itself 0.5 s after the last one.",
+        at=at,
+    )
+
+
 def require_stopped(run: Transcript, since: float) -> None:
     """From 2 s after `since` on the robot stands still and upright."""
-    watched = run.robot_between(since + STOP_TIME, run.end if run.end < since + 3.5 else since + 3.5)
-    assert watched, "the scenario must watch longer than the robot may take to stop"
+    watched = run.robot_between(since + STOP_TIME, since + WATCHED)
     fastest = max(watched, key=lambda robot: robot.speed)
     expect(
         fastest.speed < STOP_SPEED,
@@ -49,9 +62,24 @@ def require_stopped(run: Transcript, since: float) -> None:
     require_upright(watched)
 
 
+def require_fall(run: Transcript) -> ev.RobotTruth:
+    """Return the robot when it had fallen after it was pushed while it walked."""
+    push = run.told("push")
+    require_walking(run, push.t)
+    for robot in run.robot_between(push.t, run.end):
+        if robot.mode == FALLEN:
+            return robot
+    raise Failure(
+        expected="the walking robot to be knocked over by the push",
+        observed="it did not fall",
+        help="Walk it with cmd_vel alone, until robot_state.mode is FALLEN.",
+        at=push.t,
+    )
+
+
 def require_upright(watched: Sequence[ev.RobotTruth]) -> None:
     """The robot did not fall."""
-    fallen = next((robot for robot in watched if robot.mode == 3 or robot.up < 0.6), None)
+    fallen = next((robot for robot in watched if robot.mode == FALLEN or robot.up < 0.6), None)
     expect(
         fallen is None,
         expected="the robot upright",

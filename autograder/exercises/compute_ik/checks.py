@@ -20,6 +20,7 @@ from autograder.exercises.compute_ik.judging import (
 )
 from autograder.exercises.compute_ik.questions import ask_for, ask_for_both
 from autograder.exercises.compute_ik.two_link_arm import TwoLinkArm
+from autograder.missing import held_up, unseen
 from autograder.readiness import require_ready
 from autograder.transcript import Transcript
 
@@ -129,9 +130,19 @@ def moves_the_real_hand(run: Transcript) -> None:
         _require_the_hand_there(run, reply)
 
 
+def _arm_after(run: Transcript, reply: Reply) -> ev.ArmReported:
+    """Where the simulator says the arm was, once it had been moved to the answer's angles."""
+    for arm in run.all(ev.ArmReported):
+        if arm.t > reply.at:
+            if run.told("move_joints", before=arm.t).t < reply.at:
+                raise held_up(run, f"the arm was not moved to the angles for {reply.question}")
+            return arm
+    raise unseen(run, f"the robot did not say where its hand was for {reply.question}")
+
+
 def _require_the_hand_there(run: Transcript, reply: Reply) -> None:
     """What the simulator reported once the arm had come to rest."""
-    arm = next(report for report in run.all(ev.ArmReported) if report.t > reply.at)
+    arm = _arm_after(run, reply)
     x, y = reply.target
     away = math.dist(arm.hand, (x, 0.0, y))
     expect(

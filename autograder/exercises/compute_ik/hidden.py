@@ -20,6 +20,7 @@ from autograder.exercises.compute_ik.judging import (
 )
 from autograder.exercises.compute_ik.questions import ahead, anywhere, ask_for
 from autograder.exercises.compute_ik.two_link_arm import DEFAULT, TwoLinkArm
+from autograder.missing import Missing
 from autograder.transcript import CallHistory, Transcript
 
 CHECKS = CheckList(hidden=True)
@@ -126,8 +127,12 @@ def _arm_after_setting(run: Transcript) -> TwoLinkArm:
 
 
 def _call(run: Transcript, service: str) -> CallHistory:
-    """The call of one of the node's own parameter services, or the call before it that was never answered."""
-    return next((call for call in run.calls if call.sent.service.endswith(f"/{service}")), run.calls[-1])
+    """The call of one of the node's own parameter services; every call before it must have been answered."""
+    for call in run.calls:
+        if call.sent.service.endswith(f"/{service}"):
+            return call
+        require_answer(run, call)
+    raise Missing(run, expected=f"a node that can be asked for its {service}", never="that was never asked")
 
 
 def _in_words(value: dict[str, Any]) -> str:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import islice
 
 from autograder.checks import Failure, expect
 from autograder.exercises.common_checks import require_answer
 from autograder.exercises.compute_ik.advice import advice_for
 from autograder.exercises.compute_ik.two_link_arm import DEFAULT, TOLERANCE, Point, TwoLinkArm
-from autograder.transcript import CallHistory, Transcript
+from autograder.transcript import Transcript
 
+SERVICE = "compute_ik"
 SUCCESS, NO_IK_SOLUTION, FRAME_TRANSFORM_FAILURE = 1, -31, -21
 CODES = {
     SUCCESS: "SUCCESS",
@@ -46,16 +46,21 @@ class Reply:
 
 
 def replies(run: Transcript, group: str) -> list[Reply]:
-    """Return the answers to one group of a scenario's questions; every one must have been answered."""
-    calls = iter([call for call in run.calls if call.sent.service == "compute_ik"])
+    """Return the answers to one group of a scenario's questions; every one must have been asked and answered."""
+    number = 1
     for name, requests in {**run.params["questions"], **run.params.get("then", {})}.items():
-        asked = list(islice(calls, len(requests)))
-        if name == group:  # after a question that was not answered no other is asked
-            return [_reply(run, call) for call in asked or run.calls[-1:]]
+        if name == group:
+            return [_reply(run, nth) for nth in range(number, number + len(requests))]
+        number += len(requests)
     raise KeyError(f"{run.scenario} has no questions {group!r}")
 
 
-def _reply(run: Transcript, call: CallHistory) -> Reply:
+def _reply(run: Transcript, number: int) -> Reply:
+    for earlier in run.calls_to(SERVICE)[
+        : number - 1
+    ]:  # after a question that was not answered no other is asked
+        require_answer(run, earlier)
+    call = run.call(SERVICE, number)
     answer, request = require_answer(run, call), call.sent.request
     point = request["target"]["point"]
     return Reply(

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from autograder import events as ev
-from autograder.checks import Failure, expect
+from autograder.checks import CannotBeJudged, Failure, expect
+from autograder.missing import unseen
 from autograder.readiness import require_within_limits
 from autograder.transcript import Transcript
 
@@ -17,15 +18,14 @@ LONGEST = 300  # characters of what a verdict quotes
 
 def require_built(run: Transcript) -> dict[str, Any]:
     """The file was built; returns its parts (request, response; goal, result, feedback) with fields and constants."""
-    report = _report(run)
-    file = run.params["file"]
+    report, file = _report(run), run.params["file"]
     if report["built"]:
         (parts,) = report["types"].values()
         return parts
     problems, more = report["problems"], report["more"]
     if not problems:
         _require_time_for_it(run)
-        raise RuntimeError(f"the build of a sound {file} failed: {report['log'][-2000:]}")
+        raise CannotBeJudged(f"the build of a sound {file} failed: {report['log'][-2000:]}")
     first, more = problems[0], more + len(problems) - 1
     place = f"line {first['line']}, “{first['text'].strip()}”: " if first["line"] else ""
     raise Failure(
@@ -37,7 +37,7 @@ def require_built(run: Transcript) -> dict[str, Any]:
 
 def require_fields(run: Transcript, part: str, wanted: Mapping[str, str]) -> None:
     """One part of the definition has these fields (name → ROS type) and no others."""
-    fields = require_built(run)[part]["fields"]
+    fields = _part(run, part)["fields"]
     for name, ros_type in wanted.items():
         expect(
             name in fields,
@@ -63,7 +63,7 @@ def require_fields(run: Transcript, part: str, wanted: Mapping[str, str]) -> Non
 
 def require_constants(run: Transcript, part: str, ros_type: str, wanted: Mapping[str, int]) -> None:
     """One part of the definition has these constants, of one type."""
-    constants = require_built(run)[part]["constants"]
+    constants = _part(run, part)["constants"]
     for name, value in wanted.items():
         observed = constants.get(name)
         expect(
@@ -76,14 +76,21 @@ def require_constants(run: Transcript, part: str, ros_type: str, wanted: Mapping
         )
 
 
+def _part(run: Transcript, part: str) -> dict[str, Any]:
+    parts = require_built(run)
+    if part not in parts:
+        raise unseen(run, f"the build said nothing of the {part}")
+    return parts[part]
+
+
 def _report(run: Transcript) -> dict[str, Any]:
-    """What the build printed at its end; the student's failure where it was ended before, by what the file asks for."""
+    """Read what the build printed at its end; the student's failure where what the file asks for kept it from that."""
     try:
         return json.loads(run.output("stdout"))
-    except ValueError as error:
+    except ValueError:
         require_within_limits(run)
         _require_time_for_it(run)
-        raise RuntimeError(f"the build of {run.params['file']} has left no report: {error}") from error
+        raise unseen(run, f"the build said nothing: {run.last_words or 'nothing on stderr either'}") from None
 
 
 def _require_time_for_it(run: Transcript) -> None:

@@ -9,9 +9,12 @@ from autograder.exercises.common_checks import require_answer, require_clean_exi
 from autograder.exercises.joint_query.judging import (
     call_for,
     listed,
+    question,
     require_names,
     require_positions,
+    require_posture,
     require_refusal,
+    require_silence_so_far,
     require_success,
     robot_joints,
 )
@@ -86,6 +89,7 @@ def follows_the_robot(run: Transcript) -> None:
     """When the arms have moved, the answer has moved with them"""
     call = call_for(run, list(POSTURE))
     require_success(run, call)
+    require_posture(run, call, POSTURE)
     require_positions(run, call)
 
 
@@ -110,16 +114,18 @@ def names_every_unknown_joint(run: Transcript) -> None:
         help="Collect the unknown names of the whole request before you answer, instead of stopping at the first.",
         at=answer.t,
     )
-    require_success(run, call_for(run, SIX_JOINTS[:1]))
+    require_success(run, question(run, 5))
 
 
 @CHECKS.check(points=1, on=UNPLUGGED, needs=["server_appears"])
 def says_when_it_knows_nothing(run: Transcript) -> None:
     """Before the first joint_states it answers success: false, also to an empty list"""
     for names in (SIX_JOINTS, []):
+        call = call_for(run, names)
+        require_silence_so_far(run, call)
         require_refusal(
             run,
-            call_for(run, names),
+            call,
             because="the robot has not published its joints yet",
             help="Start with no message (None) and answer success: false as long as none has arrived.",
         )

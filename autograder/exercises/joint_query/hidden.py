@@ -11,9 +11,12 @@ from autograder.exercises.joint_query.checks import SIX_JOINTS, UNPLUGGED
 from autograder.exercises.joint_query.judging import (
     call_for,
     listed,
+    question,
     require_names,
     require_positions,
+    require_posture,
     require_refusal,
+    require_reversed,
     require_success,
 )
 from autograder.transcript import CallHistory, Transcript
@@ -62,13 +65,18 @@ def _require_positions_as_asked(run: Transcript, call: CallHistory) -> None:
 @CHECKS.check(points=1, on=UNPLUGGED, needs=["positions_are_the_robots", "says_when_it_knows_nothing"])
 def recovers_when_the_sensors_appear(run: Transcript) -> None:
     """Once the first message has come, it answers with it"""
-    _require_positions_as_asked(run, call_for(run, SIX_JOINTS[:1]))
+    call = question(run, 3)
+    run.told("joint_sensors", before=call.sent.t, connected=True)
+    _require_positions_as_asked(run, call)
 
 
 @CHECKS.check(points=1, on=EVERY_WAY, needs=["keeps_the_order_asked", "follows_the_robot"])
 def answers_in_any_posture(run: Transcript) -> None:
     """Whatever the posture, it answers with it"""
-    _require_positions_as_asked(run, call_for(run, list(run.params["posture"])))
+    call = call_for(run, list(run.params["posture"]))
+    require_success(run, call)
+    require_posture(run, call, run.params["posture"])
+    _require_positions_as_asked(run, call)
 
 
 @CHECKS.check(points=1, on=EVERY_WAY, needs=["finds_the_joints"])
@@ -97,7 +105,10 @@ def answers_every_request(run: Transcript) -> None:
 @CHECKS.check(points=1, on=EVERY_WAY, needs=["answers_in_any_posture"])
 def looks_joints_up_by_name(run: Transcript) -> None:
     """When joint_states lists the joints in another order, each position is still its own joint's"""
-    _require_positions_as_asked(run, call_for(run, run.params["reordered"]))
+    call = call_for(run, run.params["reordered"])
+    require_success(run, call)
+    require_reversed(run, call)
+    _require_positions_as_asked(run, call)
 
 
 @CHECKS.check(points=1, on=EVERY_WAY, needs=["names_every_unknown_joint"])

@@ -8,8 +8,11 @@ from collections.abc import Mapping, Sequence
 from autograder import events as ev
 from autograder.checks import Failure, expect
 from autograder.exercises.common_checks import last_messages, require_answer
+from autograder.missing import Missing, unseen
 from autograder.transcript import CallHistory, Transcript
 
+SERVICE = "get_joint_positions"
+MOVED = 0.1  # rad that a joint may be off where it was told to be, under its load
 TOLERANCE = 0.01  # rad; the robot itself gives by half as much while it settles in its stance
 
 _NOT_HEARD = (
@@ -26,7 +29,55 @@ def call_for(run: Transcript, names: Sequence[str]) -> CallHistory:
         require_answer(run, call)
         if asked(call) == list(names):
             return call
-    raise KeyError(f"{run.scenario} never asked for {list(names)}")
+    raise Missing(
+        run,
+        expected=f"a server that gets as far as the question for {listed(names)}",
+        never="that was never asked",
+    )
+
+
+def question(run: Transcript, number: int) -> CallHistory:
+    """Return the first (`number` 1), second, … call of all; it and those before it must have been answered."""
+    for earlier in range(1, number):
+        require_answer(run, run.call(SERVICE, earlier))
+    call = run.call(SERVICE, number)
+    require_answer(run, call)
+    return call
+
+
+def require_silence_so_far(run: Transcript, call: CallHistory) -> None:
+    """The robot had published no joints yet when the call was answered."""
+    answer = require_answer(run, call)
+    spoke = [
+        event for event in (*run.all(ev.JointsPublished), *run.all(ev.RobotCommanded)) if event.t <= answer.t
+    ]
+    if spoke:
+        raise unseen(run, "the joint sensors were plugged in too early")
+
+
+def require_posture(run: Transcript, call: CallHistory, posture: Positions) -> None:
+    """The scenario moved the joints, and published them where they are now, in time for the call."""
+    told = run.told("move_joints", before=call.sent.t, positions=dict(posture))
+    messages = last_messages(run, ev.JointsPublished, call, since=told.t)
+    reached = _positions(messages[0])
+    away = {name: reached.get(name, math.inf) - angle for name, angle in posture.items()}
+    name = max(away, key=lambda joint: abs(away[joint]))
+    expect(
+        abs(away[name]) <= MOVED,
+        expected=f"the robot's {name} at {posture[name]:.2f} rad, where it was told to be",
+        observed=f"it is {abs(away[name]):.2f} rad off",
+        help="Publish nothing: whoever answers questions about the joints must not move them.",
+        at=messages[0].t,
+    )
+
+
+def require_reversed(run: Transcript, call: CallHistory) -> None:
+    """The robot listed its joints in the other order, in time for the call."""
+    told = run.told("joint_states", before=call.sent.t, reversed=True)
+    messages = last_messages(run, ev.JointsPublished, call, since=told.t)
+    before = [message for message in run.all(ev.JointsPublished) if message.t <= told.t]
+    if not before or messages[0].names == before[0].names:
+        raise unseen(run, "the robot never listed its joints in another order")
 
 
 def asked(call: CallHistory) -> list[str]:
@@ -44,13 +95,12 @@ def listed(words: Sequence[str], most: int = 8) -> str:
 def robot_joints(run: Transcript) -> list[str]:
     """Return the names of the joints that the robot published, which the node must have listened to."""
     published = run.first(ev.JointsPublished)
-    expect(
-        published is not None,
-        expected="a node that listens to joint_states",
-        observed="an answer without it: no message of joint_states has reached your node",
-        help=_NOT_HEARD,
-    )
-    assert published is not None
+    if published is None:
+        raise Failure(
+            expected="a node that listens to joint_states",
+            observed="an answer without it: no message of joint_states has reached your node",
+            help=_NOT_HEARD,
+        )
     return published.names
 
 
@@ -117,16 +167,19 @@ def require_positions(run: Transcript, call: CallHistory) -> None:
         help="Answer for every name of the request.",
         at=answer.t,
     )
-    recent = [_positions(message) for message in last_messages(run, ev.JointsPublished, call)]
-    if any(_agree(names, positions, message) for message in recent):
-        return
     expect(
-        bool(recent),
+        any(message.t <= answer.t for message in run.all(ev.JointsPublished)),
         expected="positions from the robot's joint_states",
         observed=f"{_described(names, positions)}, although no joint_states had reached your node",
         help=_NOT_HEARD,
         at=answer.t,
     )
+    recent = [
+        _positions(message)
+        for message in last_messages(run, ev.JointsPublished, call, since=_told(run, call))
+    ]
+    if any(_agree(names, positions, message) for message in recent):
+        return
     truth = [recent[-1].get(name, math.nan) for name in names]
     raise Failure(
         expected=_described(names, truth),
@@ -134,6 +187,14 @@ def require_positions(run: Transcript, call: CallHistory) -> None:
         help=_advice(names, positions, recent[-1], run.all(ev.JointsPublished)),
         at=answer.t,
     )
+
+
+def _told(run: Transcript, call: CallHistory) -> float:
+    """When (s) the scenario last did something to the robot before a call; at the latest when the node was there."""
+    moments = [
+        event.t for event in (*run.all(ev.NodeReady), *run.all(ev.RobotCommanded)) if event.t < call.sent.t
+    ]
+    return max(moments, default=0.0)
 
 
 def _positions(message: ev.JointsPublished) -> Positions:

@@ -8,17 +8,17 @@ from autograder.arena.stage import Stage
 from humanoid_interfaces.srv import GetJointPositions
 
 SERVICE = "get_joint_positions"
-MANY_MESSAGES = 4.0  # s; longer than the checks let a message be on its way
-MOTION = 1.0  # s from one posture to the next, long over when many messages have come
-A_FEW_MESSAGES = 1.0  # s
+ON_ITS_WAY = 1.2  # s; longer than the checks let a message be on its way, of which there are 20 a second
+MOTION = 1.0  # s of the robot's time from one posture to the next
+SETTLING = 0.3  # s of it to come to rest
 
 Names = Sequence[str]
 Posture = Mapping[str, float]  # rad
 
 
-def _open(stage: Stage, listening: float = MANY_MESSAGES) -> None:
+def _open(stage: Stage) -> None:
     stage.open(services={SERVICE: GetJointPositions})
-    stage.wait(listening)
+    stage.wait(ON_ITS_WAY)
 
 
 def _ask(stage: Stage, *requests: Names) -> bool:
@@ -30,7 +30,10 @@ def _ask(stage: Stage, *requests: Names) -> bool:
 
 def _move(stage: Stage, posture: Posture) -> None:
     stage.command_robot("move_joints", positions=dict(posture), duration=MOTION)
-    stage.wait(MANY_MESSAGES)
+    stage.wait_for_commands()
+    at_rest = stage.robot["simulated"] + MOTION + SETTLING
+    stage.wait_for_robot(lambda robot: robot["simulated"] >= at_rest)
+    stage.wait(ON_ITS_WAY)
 
 
 def ask(stage: Stage, names: Names, posture: Posture, strangers: Names) -> None:
@@ -46,7 +49,8 @@ def ask_before_the_first_message(stage: Stage, names: Names) -> None:
     _open(stage)
     if _ask(stage, names, []):
         stage.command_robot("joint_sensors", connected=True)
-        stage.wait(MANY_MESSAGES)
+        stage.wait_for_commands()
+        stage.wait(ON_ITS_WAY)
         _ask(stage, names[:1])
 
 
@@ -65,7 +69,8 @@ def ask_in_every_way(
     if not all(stage.wait_for_answer(SERVICE, call) for call in at_once):
         return
     stage.command_robot("joint_states", reversed=True)
-    stage.wait(MANY_MESSAGES)
+    stage.wait_for_commands()
+    stage.wait(ON_ITS_WAY)
     _ask(stage, reordered, *([part] for part in parts))
 
 
@@ -77,6 +82,6 @@ def ask_once(stage: Stage, names: Names) -> None:
 
 def interrupt(stage: Stage, names: Names) -> None:
     """Ask once, then press Ctrl-C."""
-    _open(stage, A_FEW_MESSAGES)
+    _open(stage)
     _ask(stage, names)
     stage.interrupt_node()

@@ -5,9 +5,11 @@ from __future__ import annotations
 from autograder.checks import CheckList, Scenario, expect
 from autograder.exercises.common_checks import require_answer, require_clean_exit
 from autograder.exercises.motor_services.judging import (
-    require_granted,
     require_refused,
+    require_silence_so_far,
     require_status,
+    require_status_after_a_change,
+    require_switched,
 )
 from autograder.readiness import require_ready
 from autograder.transcript import Transcript
@@ -32,20 +34,20 @@ def server_appears(run: Transcript) -> None:
 @CHECKS.check(points=1, on=STATUS, needs=["server_appears"])
 def tells_the_status(run: Transcript) -> None:
     """get_status says "Motors: ON" while the motors are on"""
-    require_status(run, 0, on=True)
+    require_status(run, 1, on=True)
 
 
 @CHECKS.check(points=2, on=STATUS, needs=["tells_the_status"])
 def follows_the_robot(run: Transcript) -> None:
     """When somebody else cuts the power and returns it, get_status says so"""
-    require_status(run, 1, on=False)
-    require_status(run, 2, on=True)
+    require_status_after_a_change(run, 2, on=False)
+    require_status_after_a_change(run, 3, on=True)
 
 
 @CHECKS.check(points=1, on=SILENT_ROBOT, needs=["server_appears"])
 def says_when_it_knows_nothing(run: Transcript) -> None:
     """Before the first robot_state, get_status answers success: false"""
-    answer = require_answer(run, run.calls[0])
+    answer = require_answer(run, require_silence_so_far(run))
     response = answer.response
     expect(
         response["success"] is False and response["message"] not in ("Motors: ON", "Motors: OFF"),
@@ -59,19 +61,19 @@ def says_when_it_knows_nothing(run: Transcript) -> None:
 @CHECKS.check(points=2, on=SWITCH, needs=["server_appears"])
 def powers_off(run: Transcript) -> None:
     """enable_motors with data: false is granted to a standing robot, and its motors lose their torque"""
-    require_granted(run, 0)
+    require_switched(run, 1)
 
 
 @CHECKS.check(points=1, on=SWITCH, needs=["powers_off"])
 def powers_on(run: Transcript) -> None:
     """enable_motors with data: true is granted, and the motors have their torque again"""
-    require_granted(run, 2)
+    require_switched(run, 2)
 
 
 @CHECKS.check(points=3, on=WALK, needs=["powers_off"])
 def refuses_off_while_walking(run: Transcript) -> None:
     """While the robot walks, power off is refused with a sentence, and it walks on"""
-    require_refused(run, 0)
+    require_refused(run, 1)
 
 
 @CHECKS.check(points=1, on=INTERRUPT, needs=["server_appears"])

@@ -11,8 +11,10 @@ from autograder.arena.stage import Stage
 ENABLE = "enable_motors"
 STATUS = "get_status"
 WALKING = 2  # humanoid_interfaces/RobotState
-SETTLING = 3.0  # s for a change of the robot to be known everywhere; robot_state comes at 5 Hz
-WATCHING = 3.5  # s after a request; longer than the checks let a message be on its way
+SETTLING = 1.3  # s for a change to be known everywhere; longer than the checks let a message be on its way
+OBEYING = 2.0  # s for the motors to be as asked
+STRIDES = 2.0  # s of walking before a request
+WATCHING = 2.0  # s of walking after one; longer than the checks watch
 
 
 def tell_the_status(stage: Stage) -> None:
@@ -22,7 +24,8 @@ def tell_the_status(stage: Stage) -> None:
         return
     for on in (False, True):
         stage.command_robot("motor_power", on=on)
-        stage.wait(WATCHING)
+        stage.wait_for_commands()
+        stage.wait(SETTLING)
         if not _ask_status(stage):
             return
 
@@ -32,7 +35,8 @@ def ask_before_the_first_message(stage: Stage) -> None:
     _open(stage)
     _ask_status(stage)
     stage.command_robot("robot_state", published=True)
-    stage.wait(WATCHING)
+    stage.wait_for_commands()
+    stage.wait(SETTLING)
     _ask_status(stage)
 
 
@@ -42,7 +46,7 @@ def switch_off_and_on(stage: Stage) -> None:
     for on in (False, True):
         if not _switch(stage, on):
             return
-        stage.wait(WATCHING)
+        _watch_the_motors(stage, on)
         if not _ask_status(stage):
             return
 
@@ -65,7 +69,7 @@ def switch_while_walking_and_after(stage: Stage, velocity: Sequence[float]) -> N
     stage.wait_for_robot(lambda robot: robot["mode"] != WALKING)
     stage.wait(SETTLING)
     if _switch(stage, False):
-        stage.wait(WATCHING)
+        _watch_the_motors(stage, False)
 
 
 def ask_many_at_once(stage: Stage, bursts: int, switches: int, questions: int) -> None:
@@ -94,11 +98,17 @@ def _open(stage: Stage) -> None:
 def _walk(stage: Stage, velocity: Sequence[float]) -> None:
     stage.command_robot("walk", velocity=list(velocity))
     stage.wait_for_robot(lambda robot: robot["mode"] == WALKING, timeout=5.0)
-    stage.wait(SETTLING)
+    stage.wait(STRIDES)
 
 
 def _switch(stage: Stage, on: bool) -> bool:
     return stage.wait_for_answer(ENABLE, stage.send_call(ENABLE, {"data": on}))
+
+
+def _watch_the_motors(stage: Stage, on: bool) -> None:
+    """Return when they are as asked, and everybody has had the time to know."""
+    stage.wait_for_robot(lambda robot: robot["motors_enabled"] == on, timeout=OBEYING)
+    stage.wait(SETTLING)
 
 
 def _ask_status(stage: Stage) -> bool:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from autograder.checks import CheckList, expect, program
-from autograder.exercises.client_checks import require_failure, require_requests
+from autograder.exercises.client_checks import require_failure, require_played
 from autograder.exercises.robot_controller.judging import (
+    ENABLE,
     NO_SERVER,
+    STATUS,
     WITHIN,
     require_enabled_before_asked,
+    require_printed_second_answer,
     require_printed_status,
+    require_silence,
 )
 from autograder.transcript import Transcript
 
@@ -37,13 +41,15 @@ def prints_the_status(run: Transcript) -> None:
 @CHECKS.check(points=2, on=NOBODY, needs=["prints_the_status"])
 def gives_up_without_servers(run: Transcript) -> None:
     """Without any server it ends with status 1 within 10 s, and says so on stderr"""
+    for service in (ENABLE, STATUS):
+        require_played(run, service, servers=0)
     require_failure(run, WITHIN, NO_SERVER, "nobody offers enable_motors and get_status")
 
 
 @CHECKS.check(points=2, on=SILENT_ENABLE, needs=["prints_the_status"])
 def asks_once_more(run: Transcript) -> None:
     """Without an answer it asks once more after 2 s, then gives up with status 1"""
-    first, second = require_requests(run, "enable_motors", 2)
+    first, second = require_silence(run, ENABLE, 2)
     pause = second.received.t - first.received.t
     expect(
         SOONEST <= pause <= LATEST,
@@ -58,4 +64,4 @@ def asks_once_more(run: Transcript) -> None:
 @CHECKS.check(points=1, on=FIRST_LOST, needs=["prints_the_status"])
 def makes_use_of_the_second_answer(run: Transcript) -> None:
     """When the first request of a service is lost, the second one counts"""
-    require_printed_status(run, [run.params["status"]])
+    require_printed_second_answer(run)

@@ -1,0 +1,114 @@
+"""What the submission did that explains why something is missing from the record."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from autograder import events as ev
+
+if TYPE_CHECKING:  # a transcript asks here itself
+    from autograder.transcript import Transcript
+
+HOG = 0.8  # processors a submission may keep busy before what comes late is its own doing
+
+_ENDED = "An exception in a callback ends rclpy.spin() and with it the node: find it in the log below."
+_RETURNED = "main() returned before everything was done: look at what it waits for."
+_WAITS = (
+    "A callback may not wait, sleep or call another service while the node has only one thread: nobody else is "
+    "served meanwhile."
+)
+
+
+@dataclass(frozen=True)
+class Cause:
+    """Why, as the end of a sentence that begins with “because”; what to do about it; when it was (s)."""
+
+    words: str
+    help: str
+    at: float
+
+
+def why_it_went_no_further(run: Transcript) -> Cause | None:
+    """Return what ended the conversation with the student's program: its end, or an answer that never came."""
+    return _killed(run) or _exited(run) or _unanswered(run)
+
+
+def why_the_robot_was_held_up(run: Transcript) -> Cause | None:
+    """Return what the submission did to the robot's time: messages it had to refuse, or no processor left for it."""
+    return _refused(run) or _hogging(run)
+
+
+def hogs_the_machine(run: Transcript) -> bool:
+    """Whether the submission itself kept the processors busy: then it is judged as it is."""
+    usage = run.first(ev.NodeUsage)
+    return usage is not None and usage.cpu > HOG * usage.wall
+
+
+def _killed(run: Transcript) -> Cause | None:
+    killed = run.first(ev.NodeKilled)
+    if killed is None:
+        return None
+    return Cause(
+        f"the node had been ended at {killed.t:.1f} s: {killed.reason}",
+        "Look for a list that grows without end, or for processes and threads started in a loop.",
+        killed.t,
+    )
+
+
+def _exited(run: Transcript) -> Cause | None:
+    exited, signalled = run.first(ev.NodeExited), run.first(ev.NodeSignalled)
+    if exited is None or (signalled is not None and signalled.t <= exited.t):
+        return None
+    reason = run.last_words or f"exit status {exited.returncode}"
+    help = _ENDED if exited.returncode else _RETURNED
+    return Cause(f"the node had ended at {exited.t:.1f} s: {reason}", help, exited.t)
+
+
+def _unanswered(run: Transcript) -> Cause | None:
+    given_up = run.first(ev.Unanswered)
+    if given_up is None:
+        return None
+    what = {
+        "call": f"{_service_of(run, given_up.id)} had given no answer",
+        "goal": f"the goal “{given_up.id}” had got neither yes nor no",
+        "cancel": "the cancel request had got no answer",
+        "result": f"the goal “{given_up.id}” had got no result",
+        "end": "the program still ran",
+    }[given_up.what]
+    return Cause(f"{what} after {given_up.waited:.1f} s", _WAITS, given_up.t)
+
+
+def _service_of(run: Transcript, call: str) -> str:
+    return next((asked.sent.service for asked in run.calls if asked.name == call), "a service")
+
+
+def _refused(run: Transcript) -> Cause | None:
+    refusals = run.all(ev.RobotRefused)
+    if not refusals:
+        return None
+    worst = max(refusals, key=lambda refusal: refusal.bytes)
+    of_topic = [refusal for refusal in refusals if refusal.topic == worst.topic]
+    count = sum(refusal.count for refusal in of_topic)
+    return Cause(
+        f"your node sent {count:,} {worst.topic} messages of {_size(of_topic, count)}; {worst.reason}",
+        "Publish on the robot's topics only what the task asks for, at the rate of a timer, not in a loop without end.",
+        worst.t,
+    )
+
+
+def _size(refusals: Sequence[ev.RobotRefused], count: int) -> str:
+    each = sum(refusal.bytes for refusal in refusals) / max(count, 1)
+    return f"{each / 1e6:.1f} MB" if each >= 1e5 else f"{each / 1e3:.1f} kB"
+
+
+def _hogging(run: Transcript) -> Cause | None:
+    usage = run.first(ev.NodeUsage)
+    if usage is None or not hogs_the_machine(run):
+        return None
+    return Cause(
+        f"your program kept the processors busy: {usage.cpu:.1f} s of processor time in {usage.wall:.1f} s",
+        "Look for a loop without a pause: spin() waits by itself until there is something to do.",
+        usage.t,
+    )

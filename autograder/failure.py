@@ -1,0 +1,24 @@
+"""What a check raises: the submission is at fault, or the record does not let anybody judge it."""
+
+from __future__ import annotations
+
+
+class Failure(Exception):
+    """A fault of the submission: expected, observed, when (arena s), and one next step in plain words."""
+
+    def __init__(self, *, expected: str, observed: str, help: str, at: float | None = None) -> None:
+        super().__init__(f"expected {expected}; observed {observed}")
+        self.expected = expected
+        self.observed = observed
+        self.help = help
+        self.at = at
+
+
+class CannotBeJudged(Exception):
+    """The arena did not do what the scenario says, and nothing of the submission's explains it: no grade."""
+
+
+def expect(condition: bool, *, expected: str, observed: str, help: str, at: float | None = None) -> None:
+    """Raise a :class:`Failure` unless the condition holds."""
+    if not condition:
+        raise Failure(expected=expected, observed=observed, help=help, at=at)

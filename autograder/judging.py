@@ -1,0 +1,89 @@
+"""From a check and the transcripts it asks for to its verdict: a pure function."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Sequence
+
+from autograder import events as ev
+from autograder.bounds import require_bounded
+from autograder.checks import Check
+from autograder.failure import CannotBeJudged, Failure
+from autograder.readiness import require_ready, require_started
+from autograder.transcript import Transcript
+from autograder.verdict import CheckStatus, CheckVerdict
+from autograder.wholeness import require_whole
+
+LOG_LINES = 40
+
+
+def judge(check: Check, transcripts: Sequence[Transcript]) -> CheckVerdict:
+    """Judge a check on one transcript of each of its scenarios.
+
+    Whatever the student's program did, it is 'passed' or 'failed'; 'error' means that the arena or the check itself
+    failed.
+    """
+    log = "\n".join(_log(transcript) for transcript in transcripts)
+    try:
+        _require_evidence(check, transcripts)
+        check.run(transcripts)
+    except Failure as failure:
+        return verdict_on(
+            check,
+            "failed",
+            expected=failure.expected,
+            observed=failure.observed,
+            help=failure.help,
+            robot_time=failure.at,
+            log=log,
+        )
+    except CannotBeJudged as trouble:
+        return verdict_on(check, "error", help=f"Not graded: {trouble}", log=log)
+    except Exception:  # a check that breaks is our fault, and must not cost the student anything
+        trace = traceback.format_exc()
+        return verdict_on(check, "error", help=f"Not graded: the check itself failed.\n{trace}", log=log)
+    return verdict_on(check, "passed", points=check.points, log=log)
+
+
+def verdict_on(
+    check: Check,
+    status: CheckStatus,
+    *,
+    points: int = 0,
+    expected: str = "",
+    observed: str = "",
+    help: str = "",
+    robot_time: float | None = None,
+    log: str = "",
+) -> CheckVerdict:
+    """Return the record of what a check found."""
+    return CheckVerdict(
+        check.id,
+        check.title,
+        status,
+        points,
+        check.points,
+        expected,
+        observed,
+        help,
+        robot_time,
+        log,
+        check.hidden,
+    )
+
+
+def _require_evidence(check: Check, transcripts: Sequence[Transcript]) -> None:
+    """Each run began with the student's program, and its record is whole."""
+    for scenario, transcript in zip(check.on, transcripts, strict=True):
+        if scenario.student == "node":
+            require_ready(transcript)
+        else:
+            require_started(transcript)
+        require_bounded(transcript, scenario)
+        require_whole(transcript, scenario)
+
+
+def _log(transcript: Transcript) -> str:
+    """The last lines the student's process printed, with their times."""
+    lines = [f"{event.t:7.2f} s  {event.text}" for event in transcript.all(ev.NodeOutput)][-LOG_LINES:]
+    return "\n".join(lines)

@@ -1,0 +1,60 @@
+"""What a check raises when something it asks about is not in the record: absence of evidence never passes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from autograder.blame import Cause, why_it_went_no_further, why_the_robot_was_held_up
+from autograder.failure import CannotBeJudged, Failure
+
+if TYPE_CHECKING:  # a transcript asks here itself
+    from autograder.transcript import Transcript
+
+_FIRST_OF_ALL = "Find out what your node did just before: the log below shows what it printed, with times."
+
+
+class Missing(Failure):
+    """Something never happened between grader and student's program, and why: 'it was never asked, because …'."""
+
+    def __init__(self, run: Transcript, *, expected: str, never: str) -> None:
+        cause = why_it_went_no_further(run) or why_the_robot_was_held_up(run)
+        why = cause.words if cause else f"the scenario went no further than {run.end:.1f} s"
+        super().__init__(
+            expected=expected,
+            observed=f"{never}, because {why}",
+            help=cause.help if cause else _FIRST_OF_ALL,
+            at=cause.at if cause else run.end,
+        )
+
+
+def unseen(run: Transcript, what: str) -> Exception:
+    """Return what to raise when a step of the scenario is missing: `what` says it as a sentence without its end.
+
+    A :class:`Failure` where the submission itself is the reason, else :class:`CannotBeJudged`.
+    """
+    return _blamed(run, what, why_the_robot_was_held_up(run) or why_it_went_no_further(run))
+
+
+def held_up(run: Transcript, what: str) -> Exception:
+    """Return what to raise when the robot did not do its part, which the end of a node is no reason for."""
+    return _blamed(run, what, why_the_robot_was_held_up(run))
+
+
+def _blamed(run: Transcript, what: str, cause: Cause | None) -> Exception:
+    if cause is None:
+        return CannotBeJudged(f"{run.scenario}: {what}")
+    return Failure(
+        expected="a node that leaves robot and grader to do their part",
+        observed=f"{what}, because {cause.words}",
+        help=cause.help,
+        at=cause.at,
+    )
+
+
+def ordinal(number: int) -> str:
+    """Return 'first', 'second', …; beyond tenth 'number 11'."""
+    words = (
+        *("first", "second", "third", "fourth", "fifth"),
+        *("sixth", "seventh", "eighth", "ninth", "tenth"),
+    )
+    return words[number - 1] if number <= len(words) else f"number {number}"

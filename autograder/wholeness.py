@@ -1,0 +1,51 @@
+"""Is the record of a run whole? The engine asks it before every check: absence of evidence never passes."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from autograder import events as ev
+from autograder.blame import why_the_robot_was_held_up
+from autograder.checks import Scenario
+from autograder.missing import held_up
+from autograder.transcript import Transcript
+
+LONGEST_SILENCE = 1.5  # s on the arena's clock without a word from the simulator
+LATEST_COMMAND = 1.5  # s on it until a command of the scenario takes effect
+
+
+def require_whole(run: Transcript, scenario: Scenario) -> None:
+    """The scenario came to its end, the robot did as it was told and its time went on.
+
+    A :class:`~autograder.failure.Failure` where the submission is the reason why not, else
+    :class:`~autograder.failure.CannotBeJudged`.
+    """
+    if run.first(ev.ScenarioEnded) is None:
+        raise held_up(run, f"the record breaks off at {run.end:.1f} s")
+    if scenario.robot is not None:
+        _require_the_robots_time(run)
+        _require_obedience(run)
+
+
+def _require_the_robots_time(run: Transcript) -> None:
+    """The simulator said something all the time from the node's appearance on."""
+    ready = run.first(ev.NodeReady)
+    ended = run.first(ev.ScenarioEnded)
+    start, end = ready.t if ready else 0.0, ended.t if ended else run.end
+    times = [start, *(robot.t for robot in run.truth if start < robot.t < end), end]
+    silence, since = max((later - earlier, earlier) for earlier, later in pairwise(times))
+    if not run.truth or silence > LONGEST_SILENCE:
+        raise held_up(run, f"the robot's time stood still for {silence:.1f} s from {since:.1f} s on")
+
+
+def _require_obedience(run: Transcript) -> None:
+    """Each command of the scenario took effect, soon, and in the order of sending."""
+    effects = run.all(ev.RobotCommanded)
+    for sent in run.all(ev.CommandSent):
+        effect = next((effect for effect in effects if effect.command == sent.command), None)
+        what = f"the robot did not obey the grader's command {sent.command.get('do', '')} at {sent.t:.1f} s"
+        if effect is None:
+            raise held_up(run, what)
+        effects.remove(effect)
+        if effect.t - sent.t > LATEST_COMMAND and why_the_robot_was_held_up(run):
+            raise held_up(run, f"{what} until {effect.t:.1f} s")
