@@ -33,7 +33,7 @@ class ArenaRun:
     """What to run: the files of a submission, a scenario with its inputs, and how fast the arena's clock shall go.
 
     `cold` starts the student's program in a new interpreter, as at home; else one that waits may become it.
-    `more_to_come` says that other scenarios follow in the same arena.
+    `more_to_come` says that other scenarios follow in the same arena, `measured` that its phases are.
     """
 
     exercise: Exercise
@@ -44,6 +44,7 @@ class ArenaRun:
     kind: Kind | None = None
     cold: bool = True
     more_to_come: bool = False
+    measured: bool = False
 
 
 def run_in_arena(
@@ -85,6 +86,7 @@ def _specification(run: ArenaRun, params: dict[str, Any], scale: float, is_isola
         "warm": not run.cold,
         "more_to_come": run.more_to_come and is_isolated,
         "own_network": is_isolated,
+        "measured": run.measured,
     }
 
 

@@ -207,6 +207,15 @@ class Mark(_Event):
     name: str
 
 
+class PhaseEnded(_Event):
+    """What a phase of the arena cost, where that is measured: wall and processor time of all its processes (s)."""
+
+    kind: Literal["phase"] = "phase"
+    name: str
+    wall: float
+    cpu: float
+
+
 class ScenarioEnded(_Event):
     """The scenario ran to its end."""
 
@@ -364,6 +373,7 @@ Event = Annotated[
     | WokenLate
     | Starved
     | Mark
+    | PhaseEnded
     | ScenarioEnded
     | ScenarioFailed
     | TooLarge

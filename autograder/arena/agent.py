@@ -11,10 +11,12 @@ import tempfile
 import threading
 import time
 import traceback
+from collections.abc import Sequence
 from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import Any
 
+from autograder.arena.phases import Phase, Phases
 from autograder.arena.punctuality import Punctuality
 from autograder.arena.recorder import Recorder
 from autograder.arena.robots import Robots
@@ -38,10 +40,12 @@ def carry_out(
     robots: Robots,
     interpreter: WarmInterpreter | None,
     domain: int | None,
+    earlier_phases: Sequence[Phase] = (),
 ) -> None:
     """Carry out the scenario in this process, a new fork of the host, and end it."""
     status = 0
     recorder = Recorder(events_fd)
+    phases = Phases(recorder, spec["measured"], earlier_phases)
     try:
         with tempfile.TemporaryDirectory(prefix="scenario-") as folder:
             clock = ScaledClock.create(Path(folder, "clock"))
@@ -49,7 +53,7 @@ def carry_out(
                 follow(clock.path)
             if domain is not None:
                 os.environ["ROS_DOMAIN_ID"] = str(domain)
-            _carry_out(spec, recorder, clock, robots, interpreter)
+            _carry_out(spec, recorder, phases, clock, robots, interpreter)
     except Exception as error:  # whatever it is, the controller must learn that this run cannot be judged
         recorder.record("scenario_failed", reason=f"{type(error).__name__}: {error}")
         traceback.print_exc()
@@ -60,6 +64,7 @@ def carry_out(
 def _carry_out(
     spec: dict[str, Any],
     recorder: Recorder,
+    phases: Phases,
     clock: ScaledClock,
     robots: Robots,
     interpreter: WarmInterpreter | None,
@@ -74,16 +79,19 @@ def _carry_out(
             simulator.listen()
         if spec["student"] == "node":
             student.start()
-        _perform(spec, recorder, changed, simulator, student, clock)
+        phases.end("start")
+        _perform(spec, recorder, phases, changed, simulator, student, clock)
     finally:
         student.close()
         if simulator:
             simulator.stop()
+        phases.end("end")
 
 
 def _perform(
     spec: dict[str, Any],
     recorder: Recorder,
+    phases: Phases,
     changed: threading.Condition,
     simulator: Simulator | None,
     student: Student,
@@ -102,6 +110,7 @@ def _perform(
     def speed_up() -> None:
         punctuality.begin()
         clock.run_at(spec["scale"])
+        phases.end("settling")
 
     scenario = getattr(importlib.import_module(spec["module"]), spec["scenario"])
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
@@ -110,11 +119,11 @@ def _perform(
     executor.add_node(node)
     stage: Stage | ClientStage
     if spec["student"] == "program":
-        stage = ClientStage(node, recorder, changed, student, speed_up)
+        stage = ClientStage(node, recorder, changed, student, phases, speed_up)
     else:
         stranger = rclpy.create_node("stranger", namespace=spec["namespace"])
         executor.add_node(stranger)
-        stage = Stage(node, stranger, recorder, changed, simulator, student, speed_up)
+        stage = Stage(node, stranger, recorder, changed, simulator, student, phases, speed_up)
     threading.Thread(target=keep_spinning, args=(executor, recorder), daemon=True).start()
     # a robot says itself how late it is
     watch = punctuality.watch() if spec["timed"] and not simulator else nullcontext()
@@ -124,3 +133,4 @@ def _perform(
     if simulator and not simulator.is_running():
         raise RuntimeError(f"the simulator ended with status {simulator.process.exitcode}")
     recorder.record("scenario_ended", t=time.monotonic())
+    phases.end("scenario")

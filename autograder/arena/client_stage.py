@@ -14,6 +14,7 @@ from typing import Any
 from rclpy.node import Node
 
 from autograder.arena.graph import Graph
+from autograder.arena.phases import Phases
 from autograder.arena.played_service import PlayedService, Reply
 from autograder.arena.recorder import Recorder
 from autograder.arena.student import Student
@@ -36,11 +37,13 @@ class ClientStage(Waiting):
         recorder: Recorder,
         changed: threading.Condition,
         student: Student,
+        phases: Phases,
         speed_up: Callable[[], None],
     ) -> None:
         super().__init__(Graph(node, recorder), recorder, changed)
         self._node = node
         self._student = student
+        self._phases = phases
         self._speed_up = speed_up
         self._services: list[PlayedService] = []
         self._request_numbers = count(1)
@@ -80,6 +83,7 @@ class ClientStage(Waiting):
         appeared = self.poll_until(self._has_appeared, APPEARING_TIMEOUT)
         if appeared and not self._student.has_exited():
             self._recorder.record("node_ready", waited=time.monotonic() - started)
+            self._phases.end("discovery")
         if appeared and self._services:
             self.wait_until(lambda: self._had_a_request() or self._student.has_exited(), MATCHING_TIMEOUT)
         self._speed_up()

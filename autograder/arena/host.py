@@ -7,6 +7,11 @@ only its forks follow a clock, each the one of its scenario.
 
 from __future__ import annotations
 
+from autograder.arena.phases import Stopwatch, since_start
+
+INTERPRETER, STOPWATCH = since_start("interpreter"), Stopwatch()  # before anything costs time
+
+# ruff: noqa: E402
 import ctypes
 import gc
 import multiprocessing
@@ -21,6 +26,7 @@ from typing import Any
 
 from autograder.arena.agent import carry_out, import_everything
 from autograder.arena.orders import DONE, receive_order
+from autograder.arena.phases import Phase
 from autograder.arena.robots import Robots
 from autograder.isolation.process_tree import descendants
 from autograder.isolation.student_sandbox import program_environment
@@ -39,20 +45,20 @@ class Host:
         self._robots = Robots()
         self._interpreter: WarmInterpreter | None = None
         self._numbers = count()
+        self._stopwatch = STOPWATCH
         # what a scenario's processes leave behind becomes ours, to be ended
         ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 
     def carry_out(self, spec: dict[str, Any], events_fd: int) -> None:
         """Carry out one scenario in processes of its own, on a ROS domain of its own; returns when they have ended."""
         number = next(self._numbers)
-        import_everything(spec)
-        if spec["robot_options"] is not None:
-            self._robots.build(spec["robot_options"])
+        phases = self._prepare(spec)
         interpreter = self._interpreter if spec["warm"] else None
         domain = _FIRST_DOMAIN + number % _DOMAINS if spec["own_network"] else None
         gc.freeze()  # the forks go on sharing what there is now
         agent = multiprocessing.get_context("fork").Process(
-            target=carry_out, args=(spec, events_fd, self._robots, interpreter, domain)
+            target=carry_out,
+            args=(spec, events_fd, self._robots, interpreter, domain, phases if number == 0 else ()),
         )
         agent.start()
         os.close(events_fd)
@@ -62,6 +68,15 @@ class Host:
             )
         agent.join()
         self._end_what_is_left()
+
+    def _prepare(self, spec: dict[str, Any]) -> list[Phase]:
+        """Import and build what the scenario needs and is not there yet; returns what the arena's beginning cost."""
+        import_everything(spec)
+        phases = [INTERPRETER, self._stopwatch.lap("imports")]
+        if spec["robot_options"] is not None:
+            self._robots.build(spec["robot_options"])
+            phases.append(self._stopwatch.lap("model"))
+        return phases
 
     def _end_what_is_left(self) -> None:
         kept = self._interpreter.pid if self._interpreter else None

@@ -16,6 +16,7 @@ from rclpy.node import Node
 
 from autograder.arena.action_probe import ActionProbe
 from autograder.arena.graph import Graph
+from autograder.arena.phases import Phases
 from autograder.arena.recorder import Recorder
 from autograder.arena.service_probe import ServiceProbe
 from autograder.arena.simulator import Simulator
@@ -59,6 +60,7 @@ class Stage(Waiting):
         changed: threading.Condition,
         simulator: Simulator | None,
         student: Student,
+        phases: Phases,
         speed_up: Callable[[], None],
     ) -> None:
         super().__init__(Graph(node, recorder), recorder, changed)
@@ -66,6 +68,7 @@ class Stage(Waiting):
         self._stranger = stranger
         self._robot = simulator
         self._student = student
+        self._phases = phases
         self._speed_up = speed_up
         self._services: dict[str, ServiceProbe] = {}
         self._actions: dict[str, ActionProbe] = {}
@@ -100,6 +103,7 @@ class Stage(Waiting):
             self._open_parameters(parameters_of)
             self._wait_for_endpoints(started)
         self._recorder.record("node_ready", waited=time.monotonic() - started)
+        self._phases.end("discovery")
         self.wait_until(self._robot_and_node_are_connected, MATCHING_TIMEOUT)
         self._greet_node()
         self.wait(SETTLING)

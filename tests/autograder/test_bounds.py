@@ -9,7 +9,7 @@ import pytest
 
 from autograder import events as ev
 from autograder.bounds import require_bounded
-from autograder.checks import Failure, Scenario
+from autograder.checks import CannotBeJudged, Failure, Scenario
 from autograder.exercises.interfaces.judging import LONGEST, require_built, require_fields
 from autograder.transcript import Transcript
 
@@ -105,7 +105,7 @@ def test_a_build_that_took_too_much_memory_says_so() -> None:
 
 
 def test_a_build_that_never_got_a_processor_is_nobodys_failure() -> None:
-    with pytest.raises(RuntimeError, match="has left no report"):
+    with pytest.raises(CannotBeJudged, match="the build said nothing"):
         require_built(built(usage(3.0)))
 
 
