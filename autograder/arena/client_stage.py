@@ -82,6 +82,7 @@ class ClientStage(Waiting):
             self._recorder.record("node_ready", waited=time.monotonic() - started)
         if appeared and self._services:
             self.wait_until(lambda: self._had_a_request() or self._student.has_exited(), MATCHING_TIMEOUT)
+        self._graph.inspect()
         self._speed_up()
 
     def run_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:

@@ -102,6 +102,7 @@ class Stage(Waiting):
         self._recorder.record("node_ready", waited=time.monotonic() - started)
         self.wait_until(self._robot_and_node_are_connected, MATCHING_TIMEOUT)
         self._greet_node()
+        self._graph.inspect()
         self.wait(SETTLING)
         self._speed_up()
 
