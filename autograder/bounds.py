@@ -19,6 +19,7 @@ PLURALS: Mapping[str, str] = {
     "request_received": "requests",
     "service_answered": "answers",
     "too_large": "messages that are too large",
+    "unread": "messages that nobody could read in time",
     "unreadable": "messages that cannot be read",
 }
 

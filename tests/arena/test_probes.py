@@ -17,10 +17,10 @@ from rclpy.task import Future
 from std_srvs.srv import SetBool, Trigger
 from unique_identifier_msgs.msg import UUID
 
-from autograder.arena.action_probe import MOST_GOALS, ActionProbe
+from autograder.arena.action_probe import ActionProbe
 from autograder.arena.played_service import PlayedService, Reply
 from autograder.arena.received import LARGEST, size_of
-from autograder.arena.recorder import MOST_OF, MOST_OF_A_KIND, Recorder
+from autograder.arena.recorder import MOST_OF, MOST_OF_NOBODYS, Recorder
 from autograder.arena.service_probe import ServiceProbe
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.srv import GetJointPositions
@@ -156,7 +156,7 @@ def test_the_size_of_a_message_is_seen_without_unpacking_it(fields: dict[str, An
 
 def test_feedback_for_nobodys_goals_takes_no_room_from_that_of_real_ones(kept: Kept) -> None:
     probe, _ = action_probe(kept)
-    for _ in range(MOST_OF_A_KIND + 600):
+    for _ in range(MOST_OF_NOBODYS + 600):
         probe._on_feedback(feedback("nobody's"))
     probe._on_feedback(feedback("walk"))
     kept.finish()
@@ -191,11 +191,11 @@ def test_a_status_is_recorded_when_it_changes(kept: Kept) -> None:
 
 def test_of_endless_unknown_goals_not_every_status_is_remembered(kept: Kept) -> None:
     probe, _ = action_probe(kept)
-    for start in range(0, MOST_GOALS + 500, 500):
+    for start in range(0, MOST_OF_NOBODYS + 500, 500):
         probe._on_status(statuses(*(f"nobody's {number}" for number in range(start, start + 500))))
     probe._on_status(statuses("walk"))
     kept.finish()
-    assert len(kept.of("status")) == MOST_GOALS + 1
+    assert len(kept.of("status")) == MOST_OF_NOBODYS + 1
     assert kept.of("status")[-1]["goal"] == "walk"
     assert kept.of("dropped")[0]["count"] == 500
 
