@@ -21,6 +21,7 @@ PLURALS: Mapping[str, str] = {
     "service_answered": "answers",
     "node_output": "lines of output",
     "too_large": "messages that are too large",
+    "unread": "messages that nobody could read in time",
     "unreadable": "messages that cannot be read",
 }
 

@@ -25,7 +25,6 @@ from ros_runtime.messages import from_dict, to_dict
 DEEP = QoSProfile(depth=1000)
 LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 GOAL_ID = slice(4, 20)  # bytes of a serialized feedback message: behind what says how it is encoded
-MOST_GOALS = 1000  # whose status is remembered
 
 
 class ActionProbe:
@@ -146,7 +145,7 @@ class ActionProbe:
                 self._changed.notify_all()
 
     def _on_status(self, data: bytes) -> None:
-        if not self._recorder.admits("status message", NOBODYS):
+        if not self._recorder.admits("status message", self.name):
             return
         message = unpack("status", "", data, GoalStatusArray, self._recorder)
         for status in message.status_list if message is not None else ():
@@ -154,11 +153,8 @@ class ActionProbe:
             goal = self._name_of(goal_id)
             if self._statuses.get(goal) == status.status:
                 continue
-            if goal_id not in self._goals and len(self._statuses) >= MOST_GOALS:
-                self._recorder.drop("status")
-                continue
-            self._statuses[goal] = status.status
             if self._recorder.admits("status", self._goals.get(goal_id, NOBODYS)):
+                self._statuses[goal] = status.status
                 self._recorder.record("status", goal=goal, status=status.status)
 
     def _name_of(self, goal_id: bytes) -> str:

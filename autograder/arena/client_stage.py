@@ -86,6 +86,7 @@ class ClientStage(Waiting):
             self._phases.end("discovery")
         if appeared and self._services:
             self.wait_until(lambda: self._had_a_request() or self._student.has_exited(), MATCHING_TIMEOUT)
+        self._graph.inspect()
         self._speed_up()
 
     def run_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:

@@ -21,7 +21,8 @@ MOST_OF_A_KIND = 5000  # events of one kind for one goal, call, …; no sound no
 MOST_OF: Mapping[str, int] = {"request_received": 500}  # each may be waited for
 LARGEST_EVENT = 2**20  # bytes of JSON
 LARGEST_RECORD = 32 * 2**20  # bytes of what students send; the controller reads twice as much
-NOBODYS = "nobody's"  # what belongs to no goal or call of the scenario's is counted together
+NOBODYS = "nobody's"  # what belongs to no goal of the scenario's is counted together
+MOST_OF_NOBODYS = 500  # such events of one kind
 
 
 @dataclass
@@ -55,11 +56,17 @@ class Recorder:
         with self._counting:
             self._first.setdefault(kind, now)
             self._counts[kind, of] += 1
-            most = MOST_OF.get(kind, MOST_OF_A_KIND)
+            most = MOST_OF_NOBODYS if of == NOBODYS else MOST_OF.get(kind, MOST_OF_A_KIND)
             admitted = self._counts[kind, of] <= most and self._bytes < LARGEST_RECORD
         if not admitted:
             self.drop(kind)
         return admitted
+
+    @property
+    def received(self) -> int:
+        """How many events of the student's processes there were so far, recorded or not."""
+        with self._counting:
+            return self._counts.total()
 
     def drop(self, kind: str) -> None:
         """Count an event that is not recorded."""

@@ -106,6 +106,7 @@ class Stage(Waiting):
         self._phases.end("discovery")
         self.wait_until(self._robot_and_node_are_connected, MATCHING_TIMEOUT)
         self._greet_node()
+        self._graph.inspect()
         self.wait(SETTLING)
         self._speed_up()
 

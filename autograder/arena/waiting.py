@@ -10,6 +10,9 @@ from typing import Any
 from autograder.arena.graph import Graph
 from autograder.arena.recorder import Recorder
 
+FLOOD = 50  # messages within…
+QUIET = 0.25  # s of the arena's clock are more than any sound node sends
+FLOODED = 15.0  # s of it are waited for the end of a flood
 POLLING = 0.005  # s between two looks at what nobody notifies us of, such as changes of the graph
 
 
@@ -48,9 +51,24 @@ class Waiting:
         return True
 
     def close(self) -> None:
-        """Record what there was too much of: the scenario is over."""
+        """The scenario is over: take in what was sent before, and record what there was too much of."""
+        self._take_in_the_rest()
         self._graph.inspect()
         self._recorder.finish()
+
+    def _take_in_the_rest(self) -> None:
+        """Wait until nothing is left of a flood: behind it may stand in line what convicts the node."""
+        deadline = time.monotonic() + FLOODED
+        before = self._recorder.received
+        while True:
+            self.wait(QUIET)
+            now = self._recorder.received
+            if now - before < FLOOD:
+                return
+            if time.monotonic() > deadline:
+                self._recorder.drop("unread")
+                return
+            before = now
 
     def mark(self, name: str) -> None:
         """Name this moment for the checks."""

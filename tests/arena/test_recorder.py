@@ -12,7 +12,7 @@ import pytest
 from autograder import events as ev
 from autograder.arena import recorder as recorder_module
 from autograder.arena.long_texts import LONGEST
-from autograder.arena.recorder import MOST_OF_A_KIND, NOBODYS, Recorder
+from autograder.arena.recorder import MOST_OF_A_KIND, MOST_OF_NOBODYS, NOBODYS, Recorder
 
 
 class Recording:
@@ -45,7 +45,7 @@ def recording(tmp_path: Any) -> Iterator[Recording]:
 
 
 def test_a_flood_of_feedback_for_nobodys_goals_pushes_out_no_other(recording: Recording) -> None:
-    for _ in range(MOST_OF_A_KIND + 600):
+    for _ in range(MOST_OF_NOBODYS + 600):
         recording.feedback("unknown 0000", NOBODYS)
     recording.feedback("walk")
     assert recording.of(ev.FeedbackReceived)[-1].goal == "walk"
