@@ -99,11 +99,18 @@ class Transcript:
 
     def all(self, kind: type[E]) -> list[E]:
         """Return every event of one type, in order."""
-        return [event for event in self.events if isinstance(event, kind)]
+        return list(self._by_kind.get(kind, ()))
 
     def first(self, kind: type[E]) -> E | None:
         """Return the first event of one type, or None."""
         return next(iter(self.all(kind)), None)
+
+    @cached_property
+    def _by_kind(self) -> Mapping[type, list[Any]]:
+        sorted_out: dict[type, list[Any]] = {}
+        for event in self.events:
+            sorted_out.setdefault(type(event), []).append(event)
+        return sorted_out
 
     def mark(self, name: str) -> float:
         """Return the time (s) of a moment the scenario named."""

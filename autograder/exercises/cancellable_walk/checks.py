@@ -14,6 +14,7 @@ from autograder.exercises.cancellable_walk.goals import (
     require_result,
 )
 from autograder.exercises.cancellable_walk.reports import (
+    require_feedback,
     require_filled_result,
     require_good_feedback_rate,
     require_silence_after_the_end,
@@ -82,6 +83,7 @@ def feedback_is_true(run: Transcript) -> None:
 @CHECKS.check(points=1, on=WALK, needs=["arrives", "feedback_keeps_its_rate"])
 def feedback_ends_with_the_goal(run: Transcript) -> None:
     """After the result no more feedback comes"""
+    require_feedback(run, "walk")
     require_silence_after_the_end(run, "walk")
 
 
@@ -147,7 +149,9 @@ def cancels_in_mid_stride(run: Transcript) -> None:
 @CHECKS.check(points=2, on=MID_STRIDE, needs=["cancels_in_mid_stride"])
 def stops_when_canceled(run: Transcript) -> None:
     """Within 2 s of the cancel the robot stands still and upright"""
-    require_stopped(run, run.cancels_of("after 1 s")[-1].sent.t)
+    request = run.cancels_of("after 1 s")[-1].sent
+    require_walking(run, request.t)
+    require_stopped(run, request.t)
 
 
 @CHECKS.check(points=1, on=WALK_AGAIN, needs=["cancels_in_mid_stride", "arrives"])

@@ -16,8 +16,8 @@ from autograder.exercises.cancellable_walk.goals import (
     require_result,
 )
 from autograder.exercises.cancellable_walk.planar import error, wrap, yaw
-from autograder.missing import unseen
-from autograder.transcript import Transcript
+from autograder.missing import Missing, unseen
+from autograder.transcript import GoalHistory, Transcript
 
 MIN_RATE, MAX_RATE = 3.0, 10.0  # Hz
 MAX_GAP = 1.0  # s
@@ -25,11 +25,12 @@ REPORT_SLACK = 0.08  # m or rad, over what the robot moved while the message was
 REPORT_AGE = 0.6  # s a reported pose may be old: odom's period, the feedback's period, delivery
 STEP_SLACK = 3  # footsteps between robot_state's rate and the moment of the report
 LISTENED = 1.0  # s after a result in which no feedback may come
+ARRIVING = 0.5  # s more that the last message may be older than the result
 RATE_SLACK = 0.5  # Hz of measuring error over a short walk
 
 
 def require_good_feedback_rate(run: Transcript, name: str) -> None:
-    """Feedback came at 3-10 Hz on average without a gap over 1 s."""
+    """Feedback came at 3-10 Hz on average without a gap over 1 s, from the answer to the result."""
     goal = require_accepted(run, name)
     times = [feedback.t for feedback in goal.feedback if goal.result is None or feedback.t <= goal.result.t]
     expect(
@@ -48,9 +49,14 @@ def require_good_feedback_rate(run: Transcript, name: str) -> None:
         at=times[0],
     )
     start = goal.answer.t if goal.answer else goal.sent.t
-    gap, at = max((later - earlier, earlier) for earlier, later in pairwise([start, *times]))
+    _require_no_gap([start, *times], MAX_GAP)
+    _require_no_gap([times[-1], _end(run, goal)], MAX_GAP + ARRIVING)
+
+
+def _require_no_gap(times: Sequence[float], longest: float) -> None:
+    gap, at = max((later - earlier, earlier) for earlier, later in pairwise(times))
     expect(
-        gap <= MAX_GAP,
+        gap <= longest,
         expected=f"no gap over {MAX_GAP:.0f} s in the feedback",
         observed=f"a gap of {gap:.1f} s",
         help="Something in the loop waits: publish feedback also while the robot turns, slows down or settles.",
@@ -58,8 +64,20 @@ def require_good_feedback_rate(run: Transcript, name: str) -> None:
     )
 
 
-def require_true_feedback(run: Transcript, name: str) -> None:
-    """Pose, distance and steps in the feedback are those of the robot at about that time."""
+def _end(run: Transcript, goal: GoalHistory) -> float:
+    """When (s) feedback may end: at the result; with the last message where the scenario saw that none comes."""
+    if goal.result:
+        return goal.result.t
+    given_up = any((event.what, event.id) == ("result", goal.name) for event in run.all(ev.Unanswered))
+    if given_up and goal.feedback:
+        return goal.feedback[-1].t
+    raise Missing(
+        run, expected=f"feedback until the goal “{goal.name}” ends", never="nobody waited for its end"
+    )
+
+
+def require_feedback(run: Transcript, name: str) -> GoalHistory:
+    """The goal was accepted, and there was feedback on it."""
     goal = require_accepted(run, name)
     expect(
         len(goal.feedback) > 0,
@@ -67,6 +85,13 @@ def require_true_feedback(run: Transcript, name: str) -> None:
         observed="none",
         help="Publish feedback while the robot walks.",
     )
+    return goal
+
+
+def require_true_feedback(run: Transcript, name: str) -> None:
+    """Pose, distance and steps in the feedback are those of the robot at about that time."""
+    goal = require_feedback(run, name)
+    _end(run, goal)  # until then it has to be true
     start = run.robot_at(goal.sent.t).steps
     steps = 0
     for feedback in goal.feedback:
