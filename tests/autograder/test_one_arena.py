@@ -27,7 +27,7 @@ import os, signal, socket, sys, time
 processes = sorted(int(name) for name in os.listdir("/proc") if name.isdigit())
 print("others", [pid for pid in processes if pid > 2 and pid != os.getpid()])
 elsewhere = {*os.listdir("/tmp"), *os.listdir("/dev/shm")}
-print("files", os.listdir("."), [name for name in elsewhere if name != "work" and "scenario" not in name])
+print("files", os.listdir("."), [name for name in elsewhere if not name.startswith(("work", "scenario-", "lttng-"))])
 print("domain", os.environ["ROS_DOMAIN_ID"])
 left = socket.socket(socket.AF_UNIX)
 try:
