@@ -24,8 +24,10 @@ PROGRAM = Scenario("print_answers", robot=None, student="program")
 # It leaves a process that cannot be interrupted, files, a socket and a segment of memory, and looks for all of them.
 LEAVES_TRACES = """
 import os, signal, socket, sys, time
-processes = sorted(int(name) for name in os.listdir("/proc") if name.isdigit())
-print("others", [pid for pid in processes if pid > 2 and pid != os.getpid()])
+me = str(os.getpid())
+family = {"1", "2", me}  # with the init and the shell of its sandbox; LTTng, which rclpy loads, has a child for a moment
+stats = [open(f"/proc/{name}/stat").read().split() for name in os.listdir("/proc") if name.isdigit()]
+print("others", [pid for pid, _name, _state, parent, *_ in stats if pid not in family and parent != me])
 elsewhere = {*os.listdir("/tmp"), *os.listdir("/dev/shm")}
 print("files", os.listdir("."), [name for name in elsewhere if not name.startswith(("work", "scenario-", "lttng-"))])
 print("domain", os.environ["ROS_DOMAIN_ID"])
