@@ -55,7 +55,7 @@ def run_in_arena(
     Raises :class:`NotGraded` when the arena failed. `stop` ends the arena early.
     """
     if arenas is None:
-        with SubmissionArenas(run.exercise, run.kind) as arenas:
+        with SubmissionArenas(run.exercise.name, run.kind) as arenas:
             return run_in_arena(run, stop, arenas)
     params = run.scenario.draw(run.seed)
     scale = run.scale if run.scenario.timed else 1.0

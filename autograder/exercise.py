@@ -7,8 +7,10 @@ import importlib.util
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from autograder.checks import Check
+if TYPE_CHECKING:
+    from autograder.checks import Check
 
 FOLDER = Path(__file__).parent / "exercises"
 

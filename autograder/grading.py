@@ -50,19 +50,31 @@ def grade(
     look_again: LookAgain = lambda check: None,
     evidence: Evidence = lambda verdict, transcripts: None,
     running: Running = lambda scenarios: None,
+    arenas: SubmissionArenas | None = None,
 ) -> Grade:
     """Grade a submission with `jobs` arenas at a time, one a core.
 
     `report` gets each verdict as soon as it is known, `look_again` each check that failed once, `evidence` the
-    transcripts that a check was judged on, `running` the scenarios that run now whenever that changes.
+    transcripts that a check was judged on, `running` the scenarios that run now whenever that changes. `arenas` are
+    this submission's, when one has been opened ahead; they are closed.
 
     Raises :class:`HiddenChecksRefused` for hidden checks where arenas cannot be isolated.
     """
     isolation = isolation or available_isolation()
     if not isolation.trusted and any(check.hidden for check in exercise.checks):
         raise HiddenChecksRefused(f"hidden checks need isolated arenas: {isolation.reason}")
+    arenas = arenas or SubmissionArenas(exercise.name, isolation.kind)
     session = _Session(
-        submission, exercise, seed, ClockScale(scale), isolation, report, look_again, evidence, running
+        submission,
+        exercise,
+        seed,
+        ClockScale(scale),
+        isolation,
+        report,
+        look_again,
+        evidence,
+        running,
+        arenas,
     )
     return session.run(jobs)
 
@@ -81,6 +93,7 @@ class _Session:
         look_again: LookAgain,
         evidence: Evidence,
         running: Running,
+        arenas: SubmissionArenas,
     ) -> None:
         self._submission = submission
         self._exercise = exercise
@@ -91,7 +104,7 @@ class _Session:
         self._look_again = look_again
         self._evidence = evidence
         self._running = running
-        self._arenas = SubmissionArenas(exercise, isolation.kind)
+        self._arenas = arenas
         self._scenarios = list(dict.fromkeys(scenario for check in exercise.checks for scenario in check.on))
         self._stop = threading.Event()
         self._verdicts: dict[str, CheckVerdict] = {}

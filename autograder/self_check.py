@@ -13,6 +13,7 @@ from autograder.grading import grade
 from autograder.report.running import RunningLine
 from autograder.report.table import grade_table, print_beginning, print_second_look, print_verdict
 from autograder.submission import place_of_work, read_submission
+from autograder.submission_arenas import SubmissionArenas
 from autograder.verdict import CheckVerdict, Grade
 
 NOTEBOOK_WIDTH = 104  # characters; JupyterLab shows as many beside its file browser on 1280 pixels
@@ -49,8 +50,12 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
     return SelfCheck(check_aloud(console, path, exercise))
 
 
-def check_aloud(console: Console, path: Path, exercise: str, *, jobs: int = 2) -> Grade:
+def check_aloud(
+    console: Console, path: Path, exercise: str, *, jobs: int = 2, arenas: SubmissionArenas | None = None
+) -> Grade:
     """Check a student's work with the visible checks; print each verdict as soon as it is known, then the table.
+
+    `arenas` are those of this work, when one has been opened ahead.
 
     Raises :class:`~autograder.submission.UnusableSubmission` and :class:`~autograder.exercise.UnknownExercise`.
     """

@@ -7,8 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-import nbformat
-
 from autograder.exercise import file_names
 
 MAX_BYTES = 1_000_000  # of a file a student writes
@@ -70,6 +68,8 @@ def read_submission(path: Path, exercise: str, student: str = "you") -> Submissi
 
 def sources_from_notebook(text: str, names: tuple[str, ...], path: Path) -> dict[str, str]:
     """Return, for each name, the source in the last cell that begins `%%writefile NAME`; the notebook is not run."""
+    import nbformat  # which takes a quarter of a second to import, and a program is read without it
+
     try:
         notebook = nbformat.reads(text, as_version=4)
         cells = [

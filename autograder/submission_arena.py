@@ -18,7 +18,6 @@ from pathlib import Path
 from typing import Any
 
 from autograder.arena.orders import DONE, send_order
-from autograder.exercise import Exercise
 from autograder.isolation.arena_process import ArenaReport, ArenaSpec, Kind, start_arena
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.python_paths import python_read_only_paths
@@ -45,7 +44,7 @@ class ArenaEnded(Exception):
 class SubmissionArena:
     """A started arena. Raises :class:`.isolation.bubblewrap.SandboxError` when it cannot start."""
 
-    def __init__(self, exercise: Exercise, kind: Kind | None = None) -> None:
+    def __init__(self, exercise: str, kind: Kind | None = None) -> None:
         self._orders, theirs = socket.socketpair()
         environment = {
             **ros_environment(),
@@ -140,10 +139,10 @@ def student_paths() -> Sequence[Path]:
     return (*ros_paths(), PROJECT / "ros_runtime")
 
 
-def _trusted_paths(exercise: Exercise) -> list[Path]:
+def _trusted_paths(exercise: str) -> list[Path]:
     """What the arena may see of the project: no checks, no solutions, no other submissions."""
     grader = PROJECT / "autograder"
-    scenarios = grader / "exercises" / exercise.name
+    scenarios = grader / "exercises" / exercise
     return [
         PROJECT / "ros_runtime",
         PROJECT / "robot_sim",

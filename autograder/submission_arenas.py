@@ -2,27 +2,38 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager, suppress
 from types import TracebackType
 
-from autograder.exercise import Exercise
-from autograder.isolation.arena_process import Kind
+from autograder.isolation.arena_spec import ISOLATION_VARIABLE, Kind
+from autograder.isolation.bubblewrap import SandboxError
 from autograder.submission_arena import SubmissionArena
 
 
 class SubmissionArenas:
-    """A context manager; what it has opened ends with it.
+    """A context manager; what it has opened ends with it. `exercise` is the name of the submission's.
 
     Where there are no namespaces an arena serves one scenario: what is left of it cannot be told from the next.
     """
 
-    def __init__(self, exercise: Exercise, kind: Kind | None = None) -> None:
+    def __init__(self, exercise: str, kind: Kind | None = None) -> None:
         self._exercise = exercise
         self._kind = kind
         self._idle: list[SubmissionArena] = []
+        self._ahead: Future[SubmissionArena] | None = None
         self._lock = threading.Lock()
+
+    def open_ahead(self) -> None:
+        """Begin to open an isolated arena, while this process is busy with something else; unless none is wanted."""
+        if os.environ.get(ISOLATION_VARIABLE) == Kind.NONE:
+            return
+        with ThreadPoolExecutor(1) as pool:
+            self._ahead = pool.submit(SubmissionArena, self._exercise, Kind.NAMESPACES)
+            pool.shutdown(wait=False)
 
     def __enter__(self) -> SubmissionArenas:
         return self
@@ -30,6 +41,7 @@ class SubmissionArenas:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self._take_the_one_ahead()
         for arena in self._idle:
             arena.close()
         self._idle.clear()
@@ -50,5 +62,14 @@ class SubmissionArenas:
             arena.close()
 
     def _take(self) -> SubmissionArena | None:
+        if self._kind is not Kind.NONE:
+            self._take_the_one_ahead()
         with self._lock:
             return self._idle.pop() if self._idle else None
+
+    def _take_the_one_ahead(self) -> None:
+        """Wait for the arena that is being opened; where that fails, the next one says why."""
+        with self._lock, suppress(SandboxError):
+            ahead, self._ahead = self._ahead, None
+            if ahead:
+                self._idle.append(ahead.result())

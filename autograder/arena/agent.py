@@ -24,12 +24,10 @@ from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
 from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.clock.scaled_clock import ScaledClock, follow, library_path
-from ros_runtime.warm_start.preload import preload
 
 
 def import_everything(spec: dict[str, Any]) -> None:
     """Import what the scenario needs, so that a fork has it."""
-    preload()
     for module in (spec["module"], "autograder.arena.stage", "autograder.arena.client_stage"):
         importlib.import_module(module)
 

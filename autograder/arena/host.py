@@ -33,6 +33,7 @@ from autograder.isolation.student_sandbox import program_environment
 from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.clock.scaled_clock import preload_variables
 from ros_runtime.environment import ros_environment
+from ros_runtime.warm_start.preload import preload
 
 _PR_SET_CHILD_SUBREAPER = 36
 _FIRST_DOMAIN, _DOMAINS = 1, 100  # ROS domains whose ports are safe; the network is this arena's own
@@ -93,6 +94,7 @@ class Host:
 def main() -> None:
     """Serve orders until the controller closes the socket."""
     orders = socket.socket(fileno=int(sys.argv[1]))
+    preload()
     host = Host()
     while order := receive_order(orders):
         host.carry_out(*order)

@@ -88,7 +88,7 @@ def _shared_arenas(exercise: Exercise) -> Iterator[Any]:
         with nullcontext():
             yield None
     else:
-        with SubmissionArenas(exercise) as arenas:
+        with SubmissionArenas(exercise.name) as arenas:
             yield arenas
 
 

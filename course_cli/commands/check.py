@@ -7,9 +7,9 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.exercise import UnknownExercise, file_names
-from autograder.self_check import check_aloud
+from autograder.exercise import UnknownExercise, exercise_names, file_names
 from autograder.submission import UnusableSubmission, place_of_work
+from autograder.submission_arenas import SubmissionArenas
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 
 
@@ -27,7 +27,14 @@ def check(
     """Check your own solution of an exercise."""
     console = Console(highlight=False)
     try:
-        result = check_aloud(console, file or _default_file(exercise), exercise, jobs=jobs)
+        path = file or _default_file(exercise)
+        with SubmissionArenas(exercise) as arenas:
+            if exercise in exercise_names() and path.exists():
+                arenas.open_ahead()
+            # imported meanwhile, because the first verdict is waited for
+            from autograder.self_check import check_aloud
+
+            result = check_aloud(console, path, exercise, jobs=jobs, arenas=arenas)
     except (UnknownExercise, UnusableSubmission) as error:
         raise ended(console, error, UNUSABLE) from error
     if json_file:

@@ -11,7 +11,7 @@ import pytest
 from waits import KERNEL_TIMERS, WAITS
 
 from ros_runtime.clock import ScaledClock
-from ros_runtime.clock.scaled_clock import real_monotonic_ns
+from ros_runtime.clock.scaled_clock import follow, real_monotonic_ns
 from ros_runtime.environment import ros_environment
 
 # Asks for both clocks of a process as fast as it can, the real time before and after.
@@ -152,6 +152,32 @@ def test_a_forked_child_follows_the_same_clock(clock, start):
     outside, inside = time_wait(process)
     assert inside >= 2.0
     assert outside < 1.5
+
+
+def test_a_fork_of_a_process_without_a_clock_can_follow_one(clock, clock_library, start):
+    code = """
+import os, sys, time
+from ros_runtime.clock.scaled_clock import follow, real_monotonic_ns
+if os.fork() == 0:
+    follow(sys.argv[1])
+    began, inside = real_monotonic_ns(), time.monotonic()
+    time.sleep(2)
+    print(time.monotonic() - inside, (real_monotonic_ns() - began) * 1e-9, flush=True)
+    os._exit(0)
+os.wait()
+print(abs(time.monotonic_ns() - real_monotonic_ns()) < 1e9, flush=True)
+"""
+    clock.run_at(10.0)
+    process = start("-c", code, clock.path, environment=os.environ | {"LD_PRELOAD": str(clock_library)})
+    inside, outside = map(float, process.stdout.readline().split())
+    assert 2.0 <= inside < 9.0
+    assert 0.15 < outside < 1.0
+    assert process.stdout.readline() == "True\n"
+
+
+def test_without_the_library_no_clock_can_be_followed(clock):
+    with pytest.raises(OSError, match="not preloaded"):
+        follow(clock.path)
 
 
 def test_a_signal_to_a_condition_variable_is_not_lost_while_the_clock_may_change(clock, start):
