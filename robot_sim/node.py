@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
+from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
-from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import BatteryState, Imu, JointState
 from std_msgs.msg import Bool
@@ -18,8 +17,9 @@ from humanoid_interfaces.msg import BalanceGains as BalanceGainsMessage
 from humanoid_interfaces.msg import RobotState
 from robot_sim.balance_gains import BalanceGains
 from robot_sim.humanoid import Humanoid, Mode
+from robot_sim.joint_names import ACTUATED_JOINTS
 from robot_sim.manipulation_topics import ManipulationTopics
-from robot_sim.messages import is_heard, set_fields
+from robot_sim.messages import floats, is_heard, set_fields
 from robot_sim.schedule import Schedule
 from robot_sim.truth import BatterySample, TruthWriter
 
@@ -68,7 +68,9 @@ class HumanoidNode(Node):
             self.create_subscription(BalanceGainsMessage, "balance_gains", self._on_balance_gains, 10),
             *manipulation.heard,
         ]
+        self._heard_topics = [heard.topic_name for heard in self.heard]
         self._peers: tuple[dict[str, int], dict[str, int]] = ({}, {})
+        self._make_messages()
 
         self._schedule = Schedule(
             (PEERS_RATE, self._report_peers),
@@ -80,6 +82,41 @@ class HumanoidNode(Node):
             (CLOCK_RATE, self._publish_clock),
             *manipulation.jobs,
         )
+
+    def _make_messages(self) -> None:
+        """Messages that are published again and again, filled anew each time: making one costs more than sending it.
+
+        They share one stamp.
+        """
+        self._stamp = Time()
+        self._joint_message = JointState(name=list(ACTUATED_JOINTS))
+        self._imu_message = Imu()
+        self._imu_message.header.frame_id = "imu_link"
+        self._odom_message = Odometry(child_frame_id="base_link")
+        self._odom_message.header.frame_id = "odom"
+        nan = math.nan
+        self._battery_message = BatteryState(
+            temperature=nan,
+            charge=nan,
+            capacity=nan,
+            design_capacity=nan,
+            power_supply_status=BatteryState.POWER_SUPPLY_STATUS_DISCHARGING,
+            power_supply_health=BatteryState.POWER_SUPPLY_HEALTH_GOOD,
+            power_supply_technology=BatteryState.POWER_SUPPLY_TECHNOLOGY_LION,
+            present=True,
+        )
+        self._state_message = RobotState()
+        self._clock_message = Clock()
+        for message in (
+            *(self._joint_message, self._imu_message, self._odom_message),
+            *(self._battery_message, self._state_message),
+        ):
+            message.header.stamp = self._stamp
+
+    @property
+    def next_due(self) -> float:
+        """Simulated time (s) at which the next message is due."""
+        return self._schedule.next_due
 
     def publish_due(self) -> None:
         """Publish whatever is due at the simulated time, and the robot's state as soon as it changes."""
@@ -138,13 +175,12 @@ class HumanoidNode(Node):
             return
         joints = self.humanoid.joint_state()
         order = slice(None, None, -1 if self.joint_states_reversed else 1)
-        message = JointState(
-            name=list(joints.names)[order],
-            position=np.asarray(joints.position)[order].tolist(),
-            velocity=np.asarray(joints.velocity)[order].tolist(),
-            effort=np.asarray(joints.effort)[order].tolist(),
-        )
-        message.header.stamp = self._now()
+        message = self._joint_message
+        message.name = list(joints.names)[order]
+        message.position = floats(joints.position[order])
+        message.velocity = floats(joints.velocity[order])
+        message.effort = floats(joints.effort[order])
+        self._read_clock()
         if self._truth:  # before others can answer with it
             self._truth.joints_published(message.name, message.position)
         self._joint_states.publish(message)
@@ -152,27 +188,23 @@ class HumanoidNode(Node):
     def _publish_imu(self) -> None:
         if not is_heard(self._imu):
             return
-        sample = self.humanoid.imu()
-        message = Imu()
-        message.header.stamp = self._now()
-        message.header.frame_id = "imu_link"
-        set_fields(message.orientation, "xyzw", sample.orientation)
-        set_fields(message.angular_velocity, "xyz", sample.angular_velocity)
-        set_fields(message.linear_acceleration, "xyz", sample.linear_acceleration)
+        sample, message = self.humanoid.imu(), self._imu_message
+        self._read_clock()
+        set_fields(message.orientation, "xyzw", sample.orientation.tolist())
+        set_fields(message.angular_velocity, "xyz", sample.angular_velocity.tolist())
+        set_fields(message.linear_acceleration, "xyz", sample.linear_acceleration.tolist())
         self._imu.publish(message)
 
     def _publish_odom(self) -> None:
         if not is_heard(self._odom):
             return
         pose, velocity = self.humanoid.base_pose(), self.humanoid.base_velocity()
-        message = Odometry()
-        message.header.stamp = self._now()
-        message.header.frame_id = "odom"
-        message.child_frame_id = "base_link"
-        set_fields(message.pose.pose.position, "xyz", pose.position)
-        set_fields(message.pose.pose.orientation, "xyzw", pose.quaternion)
-        set_fields(message.twist.twist.linear, "xyz", velocity.linear)
-        set_fields(message.twist.twist.angular, "xyz", velocity.angular)
+        message = self._odom_message
+        self._read_clock()
+        set_fields(message.pose.pose.position, "xyz", pose.position.tolist())
+        set_fields(message.pose.pose.orientation, "xyzw", pose.quaternion.tolist())
+        set_fields(message.twist.twist.linear, "xyz", velocity.linear.tolist())
+        set_fields(message.twist.twist.angular, "xyz", velocity.angular.tolist())
         self._odom.publish(message)
 
     def _publish_battery_state(self) -> None:
@@ -180,21 +212,10 @@ class HumanoidNode(Node):
             return
         battery = self.humanoid.battery
         sample = BatterySample(battery.percentage, battery.voltage, battery.current)
-        nan = math.nan
-        message = BatteryState(
-            voltage=sample.voltage,
-            current=sample.current,
-            percentage=sample.percentage,
-            temperature=nan,
-            charge=nan,
-            capacity=nan,
-            design_capacity=nan,
-            power_supply_status=BatteryState.POWER_SUPPLY_STATUS_DISCHARGING,
-            power_supply_health=BatteryState.POWER_SUPPLY_HEALTH_GOOD,
-            power_supply_technology=BatteryState.POWER_SUPPLY_TECHNOLOGY_LION,
-            present=True,
-        )
-        message.header.stamp = self._now()
+        message = self._battery_message
+        message.voltage, message.current = sample.voltage, sample.current
+        message.percentage = sample.percentage
+        self._read_clock()
         self._battery_state.publish(message)
         if self._truth:
             self._truth.battery_published(sample)
@@ -203,8 +224,9 @@ class HumanoidNode(Node):
         mode, motors_enabled, steps = self._last_announced = self._announcement()
         if not self.robot_state_published:
             return
-        message = RobotState(mode=mode, motors_enabled=motors_enabled, steps=steps)
-        message.header.stamp = self._now()
+        message = self._state_message
+        message.mode, message.motors_enabled, message.steps = mode, motors_enabled, steps
+        self._read_clock()
         self._robot_state.publish(message)
 
     def _announcement(self) -> tuple[int, bool, int]:
@@ -214,7 +236,9 @@ class HumanoidNode(Node):
     def _publish_clock(self) -> None:
         if not is_heard(self._clock_topic):
             return
-        self._clock_topic.publish(Clock(clock=Time(nanoseconds=round(self.humanoid.time * 1e9)).to_msg()))
+        clock = self._clock_message.clock
+        clock.sec, clock.nanosec = divmod(round(self.humanoid.time * 1e9), 10**9)
+        self._clock_topic.publish(self._clock_message)
 
     def _report_peers(self) -> None:
         """Tell when connections change, so that a scenario need not guess how long discovery takes."""
@@ -223,11 +247,13 @@ class HumanoidNode(Node):
         said = (self._joint_states, self._imu, self._odom, self._battery_state, self._robot_state)
         peers = (
             {publisher.topic_name: publisher.get_subscription_count() for publisher in said},
-            {heard.topic_name: self.count_publishers(heard.topic_name) for heard in self.heard},
+            # Node.count_publishers would take names apart and check them each time.
+            {topic: self.handle.get_count_publishers(topic) for topic in self._heard_topics},
         )
         if peers != self._peers:
             self._peers = peers
             self._truth.peers(*peers)
 
-    def _now(self):  # builtin_interfaces Time, system clock
-        return self.get_clock().now().to_msg()
+    def _read_clock(self) -> None:
+        """Stamp the messages: system clock."""
+        self._stamp.sec, self._stamp.nanosec = divmod(self.get_clock().now().nanoseconds, 10**9)

@@ -2,27 +2,33 @@
 
 from __future__ import annotations
 
+import gc
+import math
 import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
-
-from rclpy.executors import SingleThreadedExecutor
 
 from robot_sim.humanoid import Humanoid
 from robot_sim.node import HumanoidNode
 from robot_sim.pacing import Pacing
 from robot_sim.scenario_control import ScenarioControl, obey
-from robot_sim.schedule import Schedule
+from robot_sim.schedule import TOLERANCE, Schedule
+from robot_sim.services import Services
 from robot_sim.truth import TRUTH_RATE, TruthWriter
 
 if TYPE_CHECKING:  # no arena needs them
     from robot_sim.sim_controls import SimControls
     from robot_sim.web_view import WebView
 
-STEPS_PER_CYCLE = 2  # 10 ms of physics between two looks at the commands
+LONGEST_CYCLE = (
+    0.02  # s of physics between two looks at the commands, unless something is to be published before
+)
 CATCH_UP_CYCLES = 10  # after this many cycles without a wait, commands are heard all the same
 PAUSE_PERIOD = 0.02  # s between two looks while the simulation stands still
-SERVICE_RATE = 20.0  # Hz, simulated: looks at the node's services, which cost fifty times one at its commands
+SERVICE_RATE = 20.0  # Hz, simulated: looks at the node's services
+REST_RATE = (
+    1.0  # Hz, simulated: looks at whatever else the middleware tells a node, which cost forty times as much
+)
 
 
 def run(
@@ -41,11 +47,13 @@ def run(
     Truth is written at 50 Hz of simulated time; `control` is the scenario's hand on a graded robot, `controls` are
     everybody's on one that is not, and `view` shows it.
     """
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-    services = Schedule((SERVICE_RATE, lambda: executor.spin_once(timeout_sec=0)))
+    services = Services(node)
     lag = 0.0
-    reports = Schedule((TRUTH_RATE, lambda: truth.robot(humanoid, lag))) if truth else None
+    jobs = [(SERVICE_RATE, services.look), (REST_RATE, services.look_at_the_rest)]
+    if truth:
+        jobs.insert(0, (TRUTH_RATE, lambda: truth.robot(humanoid, lag)))
+    chores = Schedule(*jobs)
+    gc.freeze()  # what exists by now stays; looking through it again and again costs milliseconds each time
     cycles_since_wait = 0
     if truth:
         truth.ready()
@@ -60,18 +68,19 @@ def run(
         if controls and controls.take_reset():
             obey({"do": "reset"}, humanoid, node)
             pacing.restart(humanoid.time)
-        steps = controls.steps_due(STEPS_PER_CYCLE) if controls else STEPS_PER_CYCLE
+        steps = _steps_until(min(node.next_due, chores.next_due), humanoid)
+        if controls:
+            steps = controls.steps_due(steps)
         if steps == 0:
-            executor.spin_once(timeout_sec=PAUSE_PERIOD)
+            time.sleep(PAUSE_PERIOD)
+            services.look()
             node.hear()
             continue
         for _ in range(steps):
             humanoid.step()
         node.publish_due()
         lag = max(0.0, pacing.lag(humanoid.time))
-        if reports:
-            reports.run(humanoid.time)
-        services.run(humanoid.time)
+        chores.run(humanoid.time)
         if view:
             view.show()
         cycles_since_wait += 1
@@ -79,6 +88,12 @@ def run(
         if wait > 0 or cycles_since_wait >= CATCH_UP_CYCLES:
             cycles_since_wait = 0
             _serve(node, pacing, humanoid)
+
+
+def _steps_until(due: float, humanoid: Humanoid) -> int:
+    """How many steps to make before something is due, at simulated time ``due`` (s), or commands are to be heard."""
+    seconds = min(due - humanoid.time, LONGEST_CYCLE)
+    return max(1, math.ceil((seconds - TOLERANCE) / humanoid.timestep))
 
 
 def _serve(node: HumanoidNode, pacing: Pacing, humanoid: Humanoid) -> None:

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+TOLERANCE = 1e-6  # s: sums of timesteps and of periods that mean the same time differ in their last digits
+
 
 class Schedule:
     """Calls each job at its own rate (Hz) of simulated time; a late call is made once, not caught up on.
 
     When time has gone back, as at a reset, every job is due at once.
+
+    Attributes:
+        next_due: simulated time (s) at which the next job is due.
     """
 
     def __init__(self, *jobs: tuple[float, Callable[[], None]]) -> None:
@@ -19,6 +24,7 @@ class Schedule:
     def restart(self) -> None:
         """Make every job due at once."""
         self._due = [0.0] * len(self._jobs)
+        self.next_due = 0.0
         self._latest = 0.0
 
     def run(self, now: float) -> None:
@@ -26,7 +32,10 @@ class Schedule:
         if now < self._latest:
             self.restart()
         self._latest = now
+        if now < self.next_due - TOLERANCE:
+            return
         for index, job in enumerate(self._jobs):
-            if now >= self._due[index]:
+            if now >= self._due[index] - TOLERANCE:
                 self._due[index] = max(self._due[index] + self._periods[index], now)
                 job()
+        self.next_due = min(self._due)

@@ -38,8 +38,8 @@ class TruthWriter:
     ) -> None:
         """Write the robot's state and how far (s) the simulation is behind the clock."""
         pose, velocity = humanoid.base_pose(), humanoid.base_velocity()
-        x, y, z = (float(value) for value in pose.position)
-        vx, vy, _ = (float(value) for value in velocity.linear)
+        x, y, z = pose.position.tolist()
+        vx, vy, _ = velocity.linear.tolist()
         self._write(
             {
                 "kind": "robot",
