@@ -17,7 +17,9 @@ from typing import Any, Literal
 from autograder.failure import CannotBeJudged, Failure, expect
 from autograder.transcript import Transcript
 
-__all__ = ["CannotBeJudged", "Check", "CheckList", "Failure", "Scenario", "expect", "program"]
+__all__ = ["MAY_REST", "CannotBeJudged", "Check", "CheckList", "Failure", "Scenario", "expect", "program"]
+
+MAY_REST = "--may-rest"  # option of a robot that is not integrated while it only stands: nothing is asked of its body
 
 Judge = Callable[..., None]
 Inputs = Mapping[str, Any] | Callable[[random.Random], Mapping[str, Any]]
@@ -40,6 +42,11 @@ class Scenario:
     namespace: str = "/robot"
     parameters: Mapping[str, Any] = field(default_factory=dict)
     timed: bool = True
+
+    @property
+    def is_light(self) -> bool:
+        """Whether it costs the machine next to nothing: no robot, or one that rests."""
+        return self.robot is None or MAY_REST in self.robot
 
     def draw(self, seed: int) -> dict[str, Any]:
         """Return the inputs for one seed; the same seed draws the same inputs."""

@@ -79,14 +79,6 @@ class NodeUsage(_Event):
     peak_memory_mib: float
 
 
-class RecordDropped(_Event):
-    """More events of one kind came than are kept: `count` of them, after those that are here, were not recorded."""
-
-    kind: Literal["dropped"] = "dropped"
-    what: str
-    count: int
-
-
 class ServiceCalled(_Event):
     kind: Literal["service_called"] = "service_called"
     call: str
@@ -215,6 +207,15 @@ class Mark(_Event):
     name: str
 
 
+class PhaseEnded(_Event):
+    """What a phase of the arena cost, where that is measured: wall and processor time of all its processes (s)."""
+
+    kind: Literal["phase"] = "phase"
+    name: str
+    wall: float
+    cpu: float
+
+
 class ScenarioEnded(_Event):
     """The scenario ran to its end."""
 
@@ -225,6 +226,39 @@ class ScenarioFailed(_Event):
     """The scenario could not be carried out, for a reason that is not the student's."""
 
     kind: Literal["scenario_failed"] = "scenario_failed"
+    reason: str
+
+
+class RecordDropped(_Event):
+    """What the student's processes sent and was not kept: `count` events of the kind `what`.
+
+    `seconds` is the time from the first event of that kind to the last one dropped.
+    """
+
+    kind: Literal["dropped"] = "dropped"
+    what: str
+    count: int
+    seconds: float
+
+
+class TooLarge(_Event):
+    """Something the student's processes sent ("answer", "feedback", …) had more `bytes` than are read: the `limit`.
+
+    `id` names the call, goal or cancel it belongs to, where it has one.
+    """
+
+    kind: Literal["too_large"] = "too_large"
+    what: str
+    id: str
+    bytes: int
+    limit: int
+
+
+class GraphFlooded(_Event):
+    """The ROS graph held what no sound program puts there; `nodes` is how many nodes were seen in it."""
+
+    kind: Literal["graph_flooded"] = "graph_flooded"
+    nodes: int
     reason: str
 
 
@@ -339,8 +373,12 @@ Event = Annotated[
     | WokenLate
     | Starved
     | Mark
+    | PhaseEnded
     | ScenarioEnded
     | ScenarioFailed
+    | TooLarge
+    | GraphFlooded
+    | CommandSent
     | RobotReady
     | RobotTruth
     | BatteryPublished
@@ -348,7 +386,6 @@ Event = Annotated[
     | ArmReported
     | RobotPeers
     | RobotRefused
-    | CommandSent
     | RobotCommanded,
     Field(discriminator="kind"),
 ]

@@ -11,22 +11,24 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
 from autograder import events as ev
-from autograder.arena_run import ArenaRun, NotGraded, highest_scale, run_in_arena
+from autograder.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.blame import hogs_the_machine
 from autograder.checks import Check, Scenario
+from autograder.clock_scale import ClockScale
 from autograder.exercise import Exercise
 from autograder.isolation.availability import Isolation, available_isolation
 from autograder.judging import judge, verdict_on
 from autograder.submission import Submission
+from autograder.submission_arenas import SubmissionArenas
 from autograder.transcript import Transcript
 from autograder.verdict import CheckVerdict, Grade
 
-SLOWER = (2.0, 1.0)  # scales to fall back to when the machine cannot keep up
 OVERLOADED = 0.5  # s the simulator may be late before a run is not judged at all
 STARVED = 1.0  # s a student's program may wait for a processor before a run without a robot is not judged
 STRAINED = 0.15  # s it may be late in the second look at a failure
 
 Report = Callable[[CheckVerdict], None]
+Running = Callable[[Sequence[Scenario]], None]
 LookAgain = Callable[[Check], None]
 Runs = dict[Scenario, Future[Transcript]]
 Evidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
@@ -47,11 +49,12 @@ def grade(
     report: Report = lambda verdict: None,
     look_again: LookAgain = lambda check: None,
     evidence: Evidence = lambda verdict, transcripts: None,
+    running: Running = lambda scenarios: None,
 ) -> Grade:
     """Grade a submission with `jobs` arenas at a time, one a core.
 
     `report` gets each verdict as soon as it is known, `look_again` each check that failed once, `evidence` the
-    transcripts that a check was judged on.
+    transcripts that a check was judged on, `running` the scenarios that run now whenever that changes.
 
     Raises :class:`HiddenChecksRefused` for hidden checks where arenas cannot be isolated.
     """
@@ -59,7 +62,7 @@ def grade(
     if not isolation.trusted and any(check.hidden for check in exercise.checks):
         raise HiddenChecksRefused(f"hidden checks need isolated arenas: {isolation.reason}")
     session = _Session(
-        submission, exercise, seed, scale or highest_scale(), isolation, report, look_again, evidence
+        submission, exercise, seed, ClockScale(scale), isolation, report, look_again, evidence, running
     )
     return session.run(jobs)
 
@@ -72,11 +75,12 @@ class _Session:
         submission: Submission,
         exercise: Exercise,
         seed: int,
-        scale: float,
+        scale: ClockScale,
         isolation: Isolation,
         report: Report,
         look_again: LookAgain,
         evidence: Evidence,
+        running: Running,
     ) -> None:
         self._submission = submission
         self._exercise = exercise
@@ -86,6 +90,9 @@ class _Session:
         self._report = report
         self._look_again = look_again
         self._evidence = evidence
+        self._running = running
+        self._arenas = SubmissionArenas(exercise, isolation.kind)
+        self._scenarios = list(dict.fromkeys(scenario for check in exercise.checks for scenario in check.on))
         self._stop = threading.Event()
         self._verdicts: dict[str, CheckVerdict] = {}
         self._first: Runs = {}
@@ -93,7 +100,7 @@ class _Session:
         self._failed_once: set[str] = set()
 
     def run(self, jobs: int) -> Grade:
-        with ThreadPoolExecutor(jobs) as pool:
+        with self._arenas, ThreadPoolExecutor(jobs) as pool:
             try:
                 while len(self._verdicts) < len(self._exercise.checks):
                     self._settle()
@@ -120,17 +127,20 @@ class _Session:
 
     def _start(self, pool: ThreadPoolExecutor, jobs: int) -> list[Future[Transcript]]:
         """Keep `jobs` arenas busy, first with what is certainly needed; returns those that run."""
-        running = [run for run in (*self._first.values(), *self._second.values()) if not run.done()]
+        running = {run: scenario for scenario, run in self._runs() if not run.done()}
         for scenario, runs in self._wanted():
             if len(running) >= jobs:
                 break
             if scenario in runs:  # several checks want it
                 continue
-            first_look = runs is self._first
-            scale = self._scale if first_look else self._scale_of_the_second_look(scenario)
-            runs[scenario] = pool.submit(self._run, scenario, scale, OVERLOADED if first_look else STRAINED)
-            running.append(runs[scenario])
-        return running
+            look = self._look_first if runs is self._first else self._look_again_at
+            runs[scenario] = pool.submit(look, scenario)
+            running[runs[scenario]] = scenario
+        self._running(list(running.values()))
+        return list(running)
+
+    def _runs(self) -> list[tuple[Scenario, Future[Transcript]]]:
+        return [*self._first.items(), *self._second.items()]
 
     def _wanted(self) -> list[tuple[Scenario, Runs]]:
         """Scenarios to run and where their transcripts go: those whose checks' needs are met come first."""
@@ -145,32 +155,38 @@ class _Session:
             wanted += [(scenario, runs) for scenario in check.on if scenario not in runs]
         return certain + possible
 
-    def _scale_of_the_second_look(self, scenario: Scenario) -> float:
-        """The same as of the first, unless the machine was strained then."""
-        first = self._first[scenario].result()
-        if lateness(first) <= STRAINED:
-            return first.scale
-        return next((slower for slower in SLOWER if slower < first.scale), 1.0)
+    def _look_first(self, scenario: Scenario) -> Transcript:
+        """The first scenario of an exercise starts the program cold, as at home; the others need not wait for that."""
+        cold = scenario is self._scenarios[0]
+        return self._run(scenario, self._scale.of_the_first_look(scenario), OVERLOADED, cold)
 
-    def _run(self, scenario: Scenario, scale: float, tolerated: float) -> Transcript:
+    def _look_again_at(self, scenario: Scenario) -> Transcript:
+        """No point is lost but by what the program does when it is started cold, with the machine keeping up."""
+        first = self._first[scenario].result()
+        was_strained = lateness(first) > STRAINED
+        return self._run(
+            scenario, self._scale.of_the_second_look(first.scale, was_strained), STRAINED, cold=True
+        )
+
+    def _run(self, scenario: Scenario, scale: float, tolerated: float, cold: bool) -> Transcript:
         """Run a scenario, again at a lower scale when the simulator was more than `tolerated` s late.
 
         At scale 1 a run counts if it can be judged at all. After an arena's failure the scenario is run again, too.
         """
         problem: NotGraded | None = None
-        for attempt_scale in (scale, *(slower for slower in SLOWER if slower < scale), 1.0):
+        for attempt_scale in self._scale.attempts(scale):
+            run = ArenaRun(
+                self._exercise,
+                self._submission.files,
+                scenario,
+                self._seed,
+                attempt_scale,
+                self._isolation.kind,
+                cold,
+                more_to_come=len(self._scenarios) > 1,
+            )
             try:
-                transcript = run_in_arena(
-                    ArenaRun(
-                        self._exercise,
-                        self._submission.files,
-                        scenario,
-                        self._seed,
-                        attempt_scale,
-                        self._isolation.kind,
-                    ),
-                    self._stop,
-                )
+                transcript = run_in_arena(run, self._stop, self._arenas)
             except NotGraded as error:
                 problem = error
                 if self._stop.is_set():
@@ -179,6 +195,7 @@ class _Session:
             allowed = tolerated if attempt_scale > 1 else OVERLOADED
             if not scenario.timed or lateness(transcript) <= allowed or hogs_the_machine(transcript):
                 return transcript
+            self._scale.was_late()
             problem = NotGraded(
                 f"the machine was too busy: what runs there was {lateness(transcript):.1f} s behind the "
                 "arena's clock at scale "

@@ -6,6 +6,7 @@ import traceback
 from collections.abc import Sequence
 
 from autograder import events as ev
+from autograder.bounds import require_bounded
 from autograder.checks import Check
 from autograder.failure import CannotBeJudged, Failure
 from autograder.readiness import require_ready, require_started
@@ -78,6 +79,7 @@ def _require_evidence(check: Check, transcripts: Sequence[Transcript]) -> None:
             require_ready(transcript)
         else:
             require_started(transcript)
+        require_bounded(transcript, scenario)
         require_whole(transcript, scenario)
 
 

@@ -7,11 +7,13 @@ from pathlib import Path
 
 from rich.console import Console
 
+from autograder.checks import Check
 from autograder.exercise import file_names, load_exercise
 from autograder.grading import grade
+from autograder.report.running import RunningLine
 from autograder.report.table import grade_table, print_beginning, print_second_look, print_verdict
 from autograder.submission import place_of_work, read_submission
-from autograder.verdict import Grade
+from autograder.verdict import CheckVerdict, Grade
 
 NOTEBOOK_WIDTH = 104  # characters; JupyterLab shows as many beside its file browser on 1280 pixels
 
@@ -55,13 +57,17 @@ def check_aloud(console: Console, path: Path, exercise: str, *, jobs: int = 2) -
     loaded = load_exercise(exercise, hidden=False)
     submission = read_submission(path, exercise)
     print_beginning(console, path, loaded)
-    result = grade(
-        submission,
-        loaded,
-        jobs=jobs,
-        report=lambda verdict: print_verdict(console, verdict),
-        look_again=lambda check: print_second_look(console, check),
-    )
+    with RunningLine(console, in_notebook=Console().is_jupyter) as line:
+
+        def report(verdict: CheckVerdict) -> None:
+            with line.aside():
+                print_verdict(console, verdict)
+
+        def look_again(check: Check) -> None:
+            with line.aside():
+                print_second_look(console, check)
+
+        result = grade(submission, loaded, jobs=jobs, report=report, look_again=look_again, running=line.show)
     console.print()
     console.print(grade_table(result))
     return result

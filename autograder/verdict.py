@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
 CheckStatus = Literal["passed", "failed", "not run", "error"]
 GradeStatus = Literal["graded", "not graded"]
+
+# Characters of what a verdict says: it may quote a text of a student's, which may be as long as they like.
+LONGEST: Mapping[str, int] = {"expected": 500, "observed": 500, "help": 4000}
+LENGTH_NOTE = 40  # characters at most of what is put in the place of the rest
 
 
 @dataclass(frozen=True)
@@ -24,6 +29,12 @@ class CheckVerdict:
     robot_time: float | None = None
     log: str = ""
     hidden: bool = False
+
+    def __post_init__(self) -> None:
+        for name, most in LONGEST.items():
+            text = getattr(self, name)
+            if len(text) > most + LENGTH_NOTE:  # so that what is read back from a record stays as it is
+                object.__setattr__(self, name, f"{text[:most]}…[cut: {len(text):,} characters]")
 
 
 @dataclass(frozen=True)

@@ -49,6 +49,7 @@ class Humanoid:
 
     Attributes:
         scene: its name.
+        seed: of the sensors' errors; a new one holds from the next ``reset()`` on.
         model, data: of MuJoCo; the pelvis is base_link, the world is odom.
         battery: charge, voltage, current.
         hands: the grippers by side, "l" and "r".
@@ -68,7 +69,7 @@ class Humanoid:
         self.model = build_model(scene, timestep=timestep, floor=floor)
         self.data = mujoco.MjData(self.model)
         self.timestep = timestep
-        self._seed = seed
+        self.seed = seed
         self._estimates_state = estimates_state
         self._parameters = WalkerParameters()
         self._trunk = trunk_of(self.model)
@@ -91,7 +92,7 @@ class Humanoid:
             size = replace(size, stance_height=clamp(height, HeightLimits().lowest, size.stance_height))
         take_stance(self.model, self.data, size, x, y, yaw)
         self.battery = Battery()
-        self._imu = Imu(self.model, self.data, self._seed)
+        self._imu = Imu(self.model, self.data, self.seed)
         self._pusher = Pusher(self.model, self.data, "torso")
         self._take_control()
         self._height.set(size.stance_height)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 
 from rcl_interfaces.srv import ListParameters
+from rclpy.client import Client
 from rclpy.node import Node
 
 PATIENCE = 0.1  # s for one answer
@@ -19,18 +20,41 @@ def greet(node: Node, name: str, gives_up: Callable[[], bool]) -> bool:
     the other and is not yet known, and whatever is asked or answered in that moment is lost. So this asks something
     harmless, again and again, until `gives_up()`.
     """
-    client = node.create_client(ListParameters, f"{name}/list_parameters")
+    return name in greet_all(node, [name], gives_up)
+
+
+def greet_all(node: Node, names: Sequence[str], gives_up: Callable[[], bool]) -> set[str]:
+    """Greet several nodes in one go, as :func:`greet` does one; returns the names of those that have answered."""
+    clients = {name: node.create_client(ListParameters, f"{name}/list_parameters") for name in names}
+    greeted: set[str] = set()
     try:
-        while not gives_up():
-            if not client.service_is_ready():
+        while len(greeted) < len(clients) and not gives_up():
+            found = {
+                name: client
+                for name, client in clients.items()
+                if name not in greeted and client.service_is_ready()
+            }
+            if not found:
                 time.sleep(PATIENCE / 10)
-                continue
-            answered = threading.Event()
-            future = client.call_async(ListParameters.Request())
-            future.add_done_callback(lambda _, answered=answered: answered.set())
-            if answered.wait(PATIENCE):
-                return True
-            client.remove_pending_request(future)
-        return False
+            greeted |= _ask_once(found)
     finally:
-        node.destroy_client(client)
+        for client in clients.values():
+            node.destroy_client(client)
+    return greeted
+
+
+def _ask_once(clients: Mapping[str, Client]) -> set[str]:
+    """Ask all of them; returns the names of those that have answered in time."""
+    asked = {
+        name: (client.call_async(ListParameters.Request()), threading.Event())
+        for name, client in clients.items()
+    }
+    for future, answered in asked.values():
+        future.add_done_callback(lambda _, answered=answered: answered.set())
+    deadline = time.monotonic() + PATIENCE
+    in_time = {
+        name for name, (_, answered) in asked.items() if answered.wait(max(0.0, deadline - time.monotonic()))
+    }
+    for name in asked.keys() - in_time:
+        clients[name].remove_pending_request(asked[name][0])
+    return in_time

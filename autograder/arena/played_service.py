@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,6 +12,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
 from rclpy.task import Future
 
+from autograder.arena.received import is_too_large, size_of
 from autograder.arena.recorder import Recorder
 from ros_runtime.messages import from_dict, to_dict
 
@@ -56,6 +58,8 @@ class PlayedService:
         self._service = node.create_service(
             service_type, name, self._on_request, callback_group=ReentrantCallbackGroup()
         )
+        self._send = self._service.send_response
+        self._service.send_response = self._send_if_anybody_waits  # type: ignore[method-assign]
         recorder.record("service_offered", service=name, server=server, type=_type_name(service_type))
 
     def withdraw(self) -> None:
@@ -64,14 +68,17 @@ class PlayedService:
         self._node.destroy_service(self._service)
 
     async def _on_request(self, request: Any, response: Any) -> Any:
+        if not self._recorder.admits("request_received", self.name):
+            return response  # a flood: what is left to wait for it is not worth remembering
         name = self._next_request()
         reply = self._replies[min(self.requests, len(self._replies) - 1)]
+        too_large = is_too_large("request", name, size_of(request), self._recorder)
         self._recorder.record(
             "request_received",
             request=name,
             service=self.name,
             server=self._server,
-            fields=to_dict(request),
+            fields=to_dict(self._type.Request() if too_large else request),
         )
         with self._changed:
             self.requests += 1
@@ -83,6 +90,11 @@ class PlayedService:
             self._recorder.record("reply_sent", request=name, response=reply.response)
             response = from_dict(self._type.Response, reply.response)
         return response
+
+    def _send_if_anybody_waits(self, response: Any, header: Any) -> None:
+        """Send a response; a client that has left, or a server withdrawn meanwhile, is no reason to stop serving."""
+        with suppress(RuntimeError):  # what rclpy's own errors are
+            self._send(response, header)
 
     async def _pause(self, duration: float) -> None:
         if duration <= 0:

@@ -3,27 +3,30 @@
 from __future__ import annotations
 
 import json
+import multiprocessing
 import os
-import subprocess
-import sys
 import threading
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from autograder.arena.recorder import Recorder
+from autograder.arena.robots import Robots
 
 
 class Simulator:
-    """Starts `python -m robot_sim`, passes its truth on to the recorder and keeps the latest to wait on."""
+    """Forks the simulator, passes its truth on to the recorder and keeps the latest to wait on.
+
+    Make it while this process has one thread, and call :meth:`listen` then.
+    """
 
     def __init__(
         self,
         recorder: Recorder,
         changed: threading.Condition,
+        robots: Robots,
         namespace: str,
         options: Sequence[str],
-        env: Mapping[str, str],
     ) -> None:
         truth_read, truth_write = os.pipe()
         control_read, self._control = os.pipe()
@@ -34,29 +37,26 @@ class Simulator:
         self.publishers: dict[str, int] = {}
         self.reports: Counter[str] = Counter()
         self._commands_left = 0
-        self.process = subprocess.Popen(
-            [
-                *(sys.executable, "-m", "robot_sim", "--namespace", namespace),
-                *("--truth-fd", str(truth_write), "--control-fd", str(control_read), *options),
-            ],
-            pass_fds=(truth_write, control_read),
-            env={
-                **env,
-                "MUJOCO_GL": "disable",
-            },  # nothing is drawn here, and looking for a screen takes 0.13 s
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
+        more = ("--namespace", namespace, "--truth-fd", str(truth_write), "--control-fd", str(control_read))
+        self.process = multiprocessing.get_context("fork").Process(
+            target=_simulate, args=(robots, options, more)
         )
+        self.process.start()
         os.close(truth_write)
         os.close(control_read)
         self._thread = threading.Thread(target=self._read_truth, args=(truth_read,), daemon=True)
+
+    def listen(self) -> None:
+        """Begin to take in the truth."""
         self._thread.start()
 
     def command(self, do: str, **arguments: Any) -> None:
         """Send one command of :mod:`robot_sim.scenario_control`."""
+        command = {"do": do, **arguments}
+        self._recorder.record("command_sent", command=command)
         with self._changed:
             self._commands_left += 1
-        os.write(self._control, json.dumps({"do": do, **arguments}).encode() + b"\n")
+        os.write(self._control, json.dumps(command).encode() + b"\n")
 
     def has_obeyed(self) -> bool:
         """Whether every command has taken effect, and what it asked for has been reported."""
@@ -64,21 +64,19 @@ class Simulator:
 
     def is_running(self) -> bool:
         """Whether the process is alive."""
-        return self.process.poll() is None
+        return self.process.is_alive()
 
     def stop(self) -> None:
         """End the process and read the truth to its end."""
-        self.process.terminate()
-        try:
-            self.process.wait(5)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
+        self.process.kill()  # what it has written stays in the pipe
+        self.process.join()
         self._thread.join(5)
 
     def _read_truth(self, fd: int) -> None:
         with os.fdopen(fd, "rb") as lines:
             for line in lines:
+                if not line.endswith(b"\n"):
+                    return  # it was ended while it wrote
                 self._recorder.forward(line)
                 record = json.loads(line)
                 with self._changed:
@@ -90,3 +88,10 @@ class Simulator:
                     elif record["kind"] == "peers":
                         self.subscribers, self.publishers = record["subscribers"], record["publishers"]
                     self._changed.notify_all()
+
+
+def _simulate(robots: Robots, options: Sequence[str], more: Sequence[str]) -> None:
+    try:
+        robots.serve(options, *more)
+    finally:
+        os._exit(1)  # nobody ends it in this way

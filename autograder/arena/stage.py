@@ -9,27 +9,29 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from typing import Any
 
 from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.node import Node
 
 from autograder.arena.action_probe import ActionProbe
-from autograder.arena.matching import count_matchable_subscribers
+from autograder.arena.graph import Graph
+from autograder.arena.phases import Phases
 from autograder.arena.recorder import Recorder
 from autograder.arena.service_probe import ServiceProbe
 from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
-from autograder.arena.waiting import Waiting
-from ros_runtime.greeting import greet
+from autograder.arena.waiting import POLLING, Waiting
+from ros_runtime.greeting import greet_all
 
 # s, on a clock that still runs at scale 1:
 READY_TIMEOUT = 20.0  # for the node to offer what is asked for
 COMPANY_TIMEOUT = 10.0  # for the rest of it, once the node offers anything
 MATCHING_TIMEOUT = 10.0  # for robot and node to find each other's topics
 GREETING_TIMEOUT = 1.0  # a sound node may be slow to answer anything yet, a faulty one never does
-SETTLING = 0.3  # for the node's own side of those connections
+MOST_GREETED = 4  # nodes
+LOOKING = 0.1  # between two looks at all that is offered
+SETTLING = 0.05  # for the node's own side of those connections
 # s, on the arena's clock:
 CALL_TIMEOUT = 5.0
 GOAL_TIMEOUT = 5.0
@@ -58,13 +60,15 @@ class Stage(Waiting):
         changed: threading.Condition,
         simulator: Simulator | None,
         student: Student,
+        phases: Phases,
         speed_up: Callable[[], None],
     ) -> None:
-        super().__init__(recorder, changed)
+        super().__init__(Graph(node, recorder), recorder, changed)
         self._node = node
         self._stranger = stranger
         self._robot = simulator
         self._student = student
+        self._phases = phases
         self._speed_up = speed_up
         self._services: dict[str, ServiceProbe] = {}
         self._actions: dict[str, ActionProbe] = {}
@@ -89,7 +93,7 @@ class Stage(Waiting):
             self._services[name] = ServiceProbe(self._node, service_type, name, self._recorder, self._changed)
         for name, action_type in (actions or {}).items():
             self._actions[name] = ActionProbe(
-                self._node, self._stranger, action_type, name, self._recorder, self._changed
+                self._node, self._stranger, self._graph, action_type, name, self._recorder, self._changed
             )
         started = time.monotonic()
         if not self.wait_until(self._robot_is_there, ROBOT_TIMEOUT):
@@ -99,8 +103,10 @@ class Stage(Waiting):
             self._open_parameters(parameters_of)
             self._wait_for_endpoints(started)
         self._recorder.record("node_ready", waited=time.monotonic() - started)
+        self._phases.end("discovery")
         self.wait_until(self._robot_and_node_are_connected, MATCHING_TIMEOUT)
         self._greet_node()
+        self._graph.inspect()
         self.wait(SETTLING)
         self._speed_up()
 
@@ -239,37 +245,29 @@ class Stage(Waiting):
     def _wait_for_endpoints(self, started: float) -> None:
         """Return when the student's endpoints are there; record what is missing when they do not come."""
         first_offer: float | None = None
+        next_look = started
         while missing := self._missing():
             now = time.monotonic()
-            if first_offer is None and self._offered():
-                first_offer = now
+            if first_offer is None and now >= next_look:
+                first_offer = now if self._graph.offered() else None
+                next_look = now + LOOKING
             late = now - started > READY_TIMEOUT
             incomplete = first_offer is not None and now - first_offer > COMPANY_TIMEOUT
             if late or incomplete or self._student.has_exited():
                 self._recorder.record(
-                    "node_not_ready", missing=missing, offered=self._offered(), waited=now - started
+                    "node_not_ready", missing=missing, offered=self._graph.offered(), waited=now - started
                 )
                 raise NodeMissing
-            with self._changed:
-                self._changed.wait(0.02)
+            time.sleep(POLLING)
 
     def _open_parameters(self, service: str) -> None:
         """Connect to the parameters of the node that offers a service; without one, to what never comes."""
-        self.wait_until(lambda: self._node_that_offers(service), MATCHING_TIMEOUT)
-        owner = self._node_that_offers(service) or service
+        self.poll_until(lambda: self._graph.owners_of(service), MATCHING_TIMEOUT)
+        owner = next(iter(self._graph.owners_of(service)), service)
         for name, service_type in (("get_parameters", GetParameters), ("set_parameters", SetParameters)):
             self._services[name] = ServiceProbe(
                 self._node, service_type, f"{owner}/{name}", self._recorder, self._changed
             )
-
-    def _node_that_offers(self, service: str) -> str | None:
-        """Return the full name of the student's node that offers a service."""
-        wanted = self._node.resolve_service_name(service)
-        for name, namespace in self._student_nodes():
-            offered = self._node.get_service_names_and_types_by_node(name, namespace)
-            if wanted in (offer for offer, _ in offered):
-                return f"{namespace.rstrip('/')}/{name}"
-        return None
 
     def _missing(self) -> list[str]:
         probes: list[ServiceProbe | ActionProbe] = [*self._services.values(), *self._actions.values()]
@@ -277,34 +275,19 @@ class Stage(Waiting):
 
     def _robot_and_node_are_connected(self) -> bool:
         """Whether the robot has found every subscriber and publisher of its topics that it can be matched with."""
-        robot, graph = self._robot, self._node
+        robot, graph = self._robot, self._graph
         return robot is None or (
             bool(robot.subscribers)
-            and all(n >= count_matchable_subscribers(graph, topic) for topic, n in robot.subscribers.items())
+            and all(n >= graph.count_matchable_subscribers(topic) for topic, n in robot.subscribers.items())
             and all(count >= graph.count_publishers(topic) for topic, count in robot.publishers.items())
         )
 
     def _greet_node(self) -> None:
         """Exchange messages with the student's node, so that its answers are not lost on a client it does not know."""
+        services = [*self._services, *(f"{action}/_action/send_goal" for action in self._actions)]
+        owners = dict.fromkeys(owner for service in services for owner in self._graph.owners_of(service))
         deadline = time.monotonic() + GREETING_TIMEOUT
-        for name, namespace in self._student_nodes():
-            with suppress(
-                ValueError, RuntimeError
-            ):  # names are the student's to choose, and may be no names at all
-                greet(self._node, f"{namespace.rstrip('/')}/{name}", lambda: time.monotonic() > deadline)
-
-    def _student_nodes(self) -> list[tuple[str, str]]:
-        namespace = self._node.get_namespace()
-        ours = {(name, namespace) for name in (self._node.get_name(), self._stranger.get_name(), "humanoid")}
-        return [node for node in self._node.get_node_names_and_namespaces() if node not in ours]
-
-    def _offered(self) -> list[str]:
-        offered = []
-        for name, namespace in self._student_nodes():
-            for service, types in self._node.get_service_names_and_types_by_node(name, namespace):
-                if "rcl_interfaces/" not in types[0] and "type_description_interfaces/" not in types[0]:
-                    offered.append(f"{service} [{types[0]}]")
-        return sorted(offered)
+        greet_all(self._node, list(owners)[:MOST_GREETED], lambda: time.monotonic() > deadline)
 
     def _wait_for_reply(self, what: str, name: str, has_come: Callable[[], bool], timeout: float) -> bool:
         """Wait for a reply; record that it is missing when the time is over or the student's process has ended."""

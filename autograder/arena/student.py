@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import base64
 import json
-import os
-import sys
 import threading
 from collections.abc import Sequence
 from typing import Any
 
-from autograder.arena.clocked_start import CLOCK_PAGE
 from autograder.arena.recorder import Recorder
 from autograder.arena.student_watch import StudentWatch
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.student_process import StudentProcess, start_student
+from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.clock.scaled_clock import ScaledClock
 from ros_runtime.environment import ros_environment
 
@@ -23,15 +21,22 @@ class Student:
     """Runs the files of a submission in the student's sandbox and records output and end.
 
     `spec` is what the controller sent: the files by name, which of them is the program, namespace, paths to be seen.
+    `interpreter` waits to become the program; without one a new interpreter is started, as at home.
     """
 
     def __init__(
-        self, spec: dict[str, Any], recorder: Recorder, changed: threading.Condition, clock: ScaledClock
+        self,
+        spec: dict[str, Any],
+        recorder: Recorder,
+        changed: threading.Condition,
+        clock: ScaledClock,
+        interpreter: WarmInterpreter | None = None,
     ) -> None:
         self._spec = spec
         self._recorder = recorder
         self._changed = changed
         self._clock = clock
+        self._interpreter = interpreter
         self._process: StudentProcess | None = None
         self._watch: StudentWatch | None = None
         self._closing = threading.Event()
@@ -41,7 +46,8 @@ class Student:
         ros_arguments = ["--ros-args", "-r", f"__ns:={self._spec['namespace']}"]
         for name, value in self._spec["parameters"].items():
             ros_arguments += ["-p", f"{name}:={json.dumps(value)}"]
-        self._start([self._spec["file_name"], *arguments, *ros_arguments], list(self._spec["files"]))
+        arguments = [self._spec["file_name"], *arguments, *ros_arguments]
+        self._start(arguments, list(self._spec["files"]), self._interpreter)
 
     def start_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:
         """Run a module of ours on some of the student's files, with no more rights than the student's program has."""
@@ -81,14 +87,17 @@ class Student:
             raise RuntimeError("the scenario has not started the student's program yet")
         return self._process
 
-    def _start(self, python_arguments: Sequence[str], names: Sequence[str]) -> None:
+    def _start(
+        self, arguments: Sequence[str], names: Sequence[str], interpreter: WarmInterpreter | None = None
+    ) -> None:
         files = {name: text for name, text in self._spec["files"].items() if name in names}
         self._recorder.record("node_started")
         self._process = start_student(
-            [sys.executable, *python_arguments],
+            arguments,
             workdir_files={name: base64.b64decode(content) for name, content in files.items()},
             env={**ros_environment(), **self._clock.environment()},
-            read_only_paths=[*self._spec["student_paths"], os.environ[CLOCK_PAGE]],
+            read_only_paths=[*self._spec["student_paths"], self._clock.path],
+            interpreter=interpreter,
             on_line=self._on_line,
             on_exit=self._on_exit,
         )

@@ -11,7 +11,7 @@ from autograder.isolation.process_tree import cpu_seconds, resident_mib, seconds
 from autograder.isolation.student_process import StudentProcess
 from ros_runtime.clock.scaled_clock import real_monotonic_ns
 
-PERIOD = 0.2  # s on the arena's clock, so 40 ms of real time at scale 5
+PERIOD = 0.1  # s of real time between two looks, each of which reads some files for every process
 
 
 class StudentWatch:

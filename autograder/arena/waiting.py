@@ -7,13 +7,20 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from autograder.arena.graph import Graph
 from autograder.arena.recorder import Recorder
+
+FLOOD = 50  # messages within…
+QUIET = 0.25  # s of the arena's clock are more than any sound node sends
+FLOODED = 15.0  # s of it are waited for the end of a flood
+POLLING = 0.005  # s between two looks at what nobody notifies us of, such as changes of the graph
 
 
 class Waiting:
     """`changed` is notified whenever something has arrived; all durations are seconds on the arena's clock."""
 
-    def __init__(self, recorder: Recorder, changed: threading.Condition) -> None:
+    def __init__(self, graph: Graph, recorder: Recorder, changed: threading.Condition) -> None:
+        self._graph = graph
         self._recorder = recorder
         self._changed = changed
 
@@ -33,6 +40,35 @@ class Waiting:
                     return False
                 self._changed.wait(min(left, 1.0))
         return True
+
+    def poll_until(self, condition: Callable[[], Any], timeout: float) -> bool:
+        """Wait for a condition of which nobody is notified; False when the time is over first."""
+        deadline = time.monotonic() + timeout
+        while not condition():
+            if time.monotonic() > deadline:
+                return False
+            time.sleep(POLLING)
+        return True
+
+    def close(self) -> None:
+        """The scenario is over: take in what was sent before, and record what there was too much of."""
+        self._take_in_the_rest()
+        self._graph.inspect()
+        self._recorder.finish()
+
+    def _take_in_the_rest(self) -> None:
+        """Wait until nothing is left of a flood: behind it may stand in line what convicts the node."""
+        deadline = time.monotonic() + FLOODED
+        before = self._recorder.received
+        while True:
+            self.wait(QUIET)
+            now = self._recorder.received
+            if now - before < FLOOD:
+                return
+            if time.monotonic() > deadline:
+                self._recorder.drop("unread")
+                return
+            before = now
 
     def mark(self, name: str) -> None:
         """Name this moment for the checks."""

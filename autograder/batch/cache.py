@@ -8,10 +8,10 @@ import json
 from functools import lru_cache
 from pathlib import Path
 
-from autograder.arena_run import PROJECT
 from autograder.exercise import Exercise
 from autograder.isolation.availability import Isolation
 from autograder.submission import Submission
+from autograder.submission_arena import PROJECT
 from autograder.verdict import Grade
 
 # What a verdict depends on besides the submission: the checks and the engine, the robot, the clock.

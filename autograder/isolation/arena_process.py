@@ -1,6 +1,6 @@
 """The controller's side of an arena: start it, watch its memory and its deadline, know that nothing is left.
 
-    spec = ArenaSpec([sys.executable, "-m", "autograder.arena.clocked_start"], read_only_paths=[…], pass_fds=[events])
+    spec = ArenaSpec([sys.executable, "-m", "autograder.arena.host"], read_only_paths=[…], pass_fds=[orders])
     arena = start_arena(spec)
     report = arena.wait()
 
@@ -25,7 +25,8 @@ from autograder.isolation.process_tree import descendants, resident_mib
 
 __all__ = ["ArenaProcess", "ArenaReport", "ArenaSpec", "Ended", "Kind", "start_arena"]
 
-_POLL = 0.05  # s between two looks at the memory
+_POLL = 0.05  # s between two looks at the deadline and at a request to end
+_MEMORY_PERIOD = 0.2  # s between two looks at the memory, which read some dozen files for each process
 _LAST_WORDS = 2.0  # s in which a process of an ended arena may still be found to hold its output open
 
 
@@ -87,6 +88,7 @@ class ArenaProcess:
         self.spec = spec
         self.kind = kind
         self._kill_requested = threading.Event()
+        self._deadline = time.monotonic() + spec.limits.deadline_s
         self._started: Future[None] = Future()
         self._report: Future[ArenaReport] = Future()
         threading.Thread(target=self._live, name="arena", daemon=True).start()
@@ -104,6 +106,10 @@ class ArenaProcess:
         """End every process of the arena and return the report."""
         self._kill_requested.set()
         return self.wait()
+
+    def allow(self, seconds: float) -> None:
+        """Set the deadline anew, so many seconds from now."""
+        self._deadline = time.monotonic() + seconds
 
     def _live(self) -> None:
         try:
@@ -137,22 +143,24 @@ class ArenaProcess:
         pump = OutputPump({process.stdout.fileno(): out, process.stderr.fileno(): err})
         pump.watch(running.end_pidfd)
         ended, peak = Ended.EXIT, 0.0
-        next_look = began
+        next_look = next_look_at_memory = began
         memory_within_limit_at = began
         while running.end_pidfd not in pump.poll(max(0.0, min(_POLL, next_look - time.monotonic()))):
             if (now := time.monotonic()) < next_look:
                 continue
             next_look = now + _POLL
-            memory = resident_mib([running.root_pid, *descendants(running.root_pid)])
-            peak = max(peak, memory)
-            if memory <= limits.memory_mib:
-                memory_within_limit_at = now
-            borne_for = now - memory_within_limit_at
-            if memory > 2 * limits.memory_mib or borne_for > limits.memory_grace_s:
-                ended = Ended.MEMORY
-            elif now - began > limits.deadline_s:
+            if now >= next_look_at_memory:
+                next_look_at_memory = now + _MEMORY_PERIOD
+                memory = resident_mib([running.root_pid, *descendants(running.root_pid)])
+                peak = max(peak, memory)
+                if memory <= limits.memory_mib:
+                    memory_within_limit_at = now
+                borne_for = now - memory_within_limit_at
+                if memory > 2 * limits.memory_mib or borne_for > limits.memory_grace_s:
+                    ended = Ended.MEMORY
+            if ended is Ended.EXIT and now > self._deadline:
                 ended = Ended.DEADLINE
-            elif self._kill_requested.is_set():
+            if ended is Ended.EXIT and self._kill_requested.is_set():
                 ended = Ended.KILLED
             if ended is not Ended.EXIT:
                 break

@@ -119,6 +119,24 @@ class Sandbox:
         Call it from a thread that lives as long as the sandbox: the kernel ends the sandbox when that thread
         ends. Raises :class:`SandboxError` when the command could not be started.
         """
+        started = self._start(command, prefix, pass_fds)
+        assert started.process.stdin
+        try:
+            started.process.stdin.write(b"go\n")
+        except OSError as error:
+            raise SandboxError(_why_it_failed(started.process)) from error
+        return started
+
+    def start_empty(self) -> StartedSandbox:
+        """Make the sandbox for a program that enters it from outside; in it a shell waits, which `command_pid` names.
+
+        As :meth:`start` otherwise. The sandbox ends when its `process` loses its stdin.
+        """
+        return self._start((), (), ())
+
+    def _start(
+        self, command: Sequence[str], prefix: Sequence[str], pass_fds: Sequence[int]
+    ) -> StartedSandbox:
         info, tell = os.pipe()
         self.add("--info-fd", str(tell))
         arguments = self._hold("\0".join(self._arguments).encode() + b"\0")
@@ -135,7 +153,7 @@ class Sandbox:
         finally:
             os.close(tell)
         try:
-            return _let_go(process, info)
+            return _when_ready(process, info)
         except OSError as error:
             raise SandboxError(_why_it_failed(process)) from error
         finally:
@@ -167,8 +185,8 @@ def same_paths(paths: Iterable[str | Path]) -> list[tuple[str, str]]:
     return sorted(pairs)  # a folder comes before what lies in it
 
 
-def _let_go(process: subprocess.Popen[bytes], info: int) -> StartedSandbox:
-    """Let the command run once the sandbox's init is sure to end with us. Raises OSError when that fails."""
+def _when_ready(process: subprocess.Popen[bytes], info: int) -> StartedSandbox:
+    """Return once the sandbox's init is sure to end with us. Raises OSError when that fails."""
     deadline = time.monotonic() + _START_TIMEOUT
     init_pid = _read_init_pid(info)
     init_pidfd = os.pidfd_open(init_pid)
@@ -178,8 +196,6 @@ def _let_go(process: subprocess.Popen[bytes], info: int) -> StartedSandbox:
                 raise ProcessLookupError("the sandbox ended before its command could run")
             if time.monotonic() > deadline:
                 raise TimeoutError("the sandbox was not ready in time")
-        assert process.stdin
-        process.stdin.write(b"go\n")
     except OSError:
         os.close(init_pidfd)
         raise

@@ -1,6 +1,6 @@
 """The arena's side: runs a student's program in a sandbox of its own inside the arena.
 
-    student = start_student([sys.executable, "walk.py"], workdir_files={"walk.py": code}, read_only_paths=…)
+    student = start_student(["walk.py"], workdir_files={"walk.py": code}, read_only_paths=…)
     student.interrupt()
     student.wait(5.0)
 
@@ -20,30 +20,32 @@ from pathlib import Path, PurePosixPath
 
 from autograder.isolation.captured_output import CapturedOutput, OutputPump
 from autograder.isolation.limits import StudentLimits
-from autograder.isolation.process_tree import descendants
-from autograder.isolation.student_sandbox import Program, RunningProgram, start_program
+from autograder.isolation.running_program import RunningProgram
+from autograder.isolation.student_sandbox import Program, start_program
+from autograder.isolation.warm_interpreter import WarmInterpreter
 
 _POLL = 0.2  # s between two looks when nothing is printed
 _LAST_WORDS = 2.0  # s for output that is still in the pipes of an ended program
 
 
 def start_student(
-    argv: Sequence[str],
+    arguments: Sequence[str],
     *,
     workdir_files: Mapping[str, bytes],
     env: Mapping[str, str] | None = None,
     read_only_paths: Sequence[str | Path] = (),
     limits: StudentLimits | None = None,
+    interpreter: WarmInterpreter | None = None,
     on_line: Callable[[float, str, str], object] | None = None,
     on_exit: Callable[[int], object] | None = None,
 ) -> StudentProcess:
-    """Run `argv` in a fresh writable folder that holds `workdir_files` (relative name → content).
+    """Run Python with `arguments` in a fresh writable folder that holds `workdir_files` (relative name → content).
 
-    `env` is its environment, to which the arena's network settings are added. `read_only_paths` are files and
-    folders of the arena that it sees at the same place. `on_line(time, "stdout" | "stderr", text)` is called
-    for each kept line and `on_exit(returncode)` once at the end, after the last line, both on a thread of
-    their own. Raises :class:`.bubblewrap.SandboxError` when the sandbox cannot be started, ValueError for a
-    file name that leaves the folder.
+    `interpreter` is one that waits to become the program, instead of a new one. `env` is its environment, to which
+    the arena's network settings are added. `read_only_paths` are files and folders of the arena that it sees at the
+    same place. `on_line(time, "stdout" | "stderr", text)` is called for each kept line and `on_exit(returncode)` once
+    at the end, after the last line, both on a thread of their own. Raises :class:`.bubblewrap.SandboxError` when the
+    sandbox cannot be started, ValueError for a file name that leaves the folder.
     """
     for name in workdir_files:
         if PurePosixPath(name).is_absolute() or ".." in PurePosixPath(name).parts:
@@ -51,7 +53,7 @@ def start_student(
                 f"the file name {name!r} leads out of the working directory; give a relative one without '..'"
             )
     return StudentProcess(
-        Program(argv, workdir_files, env or {}, read_only_paths, limits or StudentLimits()),
+        Program(arguments, workdir_files, env or {}, read_only_paths, limits or StudentLimits(), interpreter),
         on_line,
         on_exit,
     )
@@ -97,20 +99,18 @@ class StudentProcess:
 
     def write_line(self, text: str) -> None:
         """Type a line on the program's stdin; nothing happens when it no longer reads."""
-        assert self._running.process.stdin
         with suppress(OSError, ValueError):  # it has ended, or its input has
-            self._running.process.stdin.write(text.encode() + b"\n")
+            self._running.stdin.write(text.encode() + b"\n")
 
     def close_stdin(self) -> None:
         """End the program's input, as Ctrl-D does."""
-        assert self._running.process.stdin
-        self._running.process.stdin.close()
+        self._running.stdin.close()
 
     def processes(self) -> list[int]:
         """Return the ids, in the arena, of the program and everything it started; [] once it has ended."""
         if self._returncode is not None:
             return []
-        return [self._running.process.pid, *descendants(self._running.process.pid)]
+        return self._running.processes()
 
     def interrupt(self) -> None:
         """Send SIGINT to the program itself, as Ctrl-C does."""
@@ -144,15 +144,12 @@ class StudentProcess:
                     self._ended.set()
 
     def _follow(self, running: RunningProgram) -> None:
-        process = running.process
-        assert process.stdout
-        assert process.stderr
-        pump = OutputPump({process.stdout.fileno(): self.stdout, process.stderr.fileno(): self.stderr})
-        pump.watch(running.end_pidfd)
-        while running.end_pidfd not in pump.poll(_POLL):
+        pump = OutputPump({running.stdout.fileno(): self.stdout, running.stderr.fileno(): self.stderr})
+        pump.watch(running.end_fd)
+        while running.end_fd not in pump.poll(_POLL):
             pass
         running.end()
         pump.finish(_LAST_WORDS)
         self.close_stdin()
-        process.stdout.close()
-        process.stderr.close()
+        running.stdout.close()
+        running.stderr.close()

@@ -13,15 +13,19 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
-from autograder.arena_run import ArenaRun, highest_scale, run_in_arena
+from autograder.arena_run import ArenaRun, run_in_arena
+from autograder.bench.arena_costs import BenchFailed
 from autograder.bench.check_costs import ArenaCost, cost_of_checks, total
 from autograder.bench.fairness import fairness_runs
+from autograder.bench.processor_time import CannotBeMeasured
+from autograder.clock_scale import highest_scale
 from autograder.exercise import Exercise, UnknownExercise, exercise_names, load_exercise
 from autograder.grading import grade
 from autograder.isolation.availability import available_isolation
 from autograder.submission import Submission, read_submission
 from autograder.verdict import CheckVerdict
-from course_cli.ending import UNUSABLE, ended
+from course_cli.arena_bench import bench_arenas
+from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from lab.view_cost import view_cost
 from robot_sim.gl_backend import NoOpenGLError
 from robot_sim.trials import run_trials
@@ -33,7 +37,25 @@ THREADED = PROJECT / "tests" / "submissions" / EXERCISE / "correct" / "threads_a
 
 
 def bench(
-    runs: Annotated[int, typer.Option(min=1, help="walks at each scale for the fairness rows")] = 5,
+    arena: Annotated[
+        bool, typer.Option("--arena", help="instead of all this, what one arena costs, by phase")
+    ] = False,
+    submission: Annotated[
+        list[str] | None,
+        typer.Option(help="what grading this exercise's reference costs (repeat it, or 'all')"),
+    ] = None,
+    against: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FILE|COMMIT", help="beside what --json wrote, or another commit measured in turn"
+        ),
+    ] = None,
+    json_file: Annotated[
+        Path | None, typer.Option("--json", help="write the costs of arenas to this file")
+    ] = None,
+    runs: Annotated[
+        int, typer.Option(min=1, help="how often: walks at each scale, arenas, gradings; the best one counts")
+    ] = 5,
     scale: Annotated[
         list[float] | None, typer.Option(help="scales for the fairness rows (repeat it)")
     ] = None,
@@ -48,6 +70,27 @@ def bench(
 ) -> None:
     """Print the performance table."""
     console = Console()
+    if arena or submission:
+        try:
+            names = exercise_names() if "all" in (submission or ()) else submission or ()
+            for name in names:
+                load_exercise(name, hidden=False)
+            bench_arenas(
+                console,
+                arenas=arena,
+                submissions=names,
+                against=against,
+                json_file=json_file,
+                runs=runs,
+                jobs=jobs,
+            )
+        except (UnknownExercise, ValueError) as error:
+            raise ended(console, error, UNUSABLE) from error
+        except (BenchFailed, CannotBeMeasured) as error:
+            raise ended(console, error, COULD_NOT) from error
+        return
+    if against or json_file:
+        raise ended(console, "--against and --json go with --arena or --submission", UNUSABLE)
     if checks_of:
         try:
             for name in exercise_names() if "all" in checks_of else checks_of:
@@ -56,9 +99,9 @@ def bench(
             raise ended(console, error, UNUSABLE) from error
         return
     exercise = load_exercise(EXERCISE, hidden=available_isolation().trusted)
-    submission = read_submission(THREADED, EXERCISE)
-    console.print(_costs(exercise, submission, jobs))
-    console.print(_fairness(console, exercise, submission, runs, scale or [1.0, highest_scale()], jobs))
+    threaded = read_submission(THREADED, EXERCISE)
+    console.print(_costs(exercise, threaded, jobs))
+    console.print(_fairness(console, exercise, threaded, runs, scale or [1.0, highest_scale()], jobs))
     console.print(_live_picture(console))
     if robot:
         with console.status("the robot's quick trials …"):

@@ -103,6 +103,8 @@ static const struct clock_page *map_page(const char *path)
     return mapped;
 }
 
+static void ensure_started(void);
+
 static void start_up(void)
 {
 #define RESOLVE(name) *(void **)&libc.name = dlsym(RTLD_NEXT, #name);
@@ -112,6 +114,20 @@ static void start_up(void)
     if (path && *path)
         page = map_page(path);
     atomic_store_explicit(&is_started, true, memory_order_release);
+}
+
+/*
+ * Follow the page at `path` from now on: for a fork of a process that was started without one. Call it while
+ * the fork has a single thread. Returns 0; -1 where there is no such page.
+ */
+int scaled_clock_follow(const char *path)
+{
+    ensure_started();
+    const struct clock_page *mapped = map_page(path);
+    if (mapped == NULL)
+        return -1;
+    page = mapped;
+    return 0;
 }
 
 /* Other libraries' constructors may ask for the time before ours has run, so every entry passes here. */

@@ -37,6 +37,25 @@ _SIZE = _HEADER.size + MAX_SEGMENTS * _SEGMENT.size
 _NOTICE_NS = 10_000_000
 
 
+def preload_variables() -> dict[str, str]:
+    """The variables of a process whose forks can `follow` a clock; empty where the library could not be built."""
+    library = library_path()
+    return {"LD_PRELOAD": str(library)} if library else {}
+
+
+def follow(path: str | os.PathLike[str]) -> None:
+    """Let this process follow the clock at `path`: a fork, with one thread so far, of one that has no clock yet.
+
+    Raises OSError when it cannot: the library is not preloaded, there is no page, or it is none of ours.
+    """
+    try:
+        attach = ctypes.CDLL(None).scaled_clock_follow
+    except AttributeError:
+        raise OSError("the scaled clock's library is not preloaded in this process") from None
+    if attach(os.fsencode(path)) != 0:
+        raise OSError(f"the clock at {path} cannot be followed")
+
+
 def library_path() -> Path | None:
     """The preloaded library of this environment; None where it could not be built: all runs at scale 1."""
     path = Path(sys.prefix) / "lib" / "libscaled_clock.so"

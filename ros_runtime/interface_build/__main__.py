@@ -1,7 +1,7 @@
 """Build definitions in a process of its own: `python -m ros_runtime.interface_build SOURCE OUT --name my_interfaces`.
 
-Prints one line of JSON. Exit status 0: built, with the types and where they are. 1: not built, with the problems
-found, or with the end of the build's output when the definitions looked sound.
+Prints JSON. Exit status 0: built, with the types and where they are. 1: not built, with the first of the
+problems found and how many more there are, or with the end of the build's output when the definitions looked sound.
 """
 
 from __future__ import annotations
@@ -9,12 +9,18 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from dataclasses import asdict
+from collections.abc import Sequence
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
-from ros_runtime.interface_build.definitions import Definition, InvalidDefinitions, Part
+from ros_runtime.interface_build.build_time import BuildTooLong, limit_processor_time
+from ros_runtime.interface_build.definitions import Definition, InvalidDefinitions, Part, Problem
 from ros_runtime.interface_build.student_package import BuiltPackage, build_package
+
+MOST_PROBLEMS = 20
+LONGEST_TEXT = 150  # characters
+LONGEST_LOG = 2000  # characters
 
 
 def main() -> None:
@@ -23,14 +29,19 @@ def main() -> None:
     parser.add_argument("source", type=Path, help="folder with .msg, .srv and .action files")
     parser.add_argument("out", type=Path, help="folder for what is built")
     parser.add_argument("--name", required=True, help="the package's name, such as my_interfaces")
+    parser.add_argument("--processor-time", type=int, help="seconds that none of its processes may exceed")
     wanted = parser.parse_args()
     try:
-        report = _report(build_package(wanted.source, wanted.out, wanted.name))
+        with limit_processor_time(wanted.processor_time):
+            report = _report(build_package(wanted.source, wanted.out, wanted.name))
     except InvalidDefinitions as error:
-        report = {"built": False, "problems": [asdict(problem) for problem in error.problems], "log": ""}
+        report = _problems(error.problems)
+    except BuildTooLong as error:
+        report = _problems([Problem("", 0, "", str(error), "a definition whose build takes a few seconds")])
     except RuntimeError as error:
-        report = {"built": False, "problems": [], "log": str(error)}
-    print(json.dumps({"package": wanted.name, **report}))
+        report = {"built": False, "problems": [], "more": 0, "log": str(error)[-LONGEST_LOG:]}
+    # Many short lines: whoever captures them may break a long one.
+    print(json.dumps({"package": wanted.name, **report}, indent=1))
     sys.exit(0 if report["built"] else 1)
 
 
@@ -42,6 +53,23 @@ def _report(package: BuiltPackage) -> dict[str, Any]:
         "environment": package.variables({}),
         "types": {f"{package.name}/{each.kind}/{each.name}": _parts(each) for each in package.definitions},
     }
+
+
+def _problems(problems: Sequence[Problem]) -> dict[str, Any]:
+    """What is wrong with definitions, in a few lines of readable length."""
+    shown = [
+        asdict(
+            replace(
+                problem, text=_cut(problem.text), wrong=_cut(problem.wrong), expected=_cut(problem.expected)
+            )
+        )
+        for problem in problems[:MOST_PROBLEMS]
+    ]
+    return {"built": False, "problems": shown, "more": len(problems) - len(shown), "log": ""}
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= LONGEST_TEXT else f"{text[:LONGEST_TEXT]}…"
 
 
 def _parts(definition: Definition) -> dict[str, Any]:

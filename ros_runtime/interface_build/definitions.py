@@ -15,6 +15,11 @@ from ros_runtime.interface_build.advice import Finding, explain_line, explain_ty
 from ros_runtime.interface_build.known_types import KnownTypes
 
 SEPARATOR = "---"
+# A file with more than this is no interface, and checking it line by line or building it would take for ever.
+LARGEST_FILE = 64 * 1024  # bytes
+MOST_LINES = 1000
+LONGEST_LINE = 500  # characters, a comment not counted
+MOST_ELEMENTS = 100  # fields and constants
 PARTS = {"msg": ("message",), "srv": ("request", "response"), "action": ("goal", "result", "feedback")}
 
 
@@ -103,9 +108,11 @@ class _Reader:
                 f"a name such as {_camel_case(path.stem)}.{self._kind}: a capital first, letters and digits"
             )
             self._complain(0, "", f"{path.stem!r} cannot be the name of a type", wanted)
-        for number, line in enumerate(self._lines(), start=1):
+        lines = self._lines()
+        for number, line in enumerate(lines[:MOST_LINES], start=1):
             self._read(number, line)
-        self._check_sections()
+        if len(lines) <= MOST_LINES:
+            self._check_sections()
 
     def definition(self) -> Definition:
         """The interface, where there is no problem."""
@@ -113,18 +120,28 @@ class _Reader:
         return Definition(self._path, self._kind, self._path.stem, parts, frozenset(self._uses))
 
     def _lines(self) -> list[str]:
+        """The lines of the file; none where it is too large to be looked at line by line."""
+        size = self._path.stat().st_size
+        if size > LARGEST_FILE:
+            self._complain(0, "", f"it has {size:,} bytes", f"at most {LARGEST_FILE:,}")
+            return []
         try:
-            return self._path.read_text(encoding="utf-8").splitlines()
+            lines = self._path.read_text(encoding="utf-8").splitlines()
         except UnicodeDecodeError as error:
             self._complain(
                 0, "", f"it is no text in UTF-8: {error.reason} at byte {error.start}", "plain text"
             )
             return []
+        if len(lines) > MOST_LINES:
+            self._complain(0, "", f"it has {len(lines):,} lines", f"at most {MOST_LINES:,}")
+        return lines
 
     def _read(self, number: int, line: str) -> None:
         text = line.partition("#")[0].replace("\t", " ").rstrip()
         if line == SEPARATOR:
             self._sections.append(Part())
+        elif len(text) > LONGEST_LINE:
+            self._complain(number, text, f"the line has {len(text):,} characters", f"at most {LONGEST_LINE}")
         elif text and not text.strip("- "):
             wanted = f"a line that is exactly {SEPARATOR}, with nothing before and after it"
             self._complain(number, line, "this is no separator", wanted)
@@ -170,6 +187,9 @@ class _Reader:
             self._uses.add(element.type.pkg_name)
 
     def _check_sections(self) -> None:
+        elements = sum(len(part.fields) + len(part.constants) for part in self._sections)
+        if elements > MOST_ELEMENTS:
+            self._complain(0, "", f"it has {elements:,} fields and constants", f"at most {MOST_ELEMENTS}")
         wanted = PARTS[self._kind]
         if len(self._sections) != len(wanted):
             shape = f" {SEPARATOR} ".join(wanted)

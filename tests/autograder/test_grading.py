@@ -59,7 +59,7 @@ def arenas(monkeypatch, answer):
     """Let `answer(scenario, scale)` stand for an arena; returns the list of what was run."""
     ran = []
 
-    def run_in_arena(run, stop=None):
+    def run_in_arena(run, stop=None, arenas=None):
         ran.append((run.scenario.name, run.scale))
         return answer(run.scenario, run.scale)
 

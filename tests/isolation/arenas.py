@@ -17,6 +17,7 @@ from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.python_paths import python_read_only_paths
 
 PACKAGE = Path(autograder.isolation.__file__).parent
+ROS_RUNTIME = PACKAGE.parents[1] / "ros_runtime"
 # The wheels start the interpreter a second time unless they find their mark.
 ENVIRONMENT = {"PYTHONPATH": str(PACKAGE.parents[1]), "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"}
 
@@ -24,6 +25,8 @@ _AGENT = """
 import json, os, sys, threading, time
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.student_process import start_student
+from autograder.isolation.student_sandbox import program_environment
+from autograder.isolation.warm_interpreter import WarmInterpreter
 task = json.load(sys.stdin)
 lines, codes = [], []
 printed = threading.Condition()
@@ -35,12 +38,13 @@ def wait_for_line(text):
     with printed:
         assert printed.wait_for(lambda: any(text in line[2] for line in lines), 20), lines
 environment = {"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1", **task["env"]}
+interpreter = WarmInterpreter(program_environment(environment)) if task["warm"] else None
 def start():
     return start_student(
-        [sys.executable, "node.py", *task["arguments"]],
+        ["node.py", *task["arguments"]],
         workdir_files={"node.py": task["code"].encode(), **{n: t.encode() for n, t in task["files"].items()}},
         env=environment, read_only_paths=task["paths"], limits=StudentLimits(**task["limits"]),
-        on_line=on_line, on_exit=codes.append,
+        interpreter=interpreter, on_line=on_line, on_exit=codes.append,
     )
 student = start()
 exec(task["meanwhile"])
@@ -81,14 +85,15 @@ class Student:
     limits: dict[str, int] = field(default_factory=dict)
     paths: list[str] = field(default_factory=list)
     arena_env: dict[str, str] = field(default_factory=dict)
+    warm: bool = False  # it becomes what an interpreter waits for
 
     def spec(self, limits: ArenaLimits) -> ArenaSpec:
         """The arena to run it in."""
         paths = [str(path) for path in python_read_only_paths()]
-        task = {**self.__dict__, "paths": [*paths, *self.paths]}
+        task = {**self.__dict__, "paths": [*paths, *self.paths, str(ROS_RUNTIME)]}
         return ArenaSpec(
             [sys.executable, "-c", _AGENT],
-            read_only_paths=[*paths, *self.paths, PACKAGE],
+            read_only_paths=[*paths, *self.paths, PACKAGE, ROS_RUNTIME],
             env={**ENVIRONMENT, **self.arena_env},
             stdin=json.dumps(task).encode(),
             limits=limits,

@@ -178,4 +178,4 @@ def test_several_can_run_one_after_another(kind: Kind) -> None:
 @pytest.mark.parametrize("name", ["/etc/passwd", "../escaped.py", "a/../../b"])
 def test_a_file_name_that_leaves_the_folder_is_refused(name: str) -> None:
     with pytest.raises(ValueError, match="leads out of the working directory"):
-        start_student(["/bin/true"], workdir_files={name: b""})
+        start_student(["node.py"], workdir_files={name: b""})

@@ -93,7 +93,7 @@ def report(source: Path, out: Path) -> dict:
     return json.loads(built.stdout)
 
 
-def test_the_report_is_one_line_with_the_types_their_fields_and_constants(report: dict) -> None:
+def test_the_report_has_the_types_their_fields_and_constants(report: dict) -> None:
     assert report["built"]
     assert report["types"] == {
         "my_interfaces/srv/Ask": {

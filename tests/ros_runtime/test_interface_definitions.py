@@ -134,3 +134,18 @@ def test_a_sound_definition_is_read_with_fields_constants_and_packages(tmp_path:
     assert go.parts["result"].constants == {"NONE": ("uint16", 0), "FELL": ("uint16", 1)}
     assert go.parts["feedback"].fields == {}
     assert waypoint.parts["message"].fields == {"position": "float64[2]"}
+
+
+TOO_MUCH = [
+    ("".join(f"int field_{number}\n" for number in range(4313)), "it has 4,313 lines"),
+    ("".join(f"int32 field_{number}\n" for number in range(101)), "it has 101 fields and constants"),
+    ("# " + "x" * 70_000, "it has 70,002 bytes"),
+    ("int32 " + "a" * 600, "the line has 606 characters"),
+]
+
+
+@pytest.mark.parametrize(("text", "wrong"), TOO_MUCH, ids=[wrong for _, wrong in TOO_MUCH])
+def test_a_file_that_is_too_large_to_build_is_refused(tmp_path: Path, text: str, wrong: str) -> None:
+    first, *_ = problems_of(tmp_path, Go__msg=text)
+    assert first.wrong == wrong
+    assert first.expected.startswith("at most ")

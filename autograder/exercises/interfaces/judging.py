@@ -12,6 +12,9 @@ from autograder.missing import unseen
 from autograder.readiness import require_within_limits
 from autograder.transcript import Transcript
 
+BUSY = 60.0  # s of processor time; a sound file is built with 25, so one that took more is what took so long
+LONGEST = 300  # characters of what a verdict quotes
+
 
 def require_built(run: Transcript) -> dict[str, Any]:
     """The file was built; returns its parts (request, response; goal, result, feedback) with fields and constants."""
@@ -19,15 +22,15 @@ def require_built(run: Transcript) -> dict[str, Any]:
     if report["built"]:
         (parts,) = report["types"].values()
         return parts
-    problems = report["problems"]
+    problems, more = report["problems"], report["more"]
     if not problems:
+        _require_time_for_it(run)
         raise CannotBeJudged(f"the build of a sound {file} failed: {report['log'][-2000:]}")
-    first = problems[0]
+    first, more = problems[0], more + len(problems) - 1
     place = f"line {first['line']}, “{first['text'].strip()}”: " if first["line"] else ""
     raise Failure(
         expected=f"{file} to build as part of an interface package",
-        observed=f"{place}{first['wrong']}"
-        + (f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""),
+        observed=f"{place}{first['wrong']}" + (f" (and {more:,} more)" if more else ""),
         help=f"Expected here: {first['expected']}",
     )
 
@@ -53,7 +56,7 @@ def require_fields(run: Transcript, part: str, wanted: Mapping[str, str]) -> Non
     expect(
         not others,
         expected=f"nothing in the {part} but {_listed(wanted) if wanted else 'an empty part'}",
-        observed=f"also {', '.join(others)}",
+        observed=f"also {_cut(', '.join(others))}",
         help="Whoever uses the interface has to fill and read every field: leave out what the task does not name.",
     )
 
@@ -66,7 +69,7 @@ def require_constants(run: Transcript, part: str, ros_type: str, wanted: Mapping
         expect(
             observed == {"type": ros_type, "value": value},
             expected=f"the constant “{ros_type} {name}={value}” in the {part}",
-            observed=f"“{observed['type']} {name}={observed['value']}”"
+            observed=f"“{observed['type']} {name}={str(observed['value'])[:LONGEST]}”"
             if observed
             else "no constant of that name",
             help="A constant is a line TYPE NAME=VALUE in the part where it is used, its name in capitals.",
@@ -81,22 +84,30 @@ def _part(run: Transcript, part: str) -> dict[str, Any]:
 
 
 def _report(run: Transcript) -> dict[str, Any]:
-    """Read what the build printed at its end, which it must have come to."""
-    require_within_limits(run)
-    exited = run.first(ev.NodeExited)
-    lines = [line for line in run.output("stdout").splitlines() if line.strip()]
-    if exited is None or not lines:
-        raise unseen(run, f"the build said nothing: {run.last_words or 'nothing on stderr either'}")
+    """Read what the build printed at its end; the student's failure where what the file asks for kept it from that."""
     try:
-        return json.loads(lines[-1])
+        return json.loads(run.output("stdout"))
     except ValueError:
+        require_within_limits(run)
+        _require_time_for_it(run)
+        raise unseen(run, f"the build said nothing: {run.last_words or 'nothing on stderr either'}") from None
+
+
+def _require_time_for_it(run: Transcript) -> None:
+    """The build has not used more time than any sound file needs."""
+    usage = run.first(ev.NodeUsage)
+    if usage and usage.cpu > BUSY:
         raise Failure(
-            expected=f"a {run.params['file']} with the few lines that the task asks for",
-            observed="so much is wrong with it that the report on it has no end",
-            help="Write the fields by hand, one a line, and build it again.",
-            at=exited.t,
-        ) from None
+            expected=f"{run.params['file']} to build within some seconds",
+            observed=f"its build was ended after {usage.cpu:.0f} s of a processor",
+            help="Leave out what the task does not ask for: every field, and every element of an array of fixed "
+            "size, is code that is generated and compiled.",
+        )
 
 
 def _listed(fields: Mapping[str, str]) -> str:
-    return ", ".join(f"{ros_type} {name}" for name, ros_type in fields.items()) or "no fields"
+    return _cut(", ".join(f"{ros_type} {name}" for name, ros_type in fields.items())) or "no fields"
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]}…"

@@ -1,0 +1,132 @@
+"""What the middleware says about who is there. Every participant writes into it, so nothing of it is believed.
+
+Questions are asked by the names of topics and services, which costs the same however many nodes there are and whatever
+they are called. A question that fails has an empty answer, and :meth:`Graph.inspect` records what was odd.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from contextlib import suppress
+from typing import TypeVar
+
+from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException
+from rclpy.node import Node
+from rclpy.qos import QoSCompatibility, QoSProfile, qos_check_compatible
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+from rclpy.validate_namespace import validate_namespace
+from rclpy.validate_node_name import validate_node_name
+
+from autograder.arena.recorder import Recorder
+
+MOST_NODES = 50  # a sound program has one or two
+MOST_ENDPOINTS = 100  # of one topic or service that are looked at one by one
+MOST_SERVICES = 40  # that a report lists
+MOST_NAMES = 1000  # of nodes and services that are looked at one by one
+OF_EVERY_NODE = (
+    "rcl_interfaces/",
+    "type_description_interfaces/",
+)  # types of services that rclpy offers itself
+EVERY_NODE_PUBLISHES = "/parameter_events"
+
+T = TypeVar("T")
+
+
+class Graph:
+    """The ROS graph as `node` sees it."""
+
+    def __init__(self, node: Node, recorder: Recorder) -> None:
+        self._node = node
+        self._recorder = recorder
+        self._failures: Counter[str] = Counter()
+
+    def has_another_node(self) -> bool:
+        """Whether there is a node of rclpy beside ours."""
+        return self.count_publishers(EVERY_NODE_PUBLISHES) > 1
+
+    def count_publishers(self, topic: str) -> int:
+        """Count the publishers of a topic."""
+        return self._ask(lambda: self._node.count_publishers(topic), 0)
+
+    def count_matchable_subscribers(self, topic: str) -> int:
+        """Count the subscriptions of a topic, but for those whose QoS no known publisher can serve."""
+        count = self._ask(lambda: self._node.count_subscribers(topic), 0)
+        if count > MOST_ENDPOINTS or self.count_publishers(topic) > MOST_ENDPOINTS:
+            return count
+        return self._ask(lambda: self._count_matchable(topic), count)
+
+    def owners_of(self, service: str) -> list[str]:
+        """Return the full names of the nodes that offer a service, as far as they are names."""
+        if self._ask(lambda: self._node.count_services(service), 0) > MOST_ENDPOINTS:
+            return []
+        # a server is whoever listens to the topic of the requests
+        topic = f"rq{self._node.resolve_service_name(service)}Request"
+        nothing: list[TopicEndpointInfo] = []
+        servers = self._ask(
+            lambda: self._node.get_subscriptions_info_by_topic(topic, no_mangle=True), nothing
+        )
+        nodes = dict.fromkeys((server.node_namespace, server.node_name) for server in servers)
+        return [f"{namespace.rstrip('/')}/{name}" for namespace, name in nodes if _is_known(namespace, name)]
+
+    def offered(self) -> list[str]:
+        """Return the services somebody offers as 'name [type]', without those that every node has; not all of many."""
+        nothing: list[tuple[str, list[str]]] = []
+        found = self._ask(self._node.get_service_names_and_types, nothing)
+        names = [
+            (name, types[0]) for name, types in found[:MOST_NAMES] if not types[0].startswith(OF_EVERY_NODE)
+        ]
+        offered = [f"{name} [{kind}]" for name, kind in names[:MOST_SERVICES] if self._is_offered(name)]
+        more = len(found) - len(found[:MOST_NAMES]) + len(names) - len(names[:MOST_SERVICES])
+        return sorted(offered) + ([f"and up to {more:,} more"] if more else [])
+
+    def inspect(self) -> None:
+        """Record it when there is in the graph what no sound program puts there."""
+        nobody: list[tuple[str, str]] = []
+        nodes = self._ask(self._node.get_node_names_and_namespaces, nobody)
+        invalid = [name for name, namespace in nodes[:MOST_NAMES] if not _is_valid(namespace, name)]
+        reason = ""
+        if len(nodes) > MOST_NODES:
+            reason = f"there were {len(nodes):,} nodes"
+        elif invalid:
+            reason = f"a node was called {invalid[0][:60]!r}, which is no name of a node"
+        elif self._failures:
+            first, times = next(iter(self._failures)), sum(self._failures.values())
+            reason = f"the middleware could not say who is there, {times:,} times: {first}"
+        if reason:
+            self._recorder.record("graph_flooded", nodes=len(nodes), reason=reason)
+            self._failures.clear()
+
+    def _count_matchable(self, topic: str) -> int:
+        offered = [publisher.qos_profile for publisher in self._node.get_publishers_info_by_topic(topic)]
+        wanted = [subscriber.qos_profile for subscriber in self._node.get_subscriptions_info_by_topic(topic)]
+        return sum(not offered or any(_serves(qos, profile) for qos in offered) for profile in wanted)
+
+    def _is_offered(self, service: str) -> bool:
+        return self._ask(lambda: self._node.count_services(service), 0) > 0
+
+    def _ask(self, question: Callable[[], T], otherwise: T) -> T:
+        """Ask the middleware; where that fails, whatever way, count the failure."""
+        try:
+            return question()
+        except (
+            Exception
+        ) as error:  # UnicodeDecodeError, RCLError, …: what a foreign name can do is not listed
+            self._failures[f"{type(error).__name__}: {error}"[:200]] += 1
+            return otherwise
+
+
+def _serves(offered: QoSProfile, wanted: QoSProfile) -> bool:
+    compatibility, _reason = qos_check_compatible(offered, wanted)
+    return compatibility != QoSCompatibility.ERROR
+
+
+def _is_known(namespace: str, name: str) -> bool:
+    """Whether these are names, and not the middleware's word for a node it has not heard of yet."""
+    return not name.startswith("_NODE_NAME_UNKNOWN") and _is_valid(namespace, name)
+
+
+def _is_valid(namespace: str, name: str) -> bool:
+    with suppress(InvalidNodeNameException, InvalidNamespaceException, TypeError):
+        return bool(validate_node_name(name) and validate_namespace(namespace))
+    return False

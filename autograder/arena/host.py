@@ -1,0 +1,103 @@
+"""The first process of an arena: it imports everything and builds the robot once, and forks an agent for each scenario.
+
+Run as `python -m autograder.arena.host SOCKET`. Every order is the specification of a scenario and the pipe its events
+go to; it is answered when no process of the scenario is left. The clock's library is preloaded into this process, but
+only its forks follow a clock, each the one of its scenario.
+"""
+
+from __future__ import annotations
+
+from autograder.arena.phases import Stopwatch, since_start
+
+INTERPRETER, STOPWATCH = since_start("interpreter"), Stopwatch()  # before anything costs time
+
+# ruff: noqa: E402
+import ctypes
+import gc
+import multiprocessing
+import os
+import signal
+import socket
+import sys
+import time
+from contextlib import suppress
+from itertools import count
+from typing import Any
+
+from autograder.arena.agent import carry_out, import_everything
+from autograder.arena.orders import DONE, receive_order
+from autograder.arena.phases import Phase
+from autograder.arena.robots import Robots
+from autograder.isolation.process_tree import descendants
+from autograder.isolation.student_sandbox import program_environment
+from autograder.isolation.warm_interpreter import WarmInterpreter
+from ros_runtime.clock.scaled_clock import preload_variables
+from ros_runtime.environment import ros_environment
+
+_PR_SET_CHILD_SUBREAPER = 36
+_FIRST_DOMAIN, _DOMAINS = 1, 100  # ROS domains whose ports are safe; the network is this arena's own
+
+
+class Host:
+    """What the scenarios of one submission share: imported modules, built robots, and a waiting interpreter."""
+
+    def __init__(self) -> None:
+        self._robots = Robots()
+        self._interpreter: WarmInterpreter | None = None
+        self._numbers = count()
+        self._stopwatch = STOPWATCH
+        # what a scenario's processes leave behind becomes ours, to be ended
+        ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+
+    def carry_out(self, spec: dict[str, Any], events_fd: int) -> None:
+        """Carry out one scenario in processes of its own, on a ROS domain of its own; returns when they have ended."""
+        number = next(self._numbers)
+        phases = self._prepare(spec)
+        interpreter = self._interpreter if spec["warm"] else None
+        domain = _FIRST_DOMAIN + number % _DOMAINS if spec["own_network"] else None
+        gc.freeze()  # the forks go on sharing what there is now
+        agent = multiprocessing.get_context("fork").Process(
+            target=carry_out,
+            args=(spec, events_fd, self._robots, interpreter, domain, phases if number == 0 else ()),
+        )
+        agent.start()
+        os.close(events_fd)
+        if spec["more_to_come"] and self._interpreter is None:
+            self._interpreter = WarmInterpreter(
+                program_environment({**ros_environment(), **preload_variables()})
+            )
+        agent.join()
+        self._end_what_is_left()
+
+    def _prepare(self, spec: dict[str, Any]) -> list[Phase]:
+        """Import and build what the scenario needs and is not there yet; returns what the arena's beginning cost."""
+        import_everything(spec)
+        phases = [INTERPRETER, self._stopwatch.lap("imports")]
+        if spec["robot_options"] is not None:
+            self._robots.build(spec["robot_options"])
+            phases.append(self._stopwatch.lap("model"))
+        return phases
+
+    def _end_what_is_left(self) -> None:
+        kept = self._interpreter.pid if self._interpreter else None
+        while left := [pid for pid in descendants(os.getpid()) if pid != kept]:
+            for pid in left:
+                with suppress(ProcessLookupError):
+                    os.kill(pid, signal.SIGKILL)
+            for pid in left:
+                with suppress(ChildProcessError):
+                    os.waitpid(pid, os.WNOHANG)
+            time.sleep(0.001)
+
+
+def main() -> None:
+    """Serve orders until the controller closes the socket."""
+    orders = socket.socket(fileno=int(sys.argv[1]))
+    host = Host()
+    while order := receive_order(orders):
+        host.carry_out(*order)
+        orders.sendall(DONE)
+
+
+if __name__ == "__main__":
+    main()

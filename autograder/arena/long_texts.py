@@ -1,0 +1,48 @@
+"""Texts and lists from untrusted processes, cut to what a transcript can hold; what was cut says how long it was."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+LONGEST = 10_000  # characters of a text, elements of a list
+
+
+@dataclass
+class Longest:
+    """The length of the longest text or list met, in characters or elements."""
+
+    length: int = 0
+    limit: int = LONGEST
+
+    @property
+    def was_cut(self) -> bool:
+        """Whether anything was longer than is kept."""
+        return self.length > self.limit
+
+
+def cut_long_texts(fields: dict[str, Any]) -> tuple[dict[str, Any], Longest]:
+    """Return the fields with each text and list cut to `LONGEST`, and how long the longest was."""
+    longest = Longest()
+    return {name: _cut(value, longest) for name, value in fields.items()}, longest
+
+
+def _cut(value: Any, longest: Longest) -> Any:
+    if isinstance(value, str):
+        return _cut_text(value, longest)
+    if isinstance(value, dict):
+        return {name: _cut(each, longest) for name, each in value.items()}
+    if isinstance(value, list | tuple):
+        longest.length = max(longest.length, len(value))
+        if len(value) > LONGEST:
+            return f"…[cut: {len(value):,} elements]"
+        return [_cut(each, longest) for each in value]
+    return value
+
+
+def _cut_text(text: str, longest: Longest) -> str:
+    longest.length = max(longest.length, len(text))
+    if len(text) > LONGEST:
+        text = f"{text[:LONGEST]}…[cut: {len(text):,} characters]"
+    # half of a surrogate pair is no character, and no JSON parser takes it
+    return text if text.isascii() else text.encode(errors="replace").decode()

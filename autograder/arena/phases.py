@@ -1,0 +1,69 @@
+"""What each phase of a scenario costs, for `course bench --arena`: wall time, and processor time of all the arena."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from ros_runtime.clock.scaled_clock import real_monotonic_ns
+
+if TYPE_CHECKING:  # the arena's first process measures before it imports
+    from autograder.arena.recorder import Recorder
+
+_CPU_CLOCK = 2  # the kernel's CPUCLOCK_SCHED: exact, unlike the ticks in /proc/PID/stat
+
+Phase = tuple[str, float, float]  # name, wall s, processor s
+
+
+def since_start(name: str) -> Phase:
+    """Return the phase from the start of this process until now; of earlier processes only the processor time."""
+    with open("/proc/self/stat") as stat:
+        started = int(stat.read().rpartition(")")[2].split()[19]) / os.sysconf("SC_CLK_TCK")
+    return (name, time.clock_gettime(time.CLOCK_BOOTTIME) - started, _processor_seconds())
+
+
+class Stopwatch:
+    """Measures one phase after the other, of every process that is seen in this process's /proc."""
+
+    def __init__(self) -> None:
+        self._wall, self._cpu = real_monotonic_ns(), _processor_seconds()
+
+    def lap(self, name: str) -> Phase:
+        """End a phase and begin the next."""
+        wall, cpu = real_monotonic_ns(), _processor_seconds()
+        phase = (name, (wall - self._wall) * 1e-9, max(0.0, cpu - self._cpu))
+        self._wall, self._cpu = wall, cpu
+        return phase
+
+
+class Phases:
+    """Records the phases of one scenario; does nothing unless they are wanted."""
+
+    def __init__(self, recorder: Recorder, wanted: bool, earlier: Sequence[Phase] = ()) -> None:
+        self._recorder = recorder
+        self._stopwatch = Stopwatch() if wanted else None
+        if wanted:
+            for phase in earlier:
+                self._record(phase)
+
+    def end(self, name: str) -> None:
+        """End a phase."""
+        if self._stopwatch:
+            self._record(self._stopwatch.lap(name))
+
+    def _record(self, phase: Phase) -> None:
+        name, wall, cpu = phase
+        self._recorder.record("phase", name=name, wall=wall, cpu=cpu)
+
+
+def _processor_seconds() -> float:
+    """Return the processor time of all processes that live now, with all their threads."""
+    total = 0.0
+    for name in os.listdir("/proc"):
+        if name.isdigit():
+            with suppress(OSError):
+                total += time.clock_gettime((~int(name) << 3) | _CPU_CLOCK)
+    return total

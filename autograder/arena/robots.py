@@ -1,0 +1,24 @@
+"""Robots that are built once and never move: each scenario's simulator is a fork that begins with a fresh one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from robot_sim.serve import build_humanoid, parse_options, serve_robot
+
+
+class Robots:
+    """One robot for each way a scenario asks for it."""
+
+    def __init__(self) -> None:
+        self._built: dict = {}
+
+    def build(self, options: Sequence[str]) -> None:
+        """Build the robot for these options of `python -m robot_sim`, unless it is there."""
+        key = tuple(options)
+        if key not in self._built:
+            self._built[key] = build_humanoid(parse_options(options))
+
+    def serve(self, options: Sequence[str], *more: str) -> None:
+        """Run the robot, with `more` options that do not concern its body, until this process is told to end."""
+        serve_robot(parse_options([*options, *more]), self._built[tuple(options)])

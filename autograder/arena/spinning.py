@@ -1,0 +1,27 @@
+"""Spinning that goes on when rclpy raises: a message that cannot be read must not stop the one who records."""
+
+from __future__ import annotations
+
+import traceback
+
+from rclpy.executors import Executor, ExternalShutdownException
+
+from autograder.arena.recorder import Recorder
+
+FROM_OUTSIDE = (RuntimeError, UnicodeError, MemoryError)  # rclpy's own errors are RuntimeErrors
+
+
+def keep_spinning(executor: Executor, recorder: Recorder) -> None:
+    """Spin until the context is shut down. What cannot be read is counted; an error of ours makes the run void."""
+    while executor.context.ok():
+        try:
+            executor.spin_once()
+        except ExternalShutdownException:
+            return
+        except FROM_OUTSIDE:
+            traceback.print_exc()
+            recorder.drop("unreadable")
+        except Exception as error:
+            traceback.print_exc()
+            recorder.record("scenario_failed", reason=f"{type(error).__name__}: {error}")
+            return

@@ -1,0 +1,81 @@
+"""Did the student's processes send more than is read? Then what was seen is not the whole, and that is the failure.
+
+The engine asks it before every check, so that nothing passes because its evidence was flooded away.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from autograder import events as ev
+from autograder.checks import Failure, Scenario
+from autograder.missing import held_up
+from autograder.transcript import Transcript
+
+# What stands in a record, in the words of a report.
+PLURALS: Mapping[str, str] = {
+    "feedback": "feedback messages",
+    "status": "changes of a goal's status",
+    "status message": "messages on an action's status topic",
+    "request_received": "requests",
+    "service_answered": "answers",
+    "node_output": "lines of output",
+    "too_large": "messages that are too large",
+    "unread": "messages that nobody could read in time",
+    "unreadable": "messages that cannot be read",
+}
+
+
+def require_bounded(run: Transcript, scenario: Scenario) -> None:
+    """Everything that the student's processes sent was read; a :class:`Failure` says what was too much."""
+    _require_no_flood_of_nodes(run)
+    _require_nothing_too_large(run)
+    _require_nothing_dropped(run, scenario)
+
+
+def _require_no_flood_of_nodes(run: Transcript) -> None:
+    flood = run.first(ev.GraphFlooded)
+    if flood:
+        raise Failure(
+            expected="a few nodes, with names that ROS allows",
+            observed=flood.reason[:300],
+            help="Look for nodes that are created in a loop or in a callback: make each one once, when the program "
+            "starts, and destroy it at the end.",
+            at=flood.t,
+        )
+
+
+def _require_nothing_too_large(run: Transcript) -> None:
+    large = run.first(ev.TooLarge)
+    if large:
+        of = f" (“{large.id[:60]}”)" if large.id else ""
+        raise Failure(
+            expected=f"every {large.what[:60]} to have at most {_size(large.limit)}",
+            observed=f"one of {_size(large.bytes)}{of}; it was not read",
+            help="Look for a list or a text that grows from call to call, and send only what the interface asks for.",
+            at=large.t,
+        )
+
+
+def _require_nothing_dropped(run: Transcript, scenario: Scenario) -> None:
+    for dropped in run.all(ev.RecordDropped):
+        if dropped.what == "node_output" and scenario.student == "node":
+            continue  # what a node prints is never judged
+        if dropped.what not in PLURALS:
+            raise held_up(run, f"{dropped.count} events of the kind {dropped.what[:60]} were not recorded")
+        what = PLURALS[dropped.what]
+        read = sum(event.kind == dropped.what for event in run.events)
+        raise Failure(
+            expected=f"a program that sends as many {what} as it has something to say",
+            observed=f"it sent {read + dropped.count:,} {what} in {dropped.seconds:.1f} s; {read:,} of them are read",
+            help="Look for a loop that publishes, calls or answers without waiting: give it a rate, or a timer, and "
+            "end it with its goal.",
+            at=dropped.t,
+        )
+
+
+def _size(count: int) -> str:
+    """A number of bytes in the unit people would say it in."""
+    if count < 1024:
+        return f"{count} bytes"
+    return f"{count / 1024:.0f} KiB" if count < 2**20 else f"{count / 2**20:.1f} MiB"

@@ -1,0 +1,57 @@
+"""How much faster than the wall an arena's clock runs: as fast as the machine can bear, and never where it counts.
+
+A walking robot takes most of a core at the usual scale. Where there is no robot, or one that rests, an idle machine
+can go faster; a second look, which is what costs points, never does.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+from autograder.checks import Scenario
+from ros_runtime.clock.scaled_clock import library_path
+
+USUAL = 5.0
+FAST = 10.0
+SLOWER = (5.0, 2.0, 1.0)  # to fall back to when the machine cannot keep up
+BUSY = 1.5  # processes a core that want to run; two arenas alone do not get there
+
+
+def highest_scale() -> float:
+    """Return the scale arenas run at unless told otherwise: 1 where the clock's library could not be built."""
+    return USUAL if library_path() else 1.0
+
+
+class ClockScale:
+    """The scales of one grading; `asked` for one, it is used throughout."""
+
+    def __init__(self, asked: float | None = None) -> None:
+        self._asked = asked
+        self._was_late = False
+
+    def of_the_first_look(self, scenario: Scenario) -> float:
+        """Return the scale to run a scenario at."""
+        if self._asked:
+            return self._asked
+        usual = highest_scale()
+        may_be_fast = usual > 1 and scenario.is_light and not self._was_late
+        return FAST if may_be_fast and _load_per_core() < BUSY else usual
+
+    def of_the_second_look(self, first: float, was_strained: bool) -> float:
+        """Return the scale for a scenario that was run at scale `first`: a lower one if the machine was strained."""
+        if was_strained:
+            return next((slower for slower in SLOWER if slower < first), 1.0)
+        return first if self._asked else min(first, USUAL)
+
+    def attempts(self, scale: float) -> Sequence[float]:
+        """Return the scales to try one after the other while an arena is late or fails, the lowest one twice."""
+        return (scale, *(slower for slower in SLOWER if slower < scale), 1.0)
+
+    def was_late(self) -> None:
+        """From now on no arena goes faster than usual."""
+        self._was_late = True
+
+
+def _load_per_core() -> float:
+    return os.getloadavg()[0] / (os.cpu_count() or 1)

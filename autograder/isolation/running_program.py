@@ -1,0 +1,121 @@
+"""A student's started program as the arena sees it, however it was started."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import threading
+from contextlib import suppress
+from typing import IO
+
+from autograder.isolation.bubblewrap import StartedSandbox
+from autograder.isolation.process_tree import descendants
+
+
+class RunningProgram:
+    """Its streams, its processes and its end. Process ids are not used again once it is closed.
+
+    Attributes:
+        stdin, stdout, stderr: the arena's ends of its streams.
+        end_fd: readable when the program itself has ended.
+    """
+
+    def __init__(self, streams: tuple[IO[bytes], IO[bytes], IO[bytes]], main_pid: int, end_fd: int) -> None:
+        self.stdin, self.stdout, self.stderr = streams
+        self.end_fd = end_fd
+        self._main_pid = main_pid
+        self._lock = threading.Lock()
+        self._is_closed = False
+
+    def signal(self, number: signal.Signals) -> None:
+        """Send a signal to the program alone."""
+        with self._lock, suppress(ProcessLookupError):
+            if not self._is_closed:
+                os.kill(self._main_pid, number)
+
+    def end(self) -> None:
+        """End the program and everything below it. Harmless when it has ended."""
+        with self._lock:
+            if not self._is_closed:
+                self._kill_everything()
+
+    def close(self) -> int:
+        """Wait for the end; returns the program's status, -n when signal n ended it."""
+        self.end()
+        with self._lock:
+            self._is_closed = True
+            return self._status()
+
+    def processes(self) -> list[int]:
+        """Return the ids of the program and of everything it started."""
+        raise NotImplementedError
+
+    def _kill_everything(self) -> None:
+        raise NotImplementedError
+
+    def _status(self) -> int:
+        raise NotImplementedError
+
+
+class ChildProgram(RunningProgram):
+    """A program started as a child of the arena; in a sandbox, when `sandbox_init` is the process id of its init."""
+
+    def __init__(
+        self, process: subprocess.Popen[bytes], main_pid: int, sandbox_init: int | None = None
+    ) -> None:
+        assert process.stdin
+        assert process.stdout
+        assert process.stderr
+        super().__init__(
+            (process.stdin, process.stdout, process.stderr), main_pid, os.pidfd_open(process.pid)
+        )
+        self._process = process
+        self._init = sandbox_init
+
+    def processes(self) -> list[int]:
+        return [self._process.pid, *descendants(self._process.pid)]
+
+    def _kill_everything(self) -> None:
+        # with its init the kernel ends all of a sandbox
+        below = [self._init] if self._init else descendants(self._process.pid)
+        _kill(*below, self._process.pid)
+
+    def _status(self) -> int:
+        os.close(self.end_fd)
+        status = self._process.wait()
+        return 128 - status if self._init and 128 < status <= 192 else status
+
+
+class EnteredProgram(RunningProgram):
+    """A program that entered an empty sandbox. `report` brings its exit status when it has ended."""
+
+    def __init__(
+        self,
+        streams: tuple[IO[bytes], IO[bytes], IO[bytes]],
+        main_pid: int,
+        report: IO[bytes],
+        sandbox: StartedSandbox,
+    ) -> None:
+        super().__init__(streams, main_pid, report.fileno())
+        self._report = report
+        self._sandbox = sandbox
+
+    def processes(self) -> list[int]:
+        roots = (self._main_pid, self._sandbox.init_pid)
+        return [*roots, *(pid for root in roots for pid in descendants(root))]
+
+    def _kill_everything(self) -> None:
+        _kill(self._sandbox.init_pid, self._sandbox.process.pid)
+
+    def _status(self) -> int:
+        status = self._report.readline()
+        self._report.close()
+        self._sandbox.process.communicate()
+        return int(status) if status else -signal.SIGKILL
+
+
+def _kill(*pids: int) -> None:
+    for pid in pids:
+        with suppress(ProcessLookupError, PermissionError):
+            os.kill(pid, signal.SIGKILL)

@@ -1,0 +1,55 @@
+"""A line that says what is running now, wherever the verdicts are printed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from types import TracebackType
+
+from rich.console import Console
+from rich.status import Status
+
+from autograder.checks import Scenario
+
+
+class RunningLine:
+    """On a terminal the last line, in a notebook a line that is written over, elsewhere a line at every change."""
+
+    def __init__(self, console: Console, *, in_notebook: bool = False) -> None:
+        self._console = console
+        self._in_notebook = in_notebook
+        self._status = Status("", console=console) if console.is_terminal and not in_notebook else None
+        self._shown = ""
+
+    def __enter__(self) -> RunningLine:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.show([])
+
+    def show(self, scenarios: Sequence[Scenario]) -> None:
+        """Say which scenarios run now."""
+        names = ", ".join(dict.fromkeys(scenario.name.replace("_", " ") for scenario in scenarios))
+        text = f"running: {names}" if names else ""
+        if text == self._shown:
+            return
+        if self._status:
+            self._status.update(text)
+            self._status.start() if text else self._status.stop()
+        elif self._in_notebook:
+            print(f"\r{text:<{len(self._shown)}}\r{text}", end="", flush=True)
+        elif text:
+            self._console.print(text, style="dim", highlight=False)
+        self._shown = text
+
+    @contextmanager
+    def aside(self) -> Iterator[None]:
+        """Print something else, which the line makes room for."""
+        shown = self._shown
+        if self._in_notebook and shown:
+            print(f"\r{'':<{len(shown)}}\r", end="")
+        yield
+        if self._in_notebook and shown:
+            print(shown, end="", flush=True)

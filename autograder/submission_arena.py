@@ -1,0 +1,162 @@
+"""The arena of one submission, as the controller has it: scenarios go in one after another, their events come out.
+
+Nothing of one submission is seen by another, because no arena serves two. Within an arena each scenario has processes,
+a ROS domain and a working folder of its own, and begins when nothing of the one before is left.
+"""
+
+from __future__ import annotations
+
+import os
+import select
+import socket
+import sys
+import threading
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from autograder.arena.orders import DONE, send_order
+from autograder.exercise import Exercise
+from autograder.isolation.arena_process import ArenaReport, ArenaSpec, Kind, start_arena
+from autograder.isolation.limits import ArenaLimits
+from autograder.isolation.python_paths import python_read_only_paths
+from ros_runtime.clock.scaled_clock import preload_variables
+from ros_runtime.environment import ros_environment
+from ros_runtime.own_network import loopback_variables
+
+PROJECT = Path(__file__).resolve().parents[1]
+REPORT_LIMIT = 64 * 2**20  # bytes of events of one scenario
+LIMITS = ArenaLimits(deadline_s=120.0)  # for the arena to begin; each scenario has a deadline of its own
+IDLE = 3600.0  # s an arena may wait for its next scenario
+_LOOK = 0.1  # s between two looks at whether to stop
+_SWEEPING = 15.0  # s for the processes of a scenario to end
+
+
+class ArenaEnded(Exception):
+    """The arena ended before the scenario did."""
+
+    def __init__(self, report: ArenaReport) -> None:
+        super().__init__(f"{report.explain(LIMITS)}\n{report.stderr.text[-2000:]}")
+        self.report = report
+
+
+class SubmissionArena:
+    """A started arena. Raises :class:`.isolation.bubblewrap.SandboxError` when it cannot start."""
+
+    def __init__(self, exercise: Exercise, kind: Kind | None = None) -> None:
+        self._orders, theirs = socket.socketpair()
+        environment = {
+            **ros_environment(),
+            **loopback_variables(),
+            **preload_variables(),
+            "PYTHONPATH": str(PROJECT),
+            "PYTHONDONTWRITEBYTECODE": "1",
+            "MUJOCO_GL": "disable",  # nothing is drawn here, and looking for a screen takes 0.13 s
+        }
+        with theirs:
+            spec = ArenaSpec(
+                [sys.executable, "-m", "autograder.arena.host", str(theirs.fileno())],
+                read_only_paths=[*ros_paths(), *_trusted_paths(exercise)],
+                pass_fds=[theirs.fileno()],
+                env=environment,
+                limits=LIMITS,
+            )
+            try:
+                self._process = start_arena(spec, kind)
+            except BaseException:
+                self._orders.close()
+                raise
+        self.kind = self._process.kind
+        self.scenarios = 0  # so far
+
+    def carry_out(self, spec: dict[str, Any], deadline: float, stop: threading.Event | None) -> bytes:
+        """Carry out a scenario and return its events, one JSON object a line.
+
+        Raises :class:`ArenaEnded` when the arena ends before that: at the `deadline` (s), when `stop` is set, at more
+        events than fit into a report, or by itself.
+        """
+        self.scenarios += 1
+        self._process.allow(deadline)
+        read_end, write_end = os.pipe()
+        with os.fdopen(read_end, "rb", buffering=0) as events:
+            try:
+                send_order(self._orders, spec, write_end)
+            except OSError:
+                raise ArenaEnded(self._process.wait()) from None
+            finally:
+                os.close(write_end)
+            report = self._read(events.fileno(), stop)
+        self._await_the_end_of_its_processes()
+        self._process.allow(IDLE)
+        return report
+
+    def close(self) -> None:
+        """End it, with all that is in it. Harmless when it has ended."""
+        self._orders.close()
+        self._process.kill()
+
+    def _read(self, fd: int, stop: threading.Event | None) -> bytes:
+        """Read events until the scenario is over."""
+        report = bytearray()
+        while len(report) < REPORT_LIMIT:
+            if stop and stop.is_set():
+                raise ArenaEnded(self._process.kill())
+            if self._process.poll() and not _is_readable(fd, 0):
+                raise ArenaEnded(self._process.wait())
+            if not _is_readable(fd, _LOOK):
+                continue
+            chunk = os.read(fd, 2**20)
+            if not chunk:
+                return bytes(report)
+            report += chunk
+        raise ArenaEnded(self._process.kill())
+
+    def _await_the_end_of_its_processes(self) -> None:
+        deadline = time.monotonic() + _SWEEPING
+        while time.monotonic() < deadline:
+            if self._process.poll():
+                raise ArenaEnded(self._process.wait())
+            if _is_readable(self._orders.fileno(), _LOOK):
+                with suppress(OSError):
+                    if self._orders.recv(len(DONE)) == DONE:
+                        return
+                break
+        raise ArenaEnded(self._process.kill())
+
+
+def ros_paths() -> list[Path]:
+    """What any ROS process needs to see: Python with its packages, and a sourced ROS 2 where there is one."""
+    sourced = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    return [
+        *python_read_only_paths(),
+        *(Path(prefix) for prefix in sourced if prefix.startswith("/opt/ros/")),
+    ]
+
+
+def student_paths() -> Sequence[Path]:
+    """What a student's program may see of this machine beside the system."""
+    return (*ros_paths(), PROJECT / "ros_runtime")
+
+
+def _trusted_paths(exercise: Exercise) -> list[Path]:
+    """What the arena may see of the project: no checks, no solutions, no other submissions."""
+    grader = PROJECT / "autograder"
+    scenarios = grader / "exercises" / exercise.name
+    return [
+        PROJECT / "ros_runtime",
+        PROJECT / "robot_sim",
+        grader / "__init__.py",
+        grader / "arena",
+        grader / "isolation",
+        grader / "exercises" / "__init__.py",
+        scenarios / "__init__.py",
+        scenarios / "scenarios.py",
+    ]
+
+
+def _is_readable(fd: int, timeout: float) -> bool:
+    poll = select.poll()
+    poll.register(fd, select.POLLIN)
+    return bool(poll.poll(timeout * 1000))

@@ -1,0 +1,1 @@
+"""An interpreter that has loaded rclpy and waits; a fork of it becomes a program, as if that had just been started."""

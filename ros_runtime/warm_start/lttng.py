@@ -1,0 +1,48 @@
+"""Forking a process in which LTTng runs, which tracepoints of ROS bring along: its threads must begin anew in the fork.
+
+The fork of a fork may be the one that goes on: it calls `after_in_child`, whatever lies between only waits.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from contextlib import suppress
+
+_PREFIXES = ("ust_", "lttng_ust_")  # of the functions, before and since LTTng 2.13
+
+
+class ForkGuard:
+    """Does what liblttng-ust-fork does around a fork; nothing where LTTng is not loaded."""
+
+    def __init__(self) -> None:
+        self._signals = ctypes.create_string_buffer(128)  # a sigset_t
+        self._library = _loaded_library()
+        self._prefix = next((p for p in _PREFIXES if hasattr(self._library, p + "before_fork")), "")
+
+    def before(self) -> None:
+        """Call it before the fork."""
+        self._call("before_fork")
+
+    def after_in_parent(self) -> None:
+        """Call it after the fork in the process that goes on waiting."""
+        self._call("after_fork_parent")
+
+    def after_in_child(self) -> None:
+        """Call it in the fork that goes on; it starts LTTng's threads."""
+        self._call("after_fork_child")
+
+    def _call(self, function: str) -> None:
+        if self._prefix:
+            getattr(self._library, self._prefix + function)(self._signals)
+
+
+def _loaded_library() -> ctypes.CDLL | None:
+    with open("/proc/self/maps") as maps:
+        paths = {line.split()[-1] for line in maps if "/liblttng-ust" in line}
+    for path in sorted(paths):
+        name = os.path.basename(path)
+        if name.startswith(("liblttng-ust.", "liblttng-ust-")) and "tracepoint" not in name:
+            with suppress(OSError):
+                return ctypes.CDLL(path, mode=os.RTLD_NOLOAD | os.RTLD_NOW)
+    return None

@@ -1,0 +1,77 @@
+"""Becoming a Python program: from here on this process is what `python FILE ARGUMENTS` would have been."""
+
+from __future__ import annotations
+
+import atexit
+import builtins
+import ctypes
+import gc
+import os
+import signal
+import sys
+import threading
+from collections.abc import Mapping, Sequence
+from types import ModuleType
+
+
+def run_program(arguments: Sequence[str], environment: Mapping[str, str], folder: str) -> int:
+    """Run `arguments[0]` in `folder` as the main program; returns the status to end with, unless it ends by itself.
+
+    Tracebacks, SystemExit and Ctrl-C are the interpreter's own business, as they are for any program.
+    """
+    os.environ.clear()
+    os.environ.update(environment)
+    os.chdir(folder)
+    path = os.path.abspath(arguments[0])
+    sys.argv = list(arguments)
+    sys.orig_argv = [sys.executable, *arguments]
+    sys.path[0] = os.path.dirname(path)
+    sys.path_importer_cache.clear()  # it lists folders as they were seen from outside
+    _draw_new_seeds()
+    sys.modules["__main__"] = _empty_main()
+    gc.unfreeze()
+    gc.enable()
+    if _run_as_main(path) == 0:
+        return 0
+    if getattr(sys, "last_type", None) is KeyboardInterrupt:
+        _end_as_interrupted()
+    return 1
+
+
+def _run_as_main(path: str) -> int:
+    """Run the file in __main__; its traceback, if any, begins there. Does not return from a SystemExit."""
+    libc = ctypes.CDLL(None)
+    libc.fopen.restype = ctypes.c_void_p
+    file = libc.fopen(os.fsencode(path), b"rb")
+    if not file:
+        print(
+            f"{sys.executable}: can't open file {path!r}: [Errno 2] No such file or directory",
+            file=sys.stderr,
+        )
+        sys.exit(2)
+    run = ctypes.pythonapi.PyRun_SimpleFileExFlags
+    run.argtypes = (ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int, ctypes.c_void_p)
+    return run(file, os.fsencode(path), 1, None)
+
+
+def _empty_main() -> ModuleType:
+    module = ModuleType("__main__")
+    module.__dict__.update(__builtins__=builtins, __annotations__={})
+    return module
+
+
+def _draw_new_seeds() -> None:
+    """Generators that are seeded when they are loaded would be the same in every fork; Python's own seeds itself."""
+    for finder in sys.meta_path:
+        hidden = getattr(finder, "_hidden", {})
+        if random := hidden.get("numpy.random"):
+            random.seed()
+
+
+def _end_as_interrupted() -> None:
+    """End by SIGINT, so that a parent sees what it sees of any program that Ctrl-C ends."""
+    threading._shutdown()  # type: ignore[attr-defined]
+    atexit._run_exitfuncs()
+    sys.stdout.flush()
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    os.kill(os.getpid(), signal.SIGINT)

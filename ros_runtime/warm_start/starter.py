@@ -1,0 +1,90 @@
+"""A waiting interpreter: run as `python starter.py SOCKET`, it forks a program into a sandbox at every order.
+
+An order is a JSON object (see :class:`.client.Order`) with five descriptors: stdin, stdout, stderr, where to report,
+and a file with the seccomp filter. The report is the program's process id and, when it has ended, its exit status
+(negative: a signal), a line each; or one line with what went wrong. The program can read all the memory of this
+process, so that holds nothing but what every program may know.
+"""
+
+from __future__ import annotations
+
+import sys
+
+FRESH = frozenset(sys.modules)  # what a fresh interpreter has loaded
+
+from ros_runtime.warm_start.hidden_imports import Recording, hide  # noqa: E402
+
+with Recording() as recording:
+    import gc
+    import json
+    import os
+    import signal
+    import socket
+
+    from ros_runtime.clock.scaled_clock import follow
+    from ros_runtime.warm_start.confinement import give_up_privileges, join_namespaces
+    from ros_runtime.warm_start.lttng import ForkGuard
+    from ros_runtime.warm_start.preload import preload
+    from ros_runtime.warm_start.program import run_program
+
+    preload()
+
+LONGEST_ORDER = 65536  # bytes
+DESCRIPTORS = 5
+
+
+def wait_for_order(orders: socket.socket) -> dict:
+    """Serve orders; returns, with the order, in the process that is to become the program and in no other."""
+    guard = ForkGuard()
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the kernel shall bury them
+    while True:
+        text, descriptors, _, _ = socket.recv_fds(orders, LONGEST_ORDER, DESCRIPTORS)
+        if not text:
+            os._exit(0)
+        guard.before()
+        if os.fork() == 0:
+            orders.close()
+            return keep(json.loads(text), descriptors, guard)
+        guard.after_in_parent()
+        for descriptor in descriptors:
+            os.close(descriptor)
+
+
+def keep(order: dict, descriptors: list[int], guard: ForkGuard) -> dict:
+    """Enter the sandbox, fork the program and stay outside its process namespace until it has ended."""
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+    *streams, report, filter_file = descriptors
+    seccomp_filter = os.pread(filter_file, os.fstat(filter_file).st_size, 0)
+    os.close(filter_file)
+    os.setsid()
+    try:
+        join_namespaces(order["sandbox"])
+        pid = os.fork()
+    except OSError as error:
+        os.write(report, f"{error}\n".encode())
+        os._exit(1)
+    if pid:
+        for stream in streams:
+            os.close(stream)
+        os.write(report, f"{pid}\n".encode())
+        status = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
+        os.write(report, f"{status}\n".encode())
+        os._exit(0)
+    for number, stream in enumerate(streams):
+        os.dup2(stream, number)
+    for descriptor in (*streams, report):
+        os.close(descriptor)
+    if order["clock"]:
+        follow(order["clock"])
+    give_up_privileges(order["limits"], seccomp_filter)
+    guard.after_in_child()
+    return order
+
+
+hide(recording, FRESH)
+del recording
+gc.collect()
+gc.disable()
+gc.freeze()  # so that the forks go on sharing these pages
+order = wait_for_order(socket.socket(fileno=int(sys.argv[1])))
+sys.exit(run_program(order["argv"], order["env"], order["folder"]))

@@ -1,0 +1,129 @@
+"""Whatever stands in the ROS graph: every question has an answer, and what is odd is recorded."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import pytest
+
+pytest.importorskip("rclpy")
+
+from autograder.arena.graph import MOST_ENDPOINTS, MOST_NODES, MOST_SERVICES, Graph
+
+
+class Kept:
+    """Stands for a recorder."""
+
+    def __init__(self) -> None:
+        self.events: list[dict[str, Any]] = []
+
+    def record(self, kind: str, **fields: Any) -> None:
+        self.events.append({"kind": kind, **fields})
+
+
+class Endpoint(NamedTuple):
+    node_name: str
+    node_namespace: str = "/robot"
+
+
+class FakeNode:
+    """A node whose graph holds what a test puts there; an exception in place of an answer is raised."""
+
+    def __init__(self, **answers: Any) -> None:
+        self._answers = answers
+
+    def resolve_service_name(self, name: str) -> str:
+        return f"/robot/{name}"
+
+    def __getattr__(self, question: str) -> Any:
+        def answer(*_: Any, **__: Any) -> Any:
+            found = self._answers.get(question, 0 if question.startswith("count") else [])
+            if isinstance(found, Exception):
+                raise found
+            return found
+
+        return answer
+
+
+def graph_of(**answers: Any) -> tuple[Graph, Kept]:
+    kept = Kept()
+    return Graph(FakeNode(**answers), kept), kept  # type: ignore[arg-type]
+
+
+BROKEN = UnicodeDecodeError("utf-8", b"\xff", 0, 1, "invalid start byte")
+
+
+def test_a_graph_that_cannot_be_read_is_empty_and_recorded_once() -> None:
+    graph, kept = graph_of(
+        count_publishers=BROKEN,
+        count_subscribers=BROKEN,
+        count_services=BROKEN,
+        get_service_names_and_types=BROKEN,
+        get_subscriptions_info_by_topic=BROKEN,
+        get_node_names_and_namespaces=BROKEN,
+    )
+    assert not graph.has_another_node()
+    assert graph.count_matchable_subscribers("odom") == 0
+    assert graph.owners_of("get_status") == []
+    assert graph.offered() == []
+    graph.inspect()
+    graph.inspect()
+    reasons = [event["reason"] for event in kept.events]
+    assert "UnicodeDecodeError" in reasons[0]
+    assert len(reasons) == 2  # the second look has failed again
+    assert len(reasons[0]) < 300
+
+
+def test_an_ordinary_graph_is_not_recorded() -> None:
+    graph, kept = graph_of(get_node_names_and_namespaces=[("observer", "/robot"), ("walk_server", "/robot")])
+    graph.inspect()
+    assert kept.events == []
+
+
+@pytest.mark.parametrize("name", ["no/name", "", "2nd", "a" * 300])
+def test_a_name_that_is_none_is_told(name: str) -> None:
+    graph, kept = graph_of(get_node_names_and_namespaces=[(name, "/robot")])
+    graph.inspect()
+    (event,) = kept.events
+    assert (event["kind"], event["nodes"]) == ("graph_flooded", 1)
+    assert repr(name[:60]) in event["reason"]
+
+
+def test_a_crowd_of_nodes_is_counted() -> None:
+    crowd = [(f"node_{number}", "/robot") for number in range(MOST_NODES + 30_000)]
+    graph, kept = graph_of(get_node_names_and_namespaces=crowd)
+    graph.inspect()
+    assert kept.events[0]["reason"] == "there were 30,050 nodes"
+
+
+def test_the_owner_of_a_service_is_found_without_a_list_of_nodes() -> None:
+    servers = [Endpoint("walk_server"), Endpoint("walk_server"), Endpoint("root", "/")]
+    graph, _ = graph_of(get_subscriptions_info_by_topic=servers, get_node_names_and_namespaces=BROKEN)
+    assert graph.owners_of("get_status") == ["/robot/walk_server", "/root"]
+
+
+def test_an_owner_without_a_name_is_nobody() -> None:
+    servers = [Endpoint("_NODE_NAME_UNKNOWN_", "_NODE_NAMESPACE_UNKNOWN_"), Endpoint("no/name")]
+    graph, _ = graph_of(get_subscriptions_info_by_topic=servers)
+    assert graph.owners_of("get_status") == []
+
+
+def test_thousands_of_servers_of_one_name_are_not_listed() -> None:
+    graph, _ = graph_of(count_services=MOST_ENDPOINTS + 1, get_subscriptions_info_by_topic=[Endpoint("a")])
+    assert graph.owners_of("get_status") == []
+
+
+def test_of_thousands_of_services_some_are_listed_and_the_rest_counted() -> None:
+    services = [(f"/robot/service_{number:04}", ["std_srvs/srv/Trigger"]) for number in range(3000)]
+    graph, _ = graph_of(get_service_names_and_types=services, count_services=1)
+    *offered, more = graph.offered()
+    assert len(offered) == MOST_SERVICES
+    assert offered[0] == "/robot/service_0000 [std_srvs/srv/Trigger]"
+    assert more == "and up to 2,960 more"
+
+
+def test_what_every_node_offers_and_what_nobody_offers_is_not_listed() -> None:
+    parameters = ("/robot/a/get_parameters", ["rcl_interfaces/srv/GetParameters"])
+    wanted = ("/robot/get_status", ["std_srvs/srv/Trigger"])
+    assert graph_of(get_service_names_and_types=[parameters], count_services=1)[0].offered() == []
+    assert graph_of(get_service_names_and_types=[wanted], count_services=0)[0].offered() == []

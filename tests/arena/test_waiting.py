@@ -1,0 +1,82 @@
+"""A scenario's end: what was sent before is still taken in, and a flood without end is told."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from itertools import chain, repeat
+from typing import Any
+
+import pytest
+
+pytest.importorskip("rclpy")
+
+from autograder.arena import waiting as waiting_module
+from autograder.arena.waiting import FLOODED, QUIET, Waiting
+
+
+class Kept:
+    """Stands for a recorder that has received so many messages at each look."""
+
+    def __init__(self, received: Iterator[int]) -> None:
+        self._received = received
+        self.steps: list[str] = []
+
+    @property
+    def received(self) -> int:
+        self.steps.append("look")
+        return next(self._received)
+
+    def drop(self, kind: str) -> None:
+        self.steps.append(f"drop {kind}")
+
+    def inspect(self) -> None:
+        self.steps.append("inspect")
+
+    def finish(self) -> None:
+        self.steps.append("finish")
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Time passes only while somebody sleeps."""
+    now = [0.0]
+
+    def sleep(duration: float) -> None:
+        now[0] += duration
+
+    monkeypatch.setattr(waiting_module.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(waiting_module.time, "sleep", sleep)
+
+
+def close(received: Iterator[int]) -> list[str]:
+    kept = Kept(received)
+    recorder: Any = kept
+    Waiting(recorder, recorder, threading.Condition()).close()
+    return kept.steps
+
+
+@pytest.mark.usefixtures("clock")
+def test_after_a_sound_node_one_look_is_enough() -> None:
+    assert close(iter([400, 402])) == ["look", "look", "inspect", "finish"]
+
+
+@pytest.mark.usefixtures("clock")
+def test_the_end_of_a_flood_is_waited_for() -> None:
+    assert close(iter([0, 500, 1000, 1010])) == ["look"] * 4 + ["inspect", "finish"]
+
+
+@pytest.mark.usefixtures("clock")
+def test_a_flood_without_end_is_recorded() -> None:
+    steps = close(chain(range(0, 10**6, 500), repeat(0)))
+    assert steps[-3:] == ["drop unread", "inspect", "finish"]
+    assert len(steps) < FLOODED / QUIET + 6
+
+
+@pytest.mark.usefixtures("clock")
+def test_a_condition_that_nobody_tells_of_is_looked_at_until_the_time_is_over() -> None:
+    kept: Any = Kept(iter([]))
+    waiting = Waiting(kept, kept, threading.Condition())
+    looks = iter([False, False, True])
+    assert waiting.poll_until(lambda: next(looks), 1.0)
+    assert not waiting.poll_until(lambda: False, 1.0)

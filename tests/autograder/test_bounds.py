@@ -1,0 +1,117 @@
+"""What is said to a student whose node sent more than is read, or whose build went on for ever."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from autograder import events as ev
+from autograder.bounds import require_bounded
+from autograder.checks import CannotBeJudged, Failure, Scenario
+from autograder.exercises.interfaces.judging import LONGEST, require_built, require_fields
+from autograder.transcript import Transcript
+
+
+def run_with(*events: Any, **params: Any) -> Transcript:
+    return Transcript.from_events("any", params, [ev.NodeStarted(t=0.0), *events])
+
+
+def bounded(run: Transcript) -> None:
+    require_bounded(run, Scenario("any"))
+
+
+def failure_of(question: Any, *arguments: Any) -> Failure:
+    with pytest.raises(Failure) as caught:
+        question(*arguments)
+    return caught.value
+
+
+def feedback(goal: str, number: int) -> list[Any]:
+    return [ev.FeedbackReceived(t=1.0, goal=goal, feedback={}) for _ in range(number)]
+
+
+def test_a_run_of_which_everything_was_read_is_bounded() -> None:
+    bounded(run_with(*feedback("walk", 5)))
+
+
+def test_dropped_feedback_is_the_students_failure_with_all_numbers() -> None:
+    dropped = ev.RecordDropped(t=9.0, what="feedback", count=600, seconds=4.2)
+    failure = failure_of(bounded, run_with(*feedback("walk", 50), dropped))
+    assert failure.observed == "it sent 650 feedback messages in 4.2 s; 50 of them are read"
+    assert failure.at == 9.0
+
+
+def test_an_answer_that_is_too_large_is_named_with_its_size() -> None:
+    large = ev.TooLarge(t=3.0, what="answer", id="call 2", bytes=12 * 2**20, limit=64 * 2**10)
+    failure = failure_of(bounded, run_with(large))
+    assert failure.expected == "every answer to have at most 64 KiB"
+    assert failure.observed == "one of 12.0 MiB (“call 2”); it was not read"
+
+
+def test_a_flooded_graph_is_told_in_its_own_words_cut_to_a_readable_length() -> None:
+    reason = "there were 30,000 nodes" + "!" * 5000
+    failure = failure_of(bounded, run_with(ev.GraphFlooded(t=1.0, nodes=30_000, reason=reason)))
+    assert failure.observed.startswith("there were 30,000 nodes")
+    assert len(failure.observed) == 300
+
+
+def test_every_event_of_a_recorders_can_be_read_back() -> None:
+    for event in (
+        ev.RecordDropped(t=1.0, what="feedback", count=1, seconds=0.1),
+        ev.TooLarge(t=1.0, what="answer", id="", bytes=2, limit=1),
+        ev.GraphFlooded(t=1.0, nodes=0, reason="none"),
+        ev.CommandSent(t=1.0, command={"do": "push"}),
+    ):
+        assert ev.parse_event(event.model_dump_json()) == event
+
+
+# -- a definition's build ---------------------------------------------------------------------------------------------
+
+
+def built(*events: Any, **report: Any) -> Transcript:
+    lines = json.dumps(report, indent=1).splitlines() if report else []
+    output = [ev.NodeOutput(t=5.0, stream="stdout", text=line) for line in lines]
+    return run_with(*output, *events, file="Go.action")
+
+
+def usage(cpu: float) -> ev.NodeUsage:
+    return ev.NodeUsage(t=9.0, cpu=cpu, wall=150.0, peak_memory_mib=100.0)
+
+
+PROBLEM = {"file": "Go.action", "line": 3, "text": "int a", "wrong": "int is no type", "expected": "int32"}
+
+
+def test_of_thousands_of_problems_the_first_is_told_and_the_rest_counted() -> None:
+    run = built(built=False, problems=[PROBLEM] * 20, more=4293, log="")
+    failure = failure_of(require_built, run)
+    assert failure.observed == "line 3, “int a”: int is no type (and 4,312 more)"
+
+
+def test_a_build_that_left_no_report_after_much_work_is_the_students_failure() -> None:
+    failure = failure_of(require_built, built(usage(120.0)))
+    assert failure.observed == "its build was ended after 120 s of a processor"
+
+
+def test_a_build_that_failed_after_much_work_is_the_students_failure_too() -> None:
+    run = built(usage(120.0), built=False, problems=[], more=0, log="ninja: stopped")
+    assert "120 s of a processor" in failure_of(require_built, run).observed
+
+
+def test_a_build_that_took_too_much_memory_says_so() -> None:
+    killed = ev.NodeKilled(t=4.0, reason="it used 900 MiB of memory; 700 MiB are allowed")
+    assert "900 MiB" in failure_of(require_built, built(killed, usage(5.0))).observed
+
+
+def test_a_build_that_never_got_a_processor_is_nobodys_failure() -> None:
+    with pytest.raises(CannotBeJudged, match="the build said nothing"):
+        require_built(built(usage(3.0)))
+
+
+def test_many_fields_are_quoted_in_a_readable_length() -> None:
+    fields = {f"field_{number}": "float64" for number in range(100)}
+    types = {"my_interfaces/action/Go": {"goal": {"fields": fields, "constants": {}}}}
+    run = built(built=True, types=types)
+    for wanted in ({"pose": "string"}, {"field_1": "float64"}):
+        assert len(failure_of(require_fields, run, "goal", wanted).observed) < LONGEST + 50

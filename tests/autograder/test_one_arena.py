@@ -1,0 +1,150 @@
+"""The arena of a submission: what its scenarios share, and what they and other submissions never see of each other."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+from autograder import events as ev
+from autograder.arena_run import ArenaRun, NotGraded, run_in_arena
+from autograder.checks import Scenario
+from autograder.exercise import Exercise
+from autograder.isolation.arena_process import Kind
+from autograder.isolation.availability import available_isolation
+from autograder.isolation.process_tree import descendants
+from autograder.submission_arenas import SubmissionArenas
+
+pytestmark = pytest.mark.skipif(
+    not available_isolation().trusted, reason=f"no namespaces here: {available_isolation().reason}"
+)
+QUIZ = Exercise("patterns", (), False)
+PROGRAM = Scenario("print_answers", robot=None, student="program")
+
+# It leaves a process that cannot be interrupted, files, a socket and a segment of memory, and looks for all of them.
+LEAVES_TRACES = """
+import os, signal, socket, sys, time
+processes = sorted(int(name) for name in os.listdir("/proc") if name.isdigit())
+print("others", [pid for pid in processes if pid > 2 and pid != os.getpid()])
+elsewhere = {*os.listdir("/tmp"), *os.listdir("/dev/shm")}
+print("files", os.listdir("."), [name for name in elsewhere if name != "work" and "scenario" not in name])
+print("domain", os.environ["ROS_DOMAIN_ID"])
+left = socket.socket(socket.AF_UNIX)
+try:
+    left.connect("\\0trace")
+    print("socket", "somebody answers")
+except OSError:
+    print("socket", "nobody answers")
+for folder in (".", "/tmp", "/dev/shm"):
+    open(folder + "/trace", "w").write("I was here")
+if os.fork() == 0:
+    os.setsid()
+    if os.fork() == 0:
+        for number in set(signal.Signals) - {signal.SIGKILL, signal.SIGSTOP}:
+            signal.signal(number, signal.SIG_IGN)
+        server = socket.socket(socket.AF_UNIX)
+        server.bind("\\0trace")
+        server.listen()
+        time.sleep(600)
+    os._exit(0)
+sys.stdout.flush()
+os._exit(0)
+"""
+
+# What it uses is loaded in the interpreter it becomes, but it has not imported it.
+IMPORTS_BY_LUCK = """
+import sys
+import rclpy
+print(sorted(name for name in ("numpy", "rclpy.node", "rclpy.action") if name in sys.modules))
+try:
+    rclpy.action.ActionServer
+except AttributeError as error:
+    print(error)
+"""
+
+
+def files(code):
+    return {"patterns.py": code.encode()}
+
+
+def run(code, arenas=None, **options):
+    run = ArenaRun(QUIZ, files(code), PROGRAM, more_to_come=True, **options)
+    return run_in_arena(run, arenas=arenas)
+
+
+def printed(transcript):
+    return transcript.output("stdout").splitlines()
+
+
+def test_a_scenario_finds_nothing_of_the_one_before():
+    with SubmissionArenas(QUIZ) as arenas:
+        runs = [printed(run(LEAVES_TRACES, arenas, cold=cold)) for cold in (True, False, False, True)]
+    for lines in runs:
+        assert lines[0] == "others []"
+        assert lines[1] == "files ['patterns.py'] []"
+        assert lines[3] == "socket nobody answers"
+    domains = [lines[2] for lines in runs]
+    assert len(set(domains)) == len(domains)
+
+
+def test_a_warm_program_has_only_what_it_imports():
+    with SubmissionArenas(QUIZ) as arenas:
+        cold, warm = (printed(run(IMPORTS_BY_LUCK, arenas, cold=cold)) for cold in (True, False))
+    assert warm == cold == ["[]", "module 'rclpy' has no attribute 'action'"]
+
+
+def test_no_arena_serves_two_submissions():
+    with SubmissionArenas(QUIZ) as one, SubmissionArenas(QUIZ) as other:
+        for arenas in (one, other):
+            run("", arenas)
+        with one.one() as first, other.one() as second:
+            assert first is not second
+
+
+def test_an_arena_that_failed_is_not_used_again():
+    with SubmissionArenas(QUIZ) as arenas:
+        with pytest.raises(RuntimeError), arenas.one() as broken:
+            raise RuntimeError
+        with arenas.one() as next_one:
+            assert next_one is not broken
+        with pytest.raises(NotGraded):
+            run_in_arena(ArenaRun(QUIZ, {}, Scenario("no_such_scenario", robot=None)), arenas=arenas)
+        assert printed(run("print('goes on')", arenas)) == ["goes on"]
+
+
+def test_nothing_is_left_when_the_arenas_are_closed():
+    before = descendants(os.getpid())
+    with SubmissionArenas(QUIZ) as arenas:
+        for cold in (True, False):
+            run(LEAVES_TRACES, arenas, cold=cold)
+    assert set(descendants(os.getpid())) <= set(before)
+
+
+def test_what_a_warm_program_uses_is_counted():
+    code = """
+import time
+held = b"x" * 200_000_000
+while time.process_time() < 0.5:
+    pass
+"""
+    with SubmissionArenas(QUIZ) as arenas:
+        for cold in (True, False):
+            usage = run(code, arenas, cold=cold).first(ev.NodeUsage)
+            assert usage.cpu >= 0.4
+            assert usage.peak_memory_mib >= 190
+
+
+def test_a_warm_program_is_ended_above_its_memory():
+    with SubmissionArenas(QUIZ) as arenas:
+        run("", arenas)
+        killed = run("held = bytearray()\nwhile True: held += b'x' * 10_000_000", arenas, cold=False)
+    assert killed.first(ev.NodeKilled) or "MemoryError" in killed.output("stderr")
+
+
+def test_without_namespaces_every_scenario_has_an_arena_of_its_own():
+    with SubmissionArenas(QUIZ, Kind.NONE) as arenas:
+        assert printed(run("print('one')", arenas, cold=False)) == ["one"]
+        with arenas.one() as one:
+            pass
+        with arenas.one() as two:
+            assert one is not two

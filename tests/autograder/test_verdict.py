@@ -1,0 +1,27 @@
+"""A verdict is of readable length, whatever it quotes."""
+
+from __future__ import annotations
+
+import pytest
+
+from autograder.verdict import LENGTH_NOTE, LONGEST, CheckVerdict, Grade
+
+
+def verdict(**texts: str) -> CheckVerdict:
+    return CheckVerdict("id", "Title", "failed", 0, 1, **texts)
+
+
+@pytest.mark.parametrize("name", sorted(LONGEST))
+def test_a_long_text_is_cut_and_says_how_long_it_was(name: str) -> None:
+    text = getattr(verdict(**{name: "x" * 1_234_567}), name)
+    assert text == "x" * LONGEST[name] + "…[cut: 1,234,567 characters]"
+    assert len(text) <= LONGEST[name] + LENGTH_NOTE
+
+
+def test_an_ordinary_text_is_left_alone() -> None:
+    assert verdict(observed="a gap of 1.3 s").observed == "a gap of 1.3 s"
+
+
+def test_a_verdict_read_back_from_its_record_is_the_same() -> None:
+    grade = Grade("any", "ada", "given", [verdict(observed="x" * 10_000)])
+    assert Grade.from_json(grade.to_json()) == grade

@@ -1,0 +1,50 @@
+"""A robot that is served by a fork of a process in which it was built, as the arena starts many."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+
+from robot_process import DOMAINS, TIMEOUT
+
+from ros_runtime.environment import ros_environment
+
+BUILD_FORK_AND_SERVE = """
+import os, sys
+from robot_sim.serve import RobotOptions, build_humanoid, parse_options, serve_robot
+built = build_humanoid(RobotOptions())
+robot = os.fork()
+if robot == 0:
+    serve_robot(parse_options(sys.argv[1:]), built)
+    sys.exit(7)
+print(robot, flush=True)
+sys.exit(os.waitstatus_to_exitcode(os.waitpid(robot, 0)[1]))
+"""
+
+
+def test_a_forked_robot_reports_obeys_and_ends_at_sigterm():
+    truth_read, truth_write = os.pipe()
+    control_read, control_write = os.pipe()
+    pipes = ("--truth-fd", str(truth_write), "--control-fd", str(control_read))
+    with subprocess.Popen(
+        [sys.executable, "-c", BUILD_FORK_AND_SERVE, *pipes, "--scene", "flat", "--seed", "5"],
+        env={**os.environ, **ros_environment(domain_id=next(DOMAINS))},
+        pass_fds=(truth_write, control_read),
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as parent:
+        os.close(truth_write)
+        os.close(control_read)
+        robot = int(parent.stdout.readline())
+        with os.fdopen(truth_read) as lines:
+            records = map(json.loads, lines)
+            assert next(records)["kind"] == "ready"
+            os.write(control_write, b'{"do": "motor_power", "on": false}\n')
+            assert any(record["kind"] == "command" for record in records)
+            assert not next(r for r in records if r["kind"] == "robot")["motors_enabled"]
+            os.kill(robot, signal.SIGTERM)
+            for _ in records:  # to the end of the pipe
+                pass
+        assert parent.wait(TIMEOUT) == 7, "what comes after serve_robot is reached"
+    os.close(control_write)

@@ -1,0 +1,86 @@
+"""A robot that was used and reset, or that was built before a fork, is bit for bit a fresh one."""
+
+import hashlib
+import os
+
+import pytest
+
+from robot_sim.humanoid import Humanoid
+from robot_sim.options import RobotOptions
+from robot_sim.serve import build_humanoid
+
+SCENES = ("flat", "stand")
+
+
+def trace(humanoid: Humanoid) -> str:
+    """Everything that can be measured of three seconds of standing, walking and moving an arm, as a digest."""
+    seen = hashlib.sha256()
+    for tick in range(600):
+        if tick == 200:
+            humanoid.walk_velocity(0.3, 0.05, 0.2)
+        elif tick == 450:
+            humanoid.stop()
+            humanoid.open_hand("l", 0.05)
+        humanoid.step()
+        battery, imu = humanoid.battery, humanoid.imu()
+        seen.update(humanoid.data.qpos.tobytes() + humanoid.data.qvel.tobytes())
+        seen.update(humanoid.data.actuator_force.tobytes() + humanoid.data.sensordata.tobytes())
+        seen.update(imu.angular_velocity.tobytes() + imu.linear_acceleration.tobytes())
+        seen.update(repr((humanoid.time, battery.percentage, battery.voltage, battery.current)).encode())
+        seen.update(repr((humanoid.mode, humanoid.steps, humanoid.base_pose().yaw)).encode())
+    return seen.hexdigest()
+
+
+def use(humanoid: Humanoid) -> None:
+    """Leave nothing as it was."""
+    humanoid.walk_velocity(0.2, 0.0, 0.4)
+    humanoid.push((20.0, 10.0, 0.0), duration=0.5)
+    humanoid.move_body(-0.1)
+    for _ in range(150):
+        humanoid.step()
+    humanoid.battery.set_percentage(0.3)
+    humanoid.set_motor_power(False)
+    humanoid.step()
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_used_robot_that_is_reset_is_a_fresh_one(scene):
+    used = Humanoid(scene, seed=1)
+    use(used)
+    again = build_humanoid(RobotOptions(scene=scene, seed=4), used)
+    assert again is used
+    assert trace(again) == trace(Humanoid(scene, seed=4))
+
+
+def test_a_robot_of_another_scene_is_not_taken():
+    assert build_humanoid(RobotOptions(scene="stand"), Humanoid("flat")).scene == "stand"
+
+
+def test_a_used_robot_can_be_reset_into_a_crouch():
+    used = Humanoid()
+    use(used)
+    fresh = Humanoid()
+    fresh.reset(height=0.45)
+    assert trace(build_humanoid(RobotOptions(crouch=True), used)) == trace(fresh)
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_robot_built_before_a_fork_is_a_fresh_one(scene):
+    built = Humanoid(scene)
+    assert traced_in_a_fork(built, scene) == traced_in_a_fork(built, scene) == trace(Humanoid(scene, seed=3))
+
+
+def traced_in_a_fork(built: Humanoid, scene: str) -> str:
+    read, write = os.pipe()
+    child = os.fork()
+    if child == 0:
+        try:
+            digest = trace(build_humanoid(RobotOptions(scene=scene, seed=3), built))
+            os.write(write, digest.encode())
+        finally:
+            os._exit(0)
+    os.close(write)
+    with os.fdopen(read) as answer:
+        digest = answer.read()
+    os.waitpid(child, 0)
+    return digest
