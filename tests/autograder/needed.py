@@ -8,7 +8,6 @@ ALWAYS = ("node_started", "node_ready", "robot", "scenario_ended")
 
 _ASKED = "service_called service_answered"
 _INTERRUPTED = "node_signalled node_exited"
-_BUILT = "node_output node_exited"
 _ENDED = "node_output node_exited"
 _SERVED = f"{_ENDED} request_received reply_sent"
 _GOAL = "goal_sent goal_answered"
@@ -68,14 +67,14 @@ NEEDED = {
         "works_in_any_namespace": _ASKED,
     },
     "interfaces": {
-        "service_builds": _BUILT,
-        "response_has_its_fields": _BUILT,
-        "action_builds": _BUILT,
-        "goal_has_its_fields": _BUILT,
-        "result_has_its_fields": _BUILT,
-        "feedback_has_its_fields": _BUILT,
-        "request_is_empty": _BUILT,
-        "error_codes_have_names": _BUILT,
+        "service_builds": "node_output",
+        "response_has_its_fields": "node_output",
+        "action_builds": "node_output",
+        "goal_has_its_fields": "node_output",
+        "result_has_its_fields": "node_output",
+        "feedback_has_its_fields": "node_output",
+        "request_is_empty": "node_output",
+        "error_codes_have_names": "node_output",
     },
     "joint_query": {
         "server_appears": "",

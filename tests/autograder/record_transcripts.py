@@ -14,6 +14,7 @@ from autograder.audit.known_submission import SUBMISSIONS, read_known_submission
 from autograder.audit.proof import enough_to_catch
 from autograder.exercise import Exercise, exercise_names, load_exercise
 from autograder.grading import STRAINED, lateness
+from autograder.submission_arenas import SubmissionArenas
 from autograder.transcript import Transcript
 
 # One that passes everything, and a few that go wrong in different ways: an answer that is wrong, one that never comes,
@@ -59,17 +60,19 @@ def _record(exercise: Exercise, path: Path) -> None:
     known = read_known_submission(path)
     files = known.read().files
     wanted = {scenario for check in enough_to_catch(known, exercise).checks for scenario in check.on}
-    for name, scenario in scenarios_of(exercise.name).items():
-        if scenario in wanted:
-            transcript = _run(ArenaRun(exercise, files, scenario))
-            write(FOLDER / exercise.name / f"{path.stem}.{name}.jsonl.gz", transcript)
-            print(f"{exercise.name} {path.stem} {name}: {transcript.end:.1f} s", flush=True)
+    with SubmissionArenas(exercise) as arenas:
+        for name, scenario in scenarios_of(exercise.name).items():
+            if scenario in wanted:
+                run = ArenaRun(exercise, files, scenario, cold=False, more_to_come=True)
+                transcript = _carry_out(run, arenas)
+                write(FOLDER / exercise.name / f"{path.stem}.{name}.jsonl.gz", transcript)
+                print(f"{exercise.name} {path.stem} {name}: {transcript.end:.1f} s", flush=True)
 
 
-def _run(run: ArenaRun) -> Transcript:
+def _carry_out(run: ArenaRun, arenas: SubmissionArenas) -> Transcript:
     """Run a scenario until nothing was late in it, more slowly each time the machine was too busy."""
     for scale in (5.0, 5.0, 5.0, 2.0, 2.0, 1.0):
-        transcript = run_in_arena(replace(run, scale=scale))
+        transcript = run_in_arena(replace(run, scale=scale), arenas=arenas)
         if not run.scenario.timed or lateness(transcript) <= STRAINED:
             return transcript
     raise SystemExit(f"the machine is too busy to record {run.scenario.name}")

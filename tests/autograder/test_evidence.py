@@ -109,7 +109,7 @@ def delayed(transcript):
 
 def flooded(transcript):
     for kind in ("feedback", "status", "request_received", "service_answered", "woken_late"):
-        dropped = ev.RecordDropped(t=transcript.end, what=kind, count=1)
+        dropped = ev.RecordDropped(t=transcript.end, what=kind, count=1, seconds=1.0)
         yield f"with a flood of {kind}", replace(transcript, events=[*transcript.events, dropped])
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 from autograder import events as ev
-from autograder.checks import Check, Scenario, program
+from autograder.checks import Check, Scenario
 from autograder.failure import CannotBeJudged, Failure
 from autograder.judging import judge
 from autograder.missing import Missing, unseen
@@ -160,31 +160,6 @@ def test_a_command_that_took_effect_late_is_the_fault_of_who_held_the_robot_up()
     require_whole(transcript(SENT, obeyed(6.0)), WITH_ROBOT)
     with pytest.raises(Failure, match=r"at 3\.0 s until 6\.0 s"):
         require_whole(transcript(SENT, obeyed(6.0), REFUSED), WITH_ROBOT)
-
-
-def feedback(t):
-    return ev.FeedbackReceived(t=t, goal="walk", feedback={})
-
-
-def test_a_flood_says_how_much_of_what_came():
-    heard = [feedback(2.0 + number / 100) for number in range(50)]
-    dropped = ev.RecordDropped(t=10.0, what="feedback", count=600)
-    with pytest.raises(Failure) as failure:
-        require_whole(transcript(*heard, dropped), WITH_ROBOT)
-    assert failure.value.expected.startswith("at most 50 feedback messages in one run")
-    assert failure.value.observed == "650 of them; the first 50 came within 0.5 s"
-
-
-def test_what_a_node_prints_may_be_cut_and_what_a_program_prints_may_not():
-    dropped = ev.RecordDropped(t=10.0, what="node_output", count=3)
-    require_whole(transcript(dropped), WITH_ROBOT)
-    with pytest.raises(Failure, match="lines of output"):
-        require_whole(transcript(dropped), program("ask"))
-
-
-def test_what_the_grader_itself_dropped_gives_no_grade():
-    with pytest.raises(CannotBeJudged, match="woken_late"):
-        require_whole(transcript(ev.RecordDropped(t=10.0, what="woken_late", count=3)), WITHOUT)
 
 
 def test_a_record_that_breaks_off_gives_no_grade():
