@@ -1,7 +1,7 @@
 """Absence of evidence never passes: checks judge recorded transcripts of which something is missing.
 
-Whatever is lost, doubled or late, the outcome is a verdict with a sentence, never a check that breaks; and nothing
-passes then that failed before.
+Whatever is lost, doubled or late, the outcome is a verdict with a sentence, never a check that breaks; and with
+something lost or doubled nothing passes that failed before.
 """
 
 import re
@@ -21,7 +21,7 @@ from autograder.transcript import Transcript
 
 EXERCISES = exercise_names()
 RUNS_OF = ("joints", "feedback", "battery", "peers", "woken_late")  # of a row of these the ends are enough
-ANSWERS = ("service_answered", "goal_answered", "cancel_answered", "result", "reply_sent", "command", "arm")
+ANSWERS = ("service_answered", "goal_answered", "cancel_answered", "result", "reply_sent", "arm")
 DELAYS = (0.4, 2.0, 30.0)  # s
 # What a program does by itself. Without one of these a record is that of another program, and that may be a sound one.
 OWN_DOING = ("node_output", "node_exited", "node_killed", "request_received", "feedback", "status")
@@ -88,7 +88,9 @@ def without_a_kind(transcript):
 
 
 def lacking(transcript, kind):
-    return replace(transcript, events=[event for event in transcript.events if event.kind != kind])
+    """Without a command that was never sent nobody waits for its effect."""
+    kinds = (kind, "command_sent") if kind == "command" else (kind,)
+    return replace(transcript, events=[event for event in transcript.events if event.kind not in kinds])
 
 
 def doubled(transcript):
