@@ -74,7 +74,9 @@ def ask_many_at_once(stage: Stage, bursts: int, burst: int) -> None:
 
 
 def interrupt(stage: Stage) -> None:
-    """Ask once, then press Ctrl-C."""
+    """Ask once, when a message has come, then press Ctrl-C."""
     _open(stage)
+    stage.wait_for_published("battery", 1)
+    stage.wait(PERIOD)
     stage.call(SERVICE)
     stage.interrupt_node()

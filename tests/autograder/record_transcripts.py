@@ -1,0 +1,82 @@
+"""Records the transcripts that test_evidence.py judges: `python tests/autograder/record_transcripts.py [EXERCISE …]`.
+
+Needed when a scenario has changed. It takes an arena for each, one after the other: some minutes an exercise.
+"""
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from recorded import FOLDER, scenarios_of, write
+
+from autograder.arena_run import ArenaRun, run_in_arena
+from autograder.audit.known_submission import SUBMISSIONS, read_known_submission
+from autograder.audit.proof import enough_to_catch
+from autograder.exercise import Exercise, exercise_names, load_exercise
+from autograder.grading import STRAINED, lateness
+from autograder.submission_arenas import SubmissionArenas
+from autograder.transcript import Transcript
+
+# One that passes everything, and a few that go wrong in different ways: an answer that is wrong, one that never comes,
+# a node that ends.
+SUBMISSIONS_OF = {
+    "battery_service": [
+        *("correct/class_based", "faulty/answers_from_a_cache", "faulty/no_test_for_none"),
+        *("faulty/forgets_after_a_second", "faulty/waits_for_the_first_message"),
+    ],
+    "cancellable_walk": [
+        *("correct/threads_and_sleep", "faulty/sleeps_on_one_thread", "faulty/pretends", "faulty/walks_on"),
+        "faulty/feedback_for_ever",
+    ],
+    "compute_ik": ["correct/class_based", "faulty/raises_for_a_frame", "faulty/ignores_elbow_up"],
+    "interfaces": ["correct/bare", "faulty/no_frame", "faulty/no_separator"],
+    "joint_query": [
+        *("correct/class_based", "faulty/key_error", "faulty/keeps_the_first_message"),
+        "faulty/remembers_the_places",
+    ],
+    "motor_services": [
+        *("correct/class_based", "faulty/sets_a_field_of_its_own", "faulty/refuses_and_obeys"),
+        *("faulty/flag_of_its_own", "faulty/only_a_flag"),
+    ],
+    "patterns": ["correct/as_in_the_notebook", "faulty/eleven_answers"],
+    "robot_controller": [
+        *("correct/class_based", "faulty/asks_only_once", "faulty/both_at_once", "faulty/always_exit_0"),
+        "faulty/raises_before_the_node",
+    ],
+}
+
+
+def main(exercises: list[str]) -> None:
+    """Record what is asked for, or all."""
+    for name in exercises or exercise_names():
+        for submission in SUBMISSIONS_OF[name]:
+            folder = SUBMISSIONS / name / submission
+            _record(
+                load_exercise(name, hidden=True), folder if folder.is_dir() else folder.with_suffix(".py")
+            )
+
+
+def _record(exercise: Exercise, path: Path) -> None:
+    known = read_known_submission(path)
+    files = known.read().files
+    wanted = {scenario for check in enough_to_catch(known, exercise).checks for scenario in check.on}
+    with SubmissionArenas(exercise) as arenas:
+        for name, scenario in scenarios_of(exercise.name).items():
+            if scenario in wanted:
+                run = ArenaRun(exercise, files, scenario, cold=False, more_to_come=True)
+                transcript = _carry_out(run, arenas)
+                write(FOLDER / exercise.name / f"{path.stem}.{name}.jsonl.gz", transcript)
+                print(f"{exercise.name} {path.stem} {name}: {transcript.end:.1f} s", flush=True)
+
+
+def _carry_out(run: ArenaRun, arenas: SubmissionArenas) -> Transcript:
+    """Run a scenario until nothing was late in it, more slowly each time the machine was too busy."""
+    for scale in (5.0, 5.0, 5.0, 2.0, 2.0, 1.0):
+        transcript = run_in_arena(replace(run, scale=scale), arenas=arenas)
+        if not run.scenario.timed or lateness(transcript) <= STRAINED:
+            return transcript
+    raise SystemExit(f"the machine is too busy to record {run.scenario.name}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

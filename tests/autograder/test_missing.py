@@ -1,0 +1,187 @@
+"""What is missing from a transcript is said in a sentence, with the reason where there is one."""
+
+import pytest
+
+from autograder import events as ev
+from autograder.checks import Check, Scenario
+from autograder.failure import CannotBeJudged, Failure
+from autograder.judging import judge
+from autograder.missing import Missing, unseen
+from autograder.transcript import Transcript
+from autograder.wholeness import require_whole
+
+BEGINNING = (ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0))
+ASKED = ev.ServiceCalled(t=2.0, call="call 1", service="get_status", request={})
+ANSWERED = ev.ServiceAnswered(t=2.1, call="call 1", response={"success": True})
+RAISED = ev.NodeOutput(t=3.0, stream="stderr", text="RuntimeError: no motors")
+EXITED = ev.NodeExited(t=3.1, returncode=1)
+GIVEN_UP = ev.Unanswered(t=7.0, what="call", id="call 1", waited=5.0)
+BUSY = ev.NodeUsage(t=9.0, cpu=9.0, wall=9.5, peak_memory_mib=30)
+REFUSED = ev.RobotRefused(
+    t=4.0,
+    topic="joint_trajectory",
+    count=1240,
+    bytes=1240 * 1_400_000,
+    reason="the robot takes at most 500 points",
+)
+WITH_ROBOT, WITHOUT = Scenario("ask"), Scenario("ask", robot=None)
+
+
+def robot(t, **fields):
+    numbers = dict.fromkeys(("x", "y", "z", "yaw", "speed", "turn_rate", "steps"), 0) | {"up": 1, "lag": 0}
+    return ev.RobotTruth(t=t, simulated=t, mode=1, motors_enabled=True, battery=1, **(numbers | fields))
+
+
+def transcript(*events, until=10.0, robot_until=10.0):
+    truth = [robot(tenth / 10) for tenth in range(int(robot_until * 10) + 1)]
+    return Transcript.from_events("ask", {}, [*BEGINNING, *truth, *events, ev.ScenarioEnded(t=until)])
+
+
+def test_a_question_that_was_never_asked_since_the_node_had_ended():
+    with pytest.raises(Missing) as missing:
+        transcript(ASKED, ANSWERED, RAISED, EXITED).call("get_status", 2)
+    assert (
+        missing.value.observed
+        == "get_status was never asked a second time, because the node had ended at 3.1 s: "
+        "RuntimeError: no motors"
+    )
+    assert "the log below" in missing.value.help
+    assert missing.value.at == 3.1
+
+
+@pytest.mark.parametrize(
+    ("events", "because"),
+    [
+        ([ASKED, GIVEN_UP], "get_status had given no answer after 5.0 s"),
+        ([ASKED, ANSWERED], "the scenario went no further than 10.0 s"),
+        (
+            [ASKED, ANSWERED, ev.NodeKilled(t=3.0, reason="it used 900 MiB"), EXITED],
+            "the node had been ended at 3.0 s: it used 900 MiB",
+        ),
+        (
+            [ASKED, ANSWERED, ev.NodeSignalled(t=3.0, signal="SIGINT"), EXITED],
+            "the scenario went no further than 10.0 s",
+        ),
+    ],
+)
+def test_the_reason_is_the_first_thing_that_went_wrong(events, because):
+    with pytest.raises(Missing) as missing:
+        transcript(*events).call("get_status", 2)
+    assert missing.value.observed.endswith(f"because {because}")
+
+
+@pytest.mark.parametrize(
+    ("ask", "never"),
+    [
+        (lambda run: run.call("get_status", 1), "get_status was never asked"),
+        (lambda run: run.goal("walk"), "the goal “walk” was never sent"),
+        (lambda run: run.cancels_of("walk"), "nobody asked to cancel the goal “walk”"),
+        (lambda run: run.cancels_of(""), "nobody asked to cancel every goal"),
+        (lambda run: run.mark("fallen"), "it never got there"),
+    ],
+)
+def test_every_query_for_what_never_happened_is_a_failure_of_the_submission(ask, never):
+    with pytest.raises(Missing) as missing:
+        ask(transcript(EXITED))
+    assert missing.value.observed == f"{never}, because the node had ended at 3.1 s: exit status 1"
+
+
+def test_an_answer_that_came_when_nobody_waited_any_more_is_none():
+    run = transcript(ASKED, GIVEN_UP, ANSWERED.model_copy(update={"t": 7.01}))
+    assert run.call("get_status", 1).answer is None
+
+
+def test_an_event_that_is_there_twice_counts_once():
+    assert len(transcript(ASKED, ASKED, ANSWERED, ANSWERED).calls) == 1
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [lambda run: run.robot_at(6.0), lambda run: run.robot_between(3.0, 6.0), lambda run: run.told("push")],
+)
+def test_what_the_arena_left_out_gives_no_grade_unless_the_submission_is_the_reason(ask):
+    with pytest.raises(CannotBeJudged):
+        ask(transcript(robot_until=4.0))
+    with pytest.raises(
+        Failure, match=r"sent 1,240 joint_trajectory messages of 1\.4 MB; the robot takes at most 500"
+    ):
+        ask(transcript(REFUSED, robot_until=4.0))
+
+
+def test_the_sentence_says_what_was_unseen_and_why():
+    assert str(unseen(transcript(), "nobody pressed Ctrl-C")) == "ask: nobody pressed Ctrl-C"
+    failure = unseen(transcript(BUSY), "nobody pressed Ctrl-C")
+    assert isinstance(failure, Failure)
+    assert failure.observed == (
+        "nobody pressed Ctrl-C, because your program kept the processors busy: 9.0 s of processor time in 9.5 s"
+    )
+
+
+# -- the record as a whole --------------------------------------------------------------------------------------------
+
+
+def test_a_whole_record_is_no_reason_to_fail():
+    require_whole(transcript(ASKED, ANSWERED), WITH_ROBOT)
+
+
+def test_a_robot_whose_time_stands_still_is_not_judged():
+    with pytest.raises(CannotBeJudged, match=r"the robot's time stood still for 6\.0 s from 4\.0 s on"):
+        require_whole(transcript(robot_until=4.0), WITH_ROBOT)
+    require_whole(transcript(robot_until=4.0), WITHOUT)
+
+
+@pytest.mark.parametrize("reason", [REFUSED, BUSY])
+def test_a_submission_that_holds_the_robot_up_fails(reason):
+    with pytest.raises(Failure, match="time stood still"):
+        require_whole(transcript(reason, robot_until=4.0), WITH_ROBOT)
+
+
+def test_an_end_of_the_node_is_no_excuse_for_the_robot():
+    with pytest.raises(CannotBeJudged):
+        require_whole(transcript(EXITED, robot_until=4.0), WITH_ROBOT)
+
+
+SENT = ev.CommandSent(t=3.0, command={"do": "push", "impulse": [0, 60, 0]})
+
+
+def obeyed(t):
+    return ev.RobotCommanded(t=t, command=SENT.command)
+
+
+def test_each_command_must_have_taken_effect_once():
+    require_whole(transcript(SENT, obeyed(3.1), SENT, obeyed(3.2)), WITH_ROBOT)
+    with pytest.raises(CannotBeJudged, match=r"did not obey the grader's command push at 3\.0 s"):
+        require_whole(transcript(SENT, obeyed(3.1), SENT), WITH_ROBOT)
+    with pytest.raises(Failure, match="1,240 joint_trajectory"):
+        require_whole(transcript(SENT, REFUSED), WITH_ROBOT)
+
+
+def test_a_command_that_took_effect_late_is_the_fault_of_who_held_the_robot_up():
+    require_whole(transcript(SENT, obeyed(6.0)), WITH_ROBOT)
+    with pytest.raises(Failure, match=r"at 3\.0 s until 6\.0 s"):
+        require_whole(transcript(SENT, obeyed(6.0), REFUSED), WITH_ROBOT)
+
+
+def test_a_record_that_breaks_off_gives_no_grade():
+    run = Transcript.from_events("ask", {}, [*BEGINNING, ASKED, ANSWERED])
+    with pytest.raises(CannotBeJudged, match=r"breaks off at 2\.1 s"):
+        require_whole(run, WITHOUT)
+
+
+def check_that(judge_run):
+    return Check("it", "It does", 2, judge_run, (WITHOUT,), (), False)
+
+
+def test_a_verdict_of_each_kind():
+    whole = transcript(ASKED, ANSWERED)
+    assert judge(check_that(lambda run: run.call("get_status", 1)), [whole]).points == 2
+    failed = judge(check_that(lambda run: run.call("get_status", 2)), [whole])
+    assert (failed.status, failed.points, failed.robot_time) == ("failed", 0, 10.0)
+    unclear = judge(check_that(lambda run: run.told("push")), [whole])
+    assert (unclear.status, unclear.help) == (
+        "error",
+        "Not graded: ask: the robot did not get the command push",
+    )
+    broken = judge(check_that(lambda run: run.nonsense), [whole])
+    assert broken.status == "error"
+    assert "AttributeError" in broken.help
