@@ -112,14 +112,16 @@ def _perform(
 
     scenario = getattr(importlib.import_module(spec["module"]), spec["scenario"])
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-    node = rclpy.create_node("observer", namespace=spec["namespace"])
+    # no services of their own: nobody asks for them, and everybody would have to discover them
+    bare = {"start_parameter_services": False, "enable_rosout": False}
+    node = rclpy.create_node("observer", namespace=spec["namespace"], **bare)
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     stage: Stage | ClientStage
     if spec["student"] == "program":
         stage = ClientStage(node, recorder, changed, student, phases, speed_up)
     else:
-        stranger = rclpy.create_node("stranger", namespace=spec["namespace"])
+        stranger = rclpy.create_node("stranger", namespace=spec["namespace"], **bare)
         executor.add_node(stranger)
         stage = Stage(node, stranger, recorder, changed, simulator, student, phases, speed_up)
     threading.Thread(target=keep_spinning, args=(executor, recorder), daemon=True).start()
