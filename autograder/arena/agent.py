@@ -14,7 +14,7 @@ import traceback
 from collections.abc import Sequence
 from contextlib import nullcontext, suppress
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from autograder.arena.phases import Phase, Phases
 from autograder.arena.punctuality import Punctuality
@@ -24,6 +24,9 @@ from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
 from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.clock.scaled_clock import ScaledClock, follow, library_path
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
 
 
 def import_everything(spec: dict[str, Any]) -> None:
@@ -112,16 +115,14 @@ def _perform(
 
     scenario = getattr(importlib.import_module(spec["module"]), spec["scenario"])
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-    # no services of their own: nobody asks for them, and everybody would have to discover them
-    bare = {"start_parameter_services": False, "enable_rosout": False}
-    node = rclpy.create_node("observer", namespace=spec["namespace"], **bare)
+    node = _bare_node("observer", spec["namespace"])
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     stage: Stage | ClientStage
     if spec["student"] == "program":
         stage = ClientStage(node, recorder, changed, student, phases, speed_up)
     else:
-        stranger = rclpy.create_node("stranger", namespace=spec["namespace"], **bare)
+        stranger = _bare_node("stranger", spec["namespace"])
         executor.add_node(stranger)
         stage = Stage(node, stranger, recorder, changed, simulator, student, phases, speed_up)
     threading.Thread(target=keep_spinning, args=(executor, recorder), daemon=True).start()
@@ -134,3 +135,10 @@ def _perform(
         raise RuntimeError(f"the simulator ended with status {simulator.process.exitcode}")
     recorder.record("scenario_ended", t=time.monotonic())
     phases.end("scenario")
+
+
+def _bare_node(name: str, namespace: str) -> Node:
+    """Make a node without services of its own: nobody asks for them, and everybody would have to discover them."""
+    import rclpy
+
+    return rclpy.create_node(name, namespace=namespace, start_parameter_services=False, enable_rosout=False)
