@@ -287,6 +287,16 @@ class RobotCommanded(_Event):
     command: Message
 
 
+class RobotRefused(_Event):
+    """So many messages of a topic (the largest of so many bytes) the robot has not heard so far, and why."""
+
+    kind: Literal["refused"] = "refused"
+    topic: str
+    count: int
+    bytes: int
+    reason: str
+
+
 Event = Annotated[
     NodeStarted
     | NodeReady
@@ -321,7 +331,8 @@ Event = Annotated[
     | JointsPublished
     | ArmReported
     | RobotPeers
-    | RobotCommanded,
+    | RobotCommanded
+    | RobotRefused,
     Field(discriminator="kind"),
 ]
 
