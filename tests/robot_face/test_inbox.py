@@ -100,7 +100,7 @@ def test_lengths_are_read_from_bytes():
     message.header.frame_id = "odom"
     data = serialize_message(message)
     assert count_joints_and_points(data) == (4, 3)
-    for size in range(len(data) - 100):
+    for size in range(72):
         with pytest.raises(ValueError, match="too soon"):
             count_joints_and_points(data[:size])
     with pytest.raises(ValueError, match="too soon"):
