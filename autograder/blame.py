@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -88,19 +87,17 @@ def _refused(run: Transcript) -> Cause | None:
     refusals = run.all(ev.RobotRefused)
     if not refusals:
         return None
-    worst = max(refusals, key=lambda refusal: refusal.bytes)
-    of_topic = [refusal for refusal in refusals if refusal.topic == worst.topic]
-    count = sum(refusal.count for refusal in of_topic)
+    topic = max(refusals, key=lambda refusal: refusal.bytes).topic
+    last = [refusal for refusal in refusals if refusal.topic == topic][-1]
     return Cause(
-        f"your node sent {count:,} {worst.topic} messages of {_size(of_topic, count)}; {worst.reason}",
+        f"your node sent {last.count:,} {topic} messages of up to {_size(last.bytes)}; {last.reason}",
         "Publish on the robot's topics only what the task asks for, at the rate of a timer, not in a loop without end.",
-        worst.t,
+        last.t,
     )
 
 
-def _size(refusals: Sequence[ev.RobotRefused], count: int) -> str:
-    each = sum(refusal.bytes for refusal in refusals) / max(count, 1)
-    return f"{each / 1e6:.1f} MB" if each >= 1e5 else f"{each / 1e3:.1f} kB"
+def _size(count: int) -> str:
+    return f"{count / 1e6:.1f} MB" if count >= 1e5 else f"{count / 1e3:.1f} kB"
 
 
 def _hogging(run: Transcript) -> Cause | None:

@@ -322,16 +322,6 @@ class RobotPeers(_Event):
     publishers: dict[str, int]
 
 
-class RobotRefused(_Event):
-    """The robot did not take `count` messages on a topic, of `bytes` in all, since it last said so; `reason` is why."""
-
-    kind: Literal["refused"] = "refused"
-    topic: str
-    count: int
-    bytes: int
-    reason: str
-
-
 class CommandSent(_Event):
     """The scenario sent the robot a command; RobotCommanded with the same command follows when it takes effect."""
 
@@ -344,6 +334,16 @@ class RobotCommanded(_Event):
 
     kind: Literal["command"] = "command"
     command: Message
+
+
+class RobotRefused(_Event):
+    """So many messages of a topic (the largest of so many bytes) the robot has not heard so far, and why."""
+
+    kind: Literal["refused"] = "refused"
+    topic: str
+    count: int
+    bytes: int
+    reason: str
 
 
 Event = Annotated[

@@ -21,7 +21,7 @@ class Battery:
         self.parameters = parameters or BatteryParameters()
         self.percentage = 1.0
         self.energy_used = 0.0
-        self._power = self.parameters.idle_power
+        self._power = self._latest_power = self.parameters.idle_power
 
     @property
     def current(self) -> float:
@@ -63,11 +63,16 @@ class Battery:
         its windings, I²R, which is proportional to the torque squared.
         """
         work = torque * velocity
-        power = float(np.maximum(work, 0.0).sum() + self.parameters.motor_loss * (torque @ torque))
+        power = float(work @ (work > 0.0) + self.parameters.motor_loss * (torque @ torque))
         self.discharge(power + self.parameters.idle_power, dt)
+
+    def drain_as_before(self, dt: float) -> None:
+        """Draw what was drawn last, for ``dt`` (s)."""
+        self.discharge(self._latest_power, dt)
 
     def discharge(self, power: float, dt: float) -> None:
         """Draw ``power`` (W) for ``dt`` (s)."""
+        self._latest_power = power
         energy = power * dt
         self.energy_used += energy
         self.percentage = max(0.0, self.percentage - energy / (self.parameters.capacity * 3600))

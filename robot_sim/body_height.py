@@ -28,6 +28,12 @@ class BodyHeight:
         """High enough to walk."""
         return self._walker.height > self._stance - self._limits.risen
 
+    @property
+    def is_idle(self) -> bool:
+        """It is not told to go anywhere, or is where it was told to go."""
+        goes = self.rate < 0 or (self.rate > 0 and self._walker.height < self._stance)
+        return not goes and (self.change is None or self.change.phase.is_last)
+
     def move(self, rate: float) -> None:
         """Go up at ``rate`` (m/s; negative: down) until told otherwise, within the limits of height and speed.
 

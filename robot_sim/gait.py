@@ -54,6 +54,11 @@ class Gait:
         """The foot in the air, if any."""
         return self._step.swing_side if self._step is not None and self._step.in_swing else None
 
+    @property
+    def is_idle(self) -> bool:
+        """It was told nothing that is not done."""
+        return self._command is None and self._step is None
+
     def update(self, sensed: Sensing, cop_shift: tuple[float, float], dt: float) -> BalanceTask:
         """One tick of ``dt`` (s).
 

@@ -24,6 +24,7 @@ from robot_sim.planar import clamp
 from robot_sim.posture import take_stance
 from robot_sim.push import Pusher
 from robot_sim.reach import HandTarget, Reach
+from robot_sim.rest import Rest
 from robot_sim.scenes import OBJECTS
 from robot_sim.state import BasePose, BaseVelocity, ImuSample, JointState, Mode, ObjectPose
 from robot_sim.state_estimate import StateEstimate
@@ -53,6 +54,8 @@ class Humanoid:
         model, data: of MuJoCo; the pelvis is base_link, the world is odom.
         battery: charge, voltage, current.
         hands: the grippers by side, "l" and "r".
+        may_rest: once it stands still and nothing is asked of its body it is left as it is instead of being integrated:
+            time and battery go on, and a step costs a fiftieth.
         motors_enabled: torque is on. False after ``set_motor_power(False)``, after a fall and at zero charge.
     """
 
@@ -79,6 +82,7 @@ class Humanoid:
         self._joint_positions = np.array([joint.qposadr[0] for joint in joints])
         self._joint_velocities = np.array([joint.dofadr[0] for joint in joints])
         self._torso_rotation = self.data.xmat[self.model.body("torso").id]
+        self._rest = Rest(self.data, timestep)
         self.reset()
 
     def reset(self, x: float = 0.0, y: float = 0.0, yaw: float = 0.0, *, height: float | None = None) -> None:
@@ -111,6 +115,9 @@ class Humanoid:
 
     def step(self) -> None:
         """Simulate one timestep."""
+        if self._rest.has_come:
+            self._pass_time()
+            return
         mujoco.mj_step1(self.model, self.data)
         if self.motors_enabled:
             if self._estimate:
@@ -129,6 +136,36 @@ class Humanoid:
             self._set_actuation(False)
         elif self.motors_enabled and self.battery.is_empty:
             self._set_actuation(False)
+        if self._rest.allowed:
+            self._rest.watch(self._is_idle())
+
+    @property
+    def may_rest(self) -> bool:
+        return self._rest.allowed
+
+    @may_rest.setter
+    def may_rest(self, allowed: bool) -> None:
+        self._rest.allowed = allowed
+        self._rest.stir()
+
+    def _pass_time(self) -> None:
+        """Simulate one timestep of a robot at rest."""
+        self.data.time += self.timestep
+        self.battery.drain_as_before(self.timestep)
+        if self.battery.is_empty:
+            self._set_actuation(False)
+
+    def _is_idle(self) -> bool:
+        """Whether it stands, and nothing is asked of its body."""
+        return (
+            self.motors_enabled
+            and self._estimate is None
+            and self._pending is None
+            and self._walker.is_idle
+            and self._height.is_idle
+            and self._upper_body.is_idle
+            and self._pusher.is_idle
+        )
 
     # Commands
 
@@ -181,6 +218,7 @@ class Humanoid:
             ValueError: the impulse is not three finite numbers, or the duration is not positive.
         """
         self._pusher.push(impulse, duration)
+        self._rest.stir()
 
     def move_body(self, rate: float) -> None:
         """Crouch or rise at ``rate`` (m/s, upwards) until told otherwise; ignored while the motors are off.
@@ -192,6 +230,8 @@ class Humanoid:
         """
         if self.motors_enabled:
             self._height.move(rate)
+            if rate:
+                self._rest.stir()
 
     def crouch_to(self, height: float) -> HeightChange:
         """Bring the pelvis to ``height`` (m, 0.45 to 0.60 above the floor) in phases that end by what is measured.
@@ -203,6 +243,7 @@ class Humanoid:
             ValueError: the height is not finite.
         """
         change = self._height.change_to(height)
+        self._rest.stir()
         if not self.motors_enabled:
             change.fail("the motors are off")
         return change
@@ -224,6 +265,7 @@ class Humanoid:
     @balance_gains.setter
     def balance_gains(self, gains: BalanceGains) -> None:
         self._walker.gains = gains
+        self._rest.stir()
 
     def move_joints(self, trajectory: JointTrajectory) -> None:
         """Move joints of waist, head and arms along a trajectory; it replaces an earlier one. Empty: hold.
@@ -232,6 +274,7 @@ class Humanoid:
         """
         if self.motors_enabled:
             self._upper_body.follow(trajectory)
+            self._rest.stir()
 
     def open_hand(self, side: str, opening: float) -> None:
         """Bring the fingers of a side ("l" or "r") ``opening`` (m, 0 to 0.09) apart; ignored without motors.
@@ -241,6 +284,7 @@ class Humanoid:
         """
         if self.motors_enabled:
             self.hands[side].open_to(opening)
+            self._rest.stir()
 
     def reach(self, side: str, target: HandTarget) -> Reach:
         """Bring the hand of a side ("l" or "r") to a target in the odom frame; ``error()`` tells how far it is.
@@ -248,6 +292,7 @@ class Humanoid:
         Raises:
             ValueError: the side is not known, or the target is not finite.
         """
+        self._rest.stir()
         return self._upper_body.reach(side, target)
 
     # State
@@ -322,6 +367,7 @@ class Humanoid:
         if not self.motors_enabled:
             return
         if command is not None:
+            self._rest.stir()
             self._height.interrupt("it was told to walk")
         if command is None or self._height.is_risen:
             self._pending = None
@@ -334,6 +380,7 @@ class Humanoid:
         return self.data.qpos[2] < self._fall.base_height or self._torso_rotation[8] < self._fall.up
 
     def _set_actuation(self, on: bool) -> None:
+        self._rest.stir()
         disabled = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
         if on:
             self.model.opt.disableflags &= ~disabled

@@ -25,14 +25,12 @@ class ManipulationTopics:
     def __init__(self, node: Node, humanoid: Humanoid) -> None:
         self._node = node
         self._humanoid = humanoid
-        self.heard: list[Subscription] = [
-            node.create_subscription(JointTrajectoryMessage, "joint_trajectory", self._on_trajectory, 10),
-            *(
-                node.create_subscription(
-                    Float64, f"{side}_gripper/command", partial(self._on_opening, side), 10
-                )
-                for side in SIDES
-            ),
+        self.trajectory: Subscription = node.create_subscription(
+            JointTrajectoryMessage, "joint_trajectory", self._on_trajectory, 10
+        )
+        self.grippers: list[Subscription] = [
+            node.create_subscription(Float64, f"{side}_gripper/command", partial(self._on_opening, side), 10)
+            for side in SIDES
         ]
         self._wrenches = {
             side: node.create_publisher(WrenchStamped, f"{side}_gripper/wrench", 10) for side in SIDES

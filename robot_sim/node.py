@@ -17,10 +17,12 @@ from humanoid_interfaces.msg import BalanceGains as BalanceGainsMessage
 from humanoid_interfaces.msg import RobotState
 from robot_sim.balance_gains import BalanceGains
 from robot_sim.humanoid import Humanoid, Mode
+from robot_sim.inbox import Inbox
 from robot_sim.joint_names import ACTUATED_JOINTS
 from robot_sim.manipulation_topics import ManipulationTopics
 from robot_sim.messages import floats, is_heard, set_fields
 from robot_sim.schedule import Schedule
+from robot_sim.trajectory_size import MOST_BYTES, why_too_large
 from robot_sim.truth import BatterySample, TruthWriter
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -39,7 +41,7 @@ class HumanoidNode(Node):
     """Publishes the humanoid's state and passes commands on to it.
 
     The node neither spins nor steps: :func:`robot_sim.run.run` calls :meth:`publish_due` after each step and
-    :meth:`hear` in between, so one thread owns the simulation. `heard` are the subscriptions it listens to.
+    :meth:`hear` in between, so one thread owns the simulation. `heard` are the topics it listens to.
     """
 
     def __init__(
@@ -62,13 +64,18 @@ class HumanoidNode(Node):
         self._robot_state = self.create_publisher(RobotState, "robot_state", LATCHED)
         self._clock_topic = self.create_publisher(Clock, "/clock", 10)
         manipulation = ManipulationTopics(self, humanoid)
-        self.heard = [
+        report = truth.refused if truth else None
+        subscriptions = (
             self.create_subscription(Twist, "cmd_vel", self._on_velocity, 10),
             self.create_subscription(Bool, "motor_power", self._on_motor_power, 10),
             self.create_subscription(BalanceGainsMessage, "balance_gains", self._on_balance_gains, 10),
-            *manipulation.heard,
-        ]
-        self._heard_topics = [heard.topic_name for heard in self.heard]
+            *manipulation.grippers,
+        )
+        self.heard = [Inbox(subscription, report) for subscription in subscriptions]
+        self.heard.append(
+            Inbox(manipulation.trajectory, report, most_bytes=MOST_BYTES, why_not=why_too_large)
+        )
+        self._heard_topics = [heard.topic for heard in self.heard]
         self._peers: tuple[dict[str, int], dict[str, int]] = ({}, {})
         self._make_messages()
 
@@ -128,8 +135,12 @@ class HumanoidNode(Node):
     def hear(self) -> None:
         """Obey the commands that have arrived, without the 0.3 ms that an executor's wait set costs each time."""
         for heard in self.heard:
-            while taken := heard.handle.take_message(heard.msg_type, heard.raw):
-                heard.callback(taken[0])
+            heard.look(self.humanoid.time)
+
+    def tell_refused(self) -> None:
+        """Report what was not heard since the last report; call it at the end."""
+        for heard in self.heard:
+            heard.tell()
 
     def restart(self) -> None:
         """Forget commands and deadlines of before; call it after the humanoid was reset."""

@@ -21,6 +21,7 @@ class RobotOptions:
         scene, crouch, seed: which humanoid stands where, how, and with which noise.
         truth_fd, control_fd: descriptors of the arena's pipes; with the latter the robot is graded and /sim absent.
         battery_sensor_unplugged, joint_sensors_unplugged, robot_state_unpublished: faults it begins with.
+        may_rest: it is not integrated while it stands still and nothing is asked of its body.
     """
 
     rtf: float = 1.0
@@ -36,6 +37,7 @@ class RobotOptions:
     battery_sensor_unplugged: bool = False
     joint_sensors_unplugged: bool = False
     robot_state_unpublished: bool = False
+    may_rest: bool = False
 
 
 def parse_options(arguments: Sequence[str] | None = None) -> RobotOptions:
@@ -69,6 +71,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--battery-sensor-unplugged", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--joint-sensors-unplugged", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--robot-state-unpublished", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--may-rest", action="store_true", help=argparse.SUPPRESS)
     return parser
 
 

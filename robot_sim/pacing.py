@@ -11,6 +11,9 @@ class Pacing:
     `real_time_factor` is simulated seconds per second of `time.monotonic()`; 0 means as fast as it can. A
     simulation that has fallen behind by more than `MAX_LAG` s lets go of the rest, so that a machine which slept
     does not make the robot race.
+
+    Attributes:
+        dropped: what it has let go of, s.
     """
 
     MAX_LAG = 1.0
@@ -20,6 +23,7 @@ class Pacing:
             raise ValueError(f"the real-time factor must not be negative, got {real_time_factor}")
         self.real_time_factor = real_time_factor
         self.dropped = 0.0
+        self._worst_lag = 0.0
         self.restart(0.0)
 
     def restart(self, simulated: float) -> None:
@@ -33,10 +37,16 @@ class Pacing:
             return 0.0
         due = self._simulated_origin + (time.monotonic() - self._origin) * self.real_time_factor
         lag = due - simulated
+        self._worst_lag = max(self._worst_lag, lag)
         if lag > self.MAX_LAG:
             self.dropped += lag
             self.restart(simulated)
         return lag
+
+    def take_worst_lag(self) -> float:
+        """Return the greatest lag (simulated s, at least 0) since the last call, also one that was let go of."""
+        worst, self._worst_lag = self._worst_lag, 0.0
+        return worst
 
     def wall_time_until(self, simulated: float) -> float:
         """Return the seconds of the system clock until `simulated` is due, at least 0."""

@@ -28,9 +28,14 @@ class Pusher:
         steps = max(1, round(duration / self._timestep))
         self._pushes.append((vector / (steps * self._timestep), steps))
 
+    @property
+    def is_idle(self) -> bool:
+        """No push acts or is to come."""
+        return not self._pushes and not self._force.any()
+
     def apply(self) -> None:
         """Set the force of the next step."""
-        if not self._pushes and not self._force.any():
+        if self.is_idle:
             return
         self._force[:] = sum(force for force, _ in self._pushes) if self._pushes else 0.0
         self._pushes = [(force, steps - 1) for force, steps in self._pushes if steps > 1]

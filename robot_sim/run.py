@@ -1,4 +1,4 @@
-"""Runs the robot node: step, publish, wait, hear, in one thread."""
+"""Runs the robot node: step, wait, publish, hear, in one thread."""
 
 from __future__ import annotations
 
@@ -23,12 +23,10 @@ if TYPE_CHECKING:  # no arena needs them
 LONGEST_CYCLE = (
     0.02  # s of physics between two looks at the commands, unless something is to be published before
 )
-CATCH_UP_CYCLES = 10  # after this many cycles without a wait, commands are heard all the same
+CATCH_UP_CYCLES = 6  # after this many cycles without a wait, commands are heard all the same
 PAUSE_PERIOD = 0.02  # s between two looks while the simulation stands still
 SERVICE_RATE = 20.0  # Hz, simulated: looks at the node's services
-REST_RATE = (
-    1.0  # Hz, simulated: looks at whatever else the middleware tells a node, which cost forty times as much
-)
+REST_RATE = 1.0  # Hz, simulated: looks at whatever else the middleware tells, which cost forty times as much
 
 
 def run(
@@ -48,10 +46,9 @@ def run(
     everybody's on one that is not, and `view` shows it.
     """
     services = Services(node)
-    lag = 0.0
     jobs = [(SERVICE_RATE, services.look), (REST_RATE, services.look_at_the_rest)]
     if truth:
-        jobs.insert(0, (TRUTH_RATE, lambda: truth.robot(humanoid, lag)))
+        jobs.insert(0, (TRUTH_RATE, lambda: truth.robot(humanoid, pacing.take_worst_lag())))
     chores = Schedule(*jobs)
     gc.freeze()  # what exists by now stays; looking through it again and again costs milliseconds each time
     cycles_since_wait = 0
@@ -61,6 +58,7 @@ def run(
     while is_running():
         if control:
             for command in control.commands():
+                pacing.lag(humanoid.time)  # noted before it is let go of
                 obey(command, humanoid, node, truth)
                 pacing.restart(humanoid.time)
                 if truth:
@@ -78,25 +76,21 @@ def run(
             continue
         for _ in range(steps):
             humanoid.step()
+        wait = pacing.wall_time_until(humanoid.time)
+        if wait > 0:
+            time.sleep(wait)
         node.publish_due()
-        lag = max(0.0, pacing.lag(humanoid.time))
         chores.run(humanoid.time)
         if view:
             view.show()
         cycles_since_wait += 1
-        wait = pacing.wall_time_until(humanoid.time)
         if wait > 0 or cycles_since_wait >= CATCH_UP_CYCLES:
             cycles_since_wait = 0
-            _serve(node, pacing, humanoid)
+            node.hear()
+    node.tell_refused()
 
 
 def _steps_until(due: float, humanoid: Humanoid) -> int:
     """How many steps to make before something is due, at simulated time ``due`` (s), or commands are to be heard."""
     seconds = min(due - humanoid.time, LONGEST_CYCLE)
     return max(1, math.ceil((seconds - TOLERANCE) / humanoid.timestep))
-
-
-def _serve(node: HumanoidNode, pacing: Pacing, humanoid: Humanoid) -> None:
-    """Wait until the next cycle is due, then hear the commands that came meanwhile."""
-    time.sleep(pacing.wall_time_until(humanoid.time))
-    node.hear()

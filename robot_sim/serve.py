@@ -34,6 +34,7 @@ def build_humanoid(options: RobotOptions, built: Humanoid | None = None) -> Huma
     if built is None or built.scene != options.scene:
         built = Humanoid(options.scene, seed=options.seed)
     built.seed = options.seed
+    built.may_rest = options.may_rest
     built.reset(height=CROUCH if options.crouch else None)
     return built
 

@@ -7,11 +7,11 @@ from typing import Any
 
 from geometry_msgs.msg import Vector3
 from rclpy.node import Node
-from rclpy.subscription import Subscription
 from std_srvs.srv import SetBool, Trigger
 
 from humanoid_interfaces.srv import SetFloat64
 from robot_sim.humanoid import Humanoid
+from robot_sim.inbox import Inbox
 from robot_sim.pacing import Pacing
 
 FASTEST = 100.0  # times real time
@@ -23,7 +23,7 @@ class SimControls:
 
     Attributes:
         paused: the simulation stands still.
-        heard: subscriptions to serve.
+        heard: topics to listen to.
     """
 
     def __init__(self, node: Node, humanoid: Humanoid, pacing: Pacing) -> None:
@@ -40,7 +40,7 @@ class SimControls:
         ]
         for service_type, name, answer in services:
             node.create_service(service_type, f"/sim/{name}", answer)
-        self.heard: list[Subscription] = [node.create_subscription(Vector3, "/sim/push", self._push, 10)]
+        self.heard = [Inbox(node.create_subscription(Vector3, "/sim/push", self._push, 10))]
 
     def steps_due(self, most: int) -> int:
         """How many steps to make now: `most`, or while paused as many of these as were asked for."""

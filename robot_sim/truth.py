@@ -36,7 +36,7 @@ class TruthWriter:
     def robot(
         self, humanoid: Humanoid, lag: float, command: tuple[float, float, float] | None = None
     ) -> None:
-        """Write the robot's state and how far (s) the simulation is behind the clock."""
+        """Write the robot's state and how far (s) the simulation was behind the clock, at most, since the last time."""
         pose, velocity = humanoid.base_pose(), humanoid.base_velocity()
         x, y, z = pose.position.tolist()
         vx, vy, _ = velocity.linear.tolist()
@@ -79,6 +79,10 @@ class TruthWriter:
     def peers(self, subscribers: dict[str, int], publishers: dict[str, int]) -> None:
         """Write how many subscribers and publishers of other nodes the robot is connected to, by topic."""
         self._write({"kind": "peers", "subscribers": subscribers, "publishers": publishers})
+
+    def refused(self, topic: str, count: int, largest: int, reason: str) -> None:
+        """Write how many messages (the largest of so many bytes) of a topic were not heard so far, and why."""
+        self._write({"kind": "refused", "topic": topic, "count": count, "bytes": largest, "reason": reason})
 
     def commanded(self, command: dict) -> None:
         """Write a command of the scenario when it takes effect."""

@@ -82,6 +82,11 @@ class UpperBody:
         self._velocity = (self._position - before) / dt
         self._servos.command(self._position, self._velocity)
 
+    @property
+    def is_idle(self) -> bool:
+        """Nothing moves, and nothing is to."""
+        return self._path is None and not self._reaches and not self._velocity.any()
+
     def _begin(self) -> None:
         """Take over from the servos' own hold, at the place they hold."""
         if not self._commanded:

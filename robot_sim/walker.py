@@ -36,6 +36,11 @@ class Walker:
         return self.gait.phase is Phase.STAND
 
     @property
+    def is_idle(self) -> bool:
+        """Both feet stand, and it is not told to walk."""
+        return self.stands and self.gait.is_idle
+
+    @property
     def height(self) -> float:
         """Of the pelvis above the floor (m) that is held."""
         return self._whole_body.height

@@ -69,10 +69,18 @@ class WholeBody:
         self._friction = [model.dof_damping[leg].copy() for leg in self._legs]
 
         self._velocity, self._bias, self._ctrl = data.qvel, data.qfrc_bias, ctrl
-        self._inertia = np.zeros((model.nv, model.nv))
         self._jacobian = np.zeros((2, 6, model.nv))
+        self._rows = self._jacobian.reshape(12, model.nv)
+        self._base_jacobian = self._rows[:, self._base]
+        self._halves = [(sole[:3], sole[3:]) for sole in self._jacobian]
         self._leg_jacobian = np.zeros((2, 6, 6))
+        self._leg_columns = [self._jacobian[side, :, leg] for side, leg in enumerate(self._legs)]
         self._acceleration = np.zeros(model.nv)
+        self._base_acceleration_view = self._acceleration[self._base]
+        self._base_linear = self._acceleration[self._base_force]
+        self._leg_acceleration = [self._acceleration[leg] for leg in self._legs]
+        self._forces = np.zeros(model.nv)
+        self._base_forces = self._forces[self._base_force]
         self._regularization = REGULARIZATION * np.eye(6)
 
     def command(self, task: BalanceTask, sensed: Sensing, dt: float) -> None:
@@ -97,30 +105,35 @@ class WholeBody:
     def _inverse_dynamics(self, task: BalanceTask, sensed: Sensing, dt: float) -> np.ndarray:
         """Generalized forces (nv,) of the motion that the task asks for, contact forces left out."""
         model, data = self._model, self._data
-        mujoco.mj_fullM(model, data, self._inertia)
         for side, sole in enumerate(self._soles):
-            mujoco.mj_jacSite(model, data, self._jacobian[side, :3], self._jacobian[side, 3:], sole)
-            self._leg_jacobian[side] = self._jacobian[side, :, self._legs[side]]
+            mujoco.mj_jacSite(model, data, *self._halves[side], sole)
+            self._leg_jacobian[side] = self._leg_columns[side]
         base = self._base_acceleration(task, sensed, dt)
-        acceleration = self._acceleration
-        acceleration[self._base] = base
+        self._base_acceleration_view[:] = base
 
         foot_acceleration = self._foot_acceleration(task, sensed)
-        foot_acceleration -= self._jacobian[:, :, self._base] @ acceleration[self._base]
+        foot_acceleration -= (self._base_jacobian @ self._base_acceleration_view).reshape(2, 6)
         to_joints = np.linalg.inv(self._leg_jacobian + self._regularization)
-        left, right = (to_joints @ foot_acceleration[:, :, None])[:, :, 0]
-        acceleration[self._legs[0]], acceleration[self._legs[1]] = left, right
-        forces = self._inertia @ acceleration + self._bias
+        left_leg, right_leg = self._leg_acceleration
+        left_leg[:] = to_joints[0] @ foot_acceleration[0]
+        right_leg[:] = to_joints[1] @ foot_acceleration[1]
+        forces = self._forces_of_acceleration()
 
         wanted = self._mass * (np.array(base[:3]) + UPWARD_GRAVITY)
+        to_left, to_right = to_joints[0, :, :3], to_joints[1, :, :3]
         for _ in range(self._balance.momentum_iterations):
-            correction = (wanted - forces[self._base_force]) / self._mass
-            acceleration[self._base_force] += correction
-            left, right = to_joints[:, :, :3] @ correction
-            acceleration[self._legs[0]] -= left
-            acceleration[self._legs[1]] -= right
-            forces = self._inertia @ acceleration + self._bias
+            correction = (wanted - self._base_forces) / self._mass
+            self._base_linear += correction
+            left_leg -= to_left @ correction
+            right_leg -= to_right @ correction
+            forces = self._forces_of_acceleration()
         return forces
+
+    def _forces_of_acceleration(self) -> np.ndarray:
+        """M q̈ + h (nv,) of the accelerations noted so far; MuJoCo's product knows which elements of M are 0."""
+        mujoco.mj_mulM(self._model, self._data, self._forces, self._acceleration)
+        self._forces += self._bias
+        return self._forces
 
     def _base_acceleration(self, task: BalanceTask, sensed: Sensing, dt: float) -> list[float]:
         """Linear (m/s², world) and angular (rad/s², base_link) acceleration wanted of the base.
@@ -157,7 +170,7 @@ class WholeBody:
 
     def _foot_acceleration(self, task: BalanceTask, sensed: Sensing) -> np.ndarray:
         """Accelerations (2, 6) wanted of the soles, world frame: come to rest, or follow the swing."""
-        velocity = self._jacobian @ self._velocity
+        velocity = (self._rows @ self._velocity).reshape(2, 6)
         self._sole_spin = velocity[:, 3:].tolist()
         acceleration = -self._balance.stance_damping * velocity
         if task.swing is not None:

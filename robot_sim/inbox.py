@@ -1,0 +1,117 @@
+"""One topic that the robot listens to, which anybody may write anything to.
+
+Bytes are looked at before they become objects, and only so many messages and bytes a second do: whoever writes more or
+larger ones than any sane node would is not heard, and cannot hold the robot up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.serialization import deserialize_message
+from rclpy.subscription import Subscription
+
+FIXED_SIZE = 64  # bytes, more than any message of fixed length that the robot listens to
+MESSAGES_A_SECOND = 200  # simulated; at first, and after a silence, that many at once
+BYTES_A_SECOND = (
+    400_000  # simulated: a little more than the largest trajectory, 10 ms of the processor's time
+)
+REPORT_PERIOD = 0.25  # s, simulated, between two reports of a topic
+
+FLOOD = f"more than {MESSAGES_A_SECOND} messages or {BYTES_A_SECOND} bytes a second"
+
+Report = Callable[[str, int, int, str], None]
+"""Told of a topic: how many messages so far, bytes of the largest of them, and why."""
+
+
+class Inbox:
+    """Takes the messages of one subscription and passes on those that may be meant for the robot.
+
+    Args:
+        subscription: whose callback is called with each message.
+        report: is told what was refused, and of floods, at most every ``REPORT_PERIOD``. Of a flood it is told how
+            often the messages that followed had to wait.
+        most_bytes: a longer message is refused.
+        why_not: says of a message's bytes why it is refused, or ""; a ValueError means that they are malformed.
+    """
+
+    def __init__(
+        self,
+        subscription: Subscription,
+        report: Report | None = None,
+        *,
+        most_bytes: int = FIXED_SIZE,
+        why_not: Callable[[bytes], str] = lambda _: "",
+    ) -> None:
+        self.topic: str = subscription.topic_name
+        self._subscription = subscription
+        self._report = report
+        self._most_bytes = most_bytes
+        self._why_not = why_not
+        self._tally: dict[str, _Tally] = {}
+        self._messages, self._bytes = (
+            float(MESSAGES_A_SECOND),
+            float(BYTES_A_SECOND),
+        )  # that may still be taken
+        self._latest = 0.0
+        self._next_report = 0.0
+
+    def look(self, now: float) -> None:
+        """Take what has arrived by simulated time ``now`` (s), as much as is due; of the rest the newest ones wait."""
+        if now < self._latest:  # as at a reset
+            self._latest = self._next_report = now
+        passed, self._latest = now - self._latest, now
+        self._messages = min(MESSAGES_A_SECOND, self._messages + passed * MESSAGES_A_SECOND)
+        self._bytes = min(BYTES_A_SECOND, self._bytes + passed * BYTES_A_SECOND)
+        handle, kind = self._subscription.handle, self._subscription.msg_type
+        while self._may_take() and (taken := handle.take_message(kind, True)):
+            self.take(taken[0])
+        if self._tally and now >= self._next_report:
+            self.tell()
+            self._next_report = now + REPORT_PERIOD
+
+    def take(self, data: bytes) -> None:
+        """Pass one message on, given its bytes, unless it is refused."""
+        self._messages -= 1
+        self._bytes = max(-BYTES_A_SECOND, self._bytes - len(data))
+        reason, message = self._open(data)
+        if message is not None:
+            self._subscription.callback(message)
+            reason = "" if self._may_take() else FLOOD
+        if reason:
+            self._count(reason, len(data))
+
+    def tell(self) -> None:
+        """Report what has not been reported yet."""
+        for reason, tally in self._tally.items():
+            if tally.is_news and self._report:
+                self._report(self.topic, tally.count, tally.largest, reason)
+            tally.is_news = False
+
+    def _may_take(self) -> bool:
+        return self._messages >= 1 and self._bytes > 0
+
+    def _open(self, data: bytes) -> tuple[str, Any]:
+        """Why a message is refused, or "" and the message."""
+        if len(data) > self._most_bytes:
+            return f"more than {self._most_bytes} bytes", None
+        try:
+            reason = self._why_not(data)
+            return reason, None if reason else deserialize_message(data, self._subscription.msg_type)
+        except Exception:  # what deserializing raises depends on the middleware
+            return "malformed", None
+
+    def _count(self, reason: str, size: int) -> None:
+        tally = self._tally.setdefault(reason, _Tally())
+        tally.count += 1
+        tally.largest = max(tally.largest, size)
+        tally.is_news = True
+
+
+class _Tally:
+    """How many messages, the largest's bytes, and whether that was reported."""
+
+    def __init__(self) -> None:
+        self.count = self.largest = 0
+        self.is_news = False

@@ -1,0 +1,160 @@
+"""What the robot hears of what anybody may send it, tried with bytes and without another node."""
+
+import struct
+from types import SimpleNamespace
+
+import pytest
+from geometry_msgs.msg import Twist
+from rclpy.serialization import serialize_message
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+from autograder.events import RobotRefused, parse_event
+from robot_sim.inbox import BYTES_A_SECOND, FLOOD, MESSAGES_A_SECOND, Inbox
+from robot_sim.joint_trajectory import MOVABLE
+from robot_sim.trajectory_size import MOST_BYTES, MOST_POINTS, count_joints_and_points, why_too_large
+from robot_sim.truth import TruthWriter
+
+
+class Topic:
+    """A subscription whose messages are put here, and what becomes of them."""
+
+    def __init__(self, kind, **limits):
+        self.waiting, self.heard, self.reports = [], [], []
+        subscription = SimpleNamespace(
+            topic_name="/robot/topic", msg_type=kind, callback=self.heard.append, handle=self
+        )
+        self.inbox = Inbox(subscription, lambda *report: self.reports.append(report), **limits)
+
+    def take_message(self, kind, raw):
+        assert raw, "bytes are asked for"
+        return (self.waiting.pop(0), None) if self.waiting else None
+
+
+def trajectory(points, joints=MOVABLE, full=False):
+    values = [0.1] * len(joints)
+    more = {"velocities": values, "accelerations": values, "effort": values} if full else {}
+    point = JointTrajectoryPoint(positions=values, **more)
+    return serialize_message(JointTrajectory(joint_names=list(joints), points=[point] * points))
+
+
+def trajectories():
+    return Topic(JointTrajectory, most_bytes=MOST_BYTES, why_not=why_too_large)
+
+
+def test_a_sound_message_is_heard():
+    topic = Topic(Twist)
+    command = Twist()
+    command.linear.x = 0.2
+    topic.inbox.take(serialize_message(command))
+    assert topic.heard == [command]
+    topic.inbox.tell()
+    assert topic.reports == []
+
+
+@pytest.mark.parametrize("size", [0, 1, 4, 20, 51])
+def test_a_message_that_ends_too_soon_is_refused(size):
+    topic = Topic(Twist)
+    topic.inbox.take(serialize_message(Twist())[:size])
+    topic.inbox.tell()
+    assert topic.heard == []
+    assert topic.reports == [("/robot/topic", 1, size, "malformed")]
+
+
+def test_a_message_of_fixed_length_that_is_longer_is_refused():
+    topic = Topic(Twist)
+    topic.inbox.take(serialize_message(Twist()) + bytes(1000))
+    topic.inbox.tell()
+    assert topic.heard == []
+    assert topic.reports == [("/robot/topic", 1, 1052, "more than 64 bytes")]
+
+
+@pytest.mark.parametrize("points", [0, 1, MOST_POINTS])
+def test_every_trajectory_with_as_many_points_as_it_may_have_is_heard(points):
+    topic = trajectories()
+    topic.inbox.take(trajectory(points, full=True))
+    assert [len(message.points) for message in topic.heard] == [points]
+
+
+def test_a_trajectory_with_more_points_is_refused_however_short_they_are():
+    topic = trajectories()
+    topic.inbox.take(trajectory(MOST_POINTS + 1, joints=()))
+    topic.inbox.take(trajectory(30_000))
+    topic.inbox.tell()
+    assert topic.heard == []
+    assert [(count, reason) for _, count, _, reason in topic.reports] == [
+        (1, "more than 500 points"),
+        (1, f"more than {MOST_BYTES} bytes"),
+    ]
+
+
+def test_a_trajectory_with_thousands_of_joints_is_refused():
+    topic = trajectories()
+    topic.inbox.take(trajectory(0, joints=[""] * 20_000))
+    topic.inbox.tell()
+    assert topic.heard == []
+    assert topic.reports[0][3] == "more than 64 joints"
+
+
+def test_lengths_are_read_from_bytes():
+    message = JointTrajectory(joint_names=["a", "four", "", "fivef"], points=[JointTrajectoryPoint()] * 3)
+    message.header.frame_id = "odom"
+    data = serialize_message(message)
+    assert count_joints_and_points(data) == (4, 3)
+    for size in range(72):
+        with pytest.raises(ValueError, match="too soon"):
+            count_joints_and_points(data[:size])
+    with pytest.raises(ValueError, match="too soon"):
+        count_joints_and_points(data[:12] + struct.pack("<I", 0xFFFFFFFF) + data[16:])
+
+
+def test_of_a_flood_so_many_a_second_are_heard_and_the_newest_wait():
+    topic = Topic(Twist)
+    for tick in range(100):  # 2 s in looks of 20 ms
+        topic.waiting += [serialize_message(Twist())] * 30
+        topic.waiting = topic.waiting[-10:]  # as a history of depth 10 does
+        topic.inbox.look(0.02 * tick)
+    assert len(topic.heard) == pytest.approx(3 * MESSAGES_A_SECOND, abs=5)  # 1 s worth at first, then 2 s
+    topic.inbox.tell()
+    assert topic.reports[-1][1] > 50
+    assert {reason for *_, reason in topic.reports} == {FLOOD}
+    assert len(topic.reports) < 12, "a few reports a second"
+
+
+def test_a_fast_node_is_no_flood():
+    topic = Topic(Twist)
+    for tick in range(500):
+        topic.waiting += [serialize_message(Twist())] * 2  # 100 Hz
+        topic.inbox.look(0.02 * tick)
+    assert len(topic.heard) == 1000
+    assert topic.reports == []
+
+
+def test_of_refused_giants_few_a_second_are_even_taken():
+    topic, giant = trajectories(), bytes(5_000_000)
+    for tick in range(500):  # 10 s
+        topic.waiting = [giant] * 10
+        topic.inbox.look(0.02 * tick)
+    topic.inbox.tell()
+    taken = topic.reports[-1][1]
+    assert 10 * 1.0 <= taken <= 10 * 5_000_000 / BYTES_A_SECOND
+    assert taken <= 12
+    topic.waiting = [trajectory(5)]
+    topic.inbox.look(12.0)
+    assert len(topic.heard) == 1, "a sound one is heard after it"
+
+
+def test_hearing_goes_on_when_time_goes_back():
+    topic = Topic(Twist)
+    topic.inbox.look(100.0)
+    topic.waiting = [serialize_message(Twist())]
+    topic.inbox.look(0.0)
+    assert len(topic.heard) == 1
+
+
+def test_what_is_refused_is_an_event_of_the_truth(tmp_path):
+    with open(tmp_path / "truth", "w+b") as file:
+        TruthWriter(file.fileno()).refused("/robot/cmd_vel", 7, 4000, "malformed")
+        file.seek(0)
+        event = parse_event(file.readline())
+    assert isinstance(event, RobotRefused)
+    assert (event.topic, event.count, event.bytes, event.reason) == ("/robot/cmd_vel", 7, 4000, "malformed")

@@ -1,0 +1,30 @@
+"""A simulation that was held up says for how long."""
+
+import pytest
+
+from robot_sim.pacing import Pacing
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    now = [100.0]
+    monkeypatch.setattr("robot_sim.pacing.time.monotonic", lambda: now[0])
+    return now
+
+
+def test_a_lag_that_is_let_go_of_is_still_told(clock):
+    pacing = Pacing()
+    pacing.restart(5.0)
+    clock[0] += 3.0
+    assert pacing.wall_time_until(5.0) == 0.0
+    assert pacing.lag(5.0) == 0.0, "let go of"
+    pacing.restart(5.0)
+    assert pacing.take_worst_lag() == pytest.approx(3.0)
+    assert pacing.take_worst_lag() == 0.0
+
+
+def test_a_simulation_that_is_ahead_has_no_lag(clock):
+    pacing = Pacing()
+    pacing.restart(0.0)
+    assert pacing.wall_time_until(0.5) == pytest.approx(0.5)
+    assert pacing.take_worst_lag() == 0.0
