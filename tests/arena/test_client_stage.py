@@ -11,6 +11,7 @@ pytest.importorskip("rclpy")
 
 from autograder.arena import client_stage as client_stage_module
 from autograder.arena.client_stage import ClientStage
+from autograder.arena.phases import Phases
 
 
 class FakeNode:
@@ -52,7 +53,8 @@ def stage_of(*, has_exited: bool) -> tuple[ClientStage, Kept]:
     kept: Any = Kept()
     node: Any = FakeNode()
     student: Any = FakeStudent(has_exited)
-    return ClientStage(node, kept, threading.Condition(), student, lambda: None), kept
+    phases = Phases(kept, wanted=False)
+    return ClientStage(node, kept, threading.Condition(), student, phases, lambda: None), kept
 
 
 def test_a_module_that_never_ends_is_recorded_and_the_scenario_goes_on(

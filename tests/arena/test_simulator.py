@@ -5,11 +5,10 @@ from __future__ import annotations
 import json
 import os
 import threading
+import time
+from collections.abc import Sequence
 from typing import Any
 
-import pytest
-
-from autograder.arena import simulator as simulator_module
 from autograder.arena.simulator import Simulator
 
 
@@ -23,21 +22,32 @@ class Kept:
         self.events.append({"kind": kind, **fields})
 
     def forward(self, line: bytes) -> None:
-        pass
+        self.events.append(json.loads(line))
 
 
-def test_a_command_is_recorded_as_sent_and_waits_to_be_obeyed(monkeypatch: pytest.MonkeyPatch) -> None:
-    received: list[int] = []
+class Obedient:
+    """Stands for the robots: says of the first command that it has taken effect, and goes on for a while."""
 
-    def start(*_: Any, pass_fds: tuple[int, int], **__: Any) -> None:
-        received.append(os.dup(pass_fds[1]))
+    def serve(self, options: Sequence[str], *more: str) -> None:
+        given = dict(zip(more[::2], more[1::2], strict=True))
+        command = json.loads(os.read(int(given["--control-fd"]), 1000))
+        taken = {"kind": "command", "command": command}
+        os.write(int(given["--truth-fd"]), json.dumps(taken).encode() + b"\nno end of a line")
+        time.sleep(60)
 
-    monkeypatch.setattr(simulator_module.subprocess, "Popen", start)
-    kept = Kept()
-    simulator = Simulator(kept, threading.Condition(), "/robot", (), {})  # type: ignore[arg-type]
+
+def test_a_command_is_recorded_as_sent_and_waits_to_be_obeyed() -> None:
+    kept, changed = Kept(), threading.Condition()
+    simulator = Simulator(kept, changed, Obedient(), "/robot", ())  # type: ignore[arg-type]
     simulator.command("set_battery", percentage=0.35)
-    command = {"do": "set_battery", "percentage": 0.35}
-    assert kept.events == [{"kind": "command_sent", "command": command}]
-    assert json.loads(os.read(received[0], 1000)) == command
     assert not simulator.has_obeyed()
-    os.close(received[0])
+    simulator.listen()
+    with changed:
+        assert changed.wait_for(simulator.has_obeyed, 20)
+    simulator.stop()
+    command = {"do": "set_battery", "percentage": 0.35}
+    assert kept.events == [
+        {"kind": "command_sent", "command": command},
+        {"kind": "command", "command": command},
+    ]
+    assert not simulator.is_running()

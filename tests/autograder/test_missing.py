@@ -21,7 +21,7 @@ REFUSED = ev.RobotRefused(
     t=4.0,
     topic="joint_trajectory",
     count=1240,
-    bytes=1240 * 1_400_000,
+    bytes=1_400_000,
     reason="the robot takes at most 500 points",
 )
 WITH_ROBOT, WITHOUT = Scenario("ask"), Scenario("ask", robot=None)
@@ -103,7 +103,7 @@ def test_what_the_arena_left_out_gives_no_grade_unless_the_submission_is_the_rea
     with pytest.raises(CannotBeJudged):
         ask(transcript(robot_until=4.0))
     with pytest.raises(
-        Failure, match=r"sent 1,240 joint_trajectory messages of 1\.4 MB; the robot takes at most 500"
+        Failure, match=r"sent 1,240 joint_trajectory messages of up to 1\.4 MB; the robot takes at most 500"
     ):
         ask(transcript(REFUSED, robot_until=4.0))
 
