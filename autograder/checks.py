@@ -17,9 +17,20 @@ from typing import Any, Literal
 from autograder.failure import CannotBeJudged, Failure, expect
 from autograder.transcript import Transcript
 
-__all__ = ["MAY_REST", "CannotBeJudged", "Check", "CheckList", "Failure", "Scenario", "expect", "program"]
+__all__ = [
+    "MAY_REST",
+    "RESTING",
+    "CannotBeJudged",
+    "Check",
+    "CheckList",
+    "Failure",
+    "Scenario",
+    "expect",
+    "program",
+]
 
-MAY_REST = "--may-rest"  # option of a robot that is not integrated while it only stands: nothing is asked of its body
+MAY_REST = "--may-rest"  # option of a robot that is not integrated while it only stands
+RESTING = (MAY_REST,)  # the robot of a scenario that asks nothing of its body
 
 Judge = Callable[..., None]
 Inputs = Mapping[str, Any] | Callable[[random.Random], Mapping[str, Any]]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from autograder.checks import CheckList, Scenario, expect
+from autograder.checks import RESTING, CheckList, Scenario, expect
 from autograder.exercises.battery_service.judging import (
     require_first_answer,
     require_last_message,
@@ -16,10 +16,10 @@ from autograder.transcript import Transcript
 
 CHECKS = CheckList()
 
-ASK_ONCE = Scenario("ask_once")
-SENSOR_UNPLUGGED = Scenario("ask_before_the_first_message", robot=("--battery-sensor-unplugged",))
-LEVELS = Scenario("ask_at_levels", {"levels": [0.8, 0.35]})
-INTERRUPT = Scenario("interrupt")
+ASK_ONCE = Scenario("ask_once", robot=RESTING)
+SENSOR_UNPLUGGED = Scenario("ask_before_the_first_message", robot=(*RESTING, "--battery-sensor-unplugged"))
+LEVELS = Scenario("ask_at_levels", {"levels": [0.8, 0.35]}, robot=RESTING)
+INTERRUPT = Scenario("interrupt", robot=RESTING)
 
 
 @CHECKS.check(points=1, on=INTERRUPT)  # the shortest scenario: its verdict comes first

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.checks import CheckList, Scenario, expect
+from autograder.checks import RESTING, CheckList, Scenario, expect
 from autograder.exercises.battery_service.checks import SENSOR_UNPLUGGED
 from autograder.exercises.battery_service.judging import (
     require_last_message,
@@ -16,11 +16,13 @@ from autograder.transcript import Transcript
 CHECKS = CheckList(hidden=True)
 
 RANDOM_LEVELS = Scenario(
-    "ask_at_levels", lambda random: {"levels": [round(random.uniform(0.05, 0.95), 3) for _ in range(4)]}
+    "ask_at_levels",
+    lambda random: {"levels": [round(random.uniform(0.05, 0.95), 3) for _ in range(4)]},
+    robot=RESTING,
 )
-SENSOR_STOPPED = Scenario("ask_after_the_sensor_stopped")
-MANY_AT_ONCE = Scenario("ask_many_at_once", {"bursts": 4, "burst": 8})
-OTHER_NAMESPACE = Scenario("ask_once", namespace="/lab_7/robot")
+SENSOR_STOPPED = Scenario("ask_after_the_sensor_stopped", robot=RESTING)
+MANY_AT_ONCE = Scenario("ask_many_at_once", {"bursts": 4, "burst": 8}, robot=RESTING)
+OTHER_NAMESPACE = Scenario("ask_once", robot=RESTING, namespace="/lab_7/robot")
 
 
 @CHECKS.check(

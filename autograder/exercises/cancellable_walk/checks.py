@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.checks import CheckList, Scenario, expect
+from autograder.checks import RESTING, CheckList, Scenario, expect
 from autograder.exercises.cancellable_walk.goals import (
     ABORTED,
     FELL,
@@ -33,13 +33,13 @@ from autograder.transcript import Transcript
 CHECKS = CheckList()
 
 WALK = Scenario("walk", {"x": 0.6, "y": 0.2, "yaw": 0.5})
-IMPOSSIBLE = Scenario("ask_for_the_impossible", {"frame": "map"})
+IMPOSSIBLE = Scenario("ask_for_the_impossible", {"frame": "map"}, robot=RESTING)
 UNPOWERED = Scenario("ask_without_power")
 MID_STRIDE = Scenario("cancel_in_mid_stride", {"delays": [1.0]})
 WALK_AGAIN = Scenario("walk_again_after_a_cancel", {"x": 0.8, "y": 0.0, "yaw": 0.0})
 PREEMPT = Scenario("preempt", {"x": 0.7, "y": 0.2, "yaw": 0.3})
 FALL = Scenario("fall", {"impulse": [0.0, 60.0, 0.0]})
-INTERRUPT = Scenario("interrupt")
+INTERRUPT = Scenario("interrupt", robot=RESTING)
 
 KNOWN = 0.6  # s for a change of the robot to be known to the node
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from autograder import events as ev
-from autograder.checks import CheckList, Scenario, expect
+from autograder.checks import RESTING, CheckList, Scenario, expect
 from autograder.exercises.common_checks import require_clean_exit
 from autograder.exercises.compute_ik.judging import (
     FRAME_TRANSFORM_FAILURE,
@@ -64,7 +64,7 @@ REAL_ARM = Scenario(
     parameters={"upper_arm_length": ROBOTS_ARM.upper_arm, "forearm_length": ROBOTS_ARM.forearm},
 )
 # With a robot, which is late where the machine is: on a busy one Python takes seconds to end.
-INTERRUPT = Scenario("interrupt", {"questions": {"within reach": [ask_for(0.4, 0.3)]}})
+INTERRUPT = Scenario("interrupt", {"questions": {"within reach": [ask_for(0.4, 0.3)]}}, robot=RESTING)
 
 
 @CHECKS.check(points=1, on=INTERRUPT)  # the shortest scenario: its verdict comes first

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from autograder.checks import CheckList, Scenario, expect
+from autograder.checks import RESTING, CheckList, Scenario, expect
 from autograder.exercises.common_checks import require_answer, require_clean_exit
 from autograder.exercises.joint_query.judging import (
     call_for,
@@ -37,9 +37,9 @@ STRANGERS = ["tail_yaw", "l_knee", "r_wing_pitch", "head_pan", "antenna_2"]
 
 ASK = Scenario("ask", {"names": SIX_JOINTS, "posture": POSTURE, "strangers": STRANGERS})
 UNPLUGGED = Scenario(
-    "ask_before_the_first_message", {"names": SIX_JOINTS}, robot=("--joint-sensors-unplugged",)
+    "ask_before_the_first_message", {"names": SIX_JOINTS}, robot=(*RESTING, "--joint-sensors-unplugged")
 )
-INTERRUPT = Scenario("interrupt", {"names": SIX_JOINTS})
+INTERRUPT = Scenario("interrupt", {"names": SIX_JOINTS}, robot=RESTING)
 
 
 @CHECKS.check(points=1, on=INTERRUPT)  # the shortest scenario: its verdict comes first

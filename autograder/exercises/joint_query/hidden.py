@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from autograder.checks import CheckList, Scenario, expect
+from autograder.checks import RESTING, CheckList, Scenario, expect
 from autograder.exercises.common_checks import require_answer
 from autograder.exercises.joint_query.checks import SIX_JOINTS, UNPLUGGED
 from autograder.exercises.joint_query.judging import (
@@ -53,7 +53,7 @@ def _inputs(random: random.Random) -> dict[str, Any]:
 
 
 EVERY_WAY = Scenario("ask_in_every_way", _inputs)
-OTHER_NAMESPACE = Scenario("ask_once", {"names": SIX_JOINTS}, namespace="/lab_7/robot")
+OTHER_NAMESPACE = Scenario("ask_once", {"names": SIX_JOINTS}, robot=RESTING, namespace="/lab_7/robot")
 
 
 def _require_positions_as_asked(run: Transcript, call: CallHistory) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.checks import CheckList, Scenario, expect
+from autograder.checks import RESTING, CheckList, Scenario, expect
 from autograder.exercises.common_checks import require_answer, require_clean_exit
 from autograder.exercises.motor_services.judging import (
     require_refused,
@@ -18,9 +18,9 @@ CHECKS = CheckList()
 
 # A stand holds the robot by its chest, so that it hangs limp without power and stands when it returns.
 ON_A_STAND = ("--scene", "stand")
-INTERRUPT = Scenario("interrupt")
+INTERRUPT = Scenario("interrupt", robot=RESTING)
 STATUS = Scenario("tell_the_status", robot=ON_A_STAND)
-SILENT_ROBOT = Scenario("ask_before_the_first_message", robot=("--robot-state-unpublished",))
+SILENT_ROBOT = Scenario("ask_before_the_first_message", robot=(*RESTING, "--robot-state-unpublished"))
 SWITCH = Scenario("switch_off_and_on", robot=ON_A_STAND)
 WALK = Scenario("switch_off_while_walking", {"velocity": [0.3, 0.0, 0.0]})
 
