@@ -148,6 +148,11 @@ class Humanoid:
         self._rest.allowed = allowed
         self._rest.stir()
 
+    @property
+    def is_resting(self) -> bool:
+        """Whether it is left as it is at present, instead of being integrated."""
+        return self._rest.has_come
+
     def _pass_time(self) -> None:
         """Simulate one timestep of a robot at rest."""
         self.data.time += self.timestep

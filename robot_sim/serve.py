@@ -24,18 +24,22 @@ if TYPE_CHECKING:
 __all__ = ["RobotOptions", "build_humanoid", "parse_options", "serve_robot"]
 
 CROUCH = 0.45  # m, height of the pelvis
+LONGEST_SETTLING = 10.0  # s, simulated, until a robot that may rest does, if ever it does
 
 
 def build_humanoid(options: RobotOptions, built: Humanoid | None = None) -> Humanoid:
     """The humanoid that the options ask for: ``built``, reset, if it is in their scene, else another.
 
-    A humanoid that is reset does to the bit what one that is made does, and a reset takes a tenth of the time.
+    A humanoid that is reset does to the bit what one that is made does, and a reset takes a tenth of the time. One that
+    may rest has stood until it rests.
     """
     if built is None or built.scene != options.scene:
         built = Humanoid(options.scene, seed=options.seed)
     built.seed = options.seed
     built.may_rest = options.may_rest
     built.reset(height=CROUCH if options.crouch else None)
+    while built.may_rest and not built.is_resting and built.time < LONGEST_SETTLING:
+        built.step()
     return built
 
 
@@ -47,7 +51,7 @@ def serve_robot(
     """Run the robot until SIGINT, SIGTERM, or until ``is_running`` says no; call it in the main thread.
 
     Args:
-        humanoid: an ordinary one to use, if it is in the right scene; it is reset.
+        humanoid: what ``build_humanoid`` has made for these options, to be used as it is; made here unless given.
 
     Nothing of ROS may have been set up in this process or in one that it was forked from: the middleware's threads
     do not survive a fork.
@@ -68,7 +72,7 @@ def serve_robot(
         return _show_other_robot(options.robot, options.port, goes_on)
     truth = TruthWriter(options.truth_fd) if options.truth_fd is not None else None
     control = ScenarioControl(options.control_fd) if options.control_fd is not None else None
-    humanoid = build_humanoid(options, humanoid)
+    humanoid = humanoid or build_humanoid(options)
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     node = HumanoidNode(humanoid, options.namespace, truth)
     node.battery_sensor_connected = not options.battery_sensor_unplugged

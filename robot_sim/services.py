@@ -35,7 +35,12 @@ class Services:
             with service.handle:
                 request, header = service.handle.service_take_request(kind.Request)
             if header is not None:
-                service.send_response(service.callback(request, kind.Response()), header)
+                try:
+                    service.send_response(service.callback(request, kind.Response()), header)
+                except Exception as error:  # what somebody asks must not end the robot
+                    self._node.get_logger().error(
+                        f"a request to {service.srv_name} was not answered: {error}"
+                    )
                 self._rest_until = started + SHARE * (time.monotonic() - started)
 
     def look_at_the_rest(self) -> None:
