@@ -74,7 +74,9 @@ class Graph:
         nothing: list[tuple[str, list[str]]] = []
         found = self._ask(self._node.get_service_names_and_types, nothing)
         names = [
-            (name, types[0]) for name, types in found[:MOST_NAMES] if not types[0].startswith(OF_EVERY_NODE)
+            (name, types[0])
+            for name, types in found[:MOST_NAMES]
+            if types and not types[0].startswith(OF_EVERY_NODE)
         ]
         offered = [f"{name} [{kind}]" for name, kind in names[:MOST_SERVICES] if self._is_offered(name)]
         more = len(found) - len(found[:MOST_NAMES]) + len(names) - len(names[:MOST_SERVICES])
