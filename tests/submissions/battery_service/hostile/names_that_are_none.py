@@ -6,6 +6,7 @@ Caught by: server_appears
 
 import os
 import re
+import time
 
 import rclpy
 from humanoid_interfaces.srv import GetBatteryStatus
@@ -59,6 +60,7 @@ def main(args=None):
     odd = [rclpy.create_node("no_name"), rclpy.create_node("another")]
     rename_in_memory(b"no" + b"_name", b"no/name")
     odd.append(rclpy.create_node("one_more"))  # the list of all nodes is sent anew
+    time.sleep(1.0)  # while the service is still missing, its seekers look at every node
     node = BatteryService()
     try:
         rclpy.spin(node)
