@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import random
 import threading
 import uuid
 from typing import Any
@@ -180,6 +182,20 @@ def test_bytes_that_are_no_feedback_are_counted_and_nothing_else(kept: Kept, dat
     probe._on_feedback(data)
     kept.finish()
     assert [(event["what"], event["count"]) for event in kept.of("dropped")] == [("unreadable", 1)]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_no_bytes_whatever_stop_the_probe(kept: Kept, seed: int) -> None:
+    probe, _ = action_probe(kept)
+    chance = random.Random(seed)
+    for _ in range(400):
+        data = bytearray(chance.choice((feedback("walk"), statuses("walk", "nobody's"))))
+        for _ in range(chance.randrange(8)):
+            data[chance.randrange(len(data))] = chance.randrange(256)
+        cut = bytes(data[: chance.randrange(len(data) + 1)])
+        chance.choice((probe._on_feedback, probe._on_status))(cut)
+    for event in kept.events:
+        json.dumps(event)
 
 
 def test_a_status_is_recorded_when_it_changes(kept: Kept) -> None:
