@@ -18,7 +18,10 @@ from typing import Any
 from autograder.arena.long_texts import cut_long_texts
 
 MOST_OF_A_KIND = 5000  # events of one kind for one goal, call, …; no sound node comes near
-MOST_OF: Mapping[str, int] = {"request_received": 500}  # each may be waited for
+MOST_OF: Mapping[str, int] = {
+    "feedback": 1000,  # of one goal: 50 a second for the longest walk, ten times what is asked for
+    "request_received": 500,  # of one service: each may be waited for
+}
 LARGEST_EVENT = 2**20  # bytes of JSON
 LARGEST_RECORD = 32 * 2**20  # bytes of what students send; the controller reads twice as much
 NOBODYS = "nobody's"  # what belongs to no goal of the scenario's is counted together

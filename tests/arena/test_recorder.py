@@ -12,7 +12,7 @@ import pytest
 from autograder import events as ev
 from autograder.arena import recorder as recorder_module
 from autograder.arena.long_texts import LONGEST
-from autograder.arena.recorder import MOST_OF_A_KIND, MOST_OF_NOBODYS, NOBODYS, Recorder
+from autograder.arena.recorder import MOST_OF, MOST_OF_NOBODYS, NOBODYS, Recorder
 
 
 class Recording:
@@ -56,12 +56,12 @@ def test_what_is_dropped_is_recorded_with_its_number_and_time(
 ) -> None:
     now = iter(range(10**6))
     monkeypatch.setattr(recorder_module.time, "monotonic", lambda: float(next(now)))
-    for _ in range(MOST_OF_A_KIND + 600):
+    for _ in range(MOST_OF["feedback"] + 600):
         recording.feedback("walk")
     recording.recorder.finish()
     (dropped,) = recording.of(ev.RecordDropped)
     assert (dropped.what, dropped.count) == ("feedback", 600)
-    assert dropped.seconds > MOST_OF_A_KIND
+    assert dropped.seconds > MOST_OF["feedback"]
 
 
 def test_nothing_is_said_when_nothing_was_dropped(recording: Recording) -> None:

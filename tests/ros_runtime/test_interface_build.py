@@ -174,6 +174,7 @@ def test_a_wrong_definition_is_reported_without_a_build(tmp_path: Path) -> None:
                 "expected": "float64",
             }
         ],
+        "more": 0,
         "log": "",
     }
     assert not (tmp_path / "out").exists()

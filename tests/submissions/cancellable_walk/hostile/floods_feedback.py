@@ -1,7 +1,6 @@
 """Attack: publishes feedback as fast as it can while it walks, to drown whoever listens.
-Outcome: the flood is what it is judged by; the grader hears what it can and goes on.
-Caught by: feedback_keeps_its_rate
-Also fails: feedback_ends_with_the_goal, survives_two_cancels
+Outcome: so much of one goal is read and no more; the flood is the failure.
+Caught by: accepts_a_goal
 """
 
 import math
