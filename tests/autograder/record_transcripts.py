@@ -29,7 +29,7 @@ SUBMISSIONS_OF = {
         "faulty/feedback_for_ever",
     ],
     "compute_ik": ["correct/class_based", "faulty/raises_for_a_frame", "faulty/ignores_elbow_up"],
-    "interfaces": ["correct/bare", "faulty/no_frame", "faulty/no_separator"],
+    "interfaces": ["correct/bare", "faulty/no_separator"],
     "joint_query": [
         *("correct/class_based", "faulty/key_error", "faulty/keeps_the_first_message"),
         "faulty/remembers_the_places",
