@@ -1,6 +1,9 @@
-"""Records the transcripts that test_evidence.py judges: `python tests/autograder/record_transcripts.py [EXERCISE …]`.
+"""Records the transcripts that test_evidence.py judges, all or some.
 
-Needed when a scenario has changed. It takes an arena for each, one after the other: some minutes an exercise.
+python tests/autograder/record_transcripts.py [EXERCISE …] [EXERCISE:SCENARIO …]
+
+Needed when a scenario has changed. It takes an arena for each submission, one after the other: a minute or two an
+exercise on a quiet machine.
 """
 
 import sys
@@ -29,7 +32,7 @@ SUBMISSIONS_OF = {
         "faulty/feedback_for_ever",
     ],
     "compute_ik": ["correct/class_based", "faulty/raises_for_a_frame", "faulty/ignores_elbow_up"],
-    "interfaces": ["correct/bare", "faulty/no_frame", "faulty/no_separator"],
+    "interfaces": ["correct/bare", "faulty/no_separator"],
     "joint_query": [
         *("correct/class_based", "faulty/key_error", "faulty/keeps_the_first_message"),
         "faulty/remembers_the_places",
@@ -46,23 +49,23 @@ SUBMISSIONS_OF = {
 }
 
 
-def main(exercises: list[str]) -> None:
+def main(wanted: list[str]) -> None:
     """Record what is asked for, or all."""
-    for name in exercises or exercise_names():
+    for each in wanted or exercise_names():
+        name, _, scenario = each.partition(":")
         for submission in SUBMISSIONS_OF[name]:
             folder = SUBMISSIONS / name / submission
-            _record(
-                load_exercise(name, hidden=True), folder if folder.is_dir() else folder.with_suffix(".py")
-            )
+            path = folder if folder.is_dir() else folder.with_suffix(".py")
+            _record(load_exercise(name, hidden=True), path, scenario)
 
 
-def _record(exercise: Exercise, path: Path) -> None:
+def _record(exercise: Exercise, path: Path, only: str) -> None:
     known = read_known_submission(path)
     files = known.read().files
     wanted = {scenario for check in enough_to_catch(known, exercise).checks for scenario in check.on}
     with SubmissionArenas(exercise) as arenas:
         for name, scenario in scenarios_of(exercise.name).items():
-            if scenario in wanted:
+            if scenario in wanted and only in ("", scenario.name):
                 run = ArenaRun(exercise, files, scenario, cold=False, more_to_come=True)
                 transcript = _carry_out(run, arenas)
                 write(FOLDER / exercise.name / f"{path.stem}.{name}.jsonl.gz", transcript)

@@ -27,13 +27,15 @@ def require_first_answer(run: Transcript) -> ev.ServiceAnswered:
 def require_last_message(run: Transcript, number: int = 1, *, since: float | None = None) -> None:
     """The first (`number` 1), second, … answer holds the last battery_state there was when the request came.
 
-    A message must have been published after `since` (s; None: after the node's appearance), and have had the time to
-    arrive.
+    A message must have been published after `since` (s; None: after the first that the node heard, which it may keep),
+    and have had the time to arrive.
     """
     call = run.call(SERVICE, number)
     answer = require_answer(run, call)
     response, battery = answer.response, answer.response["battery"]
-    recent = last_messages(run, ev.BatteryPublished, call, since=_ready(run) if since is None else since)
+    recent = last_messages(
+        run, ev.BatteryPublished, call, since=_first_message(run) if since is None else since
+    )
     expect(
         response["available"] is True,
         expected="available: true, since the robot had published its battery",
@@ -81,9 +83,11 @@ def require_last_message_after_plugging_in(run: Transcript) -> None:
     require_last_message(run, 2, since=plugged_in.t)
 
 
-def _ready(run: Transcript) -> float:
+def _first_message(run: Transcript) -> float:
+    """When (s) the first message was published that the node must have heard."""
     ready = run.first(ev.NodeReady)
-    return ready.t if ready else 0.0
+    published = [message.t for message in run.all(ev.BatteryPublished) if ready and message.t > ready.t]
+    return min(published, default=0.0)
 
 
 def _same(battery: dict, message: ev.BatteryPublished) -> bool:

@@ -17,16 +17,16 @@ def _open(stage: Stage) -> None:
     stage.open(services={SERVICE: GetBatteryStatus})
 
 
-def _let_it_be_known(stage: Stage) -> None:
+def _let_it_be_known(stage: Stage, messages: int = 1) -> None:
     """Return when the battery has been published as it is now, and everybody has had the time to hear of it."""
-    stage.wait_for_published("battery", 1)
+    stage.wait_for_published("battery", messages)
     stage.wait(ON_ITS_WAY)
 
 
 def ask_once(stage: Stage) -> None:
-    """Ask when the robot has published."""
+    """Ask when the robot has published twice, so that the first message is not the last."""
     _open(stage)
-    _let_it_be_known(stage)
+    _let_it_be_known(stage, messages=2)
     stage.call(SERVICE)
 
 

@@ -18,6 +18,13 @@ LONGEST = 300  # characters of what a verdict quotes
 
 def require_built(run: Transcript) -> dict[str, Any]:
     """The file was built; returns its parts (request, response; goal, result, feedback) with fields and constants."""
+    try:
+        return _built(run)
+    except (AttributeError, KeyError, TypeError, ValueError) as error:  # it comes from the student's sandbox
+        raise unseen(run, f"the build's report is not whole: {error!r}") from None
+
+
+def _built(run: Transcript) -> dict[str, Any]:
     report, file = _report(run), run.params["file"]
     if report["built"]:
         (parts,) = report["types"].values()
@@ -76,11 +83,20 @@ def require_constants(run: Transcript, part: str, ros_type: str, wanted: Mapping
         )
 
 
-def _part(run: Transcript, part: str) -> dict[str, Any]:
-    parts = require_built(run)
-    if part not in parts:
-        raise unseen(run, f"the build said nothing of the {part}")
-    return parts[part]
+def _part(run: Transcript, part: str) -> Any:
+    found = require_built(run).get(part)
+    if not _is_whole(found):
+        raise unseen(run, f"the build did not say all of the {part}")
+    return found
+
+
+def _is_whole(part: Any) -> bool:
+    return (
+        isinstance(part, dict)
+        and isinstance(part.get("fields"), dict)
+        and isinstance(part.get("constants"), dict)
+        and all({"type", "value"} <= set(constant) for constant in part["constants"].values())
+    )
 
 
 def _report(run: Transcript) -> dict[str, Any]:
