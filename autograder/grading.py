@@ -51,12 +51,14 @@ def grade(
     evidence: Evidence = lambda verdict, transcripts: None,
     running: Running = lambda scenarios: None,
     arenas: SubmissionArenas | None = None,
+    first_alone: bool = False,
 ) -> Grade:
     """Grade a submission with `jobs` arenas at a time, one a core.
 
     `report` gets each verdict as soon as it is known, `look_again` each check that failed once, `evidence` the
     transcripts that a check was judged on, `running` the scenarios that run now whenever that changes. `arenas` are
-    this submission's, when one has been opened ahead; they are closed.
+    this submission's, when one has been opened ahead; they are closed. `first_alone` runs nothing beside the first
+    scenario: somebody waits for the first verdict.
 
     Raises :class:`HiddenChecksRefused` for hidden checks where arenas cannot be isolated.
     """
@@ -76,7 +78,7 @@ def grade(
         running,
         arenas,
     )
-    return session.run(jobs)
+    return session.run(jobs, first_alone)
 
 
 class _Session:
@@ -112,12 +114,13 @@ class _Session:
         self._second: Runs = {}
         self._failed_once: set[str] = set()
 
-    def run(self, jobs: int) -> Grade:
+    def run(self, jobs: int, first_alone: bool = False) -> Grade:
         with self._arenas, ThreadPoolExecutor(jobs) as pool:
             try:
                 while len(self._verdicts) < len(self._exercise.checks):
                     self._settle()
-                    running = self._start(pool, jobs)
+                    alone = first_alone and not any(run.done() for run in self._first.values())
+                    running = self._start(pool, 1 if alone else jobs)
                     if running:
                         wait(running, return_when=FIRST_COMPLETED)
             finally:

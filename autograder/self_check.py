@@ -72,7 +72,16 @@ def check_aloud(
             with line.aside():
                 print_second_look(console, check)
 
-        result = grade(submission, loaded, jobs=jobs, report=report, look_again=look_again, running=line.show)
+        result = grade(
+            submission,
+            loaded,
+            jobs=jobs,
+            report=report,
+            look_again=look_again,
+            running=line.show,
+            arenas=arenas,
+            first_alone=True,
+        )
     console.print()
     console.print(grade_table(result))
     return result

@@ -26,7 +26,7 @@ from ros_runtime.greeting import greet_all
 
 # s, on a clock that still runs at scale 1:
 READY_TIMEOUT = 20.0  # for the node to offer what is asked for
-COMPANY_TIMEOUT = 10.0  # for the rest of it, once the node offers anything
+COMPANY_TIMEOUT = 5.0  # for the rest of it, once the node offers anything
 MATCHING_TIMEOUT = 10.0  # for robot and node to find each other's topics
 GREETING_TIMEOUT = 1.0  # a sound node may be slow to answer anything yet, a faulty one never does
 MOST_GREETED = 4  # nodes

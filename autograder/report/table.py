@@ -27,7 +27,8 @@ def print_beginning(console: Console, path: Path, exercise: Exercise) -> None:
     """Say what is checked, before minutes in which nothing may be heard."""
     count = len(exercise.checks)
     console.print(
-        f"{path}: {count} checks, each told as soon as it is known; it takes a minute or two.", markup=False
+        f"{path}: {count} checks, each told as soon as it is known; all of them take less than a minute.",
+        markup=False,
     )
 
 
