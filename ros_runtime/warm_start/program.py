@@ -29,7 +29,6 @@ def run_program(arguments: Sequence[str], environment: Mapping[str, str], folder
     sys.path_importer_cache.clear()  # it lists folders as they were seen from outside
     _draw_new_seeds()
     sys.modules["__main__"] = _empty_main()
-    gc.unfreeze()
     gc.enable()
     if _run_as_main(path) == 0:
         return 0
