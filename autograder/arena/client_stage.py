@@ -23,7 +23,8 @@ from autograder.arena.waiting import Waiting
 # s, on a clock that still runs at scale 1:
 APPEARING_TIMEOUT = 20.0  # for the student's node to appear
 MODULE_TIMEOUT = 150.0  # for work of ours in the student's sandbox, such as compiling
-MATCHING_TIMEOUT = 3.0  # for its first request, from then on: a sound client needs a tenth of it
+MATCHING_TIMEOUT = 3.0  # for its clients to be seen, which some programs make only when they need them
+SETTLING = 0.1  # for the program's own side of those connections
 # s, on the arena's clock:
 END_TIMEOUT = 25.0
 
@@ -85,7 +86,7 @@ class ClientStage(Waiting):
             self._recorder.record("node_ready", waited=time.monotonic() - started)
             self._phases.end("discovery")
         if appeared and self._services:
-            self.wait_until(lambda: self._had_a_request() or self._student.has_exited(), MATCHING_TIMEOUT)
+            self._wait_for_matching()
         self._graph.inspect()
         self._speed_up()
 
@@ -102,6 +103,18 @@ class ClientStage(Waiting):
         self._wait_for_end(END_TIMEOUT)
 
     # -- helpers ------------------------------------------------------------------------------------------------------
+
+    def _wait_for_matching(self) -> None:
+        """Wait until the program's clients are known here, and a moment for its own side; or for its first request."""
+
+        def is_needless() -> bool:
+            return self._had_a_request() or self._student.has_exited()
+
+        def are_known() -> bool:
+            return all(self._graph.count_clients(service.name) for service in self._services)
+
+        self.poll_until(lambda: is_needless() or are_known(), MATCHING_TIMEOUT)
+        self.wait_until(is_needless, SETTLING)
 
     def _wait_for_end(self, timeout: float) -> None:
         started = time.monotonic()

@@ -49,6 +49,10 @@ class Graph:
         """Count the publishers of a topic."""
         return self._ask(lambda: self._node.count_publishers(topic), 0)
 
+    def count_clients(self, service: str) -> int:
+        """Count the clients of a service, of whatever type."""
+        return self._ask(lambda: self._node.count_clients(service), 0)
+
     def count_matchable_subscribers(self, topic: str) -> int:
         """Count the subscriptions of a topic, but for those whose QoS no known publisher can serve."""
         count = self._ask(lambda: self._node.count_subscribers(topic), 0)

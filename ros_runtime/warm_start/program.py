@@ -21,6 +21,7 @@ def run_program(arguments: Sequence[str], environment: Mapping[str, str], folder
     """
     os.environ.clear()
     os.environ.update(environment)
+    os.environ["PWD"] = folder  # as a shell would set it
     os.chdir(folder)
     path = os.path.abspath(arguments[0])
     sys.argv = list(arguments)

@@ -87,7 +87,7 @@ def test_it_finds_itself_as_it_would(namespaces):
     for seen in (cold, warm):
         seen["loaded"] = [name for name in seen["loaded"] if not any(odd in name for odd in UNIMPORTABLE)]
     for what, value in cold.items():
-        assert f"{what}: {warm[what]}" == f"{what}: {value}"
+        assert {what: warm[what]} == {what: value}
 
 
 def test_every_import_brings_in_what_it_would(namespaces):
