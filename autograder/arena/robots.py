@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-
-from robot_sim.serve import build_humanoid, parse_options, serve_robot
+from typing import Any
 
 
 class Robots:
-    """One robot for each way a scenario asks for it."""
+    """One robot for each way a scenario asks for it. Where none does, the simulator is not even imported."""
 
     def __init__(self) -> None:
-        self._built: dict = {}
+        self._built: dict[tuple[str, ...], Any] = {}
 
     def build(self, options: Sequence[str]) -> None:
         """Build the robot for these options of `python -m robot_sim`, unless it is there."""
+        from robot_sim.serve import build_humanoid, parse_options
+
         key = tuple(options)
         if key not in self._built:
             self._built[key] = build_humanoid(parse_options(options))
 
     def serve(self, options: Sequence[str], *more: str) -> None:
         """Run the robot, with `more` options that do not concern its body, until this process is told to end."""
+        from robot_sim.serve import parse_options, serve_robot
+
         serve_robot(parse_options([*options, *more]), self._built[tuple(options)])

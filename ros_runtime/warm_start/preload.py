@@ -13,7 +13,7 @@ MODULES = (
     *("rcl_interfaces.msg", "rcl_interfaces.srv", "rosgraph_msgs.msg", "sensor_msgs.msg", "std_msgs.msg"),
     *("std_srvs.srv", "trajectory_msgs.msg", "unique_identifier_msgs.msg"),
     *("humanoid_interfaces.msg", "humanoid_interfaces.srv", "humanoid_interfaces.action"),
-    *("numpy", "math", "threading", "time", "json", "asyncio", "argparse", "contextlib", "dataclasses"),
+    *("numpy", "math", "threading", "time", "json", "argparse", "contextlib", "dataclasses"),
 )
 _PACKAGES = sorted({name.split(".")[0] for name in MODULES if name.endswith((".msg", ".srv", ".action"))})
 # Loaded by name when the first node, publisher or service is made.

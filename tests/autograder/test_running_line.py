@@ -1,0 +1,65 @@
+"""The line that says what is running now: on a terminal, in a notebook, and where neither is."""
+
+from __future__ import annotations
+
+import io
+
+from rich.console import Console
+
+from autograder.checks import Scenario
+from autograder.report.running import RunningLine
+
+ASK, WALK = Scenario("ask_once"), Scenario("walk")
+AGAIN = Scenario("ask_once", namespace="/lab_7/robot")
+
+
+def plain():
+    return Console(file=io.StringIO(), width=100)
+
+
+def test_a_plain_output_gets_a_line_at_each_change():
+    console = plain()
+    with RunningLine(console) as line:
+        for scenarios in ([ASK], [ASK], [ASK, WALK], [WALK], []):
+            line.show(scenarios)
+    lines = console.file.getvalue().splitlines()
+    assert lines == ["running: ask once", "running: ask once, walk", "running: walk"]
+
+
+def test_a_scenario_that_runs_twice_is_named_once():
+    console = plain()
+    with RunningLine(console) as line:
+        line.show([ASK, AGAIN])
+    assert console.file.getvalue() == "running: ask once\n"
+
+
+def test_on_a_terminal_the_line_is_gone_at_the_end_and_verdicts_stand_above_it():
+    console = Console(file=io.StringIO(), width=100, force_terminal=True)
+    with RunningLine(console) as line:
+        line.show([ASK])
+        with line.aside():
+            console.print("a verdict")
+    written = console.file.getvalue()
+    assert "running: ask once" in written
+    assert "a verdict\n" in written
+    assert written.rstrip("\x1b[?25h").endswith("\x1b[2K")  # the line is erased, the cursor shown again
+
+
+def test_in_a_notebook_the_line_is_written_over(capsys):
+    with RunningLine(plain(), in_notebook=True) as line:
+        line.show([ASK, WALK])
+        with line.aside():
+            print("a verdict")
+        line.show([WALK])
+    assert screen(capsys.readouterr().out) == ["a verdict", ""]
+
+
+def screen(output):
+    """What an output cell makes of carriage returns: each goes back to the start of its line, and later text wins."""
+    lines = []
+    for text in output.split("\n"):
+        shown = ""
+        for part in text.split("\r"):
+            shown = part + shown[len(part) :]
+        lines.append(shown.strip())
+    return lines
