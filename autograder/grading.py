@@ -10,22 +10,20 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
-from autograder import events as ev
 from autograder.arena_run import ArenaRun, NotGraded, run_in_arena
-from autograder.blame import hogs_the_machine
+from autograder.blame import why_the_robot_was_held_up
 from autograder.checks import Check, Scenario
 from autograder.clock_scale import ClockScale
 from autograder.exercise import Exercise
 from autograder.isolation.availability import Isolation, available_isolation
 from autograder.judging import judge, verdict_on
+from autograder.lateness import OVERLOADED, lateness
 from autograder.submission import Submission
 from autograder.submission_arenas import SubmissionArenas
 from autograder.transcript import Transcript
 from autograder.verdict import CheckVerdict, Grade
 
-OVERLOADED = 0.5  # s the simulator may be late before a run is not judged at all
-STARVED = 1.0  # s a student's program may wait for a processor before a run without a robot is not judged
-STRAINED = 0.15  # s it may be late in the second look at a failure
+STRAINED = 0.15  # s the simulator may be late in the second look at a failure
 
 Report = Callable[[CheckVerdict], None]
 Running = Callable[[Sequence[Scenario]], None]
@@ -209,7 +207,7 @@ class _Session:
                     break
                 continue
             allowed = tolerated if attempt_scale > 1 else OVERLOADED
-            if not scenario.timed or lateness(transcript) <= allowed or hogs_the_machine(transcript):
+            if not scenario.timed or lateness(transcript) <= allowed or why_the_robot_was_held_up(transcript):
                 return transcript
             self._scale.was_late()
             problem = NotGraded(
@@ -247,18 +245,3 @@ class _Session:
 
 def _are_done(scenarios: Sequence[Scenario], runs: Runs) -> bool:
     return all(scenario in runs and runs[scenario].done() for scenario in scenarios)
-
-
-def lateness(transcript: Transcript) -> float:
-    """Return how far (s, arena's clock) the simulator was behind at worst, once the node was ready.
-
-    Without a robot, by how much the arena's own process overslept, or in proportion how long the program had no
-    processor.
-    """
-    ready = transcript.first(ev.NodeReady)
-    since = ready.t + 1.0 if ready else 0.0
-    lags = [robot.lag for robot in transcript.truth if robot.t >= since]
-    if not transcript.truth:
-        lags = [woken.late for woken in transcript.all(ev.WokenLate)]
-        lags += [starved.seconds * OVERLOADED / STARVED for starved in transcript.all(ev.Starved)]
-    return max(lags, default=0.0)

@@ -7,6 +7,7 @@ from itertools import pairwise
 from autograder import events as ev
 from autograder.blame import why_the_robot_was_held_up
 from autograder.checks import Scenario
+from autograder.lateness import OVERLOADED, lateness
 from autograder.missing import held_up
 from autograder.transcript import Transcript
 
@@ -25,6 +26,8 @@ def require_whole(run: Transcript, scenario: Scenario) -> None:
     if scenario.robot is not None:
         _require_the_robots_time(run)
         _require_obedience(run)
+        if lateness(run) > OVERLOADED and why_the_robot_was_held_up(run):
+            raise held_up(run, f"the robot fell {lateness(run):.1f} s behind its time")
 
 
 def _require_the_robots_time(run: Transcript) -> None:

@@ -66,6 +66,10 @@ def _arenas_table(arenas: Sequence[ArenaCost], others: Sequence[ArenaCost]) -> T
         if arena.opening.wall_s:
             opening = arena.opening
             table.add_row("  opening", f"{opening.cpu_s:.2f}", f"{opening.wall_s:.2f}", "", style="dim")
+        if second := arena.robot_second_cpu_s:
+            before = other.robot_second_cpu_s if other else None
+            compared = ["", f"{before:.3f}", "", f"{second / before:.2f}", ""] if before else []
+            table.add_row("  a robot second", f"{second:.3f}", "", *compared, style="dim")
     return table
 
 

@@ -14,7 +14,12 @@ from typing import Any
 from autograder.bench.processor_time import metered_group
 
 PROJECT = Path(__file__).resolve().parents[2]
-ARENAS = (("battery_service", "ask_once"), ("robot_controller", "good"), ("cancellable_walk", "walk"))
+ARENAS = (
+    ("battery_service", "ask_once"),  # the robot rests
+    ("robot_controller", "good"),  # no robot
+    ("joint_query", "ask"),  # it stands and moves its arms
+    ("cancellable_walk", "walk"),
+)
 
 
 class BenchFailed(Exception):
@@ -41,7 +46,8 @@ class Cost:
 class ArenaCost:
     """One scenario in an arena that is open; `opening` is what the submission's first one takes more, once.
 
-    `floor_s` is the scenario's own time over the scale of its clock.
+    `floor_s` is the scenario's own time over the scale of its clock, `robot_second_cpu_s` what the simulator uses for
+    one second of the robot's time, None without a robot.
     """
 
     exercise: str
@@ -51,6 +57,7 @@ class ArenaCost:
     floor_s: float
     opening: Cost = Cost(0.0, 0.0)
     phases: dict[str, Cost] = field(default_factory=dict)
+    robot_second_cpu_s: float | None = None
 
 
 @dataclass(frozen=True)
@@ -82,6 +89,7 @@ class Costs:
                 **{key: arena[key] for key in ("exercise", "scenario", "cpu_s", "wall_s", "floor_s")},
                 opening=Cost(**arena.get("opening", {"cpu_s": 0.0, "wall_s": 0.0})),
                 phases={name: Cost(**cost) for name, cost in arena.get("phases", {}).items()},
+                robot_second_cpu_s=arena.get("robot_second_cpu_s"),
             )
             for arena in record.get("arenas", ())
         ]
@@ -124,7 +132,9 @@ def _arena_cost(exercise: str, scenario: str, runs: Sequence[dict[str, Any]]) ->
     phases |= {name: Cost(**cost) for name, cost in best["phases"].items()}
     wall = min(run["wall_s"] for run in later)
     extra = Cost(opening["cpu_s"] - best["cpu_s"], opening["wall_s"] - wall) if opening else Cost(0.0, 0.0)
-    return ArenaCost(exercise, scenario, best["cpu_s"], wall, best["floor_s"], extra, phases)
+    seconds = [run["robot_second_cpu_s"] for run in later if run["robot_second_cpu_s"]]
+    robot = min(seconds, default=None)
+    return ArenaCost(exercise, scenario, best["cpu_s"], wall, best["floor_s"], extra, phases, robot)
 
 
 def _submission_cost(exercise: str, runs: Sequence[dict[str, Any]]) -> SubmissionCost:

@@ -10,8 +10,9 @@ from itertools import pairwise
 from autograder.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.checks import Failure, Scenario
 from autograder.exercise import Exercise
-from autograder.grading import lateness
+from autograder.lateness import lateness
 from autograder.submission import Submission
+from autograder.submission_arenas import SubmissionArenas
 from autograder.transcript import Transcript
 
 FAIR_RATE = (4.0, 6.0)  # Hz, of feedback that is meant at 5 Hz
@@ -46,16 +47,15 @@ def fairness_runs(
     """Carry out the scenario `runs` times at one scale and judge each run with every check that needs nothing else."""
 
     def one(_index: int) -> FairRun:
+        walk = ArenaRun(exercise, submission.files, scenario, 0, scale, cold=False, more_to_come=True)
         try:
-            run = _judged(
-                run_in_arena(ArenaRun(exercise, submission.files, scenario, 0, scale)), exercise, scenario
-            )
+            run = _judged(run_in_arena(walk, arenas=arenas), exercise, scenario)
         except NotGraded as error:
             run = FairRun(scale, 0.0, 0.0, 0.0, (str(error).splitlines()[0],))
         progress(run)
         return run
 
-    with ThreadPoolExecutor(jobs) as pool:
+    with SubmissionArenas(exercise.name) as arenas, ThreadPoolExecutor(jobs) as pool:
         return list(pool.map(one, range(runs)))
 
 

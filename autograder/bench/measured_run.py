@@ -17,6 +17,8 @@ from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
+from robot_watch import RobotWatch  # beside this file, in whatever version is measured
+
 from autograder import arena_run
 from autograder import events as ev
 from autograder.exercise import Exercise, load_exercise
@@ -48,9 +50,8 @@ def _arenas(task: dict[str, Any], exercise: Exercise, submission: Submission) ->
                 dataclasses.replace(run, cold=opens, more_to_come=True, measured=True) if is_shared else run
             )
             before = _used(task["meter"]), time.monotonic()
-            transcript = (
-                arena_run.run_in_arena(this, None, arenas) if is_shared else arena_run.run_in_arena(this)
-            )
+            with RobotWatch() as watch:
+                transcript = arena_run.run_in_arena(this, *((None, arenas) if is_shared else ()))
             after = _used(task["meter"]), time.monotonic()
             phases = {
                 event.name: {"cpu_s": event.cpu, "wall_s": event.wall}
@@ -62,6 +63,7 @@ def _arenas(task: dict[str, Any], exercise: Exercise, submission: Submission) ->
                 "floor_s": _floor(transcript),
                 "phases": phases,
                 "opens": opens,
+                "robot_second_cpu_s": (second := watch.cpu_per_second()) and second / transcript.scale,
             }
 
 

@@ -16,7 +16,8 @@ from autograder.arena_run import ArenaRun, run_in_arena
 from autograder.audit.known_submission import SUBMISSIONS, read_known_submission
 from autograder.audit.proof import enough_to_catch
 from autograder.exercise import Exercise, exercise_names, load_exercise
-from autograder.grading import STRAINED, lateness
+from autograder.grading import STRAINED
+from autograder.lateness import lateness
 from autograder.submission_arenas import SubmissionArenas
 from autograder.transcript import Transcript
 

@@ -1,0 +1,24 @@
+"""How far an arena was behind its clock: what a busy machine takes from a run."""
+
+from __future__ import annotations
+
+from autograder import events as ev
+from autograder.transcript import Transcript
+
+OVERLOADED = 0.5  # s the simulator may be late before a run is not judged at all
+STARVED = 1.0  # s a student's program may wait for a processor before a run without a robot is not judged
+
+
+def lateness(transcript: Transcript) -> float:
+    """Return how far (s, arena's clock) the simulator was behind at worst, once the node was ready.
+
+    Without a robot, by how much the arena's own process overslept, or in proportion how long the program had no
+    processor.
+    """
+    ready = transcript.first(ev.NodeReady)
+    since = ready.t + 1.0 if ready else 0.0
+    lags = [robot.lag for robot in transcript.truth if robot.t >= since]
+    if not transcript.truth:
+        lags = [woken.late for woken in transcript.all(ev.WokenLate)]
+        lags += [starved.seconds * OVERLOADED / STARVED for starved in transcript.all(ev.Starved)]
+    return max(lags, default=0.0)
