@@ -1,7 +1,8 @@
 """Attack: sends trajectories of 40,000 points to the robot without end, so that its time stands still and its first joint_states
 stays its last.
 Outcome: the robot looks at the length of a message before it unpacks it, goes on, and tells; the flood is the failure.
-Caught by: follows_the_robot
+Caught by: finds_the_joints
+Also fails: says_when_it_knows_nothing, ends_cleanly
 """
 
 import rclpy
