@@ -39,6 +39,8 @@ KEPT_BACK = (
     "course_cli/demo",
     "course_cli/student_bundle.py",
     "ros_runtime/executor_bench",
+    "autograder/bench",
+    "course_cli/arena_bench.py",
     *(
         f"course_cli/commands/{name}.py"
         for name in ("audit", "bench", "demo", "export", "grade", "release", "test")

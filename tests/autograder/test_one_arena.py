@@ -28,8 +28,8 @@ me = str(os.getpid())
 family = {"1", "2", me}  # with the init and the shell of its sandbox; LTTng has a child for a moment
 stats = [open(f"/proc/{name}/stat").read().split() for name in os.listdir("/proc") if name.isdigit()]
 print("others", [pid for pid, _name, _state, parent, *_ in stats if pid not in family and parent != me])
-elsewhere = {*os.listdir("/tmp"), *os.listdir("/dev/shm")}
-print("files", os.listdir("."), [name for name in elsewhere if not name.startswith(("work", "scenario-", "lttng-"))])
+traces = [folder for folder in ("/tmp", "/dev/shm") if os.path.exists(folder + "/trace")]
+print("files", os.listdir("."), traces)
 print("domain", os.environ["ROS_DOMAIN_ID"])
 left = socket.socket(socket.AF_UNIX)
 try:

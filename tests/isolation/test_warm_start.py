@@ -137,8 +137,8 @@ print(sorted(found - {"autograder[./"}))
 def test_what_one_program_leaves_is_not_there_for_the_next(namespaces):
     leaving = """
 import os, time
-elsewhere = sorted({*os.listdir("/tmp"), *os.listdir("/dev/shm")} - {"work"})
-print("left", os.listdir("/tmp/work"), elsewhere, flush=True)
+traces = [folder for folder in ("/tmp", "/dev/shm") if os.path.exists(folder + "/trace")]
+print("left", os.listdir("/tmp/work"), traces, flush=True)
 for folder in ("/tmp/work", "/tmp", "/dev/shm"):
     open(folder + "/trace", "w").write("I was here")
 if os.fork() == 0:
