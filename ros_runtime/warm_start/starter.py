@@ -27,8 +27,6 @@ with Recording() as recording:
     from ros_runtime.warm_start.preload import preload
     from ros_runtime.warm_start.program import run_program
 
-    preload()
-
 LONGEST_ORDER = 65536  # bytes
 DESCRIPTORS = 5
 
@@ -81,10 +79,12 @@ def keep(order: dict, descriptors: list[int], guard: ForkGuard) -> dict:
     return order
 
 
-hide(recording, FRESH)
-del recording
-gc.collect()
-gc.disable()
-gc.freeze()  # so that the forks go on sharing these pages
-order = wait_for_order(socket.socket(fileno=int(sys.argv[1])))
-sys.exit(run_program(order["argv"], order["env"], order["folder"]))
+if __name__ == "__main__":
+    with recording:
+        preload()
+    hide(recording, FRESH)
+    gc.collect()
+    gc.disable()
+    gc.freeze()  # so that the forks go on sharing these pages
+    order = wait_for_order(socket.socket(fileno=int(sys.argv[1])))
+    sys.exit(run_program(order["argv"], order["env"], order["folder"]))
