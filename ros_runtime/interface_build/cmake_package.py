@@ -63,7 +63,7 @@ def _run_cmake(source: Path, binary_dir: Path, prefix: Path, ros: RosBuild, log:
         f"-DPython3_EXECUTABLE={ros.python}",
         "-DBUILD_TESTING=OFF",
         # The code copies fields between Python and C; optimising it buys nothing but compile time.
-        "-DCMAKE_BUILD_TYPE=MinSizeRel",
+        *("-DCMAKE_BUILD_TYPE=None", "-DCMAKE_C_FLAGS=-O0", "-DCMAKE_CXX_FLAGS=-O0"),
     ]
     if ros.from_wheels:
         configure += [
