@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import fcntl
+import os
+import pickle
+import traceback
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from execution import Executed, execute
@@ -10,18 +15,28 @@ from execution import Executed, execute
 
 @pytest.fixture(scope="session")
 def executed(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Executed]:
-    """`executed("02_services")` is that chapter after its run, which is made only once."""
-    done: dict[str, Executed | Exception] = {}
+    """`executed("02_services")` is that chapter after its run, which is made only once, also by several workers."""
+    shared = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        shared = shared.parent
 
     def run_once(name: str) -> Executed:
-        if name not in done:
-            try:
-                done[name] = execute(name, tmp_path_factory.mktemp(name))
-            except Exception as error:  # a failed run is not repeated for each test
-                done[name] = error
-        chapter = done[name]
-        if isinstance(chapter, Exception):
-            raise chapter
-        return chapter
+        done = shared / f"{name}.executed"
+        with (shared / f"{name}.lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not done.exists():
+                done.write_bytes(pickle.dumps(_outcome(name, tmp_path_factory.mktemp(name))))
+        outcome = pickle.loads(done.read_bytes())
+        if isinstance(outcome, str):
+            pytest.fail(outcome)
+        return outcome
 
     return run_once
+
+
+def _outcome(name: str, folder: Path) -> Executed | str:
+    """The chapter after its run, or what went wrong: a failed run is not repeated for each test."""
+    try:
+        return execute(name, folder)
+    except Exception:
+        return traceback.format_exc()

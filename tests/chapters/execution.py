@@ -22,7 +22,7 @@ class Executed:
     """A chapter after its run."""
 
     notebook: nbformat.NotebookNode
-    left_behind: list[psutil.Process]
+    left_behind: list[str]  # processes
 
     def text(self, cell_id: str) -> str:
         """What a cell printed."""
@@ -45,7 +45,7 @@ def execute(name: str, folder: Path) -> Executed:
     NotebookClient(
         notebook, timeout=CELL_TIMEOUT, kernel_name="python3", resources={"metadata": {"path": str(folder)}}
     ).execute()
-    return Executed(notebook, processes_in(folder))
+    return Executed(notebook, [str(process) for process in processes_in(folder)])
 
 
 def processes_in(folder: Path) -> list[psutil.Process]:
