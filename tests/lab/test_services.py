@@ -35,7 +35,7 @@ print(old.is_running, [lab.call("add", AddTwoInts).sum for _ in range(5)])""")
 def test_no_server_names_those_there_are(notebook: Kernel) -> None:
     notebook.run("lab.run_node('adder.py'); lab.call('add', AddTwoInts)")
     with pytest.raises(CellError, match=r"nobody offers /robot/ad \(AddTwoInts\).*there are: /robot/add\."):
-        notebook.run("lab.call('ad', AddTwoInts, timeout=0.5)")
+        notebook.run("lab.call('ad', AddTwoInts, timeout=2.0)")
 
 
 def test_a_wrong_type_is_told_and_forgiven(notebook: Kernel) -> None:
