@@ -101,7 +101,7 @@ class Student:
             on_line=self._on_line,
             on_exit=self._on_exit,
         )
-        self._watch = StudentWatch(self._process, self._recorder, StudentLimits())
+        self._watch = StudentWatch(self._process, self._recorder, self._clock, StudentLimits())
 
     def _on_line(self, t: float, stream: str, text: str) -> None:
         self._recorder.record("node_output", t=t, stream=stream, text=text)

@@ -9,7 +9,7 @@ from autograder.arena.recorder import Recorder
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.process_tree import cpu_seconds, resident_mib, seconds_without_a_processor
 from autograder.isolation.student_process import StudentProcess
-from ros_runtime.clock.scaled_clock import real_monotonic_ns
+from ros_runtime.clock.scaled_clock import ScaledClock, real_monotonic_ns
 
 PERIOD = 0.1  # s of real time between two looks, each of which reads some files for every process
 
@@ -17,8 +17,11 @@ PERIOD = 0.1  # s of real time between two looks, each of which reads some files
 class StudentWatch:
     """A thread beside the scenario. A memory bomb then ends itself and not the arena, so its run can be judged."""
 
-    def __init__(self, student: StudentProcess, recorder: Recorder, limits: StudentLimits) -> None:
+    def __init__(
+        self, student: StudentProcess, recorder: Recorder, clock: ScaledClock, limits: StudentLimits
+    ) -> None:
         self._student = student
+        self._clock = clock
         self._recorder = recorder
         self._limits = limits
         self._started = real_monotonic_ns()
@@ -45,7 +48,7 @@ class StudentWatch:
                 self._recorder.record("node_killed", reason=reason)
                 self._student.kill()
                 return
-            time.sleep(PERIOD)
+            time.sleep(PERIOD * self._clock.scale)  # this process follows the clock
 
     def _look(self) -> float:
         """Return the memory in use (MiB)."""
