@@ -33,7 +33,7 @@ class ArenaRun:
     """What to run: the files of a submission, a scenario with its inputs, and how fast the arena's clock shall go.
 
     `cold` starts the student's program in a new interpreter, as at home; else one that waits may become it.
-    `more_to_come` says that other scenarios follow in the same arena, `measured` that its phases are.
+    `measured` says that its phases are.
     """
 
     exercise: Exercise
@@ -43,7 +43,6 @@ class ArenaRun:
     scale: float = USUAL
     kind: Kind | None = None
     cold: bool = True
-    more_to_come: bool = False
     measured: bool = False
 
 
@@ -84,7 +83,6 @@ def _specification(run: ArenaRun, params: dict[str, Any], scale: float, is_isola
         "timed": run.scenario.timed,
         "student_paths": [str(path) for path in student_paths()],
         "warm": not run.cold,
-        "more_to_come": run.more_to_come and is_isolated,
         "own_network": is_isolated,
         "measured": run.measured,
     }

@@ -197,7 +197,6 @@ class _Session:
                 attempt_scale,
                 self._isolation.kind,
                 cold,
-                more_to_come=len(self._scenarios) > 1,
             )
             try:
                 transcript = run_in_arena(run, self._stop, self._arenas)

@@ -21,6 +21,7 @@ from autograder.arena.orders import DONE, send_order
 from autograder.isolation.arena_process import ArenaReport, ArenaSpec, Kind, start_arena
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.python_paths import python_read_only_paths
+from autograder.isolation.student_sandbox import waiting_environment
 from ros_runtime.clock.scaled_clock import preload_variables
 from ros_runtime.environment import ros_environment
 from ros_runtime.own_network import loopback_variables
@@ -60,6 +61,7 @@ class SubmissionArena:
                 read_only_paths=[*ros_paths(), *_trusted_paths(exercise)],
                 pass_fds=[theirs.fileno()],
                 env=environment,
+                waiting_env=waiting_environment({**ros_environment(), **preload_variables()}),
                 limits=LIMITS,
             )
             try:

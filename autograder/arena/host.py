@@ -1,8 +1,10 @@
 """The first process of an arena: it imports everything and builds the robot once, and forks an agent for each scenario.
 
-Run as `python -m autograder.arena.host SOCKET`. Every order is the specification of a scenario and the pipe its events
-go to; it is answered when no process of the scenario is left. The clock's library is preloaded into this process, but
-only its forks follow a clock, each the one of its scenario.
+Run as `python -m autograder.arena.host SOCKET`; where programs may start warm,
+:mod:`ros_runtime.warm_start.first_process` goes on as that, which has loaded rclpy and forked the waiting interpreter.
+Every order is the specification of a scenario and the pipe its events go to; it is answered when no process of the
+scenario is left. The clock's library is preloaded into this process, but only its forks follow a clock, each the one of
+its scenario.
 """
 
 from __future__ import annotations
@@ -29,10 +31,7 @@ from autograder.arena.orders import DONE, receive_order
 from autograder.arena.phases import Phase
 from autograder.arena.robots import Robots
 from autograder.isolation.process_tree import descendants
-from autograder.isolation.student_sandbox import program_environment
 from autograder.isolation.warm_interpreter import WarmInterpreter
-from ros_runtime.clock.scaled_clock import preload_variables
-from ros_runtime.environment import ros_environment
 from ros_runtime.warm_start.preload import preload
 
 _PR_SET_CHILD_SUBREAPER = 36
@@ -44,7 +43,7 @@ class Host:
 
     def __init__(self) -> None:
         self._robots = Robots()
-        self._interpreter: WarmInterpreter | None = None
+        self._interpreter = WarmInterpreter.in_this_arena()
         self._numbers = count()
         self._stopwatch = STOPWATCH
         # what a scenario's processes leave behind becomes ours, to be ended
@@ -63,10 +62,6 @@ class Host:
         )
         agent.start()
         os.close(events_fd)
-        if spec["more_to_come"] and self._interpreter is None:
-            self._interpreter = WarmInterpreter(
-                program_environment({**ros_environment(), **preload_variables()})
-            )
         agent.join()
         self._end_what_is_left()
 

@@ -47,7 +47,7 @@ def fairness_runs(
     """Carry out the scenario `runs` times at one scale and judge each run with every check that needs nothing else."""
 
     def one(_index: int) -> FairRun:
-        walk = ArenaRun(exercise, submission.files, scenario, 0, scale, cold=False, more_to_come=True)
+        walk = ArenaRun(exercise, submission.files, scenario, 0, scale, cold=False)
         try:
             run = _judged(run_in_arena(walk, arenas=arenas), exercise, scenario)
         except NotGraded as error:

@@ -46,9 +46,7 @@ def _arenas(task: dict[str, Any], exercise: Exercise, submission: Submission) ->
         is_shared = arenas is not None
         for number in range(task["runs"] + is_shared):
             opens = is_shared and number == 0
-            this = (
-                dataclasses.replace(run, cold=opens, more_to_come=True, measured=True) if is_shared else run
-            )
+            this = dataclasses.replace(run, cold=opens, measured=True) if is_shared else run
             before = _used(task["meter"]), time.monotonic()
             with RobotWatch() as watch:
                 transcript = arena_run.run_in_arena(this, *((None, arenas) if is_shared else ()))

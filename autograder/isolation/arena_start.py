@@ -10,14 +10,15 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from autograder.isolation.arena_spec import ISOLATION_VARIABLE, ArenaSpec, Kind
-from autograder.isolation.bubblewrap import STUDENT_FILTER, Sandbox, SandboxError, same_paths
+from autograder.isolation.bubblewrap import STUDENT_FILTER, Sandbox, SandboxError, StartedSandbox, same_paths
 from autograder.isolation.process_tree import ended_within
 from autograder.isolation.seccomp_filter import student_filter
+from autograder.isolation.warm_interpreter import first_process
 from ros_runtime.own_network import NoDomainLeft, ReservedDomain
 
 _END_TIMEOUT = 10.0  # s for the kernel, or the warden, to end every process
@@ -59,10 +60,10 @@ def start_with_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
                     sandbox, spec, [(f"{staging}/{number}", path) for number, (_, path) in enumerate(paths)]
                 )
                 prefix = _as_another_user([source for source, _ in paths], staging)
-                started = sandbox.start(spec.command, prefix=prefix, pass_fds=spec.pass_fds)
+                started = _start(sandbox, spec, prefix)
         else:
             _describe(sandbox, spec, paths)
-            started = sandbox.start(spec.command, pass_fds=spec.pass_fds)
+            started = _start(sandbox, spec)
     stack.callback(os.close, started.init_pidfd)
     _write_stdin(started.process, spec.stdin)
     return RunningArena(started.process, started.init_pid, started.init_pidfd, gentle=False)
@@ -108,9 +109,19 @@ def _describe(sandbox: Sandbox, spec: ArenaSpec, paths: list[tuple[str, str]]) -
     sandbox.add_data("--ro-bind-data", student_filter(), STUDENT_FILTER)
     sandbox.close_file_system()
     sandbox.add("--chdir", "/tmp")
+    sandbox.add_environment(_sandbox_environment(spec) if spec.waiting_env is None else spec.waiting_env)
+
+
+def _start(sandbox: Sandbox, spec: ArenaSpec, prefix: Sequence[str] = ()) -> StartedSandbox:
+    if spec.waiting_env is None:
+        return sandbox.start(spec.command, prefix=prefix, pass_fds=spec.pass_fds)
+    with first_process(spec.command, _sandbox_environment(spec)) as (command, descriptor):
+        return sandbox.start(command, prefix=prefix, pass_fds=[*spec.pass_fds, descriptor])
+
+
+def _sandbox_environment(spec: ArenaSpec) -> dict[str, str]:
     # Shared memory between two sandboxes' own /dev/shm cannot work, and nodes would choose it: UDP only.
-    udp_only = {"FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
-    sandbox.add_environment(_environment(spec, Kind.NAMESPACES, "/tmp", udp_only))
+    return _environment(spec, Kind.NAMESPACES, "/tmp", {"FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"})
 
 
 @contextmanager

@@ -47,7 +47,13 @@ def start_program(program: Program, stack: ExitStack) -> RunningProgram:
 
 
 def program_environment(env: Mapping[str, str], home: str = _WORKDIR) -> dict[str, str]:
-    """Return a program's whole environment. Its output must arrive line by line to be timed."""
+    """Return a program's whole environment, with what this arena's network needs."""
+    network = {name: os.environ[name] for name in _NETWORK_VARIABLES if name in os.environ}
+    return {**waiting_environment(env, home), **network}
+
+
+def waiting_environment(env: Mapping[str, str], home: str = _WORKDIR) -> dict[str, str]:
+    """Return what a program's environment begins with. Its output must arrive line by line to be timed."""
     ours = {
         "PATH": "/usr/bin:/bin",
         "LANG": "C.UTF-8",
@@ -55,8 +61,7 @@ def program_environment(env: Mapping[str, str], home: str = _WORKDIR) -> dict[st
         "TMPDIR": "/tmp",
         "PYTHONUNBUFFERED": "1",
     }
-    network = {name: os.environ[name] for name in _NETWORK_VARIABLES if name in os.environ}
-    return {**ours, **env, **network}
+    return {**ours, **env}
 
 
 def _start_in_sandbox(program: Program, stack: ExitStack) -> ChildProgram:

@@ -1,6 +1,6 @@
 """The arena's side of `ros_runtime/warm_start`: an interpreter that waits to become students' programs.
 
-It is executed, never forked, from the arena's own process: nothing of the grader is in its memory.
+The arena's first process forks it before it loads anything of the grader: nothing of that is in its memory.
 """
 
 from __future__ import annotations
@@ -8,36 +8,49 @@ from __future__ import annotations
 import json
 import os
 import socket
-import subprocess
-import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import ros_runtime.warm_start
 from autograder.isolation.bubblewrap import STUDENT_FILTER, SandboxError, StartedSandbox
 from autograder.isolation.running_program import EnteredProgram
 
-_STARTER = Path(ros_runtime.warm_start.__file__).with_name("starter.py")
+_FIRST_PROCESS = Path(ros_runtime.warm_start.__file__).with_name("first_process.py")
+_WAITING = "COURSE_WAITING_INTERPRETER"  # set by the first process: "SOCKET PROCESS"
+
+
+@contextmanager
+def first_process(command: Sequence[str], environment: Mapping[str, str]) -> Iterator[tuple[list[str], int]]:
+    """Yield the command that forks a waiting interpreter before it goes on as `command`, `python -m MODULE …`.
+
+    The descriptor that comes with it is to be inherited; it holds command and environment.
+    """
+    python, *arguments = command
+    descriptor = os.memfd_create("first process")
+    try:
+        os.write(descriptor, json.dumps({"arguments": arguments, "environment": dict(environment)}).encode())
+        os.lseek(descriptor, 0, os.SEEK_SET)
+        yield [python, str(_FIRST_PROCESS), str(descriptor)], descriptor
+    finally:
+        os.close(descriptor)
 
 
 class WarmInterpreter:
-    """Starts waiting at once; `environment` is what every program's environment begins with."""
+    """A waiting interpreter, by the socket that takes its orders and its process id."""
 
-    def __init__(self, environment: Mapping[str, str]) -> None:
-        self._orders, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        with theirs:
-            self._process = subprocess.Popen(
-                [sys.executable, str(_STARTER), str(theirs.fileno())],
-                env=dict(environment),
-                pass_fds=[theirs.fileno()],
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-            )
+    def __init__(self, orders: socket.socket, pid: int) -> None:
+        self._orders = orders
+        self.pid = pid
 
-    @property
-    def pid(self) -> int:
-        """Its process id."""
-        return self._process.pid
+    @classmethod
+    def in_this_arena(cls) -> WarmInterpreter | None:
+        """Return the one that the first process of this arena, which is this process, has forked, if it has."""
+        waiting = os.environ.get(_WAITING)
+        if waiting is None:
+            return None
+        descriptor, pid = map(int, waiting.split())
+        return cls(socket.socket(fileno=descriptor), pid)
 
     def start_program(
         self,

@@ -1,39 +1,28 @@
-"""A waiting interpreter: run as `python starter.py SOCKET`, it forks a program into a sandbox at every order.
+"""A waiting interpreter: at every order it forks a program into a sandbox.
 
-An order is a JSON object (see :class:`.client.Order`) with five descriptors: stdin, stdout, stderr, where to report,
-and a file with the seccomp filter. The report is the program's process id and, when it has ended, its exit status
-(negative: a signal), a line each; or one line with what went wrong. The program can read all the memory of this
-process, so that holds nothing but what every program may know.
+An order is a JSON object (sandbox, argv, env, folder, limits, clock) with five descriptors: stdin, stdout,
+stderr, where to report, and a file with the seccomp filter. The report is the program's process id and, when it has
+ended, its exit status (negative: a signal), a line each; or one line with what went wrong. The program can read all the
+memory of this process, so that holds nothing but what every program may know.
 """
 
 from __future__ import annotations
 
-import sys
+import json
+import os
+import signal
+import socket
 
-FRESH = frozenset(sys.modules)  # what a fresh interpreter has loaded
-
-from ros_runtime.warm_start.hidden_imports import Recording, hide  # noqa: E402
-
-with Recording() as recording:
-    import gc
-    import json
-    import os
-    import signal
-    import socket
-
-    from ros_runtime.clock.scaled_clock import follow
-    from ros_runtime.warm_start.confinement import give_up_privileges, join_namespaces
-    from ros_runtime.warm_start.lttng import ForkGuard
-    from ros_runtime.warm_start.preload import preload
-    from ros_runtime.warm_start.program import run_program
+from ros_runtime.clock.scaled_clock import follow
+from ros_runtime.warm_start.confinement import give_up_privileges, join_namespaces
+from ros_runtime.warm_start.lttng import ForkGuard
 
 LONGEST_ORDER = 65536  # bytes
 DESCRIPTORS = 5
 
 
-def wait_for_order(orders: socket.socket) -> dict:
+def wait_for_order(orders: socket.socket, guard: ForkGuard) -> dict:
     """Serve orders; returns, with the order, in the process that is to become the program and in no other."""
-    guard = ForkGuard()
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the kernel shall bury them
     while True:
         text, descriptors, _, _ = socket.recv_fds(orders, LONGEST_ORDER, DESCRIPTORS)
@@ -77,14 +66,3 @@ def keep(order: dict, descriptors: list[int], guard: ForkGuard) -> dict:
     give_up_privileges(order["limits"], seccomp_filter)
     guard.after_in_child()
     return order
-
-
-if __name__ == "__main__":
-    with recording:
-        preload()
-    hide(recording, FRESH)
-    gc.collect()
-    gc.disable()
-    gc.freeze()  # so that the forks go on sharing these pages
-    order = wait_for_order(socket.socket(fileno=int(sys.argv[1])))
-    sys.exit(run_program(order["argv"], order["env"], order["folder"]))

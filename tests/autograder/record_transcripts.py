@@ -67,7 +67,7 @@ def _record(exercise: Exercise, path: Path, only: str) -> None:
     with SubmissionArenas(exercise) as arenas:
         for name, scenario in scenarios_of(exercise.name).items():
             if scenario in wanted and only in ("", scenario.name):
-                run = ArenaRun(exercise, files, scenario, cold=False, more_to_come=True)
+                run = ArenaRun(exercise, files, scenario, cold=False)
                 transcript = _carry_out(run, arenas)
                 write(FOLDER / exercise.name / f"{path.stem}.{name}.jsonl.gz", transcript)
                 print(f"{exercise.name} {path.stem} {name}: {transcript.end:.1f} s", flush=True)

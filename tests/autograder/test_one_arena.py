@@ -70,7 +70,7 @@ def files(code):
 
 
 def run(code, arenas=None, **options):
-    run = ArenaRun(QUIZ, files(code), PROGRAM, more_to_come=True, **options)
+    run = ArenaRun(QUIZ, files(code), PROGRAM, **options)
     return run_in_arena(run, arenas=arenas)
 
 

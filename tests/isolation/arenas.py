@@ -15,45 +15,14 @@ import autograder.isolation
 from autograder.isolation.arena_process import ArenaReport, ArenaSpec, Kind, start_arena
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.python_paths import python_read_only_paths
+from autograder.isolation.student_sandbox import waiting_environment
 
 PACKAGE = Path(autograder.isolation.__file__).parent
 ROS_RUNTIME = PACKAGE.parents[1] / "ros_runtime"
+AGENT = Path(__file__).with_name("student_starter.py")  # the arena's trusted process
 # The wheels start the interpreter a second time unless they find their mark.
-ENVIRONMENT = {"PYTHONPATH": str(PACKAGE.parents[1]), "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"}
-
-_AGENT = """
-import json, os, sys, threading, time
-from autograder.isolation.limits import StudentLimits
-from autograder.isolation.student_process import start_student
-from autograder.isolation.student_sandbox import program_environment
-from autograder.isolation.warm_interpreter import WarmInterpreter
-task = json.load(sys.stdin)
-lines, codes = [], []
-printed = threading.Condition()
-def on_line(*line):
-    with printed:
-        lines.append(line)
-        printed.notify_all()
-def wait_for_line(text):
-    with printed:
-        assert printed.wait_for(lambda: any(text in line[2] for line in lines), 20), lines
-environment = {"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1", **task["env"]}
-interpreter = WarmInterpreter(program_environment(environment)) if task["warm"] else None
-def start():
-    return start_student(
-        ["node.py", *task["arguments"]],
-        workdir_files={"node.py": task["code"].encode(), **{n: t.encode() for n, t in task["files"].items()}},
-        env=environment, read_only_paths=task["paths"], limits=StudentLimits(**task["limits"]),
-        interpreter=interpreter, on_line=on_line, on_exit=codes.append,
-    )
-student = start()
-exec(task["meanwhile"])
-student.wait()
-json.dump({
-    "returncode": student.returncode, "codes": codes, "lines": lines,
-    "stdout": student.stdout.text, "stderr": student.stderr.text,
-}, sys.stdout)
-"""
+WHEELS = {"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"}
+ENVIRONMENT = {"PYTHONPATH": f"{PACKAGE.parents[1]}:{AGENT.parent}", **WHEELS}
 
 
 @dataclass
@@ -92,9 +61,10 @@ class Student:
         paths = [str(path) for path in python_read_only_paths()]
         task = {**self.__dict__, "paths": [*paths, *self.paths, str(ROS_RUNTIME)]}
         return ArenaSpec(
-            [sys.executable, "-c", _AGENT],
-            read_only_paths=[*paths, *self.paths, PACKAGE, ROS_RUNTIME],
+            [sys.executable, "-m", AGENT.stem],
+            read_only_paths=[*paths, *self.paths, PACKAGE, ROS_RUNTIME, AGENT],
             env={**ENVIRONMENT, **self.arena_env},
+            waiting_env=waiting_environment({**WHEELS, **self.env}) if self.warm else None,
             stdin=json.dumps(task).encode(),
             limits=limits,
         )

@@ -234,8 +234,8 @@ def test_an_ordinary_user_can_start_arenas_too(namespaces: Kind) -> None:
     with tempfile.TemporaryDirectory(dir="/tmp") as folder:
         shutil.copytree(PACKAGE, f"{folder}/autograder/isolation")
         shutil.copytree(Path(ros_runtime.__file__).parent, f"{folder}/ros_runtime")
-        for module in (arenas, pyseccomp):
-            shutil.copy(module.__file__, folder)
+        for file in (arenas.__file__, arenas.AGENT, pyseccomp.__file__):
+            shutil.copy(file, folder)
         subprocess.run(["/bin/chmod", "-R", "a+rX", folder], check=True)
         done = subprocess.run(
             [*become, python, f"{folder}/arenas.py"],
