@@ -6,6 +6,7 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
+from rich import box
 from rich.console import Console
 from rich.table import Table
 
@@ -62,13 +63,13 @@ def _arenas_table(arenas: Sequence[ArenaCost], others: Sequence[ArenaCost]) -> T
         other = next(
             (o for o in others if (o.exercise, o.scenario) == (arena.exercise, arena.scenario)), None
         )
-        _add(table, f"{arena.exercise} {arena.scenario}", arena, other)
+        _add(table, f"{arena.exercise}\n{arena.scenario}", arena, other)
         if arena.opening.wall_s:
             opening = arena.opening
-            table.add_row("  opening", f"{opening.cpu_s:.2f}", f"{opening.wall_s:.2f}", "", style="dim")
+            table.add_row("  opening", f"{opening.cpu_s:.2f}", f"{opening.wall_s:.2f}", style="dim")
         if second := arena.robot_second_cpu_s:
             before = other.robot_second_cpu_s if other else None
-            compared = ["", f"{before:.3f}", "", f"{second / before:.2f}", ""] if before else []
+            compared = ["", f"{before:.3f}", f"{second / before:.2f}"] if before else []
             table.add_row("  a robot second", f"{second:.3f}", "", *compared, style="dim")
     return table
 
@@ -84,10 +85,10 @@ def _submissions_table(
 
 def _phases_table(arenas: Sequence[ArenaCost]) -> Table:
     """The first phases are those of the opening; the interpreter that waits for students starts beside the others."""
-    table = Table(title="By phase: processor s / wall s")
+    table = Table(title="By phase: CPU s / wall s", box=box.SIMPLE_HEAD, padding=(0, 0))
     table.add_column("")
     for arena in arenas:
-        table.add_column(f"{arena.exercise}\n{arena.scenario}", justify="right")
+        table.add_column(f"{arena.exercise}\n{arena.scenario}", justify="right", overflow="fold")
     for name in dict.fromkeys(name for arena in arenas for name in arena.phases):
         phases = [arena.phases.get(name) for arena in arenas]
         table.add_row(name, *(f"{phase.cpu_s:.2f} / {phase.wall_s:.2f}" if phase else "" for phase in phases))
@@ -97,11 +98,9 @@ def _phases_table(arenas: Sequence[ArenaCost]) -> Table:
 def _table(title: str, others: Sequence[object]) -> Table:
     table = Table(title=title)
     table.add_column("")
-    for heading in ("processor s", "wall s", "floor s"):
+    compared = ("before:\nCPU / wall s", "ratio:\nCPU / wall") if others else ()
+    for heading in ("CPU s", "wall s", "floor s", *compared):
         table.add_column(heading, justify="right")
-    if others:
-        for heading in ("before: processor s", "wall s", "ratio: processor", "wall"):
-            table.add_column(heading, justify="right")
     return table
 
 
@@ -110,6 +109,6 @@ def _add(
 ) -> None:
     cells = [f"{cost.cpu_s:.2f}", f"{cost.wall_s:.2f}", f"{cost.floor_s:.2f}"]
     if other:
-        cells += [f"{other.cpu_s:.2f}", f"{other.wall_s:.2f}"]
-        cells += [f"{cost.cpu_s / other.cpu_s:.2f}", f"{cost.wall_s / other.wall_s:.2f}"]
+        cells.append(f"{other.cpu_s:.2f} / {other.wall_s:.2f}")
+        cells.append(f"{cost.cpu_s / other.cpu_s:.2f} / {cost.wall_s / other.wall_s:.2f}")
     table.add_row(name, *cells)
