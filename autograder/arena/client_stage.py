@@ -24,7 +24,7 @@ from autograder.arena.waiting import Waiting
 APPEARING_TIMEOUT = 20.0  # for the student's node to appear
 MODULE_TIMEOUT = 150.0  # for work of ours in the student's sandbox, such as compiling
 MATCHING_TIMEOUT = 3.0  # for its clients to be seen, which some programs make only when they need them
-SETTLING = 0.1  # for the program's own side of those connections
+SETTLING = 0.05  # for the program's own side of those connections
 # s, on the arena's clock:
 END_TIMEOUT = 25.0
 

@@ -1,0 +1,127 @@
+"""A node that listens to a resting robot, which is not integrated, hears what one hears that is."""
+
+import numpy as np
+import pytest
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rclpy.qos import qos_profile_sensor_data
+from robot_process import LATCHED, running_robot
+from sensor_msgs.msg import BatteryState, Imu, JointState
+
+from humanoid_interfaces.msg import RobotState
+
+FASTER = 5.0  # times real time
+HEARD = {  # message type, QoS, messages to hear, rate in Hz of simulated time
+    "odom": (Odometry, qos_profile_sensor_data, 100, 20.0),
+    "joint_states": (JointState, qos_profile_sensor_data, 100, 20.0),
+    "imu": (Imu, qos_profile_sensor_data, 250, 50.0),
+    "battery_state": (BatteryState, LATCHED, 10, 2.0),
+    "robot_state": (RobotState, LATCHED, 25, 5.0),
+}
+
+
+@pytest.fixture(scope="module")
+def robots():
+    """A robot that may rest, and one that is integrated and has come to a stand as well as it ever will."""
+    options = ("--rtf", str(FASTER))
+    with running_robot(*options, "--may-rest") as resting, running_robot(*options) as integrated:
+        for robot in (resting, integrated):
+            robot.collect(Odometry, "odom", 200)  # 10 s
+        yield resting, integrated
+
+
+@pytest.fixture(scope="module")
+def heard(robots):
+    """By topic: what was heard of the one, and of the other."""
+    return {
+        topic: [robot.collect(kind, topic, count, qos) for robot in robots]
+        for topic, (kind, qos, count, _) in HEARD.items()
+    }
+
+
+def vectors(messages, *names):
+    """The numbers of fields such as "pose.pose.position", a row a message."""
+
+    def numbers(message, name):
+        for part in name.split("."):
+            message = getattr(message, part)
+        if hasattr(message, "get_fields_and_field_types"):
+            return [getattr(message, field) for field in message.get_fields_and_field_types()]
+        return np.atleast_1d(message)
+
+    return np.array([np.concatenate([numbers(message, name) for name in names]) for message in messages])
+
+
+def test_it_offers_the_same_topics_with_the_same_terms(robots):
+    def offered(robot):
+        return {
+            (topic, kind, info.qos_profile.reliability, info.qos_profile.durability)
+            for topic, kinds in robot.node.get_topic_names_and_types()
+            for kind in kinds
+            for info in robot.node.get_publishers_info_by_topic(topic)
+            if info.node_name == "humanoid"
+        }
+
+    resting, integrated = map(offered, robots)
+    assert resting == integrated
+    assert len(resting) >= len(HEARD)
+
+
+@pytest.mark.parametrize("topic", HEARD)
+def test_it_speaks_as_often_and_stamps_as_evenly(heard, topic):
+    rate = HEARD[topic][3]
+    for messages in heard[topic]:
+        stamps = [message.header.stamp.sec + message.header.stamp.nanosec * 1e-9 for message in messages]
+        said_since_we_listen = np.diff(stamps[1:])  # what is latched was said before
+        assert said_since_we_listen.mean() == pytest.approx(1 / rate / FASTER, rel=0.3)
+
+
+def test_it_is_where_the_other_is(heard):
+    fields = ("pose.pose.position", "pose.pose.orientation", "twist.twist.linear", "twist.twist.angular")
+    resting, integrated = (vectors(messages, *fields) for messages in heard["odom"])
+    assert resting == pytest.approx(integrated, abs=1e-5)
+    resting, integrated = (vectors(messages, "position", "velocity") for messages in heard["joint_states"])
+    assert resting == pytest.approx(integrated, abs=1e-5)
+    resting, integrated = (vectors(messages, "effort") for messages in heard["joint_states"])
+    assert resting == pytest.approx(integrated, abs=1e-2)
+
+
+def test_its_inertial_sensor_is_as_noisy(heard):
+    for field, least in (("angular_velocity", 1e-4), ("linear_acceleration", 1e-3)):
+        resting, integrated = (vectors(messages, field) for messages in heard["imu"])
+        assert (resting.std(axis=0) > least).all()
+        assert resting.std(axis=0) == pytest.approx(integrated.std(axis=0), rel=0.5)
+        assert resting.mean(axis=0) == pytest.approx(
+            integrated.mean(axis=0), abs=float(integrated.std(axis=0).max())
+        )
+        assert len(np.unique(resting, axis=0)) == len(resting)  # no reading is given twice
+
+
+def test_its_battery_drains_as_fast(heard):
+    def rate(messages):
+        charge = vectors(messages, "percentage")[:, 0]
+        return (charge[-1] - charge[0]) / (len(charge) - 1)
+
+    resting, integrated = heard["battery_state"]
+    assert rate(resting) < 0
+    assert rate(resting) == pytest.approx(rate(integrated), rel=0.05)
+    fields = ("voltage", "current")
+    assert vectors(resting, *fields) == pytest.approx(vectors(integrated, *fields), rel=1e-3)
+
+
+def test_it_says_the_same_of_itself(heard):
+    resting, integrated = (
+        vectors(messages, "mode", "motors_enabled", "steps") for messages in heard["robot_state"]
+    )
+    assert (resting == integrated).all()
+
+
+def test_it_walks_as_soon_as_it_is_told_to(robots):
+    command = Twist()
+    command.linear.x = 0.2
+    for robot in robots:
+        publisher = robot.node.create_publisher(Twist, "cmd_vel", 10)
+        timer = robot.node.create_timer(0.02, lambda publisher=publisher: publisher.publish(command))
+        robot.one(RobotState, "robot_state", LATCHED, until=lambda state: state.mode == RobotState.WALKING)
+        robot.node.destroy_timer(timer)
+        robot.one(RobotState, "robot_state", LATCHED, until=lambda state: state.mode == RobotState.STANDING)
