@@ -54,7 +54,7 @@ def run_in_arena(
     Raises :class:`NotGraded` when the arena failed. `stop` ends the arena early.
     """
     if arenas is None:
-        with SubmissionArenas(run.exercise.name, run.kind) as arenas:
+        with SubmissionArenas(run.exercise.scenario_file, run.kind) as arenas:
             return run_in_arena(run, stop, arenas)
     params = run.scenario.draw(run.seed)
     scale = run.scale if run.scenario.timed else 1.0
@@ -70,7 +70,7 @@ def run_in_arena(
 
 def _specification(run: ArenaRun, params: dict[str, Any], scale: float, is_isolated: bool) -> dict[str, Any]:
     return {
-        "module": run.exercise.scenario_module,
+        "scenario_file": str(run.exercise.scenario_file),
         "scenario": run.scenario.name,
         "params": params,
         "namespace": run.scenario.namespace,

@@ -1,22 +1,40 @@
-"""An exercise as the controller sees it: its checks, visible and hidden, in order."""
+"""An exercise as the controller sees it: a folder, and its checks, visible and hidden, in order.
+
+    FOLDER/battery_service/battery_service.ipynb   the task, with its solution
+                           scenarios.py            what is done to the student's program; runs in the arena
+                           checks.py, hidden.py    how that is judged, by CHECKS of each
+                           known/                  submissions whose verdict is known
+
+Other modules beside these are for checks.py and hidden.py, which import them as `from .judging import …`.
+"""
 
 from __future__ import annotations
 
+import ast
+import hashlib
 import importlib
-import importlib.util
+import os
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from autograder.checks import Check
 
-FOLDER = Path(__file__).parent / "exercises"
+PROJECT = Path(__file__).resolve().parents[1]
+FOLDER_VARIABLE = "COURSE_EXERCISES"  # inherited by the processes that a command starts
+SCENARIOS, CHECKS, HIDDEN = "scenarios", "checks", "hidden"
 
 
 class UnknownExercise(Exception):
     """There is no exercise of that name."""
+
+
+class UnusableExercise(Exception):
+    """What an exercise's author wrote cannot be used; the message says where and why."""
 
 
 @dataclass(frozen=True)
@@ -24,6 +42,7 @@ class Exercise:
     """The checks of one exercise; the hidden ones are absent from the students' bundle."""
 
     name: str
+    folder: Path
     checks: Sequence[Check]
     has_hidden_checks: bool
 
@@ -33,53 +52,133 @@ class Exercise:
         return file_names(self.name)
 
     @property
-    def scenario_module(self) -> str:
-        """The module an arena imports the scenarios from."""
-        return f"autograder.exercises.{self.name}.scenarios"
+    def scenario_file(self) -> Path:
+        """The module an arena takes the scenarios from, and all of the exercise that it sees."""
+        return self.folder / f"{SCENARIOS}.py"
 
     def max_score(self) -> int:
         """The points of all its checks."""
         return sum(check.points for check in self.checks)
 
 
+def exercises_folder() -> Path:
+    """Return the folder of exercises that this process works with.
+
+    It is what :func:`use_exercises_of` was given, the clone's solutions/, or, in a student's copy, checks/.
+    """
+    if given := os.environ.get(FOLDER_VARIABLE):
+        return Path(given)
+    folders = [PROJECT / "solutions", PROJECT / "checks"]
+    return next((folder for folder in folders if folder.is_dir()), folders[0])
+
+
+def use_exercises_of(folder: Path) -> None:
+    """Work with the exercises of this folder from here on, in this process and those it starts.
+
+    Raises :class:`UnusableExercise` when the folder holds none.
+    """
+    if not _names_in(folder):
+        raise UnusableExercise(f"{folder} holds no exercise; expected {folder}/<exercise>/{CHECKS}.py")
+    os.environ[FOLDER_VARIABLE] = str(folder.resolve())
+
+
 def exercise_names() -> list[str]:
     """Name the exercises there are."""
-    return sorted(folder.name for folder in FOLDER.iterdir() if (folder / "checks.py").exists())
+    return _names_in(exercises_folder())
 
 
 def file_names(exercise: str) -> tuple[str, ...]:
-    """Return the names of the files a student writes: one program, unless the exercise's package lists FILES.
+    """Return the names of the files a student writes: one program, unless the exercise's __init__.py lists FILES.
 
     Raises :class:`UnknownExercise` naming those there are.
     """
-    _require_known(exercise)
-    package = importlib.import_module(f"autograder.exercises.{exercise}")
-    return getattr(package, "FILES", (f"{exercise}.py",))
+    return getattr(exercise_module(exercise), "FILES", (f"{exercise}.py",))
+
+
+def scenario_file(exercise: str) -> Path:
+    """Return where an exercise's scenarios are, if there is such an exercise."""
+    return exercises_folder() / exercise / f"{SCENARIOS}.py"
 
 
 def load_exercise(name: str, *, hidden: bool) -> Exercise:
-    """Load an exercise with or without its hidden checks; raises :class:`UnknownExercise` naming those there are."""
-    _require_known(name)
-    package = f"autograder.exercises.{name}"
-    checks = list(importlib.import_module(f"{package}.checks").CHECKS.checks)
-    has_hidden = importlib.util.find_spec(f"{package}.hidden") is not None
+    """Load an exercise with or without its hidden checks; raises :class:`UnknownExercise` naming those there are.
+
+    Raises :class:`UnusableExercise` for what its author has to mend.
+    """
+    folder = exercises_folder() / name
+    checks = list(exercise_module(name, CHECKS).CHECKS.checks)
+    has_hidden = (folder / f"{HIDDEN}.py").exists()
     if hidden and has_hidden:
-        checks += importlib.import_module(f"{package}.hidden").CHECKS.checks
-    _require_sound(name, checks)
-    return Exercise(name, checks, has_hidden)
+        checks += exercise_module(name, HIDDEN).CHECKS.checks
+    exercise = Exercise(name, folder, checks, has_hidden)
+    _require_sound_checks(exercise)
+    _require_scenarios(exercise)
+    return exercise
 
 
-def _require_known(name: str) -> None:
-    if name not in exercise_names():
-        raise UnknownExercise(f"there is no exercise {name!r}; there are {', '.join(exercise_names())}")
+def exercise_module(exercise: str, module: str = "") -> ModuleType:
+    """Import a module of an exercise's folder, or, without a name, the folder as a package.
+
+    Raises :class:`UnknownExercise`.
+    """
+    folder = exercises_folder()
+    if exercise not in _names_in(folder):
+        raise UnknownExercise(
+            f"there is no exercise {exercise!r} in {folder}; there are {', '.join(_names_in(folder))}"
+        )
+    return importlib.import_module(".".join(filter(None, (_package(folder), exercise, module))))
 
 
-def _require_sound(name: str, checks: Sequence[Check]) -> None:
+def _names_in(folder: Path) -> list[str]:
+    if not folder.is_dir():
+        return []
+    return sorted(
+        place.name
+        for place in folder.iterdir()
+        if place.name.isidentifier() and (place / f"{CHECKS}.py").exists()
+    )
+
+
+def _package(folder: Path) -> str:
+    """Return a package's name of the folder's own, under which its exercises can be imported."""
+    name = f"exercises_{hashlib.sha256(str(folder.resolve()).encode()).hexdigest()[:12]}"
+    if name not in sys.modules:
+        package = ModuleType(name, f"The exercises in {folder}.")
+        package.__path__ = [str(folder.resolve())]
+        sys.modules[name] = package
+    return name
+
+
+def _require_sound_checks(exercise: Exercise) -> None:
     """Each check has an id of its own and needs only checks that come before it."""
     seen: set[str] = set()
-    for check in checks:
+    for check in exercise.checks:
         if check.id in seen:
-            raise ValueError(f"two checks of {name} are called {check.id}")
+            raise UnusableExercise(f"two checks of {exercise.name} are called {check.id}")
         if missing := set(check.needs) - seen:
-            raise ValueError(f"{check.id} of {name} needs {sorted(missing)}, which do not come before it")
+            raise UnusableExercise(
+                f"{check.id} of {exercise.name} needs {sorted(missing)}, which do not come before it"
+            )
         seen.add(check.id)
+
+
+def _require_scenarios(exercise: Exercise) -> None:
+    """The scenarios of the checks are there, in a module that can be imported where nothing else of its folder is."""
+    path = exercise.scenario_file
+    try:
+        tree = ast.parse(path.read_text(encoding="utf-8"), str(path))
+    except (OSError, SyntaxError) as error:
+        raise UnusableExercise(f"the scenarios of {exercise.name} cannot be read: {error}") from error
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            raise UnusableExercise(
+                f"{path}, line {node.lineno}, imports from its own folder, of which the arena sees this file alone: "
+                "write here what the scenarios need"
+            )
+    defined = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+    wanted = {scenario.name: check.id for check in exercise.checks for scenario in check.on}
+    if missing := sorted(wanted.keys() - defined):
+        raise UnusableExercise(
+            f"{wanted[missing[0]]} of {exercise.name} is judged on the scenario {missing[0]!r}, which {path} does not "
+            f"define; it has {', '.join(sorted(defined))}"
+        )

@@ -63,7 +63,7 @@ def grade(
     isolation = isolation or available_isolation()
     if not isolation.trusted and any(check.hidden for check in exercise.checks):
         raise HiddenChecksRefused(f"hidden checks need isolated arenas: {isolation.reason}")
-    arenas = arenas or SubmissionArenas(exercise.name, isolation.kind)
+    arenas = arenas or SubmissionArenas(exercise.scenario_file, isolation.kind)
     session = _Session(
         submission,
         exercise,

@@ -43,9 +43,12 @@ class ArenaEnded(Exception):
 
 
 class SubmissionArena:
-    """A started arena. Raises :class:`.isolation.bubblewrap.SandboxError` when it cannot start."""
+    """A started arena for the scenarios of one file.
 
-    def __init__(self, exercise: str, kind: Kind | None = None) -> None:
+    Raises :class:`.isolation.bubblewrap.SandboxError` when it cannot start.
+    """
+
+    def __init__(self, scenario_file: Path, kind: Kind | None = None) -> None:
         self._orders, theirs = socket.socketpair()
         environment = {
             **ros_environment(),
@@ -58,7 +61,7 @@ class SubmissionArena:
         with theirs:
             spec = ArenaSpec(
                 [sys.executable, "-m", "autograder.arena.host", str(theirs.fileno())],
-                read_only_paths=[*ros_paths(), *_trusted_paths(exercise)],
+                read_only_paths=[*ros_paths(), *_trusted_paths(), scenario_file],
                 pass_fds=[theirs.fileno()],
                 env=environment,
                 waiting_env=waiting_environment({**ros_environment(), **preload_variables()}),
@@ -141,19 +144,15 @@ def student_paths() -> Sequence[Path]:
     return (*ros_paths(), PROJECT / "ros_runtime")
 
 
-def _trusted_paths(exercise: str) -> list[Path]:
-    """What the arena may see of the project: no checks, no solutions, no other submissions."""
+def _trusted_paths() -> list[Path]:
+    """What any arena may see of the project: no checks, no solutions, no other submissions."""
     grader = PROJECT / "autograder"
-    scenarios = grader / "exercises" / exercise
     return [
         PROJECT / "ros_runtime",
         PROJECT / "robot_sim",
         grader / "__init__.py",
         grader / "arena",
         grader / "isolation",
-        grader / "exercises" / "__init__.py",
-        scenarios / "__init__.py",
-        scenarios / "scenarios.py",
     ]
 
 

@@ -7,6 +7,7 @@ import threading
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
+from pathlib import Path
 from types import TracebackType
 
 from autograder.isolation.arena_spec import ISOLATION_VARIABLE, Kind
@@ -15,13 +16,13 @@ from autograder.submission_arena import SubmissionArena
 
 
 class SubmissionArenas:
-    """A context manager; what it has opened ends with it. `exercise` is the name of the submission's.
+    """A context manager; what it has opened ends with it. `scenario_file` is that of the submission's exercise.
 
     Where there are no namespaces an arena serves one scenario: what is left of it cannot be told from the next.
     """
 
-    def __init__(self, exercise: str, kind: Kind | None = None) -> None:
-        self._exercise = exercise
+    def __init__(self, scenario_file: Path, kind: Kind | None = None) -> None:
+        self._scenario_file = scenario_file
         self._kind = kind
         self._idle: list[SubmissionArena] = []
         self._ahead: Future[SubmissionArena] | None = None
@@ -32,7 +33,7 @@ class SubmissionArenas:
         if os.environ.get(ISOLATION_VARIABLE) == Kind.NONE:
             return
         with ThreadPoolExecutor(1) as pool:
-            self._ahead = pool.submit(SubmissionArena, self._exercise, Kind.NAMESPACES)
+            self._ahead = pool.submit(SubmissionArena, self._scenario_file, Kind.NAMESPACES)
             pool.shutdown(wait=False)
 
     def __enter__(self) -> SubmissionArenas:
@@ -49,7 +50,7 @@ class SubmissionArenas:
     @contextmanager
     def one(self) -> Iterator[SubmissionArena]:
         """Lend an arena that nobody uses; after an exception it is closed and not used again."""
-        arena = self._take() or SubmissionArena(self._exercise, self._kind)
+        arena = self._take() or SubmissionArena(self._scenario_file, self._kind)
         try:
             yield arena
         except BaseException:

@@ -8,7 +8,7 @@ import zipfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from autograder.exercise import exercise_names, load_exercise
+from autograder.exercise import exercise_names, exercises_folder, file_names, load_exercise
 from autograder.nbgrader_bridge.release import generate_release
 
 TOP = "humanoid-course"  # the folder the archive unpacks to
@@ -60,8 +60,9 @@ def write_bundle(root: Path, archive: Path) -> int:
     """
     with tempfile.TemporaryDirectory() as temporary:
         exercises = Path(temporary) / "exercises"
-        generate_release(root / "solutions", exercises)
+        generate_release(exercises_folder(), exercises)
         files = {path.relative_to(root).as_posix(): path for path in _files_of(root)}
+        files |= dict(_visible_checks())
         # Freshly generated, because whoever tries the exercises out leaves solutions beside them.
         files |= {path.relative_to(temporary).as_posix(): path for path in exercises.rglob("*.ipynb")}
         files["README.md"] = root / README
@@ -95,6 +96,14 @@ def hidden_check_ids() -> list[str]:
     ]
 
 
+def _visible_checks() -> Iterator[tuple[str, Path]]:
+    """What judges the exercises without the hidden checks, by where a student's copy of the engine looks for it."""
+    for exercise in exercise_names():
+        for path in sorted((exercises_folder() / exercise).glob("*.py")):
+            if path.name != "hidden.py" and path.name not in file_names(exercise):
+                yield f"checks/{exercise}/{path.name}", path
+
+
 def _files_of(root: Path) -> Iterator[Path]:
     for place in (place for part in PARTS for place in root.glob(part)):
         candidates = sorted(place.rglob("*")) if place.is_dir() else [place]
@@ -105,7 +114,7 @@ def _kept_back(path: Path) -> bool:
     derived = (
         any(part == "__pycache__" or part.startswith(".") for part in path.parts) or path.suffix == ".pyc"
     )
-    return derived or path.name == "hidden.py" or path.as_posix().startswith(KEPT_BACK)
+    return derived or path.as_posix().startswith(KEPT_BACK)
 
 
 def _add(bundle: zipfile.ZipFile, name: str, path: Path) -> None:

@@ -20,6 +20,7 @@ from autograder.arena.phases import Phase, Phases
 from autograder.arena.punctuality import Punctuality
 from autograder.arena.recorder import Recorder
 from autograder.arena.robots import Robots
+from autograder.arena.scenario_file import scenarios_in
 from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
 from autograder.isolation.warm_interpreter import WarmInterpreter
@@ -31,8 +32,9 @@ if TYPE_CHECKING:
 
 def import_everything(spec: dict[str, Any]) -> None:
     """Import what the scenario needs, so that a fork has it."""
-    for module in (spec["module"], "autograder.arena.stage", "autograder.arena.client_stage"):
+    for module in ("autograder.arena.stage", "autograder.arena.client_stage"):
         importlib.import_module(module)
+    scenarios_in(spec["scenario_file"])
 
 
 def carry_out(
@@ -113,7 +115,7 @@ def _perform(
         clock.run_at(spec["scale"])
         phases.end("settling")
 
-    scenario = getattr(importlib.import_module(spec["module"]), spec["scenario"])
+    scenario = getattr(scenarios_in(spec["scenario_file"]), spec["scenario"])
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     node = _bare_node("observer", spec["namespace"])
     executor = SingleThreadedExecutor()

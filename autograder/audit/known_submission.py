@@ -19,10 +19,10 @@ from fnmatch import fnmatch
 from pathlib import Path
 from typing import Literal, get_args
 
+from autograder.exercise import exercises_folder
 from autograder.submission import Submission, read_submission
 
-SUBMISSIONS = Path(__file__).resolve().parents[2] / "tests" / "submissions"
-
+KNOWN = "known"  # their folder, in an exercise's
 ABOUT = "about.md"
 
 Kind = Literal["correct", "faulty", "hostile"]
@@ -57,12 +57,12 @@ class KnownSubmission:
         return read_submission(self.path, self.exercise, student=self.name)
 
 
-def known_submissions(exercise: str, *, only: str = "*", folder: Path = SUBMISSIONS) -> list[KnownSubmission]:
-    """Read the submissions in `folder`/<exercise>/<kind>/; `only` is a glob on kind/stem or stem.
+def known_submissions(exercise: str, *, only: str = "*") -> list[KnownSubmission]:
+    """Read the submissions in <exercise>/known/<kind>/; `only` is a glob on kind/stem or stem.
 
     Each is a .py file, or a folder where students of the exercise write several files.
     """
-    folders = [folder / exercise / kind for kind in get_args(Kind)]
+    folders = [exercises_folder() / exercise / KNOWN / kind for kind in get_args(Kind)]
     paths = [path for place in folders for path in sorted([*place.glob("*.py"), *place.glob("[!_]*/")])]
     return [
         read_known_submission(path)
@@ -72,8 +72,8 @@ def known_submissions(exercise: str, *, only: str = "*", folder: Path = SUBMISSI
 
 
 def read_known_submission(path: Path) -> KnownSubmission:
-    """Read the header of <exercise>/<kind>/<name>; raises :class:`HeaderError`."""
-    kind, exercise = _kind(path), path.parents[1].name
+    """Read the header of <exercise>/known/<kind>/<name>; raises :class:`HeaderError`."""
+    kind, exercise = _kind(path), path.parents[2].name
     header = _parse(_header_text(path))
     headline = _HEADLINE[kind]
     if not header.get(headline):

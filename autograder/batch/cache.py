@@ -16,7 +16,7 @@ from autograder.verdict import Grade
 
 # What a verdict depends on besides the submission: the checks and the engine, the robot, the clock.
 JUDGING = ("autograder", "robot_sim", "ros_runtime", "humanoid_interfaces")
-WITHOUT_INFLUENCE = ("batch", "nbgrader_bridge", "report", "audit", "exercises")  # folders of autograder/
+WITHOUT_INFLUENCE = ("batch", "nbgrader_bridge", "report", "audit", "bench")  # folders of autograder/
 
 
 class GradeCache:
@@ -52,7 +52,7 @@ class GradeCache:
             json.dumps(
                 [
                     dict(submission.sources),
-                    checks_version(exercise.name),
+                    checks_version(exercise.folder),
                     [check.id for check in exercise.checks],
                     self._seed,
                     self._isolation.label,
@@ -63,18 +63,18 @@ class GradeCache:
 
 
 @lru_cache
-def checks_version(exercise: str) -> str:
-    """Return a hash of every file that a verdict on this exercise depends on."""
+def checks_version(exercise: Path) -> str:
+    """Return a hash of every file that a verdict on the exercise in this folder depends on."""
     digest = hashlib.sha256()
+    for path in sorted(exercise.glob("*.py")):
+        digest.update(f"{path.name}\0".encode() + path.read_bytes())
     for room in JUDGING:
         for path in sorted((PROJECT / room).rglob("*")):
             place = path.relative_to(PROJECT)
-            if path.is_file() and "__pycache__" not in place.parts and _has_influence(place, exercise):
+            if path.is_file() and "__pycache__" not in place.parts and _has_influence(place):
                 digest.update(f"{place}\0".encode() + path.read_bytes())
     return digest.hexdigest()
 
 
-def _has_influence(place: Path, exercise: str) -> bool:
-    if place.parts[:2] == ("autograder", "exercises"):
-        return place.parts[2] == exercise or len(place.parts) == 3
+def _has_influence(place: Path) -> bool:
     return not (place.parts[0] == "autograder" and place.parts[1] in WITHOUT_INFLUENCE)

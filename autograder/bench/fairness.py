@@ -55,7 +55,7 @@ def fairness_runs(
         progress(run)
         return run
 
-    with SubmissionArenas(exercise.name) as arenas, ThreadPoolExecutor(jobs) as pool:
+    with SubmissionArenas(exercise.scenario_file) as arenas, ThreadPoolExecutor(jobs) as pool:
         return list(pool.map(one, range(runs)))
 
 

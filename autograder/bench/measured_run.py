@@ -88,7 +88,10 @@ def _shared_arenas(exercise: Exercise) -> Iterator[Any]:
         with nullcontext():
             yield None
     else:
-        with SubmissionArenas(exercise.name) as arenas:
+        where: Any = getattr(
+            exercise, "scenario_file", exercise.name
+        )  # the name, before exercises were folders
+        with SubmissionArenas(where) as arenas:
             yield arenas
 
 

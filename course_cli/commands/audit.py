@@ -11,9 +11,10 @@ from autograder.audit.kill_matrix import kill_matrix, print_progress
 from autograder.audit.known_submission import HeaderError, known_submissions
 from autograder.audit.run import AuditedRun
 from autograder.audit.run import audit as run_audit
-from autograder.exercise import UnknownExercise, exercise_names, load_exercise
+from autograder.exercise import UnknownExercise, UnusableExercise, exercise_names, load_exercise
 from autograder.grading import HiddenChecksRefused
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.exercises_option import CourseOption
 
 MATRIX_WIDTH = 140
 
@@ -25,6 +26,7 @@ def audit(
     only: Annotated[str, typer.Option(help="only submissions whose name matches, such as 'faulty/*'")] = "*",
     scale: Annotated[float | None, typer.Option(help="how much faster the arenas' clock runs")] = None,
     json_file: Annotated[Path | None, typer.Option("--json", help="write every verdict to this file")] = None,
+    course: CourseOption = None,
 ) -> None:
     """Grade submissions whose faults are known; exit 0 only when every verdict is the right one."""
     console = Console(highlight=False)
@@ -44,7 +46,7 @@ def audit(
             console.print(kill_matrix(runs, loaded), width=max(console.width, MATRIX_WIDTH))
             console.print()
             audited[name] = runs
-    except (UnknownExercise, HeaderError) as error:
+    except (UnknownExercise, UnusableExercise, HeaderError) as error:
         raise ended(console, error, UNUSABLE) from error
     except HiddenChecksRefused as error:
         raise ended(console, error, COULD_NOT) from error

@@ -7,10 +7,11 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.exercise import UnknownExercise, exercise_names, file_names
+from autograder.exercise import UnknownExercise, UnusableExercise, exercise_names, file_names, scenario_file
 from autograder.submission import UnusableSubmission, place_of_work
 from autograder.submission_arenas import SubmissionArenas
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.exercises_option import CourseOption
 
 
 def check(
@@ -23,19 +24,20 @@ def check(
     ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", help="write the verdicts to this file")] = None,
     jobs: Annotated[int, typer.Option(min=1, help="arenas at a time; one a core")] = 2,
+    course: CourseOption = None,
 ) -> None:
     """Check your own solution of an exercise."""
     console = Console(highlight=False)
     try:
         path = file or _default_file(exercise)
-        with SubmissionArenas(exercise) as arenas:
+        with SubmissionArenas(scenario_file(exercise)) as arenas:
             if exercise in exercise_names() and path.exists():
                 arenas.open_ahead()
             # imported meanwhile, because the first verdict is waited for
             from autograder.self_check import check_aloud
 
             result = check_aloud(console, path, exercise, jobs=jobs, arenas=arenas)
-    except (UnknownExercise, UnusableSubmission) as error:
+    except (UnknownExercise, UnusableExercise, UnusableSubmission) as error:
         raise ended(console, error, UNUSABLE) from error
     if json_file:
         json_file.write_text(json.dumps(result.to_json(), indent=2) + "\n")

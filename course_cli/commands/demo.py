@@ -29,7 +29,7 @@ from humanoid_interfaces.action import WalkTo
 EXERCISE = "cancellable_walk"
 PROJECT = Path(__file__).resolve().parents[2]
 SOLUTION = PROJECT / "solutions" / EXERCISE / f"{EXERCISE}.ipynb"
-FAULTY = PROJECT / "tests" / "submissions" / EXERCISE / "faulty"
+FAULTY = PROJECT / "solutions" / EXERCISE / "known" / "faulty"
 SUBMISSIONS = {
     "right": SOLUTION,
     "ignores cancel": FAULTY / "ignores_cancel.py",

@@ -15,14 +15,15 @@ from autograder.batch.cache import GradeCache
 from autograder.batch.collection import Collection, NoSubmissions, collect
 from autograder.batch.records import GRADES, write_grades
 from autograder.batch.runner import BatchRunner, Graded
+from autograder.exercise import UnusableExercise, exercises_folder
 from autograder.isolation.availability import Isolation, available_isolation
 from autograder.nbgrader_bridge.course_folder import NbgraderError
 from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
 from autograder.nbgrader_bridge.transplant import NoSolutionCell
 from autograder.report.class_table import class_table, progress_line
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.exercises_option import CourseOption
 
-SOLUTIONS = Path(__file__).resolve().parents[2] / "solutions"
 LOG = "nbgrader.log"
 
 
@@ -42,6 +43,7 @@ def grade(
     json_file: Annotated[
         Path | None, typer.Option("--json", help="write all verdicts to this file as well")
     ] = None,
+    course: CourseOption = None,
 ) -> None:
     """Grade a batch of submissions."""
     console = Console(highlight=False)
@@ -57,7 +59,10 @@ def grade(
             style="yellow",
             markup=False,
         )
-    results = _grade_all(console, collection, out, isolation, jobs, seed, resume)
+    try:
+        results = _grade_all(console, collection, out, isolation, jobs, seed, resume)
+    except UnusableExercise as error:
+        raise ended(console, error, UNUSABLE) from error
     grades = [result.grade for result in results]
     write_grades(out / GRADES, grades)
     if json_file:
@@ -122,7 +127,7 @@ def _enter_all(console: Console, results: Sequence[Graded], out: Path) -> list[s
     logs: list[str] = []
     with _progress(console) as progress:
         task = progress.add_task("gradebook", total=len(results))
-        gradebook = CourseGradebook(out, SOLUTIONS)
+        gradebook = CourseGradebook(out, exercises_folder())
         for result in results:
             try:
                 gradebook.enter(Entry(result.grade, result.sources, result.problem, result.work.timestamp))

@@ -6,8 +6,10 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from autograder.exercise import UnusableExercise, exercises_folder
 from autograder.nbgrader_bridge.release import bring_in_step, out_of_step
-from course_cli.ending import COULD_NOT, ended
+from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.exercises_option import CourseOption
 from course_cli.student_bundle import Leak, write_bundle
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -22,19 +24,29 @@ def release(
     check: Annotated[
         bool, typer.Option("--check", help="instead, fail when solutions/ or exercises/ is out of step")
     ] = False,
+    course: CourseOption = None,
 ) -> None:
     """Write the students' bundle: no solutions, no hidden checks."""
     console = Console(highlight=False)
+    try:
+        _release(console, out, exercises, check)
+    except UnusableExercise as error:
+        raise ended(console, error, UNUSABLE) from error
+
+
+def _release(console: Console, out: Path, exercises: bool, check: bool) -> None:
+    solutions = exercises_folder()
+    released = solutions.parent / "exercises"
     if check:
-        differing = out_of_step(ROOT / "solutions", ROOT / "exercises")
+        differing = out_of_step(solutions, released)
         for path in differing:
-            console.print(f"{path.relative_to(ROOT)} is out of step", style="red", markup=False)
+            console.print(f"{path.relative_to(solutions.parent)} is out of step", style="red", markup=False)
         if differing:
             console.print("Run ./course release --exercises and commit what it changes.")
         raise typer.Exit(COULD_NOT if differing else 0)
     if exercises:
-        for path in bring_in_step(ROOT / "solutions", ROOT / "exercises"):
-            console.print(f"{path.relative_to(ROOT)} renewed", markup=False)
+        for path in bring_in_step(solutions, released):
+            console.print(f"{path.relative_to(solutions.parent)} renewed", markup=False)
         return
     try:
         count = write_bundle(ROOT, out)

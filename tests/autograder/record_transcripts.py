@@ -13,9 +13,9 @@ from pathlib import Path
 from recorded import FOLDER, scenarios_of, write
 
 from autograder.arena_run import ArenaRun, run_in_arena
-from autograder.audit.known_submission import SUBMISSIONS, read_known_submission
+from autograder.audit.known_submission import KNOWN, read_known_submission
 from autograder.audit.proof import enough_to_catch
-from autograder.exercise import Exercise, exercise_names, load_exercise
+from autograder.exercise import Exercise, exercise_names, exercises_folder, load_exercise
 from autograder.grading import STRAINED
 from autograder.lateness import lateness
 from autograder.submission_arenas import SubmissionArenas
@@ -55,7 +55,7 @@ def main(wanted: list[str]) -> None:
     for each in wanted or exercise_names():
         name, _, scenario = each.partition(":")
         for submission in SUBMISSIONS_OF[name]:
-            folder = SUBMISSIONS / name / submission
+            folder = exercises_folder() / name / KNOWN / submission
             path = folder if folder.is_dir() else folder.with_suffix(".py")
             _record(load_exercise(name, hidden=True), path, scenario)
 
@@ -64,7 +64,7 @@ def _record(exercise: Exercise, path: Path, only: str) -> None:
     known = read_known_submission(path)
     files = known.read().files
     wanted = {scenario for check in enough_to_catch(known, exercise).checks for scenario in check.on}
-    with SubmissionArenas(exercise) as arenas:
+    with SubmissionArenas(exercise.scenario_file) as arenas:
         for name, scenario in scenarios_of(exercise.name).items():
             if scenario in wanted and only in ("", scenario.name):
                 run = ArenaRun(exercise, files, scenario, cold=False)

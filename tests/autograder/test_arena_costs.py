@@ -56,7 +56,7 @@ def test_two_versions_stand_side_by_side_as_ratios(tmp_path, monkeypatch):
     )
     (tmp_path / "before.json").write_text(json.dumps(before.to_json()))
     monkeypatch.setattr(arena_bench, "measure", lambda versions, **options: [now])
-    console = Console(record=True, width=160)
+    console = Console(record=True, width=80)
     bench_arenas(
         console,
         arenas=False,
@@ -71,10 +71,8 @@ def test_two_versions_stand_side_by_side_as_ratios(tmp_path, monkeypatch):
         "3.00",
         "5.00",
         "2.00",
-        "6.00",
-        "20.00",
-        "0.50",
-        "0.25",
+        "6.00 / 20.00",
+        "0.50 / 0.25",
     ]
     assert json.loads((tmp_path / "now.json").read_text()) == json.loads(json.dumps(now.to_json()))
 

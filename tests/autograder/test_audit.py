@@ -21,7 +21,7 @@ EXERCISES = {name: load_exercise(name, hidden=True) for name in exercise_names()
 KNOWN = [known for name in EXERCISES for known in known_submissions(name)]
 GRADED = [known for name in EXERCISES for known in enough_to_prove(known_submissions(name), of_each=1)]
 
-# Why they are kept: tests/submissions/README.md
+# Why they are kept: solutions/README.md
 WITHOUT_A_KILLER = {"cancellable_walk": {"obeys_a_stranger"}}
 
 

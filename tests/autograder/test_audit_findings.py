@@ -1,6 +1,7 @@
 """What the audit says about a grade that differs from what is known."""
 
 from io import StringIO
+from pathlib import Path
 
 import pytest
 from rich.console import Console
@@ -10,7 +11,7 @@ from autograder.audit.known_submission import HeaderError, known_submissions, re
 from autograder.audit.proof import enough_to_catch, enough_to_prove
 from autograder.audit.run import AuditedRun, checks_without_a_killer
 from autograder.checks import CheckList, Scenario
-from autograder.exercise import Exercise
+from autograder.exercise import FOLDER_VARIABLE, Exercise
 from autograder.verdict import CheckVerdict, Grade
 
 CORRECT = '"""Style: plain."""\n'
@@ -19,13 +20,15 @@ HOSTILE = '"""Attack: forks\nOutcome: dies of it\nCaught by: appears\n"""\n'
 
 
 @pytest.fixture
-def folder(tmp_path):
-    """Write submissions: folder(kind=source) returns the folder that holds them."""
+def folder(tmp_path, monkeypatch):
+    """Write submissions: folder(kind=source) returns the folder of exercises that holds them, and is in use."""
+    monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path))
 
     def write(**sources):
         for kind, source in sources.items():
-            (tmp_path / "service" / kind).mkdir(parents=True)
-            (tmp_path / "service" / kind / "one.py").write_text(source)
+            place = tmp_path / "service" / "known" / kind
+            place.mkdir(parents=True)
+            (place / "one.py").write_text(source)
         return tmp_path
 
     return write
@@ -41,11 +44,11 @@ def exercise():
 
         judge.__name__ = name
         checks.check(points=1, on=Scenario("ask"), needs=needs)(judge)
-    return Exercise("service", checks.checks, False)
+    return Exercise("service", Path("service"), checks.checks, False)
 
 
 def read(folder, kind):
-    return read_known_submission(folder / "service" / kind / "one.py")
+    return read_known_submission(folder / "service" / "known" / kind / "one.py")
 
 
 def run_of(known, **statuses):
@@ -90,11 +93,11 @@ def test_header_that_says_too_little_or_too_much_is_refused(folder, kind, source
 
 
 def test_submissions_are_chosen_by_name_or_by_kind_and_name(folder):
-    where = folder(correct=CORRECT, faulty=FAULTY)
-    assert len(known_submissions("service", folder=where)) == 2
-    assert [known.kind for known in known_submissions("service", only="faulty/*", folder=where)] == ["faulty"]
-    assert len(known_submissions("service", only="one", folder=where)) == 2
-    assert known_submissions("service", only="two", folder=where) == []
+    folder(correct=CORRECT, faulty=FAULTY)
+    assert len(known_submissions("service")) == 2
+    assert [known.kind for known in known_submissions("service", only="faulty/*")] == ["faulty"]
+    assert len(known_submissions("service", only="one")) == 2
+    assert known_submissions("service", only="two") == []
 
 
 def test_correct_submission_with_full_marks_is_no_surprise(folder):
@@ -153,17 +156,20 @@ def test_matrix_shows_every_submission_and_check_and_the_figures(folder, exercis
     assert "false failures: 0 in 1 runs of correct submissions" in figures(runs, exercise)
 
 
-def test_enough_to_prove_is_every_check_once_and_whatever_is_not_faulty(tmp_path):
+def test_enough_to_prove_is_every_check_once_and_whatever_is_not_faulty(tmp_path, monkeypatch):
+    monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path))
+
     def write(kind, name, header):
-        (tmp_path / "service" / kind).mkdir(parents=True, exist_ok=True)
-        (tmp_path / "service" / kind / f"{name}.py").write_text(f'"""{header}"""')
+        place = tmp_path / "service" / "known" / kind
+        place.mkdir(parents=True, exist_ok=True)
+        (place / f"{name}.py").write_text(f'"""{header}"""')
 
     write("correct", "plain", "Style: plain")
     write("faulty", "narrow", "Fault: slow\nCaught by: answers")
     write("faulty", "wide", "Fault: slow\nCaught by: answers, ends")
     write("faulty", "deaf", "Fault: sleeps (M2)\nCaught by: answers")
     write("hostile", "bomb", "Attack: forks\nOutcome: dies\nCaught by: appears")
-    enough = enough_to_prove(known_submissions("service", folder=tmp_path))
+    enough = enough_to_prove(known_submissions("service"))
     assert [known.name for known in enough] == ["correct/plain", "faulty/deaf", "faulty/wide", "hostile/bomb"]
 
 

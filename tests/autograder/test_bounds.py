@@ -10,8 +10,11 @@ import pytest
 from autograder import events as ev
 from autograder.bounds import require_bounded
 from autograder.checks import CannotBeJudged, Failure, Scenario
-from autograder.exercises.interfaces.judging import LONGEST, require_built, require_fields
+from autograder.exercise import exercise_module
 from autograder.transcript import Transcript
+
+JUDGING = exercise_module("interfaces", "judging")
+LONGEST, require_built, require_fields = JUDGING.LONGEST, JUDGING.require_built, JUDGING.require_fields
 
 
 def run_with(*events: Any, **params: Any) -> Transcript:

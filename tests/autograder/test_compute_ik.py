@@ -5,9 +5,11 @@ import math
 import pytest
 
 from autograder.checks import Failure
-from autograder.exercises.compute_ik.judging import Reply, require_hit, require_side
-from autograder.exercises.compute_ik.two_link_arm import TwoLinkArm
+from autograder.exercise import exercise_module
 
+JUDGING = exercise_module("compute_ik", "judging")
+Reply, require_hit, require_side = JUDGING.Reply, JUDGING.require_hit, JUDGING.require_side
+TwoLinkArm = exercise_module("compute_ik", "two_link_arm").TwoLinkArm
 TARGET = (0.4, 0.3)
 SHOULDER, ELBOW = math.radians(14.5383), math.radians(49.4584)  # the elbow below
 DIRECTION = math.atan2(TARGET[1], TARGET[0])

@@ -1,6 +1,7 @@
 """How verdicts follow from given transcripts: dependencies, infrastructure failures, overload."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -36,7 +37,7 @@ def transcript(scenario, *, lag=0.0, mark=None, scale=5.0):
 
 
 def exercise(checks, **kwargs):
-    return Exercise("anything", checks.checks, False, **kwargs)
+    return Exercise("anything", Path("anything"), checks.checks, False, **kwargs)
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import pytest
 from autograder import events as ev
 from autograder.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.checks import Scenario
-from autograder.exercise import Exercise
+from autograder.exercise import Exercise, exercises_folder
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import available_isolation
 from autograder.isolation.process_tree import descendants
@@ -18,7 +18,7 @@ from autograder.submission_arenas import SubmissionArenas
 pytestmark = pytest.mark.skipif(
     not available_isolation().trusted, reason=f"no namespaces here: {available_isolation().reason}"
 )
-QUIZ = Exercise("patterns", (), False)
+QUIZ = Exercise("patterns", exercises_folder() / "patterns", (), False)
 PROGRAM = Scenario("print_answers", robot=None, student="program")
 
 # It leaves a process that cannot be interrupted, files, a socket and a segment of memory, and looks for all of them.
@@ -79,7 +79,7 @@ def printed(transcript):
 
 
 def test_a_scenario_finds_nothing_of_the_one_before():
-    with SubmissionArenas(QUIZ.name) as arenas:
+    with SubmissionArenas(QUIZ.scenario_file) as arenas:
         runs = [printed(run(LEAVES_TRACES, arenas, cold=cold)) for cold in (True, False, False, True)]
     for lines in runs:
         assert lines[0] == "others []"
@@ -90,13 +90,13 @@ def test_a_scenario_finds_nothing_of_the_one_before():
 
 
 def test_a_warm_program_has_only_what_it_imports():
-    with SubmissionArenas(QUIZ.name) as arenas:
+    with SubmissionArenas(QUIZ.scenario_file) as arenas:
         cold, warm = (printed(run(IMPORTS_BY_LUCK, arenas, cold=cold)) for cold in (True, False))
     assert warm == cold == ["[]", "module 'rclpy' has no attribute 'action'"]
 
 
 def test_no_arena_serves_two_submissions():
-    with SubmissionArenas(QUIZ.name) as one, SubmissionArenas(QUIZ.name) as other:
+    with SubmissionArenas(QUIZ.scenario_file) as one, SubmissionArenas(QUIZ.scenario_file) as other:
         for arenas in (one, other):
             run("", arenas)
         with one.one() as first, other.one() as second:
@@ -104,7 +104,7 @@ def test_no_arena_serves_two_submissions():
 
 
 def test_an_arena_that_failed_is_not_used_again():
-    with SubmissionArenas(QUIZ.name) as arenas:
+    with SubmissionArenas(QUIZ.scenario_file) as arenas:
         with pytest.raises(RuntimeError), arenas.one() as broken:
             raise RuntimeError
         with arenas.one() as next_one:
@@ -116,7 +116,7 @@ def test_an_arena_that_failed_is_not_used_again():
 
 def test_nothing_is_left_when_the_arenas_are_closed():
     before = descendants(os.getpid())
-    with SubmissionArenas(QUIZ.name) as arenas:
+    with SubmissionArenas(QUIZ.scenario_file) as arenas:
         for cold in (True, False):
             run(LEAVES_TRACES, arenas, cold=cold)
     assert set(descendants(os.getpid())) <= set(before)
@@ -129,7 +129,7 @@ held = b"x" * 200_000_000
 while time.process_time() < 0.5:
     pass
 """
-    with SubmissionArenas(QUIZ.name) as arenas:
+    with SubmissionArenas(QUIZ.scenario_file) as arenas:
         for cold in (True, False):
             usage = run(code, arenas, cold=cold).first(ev.NodeUsage)
             assert usage.cpu >= 0.4
@@ -137,14 +137,14 @@ while time.process_time() < 0.5:
 
 
 def test_a_warm_program_is_ended_above_its_memory():
-    with SubmissionArenas(QUIZ.name) as arenas:
+    with SubmissionArenas(QUIZ.scenario_file) as arenas:
         run("", arenas)
         killed = run("held = bytearray()\nwhile True: held += b'x' * 10_000_000", arenas, cold=False)
     assert killed.first(ev.NodeKilled) or "MemoryError" in killed.output("stderr")
 
 
 def test_without_namespaces_every_scenario_has_an_arena_of_its_own():
-    with SubmissionArenas(QUIZ.name, Kind.NONE) as arenas:
+    with SubmissionArenas(QUIZ.scenario_file, Kind.NONE) as arenas:
         assert printed(run("print('one')", arenas, cold=False)) == ["one"]
         with arenas.one() as one:
             pass

@@ -58,11 +58,12 @@ def test_what_was_not_graded_is_not_remembered(tmp_path):
 @pytest.mark.parametrize(
     ("changed", "matters"),
     [
-        ("autograder/exercises/battery_service/hidden.py", True),
-        ("autograder/exercises/common_checks.py", True),
+        ("solutions/battery_service/hidden.py", True),
+        ("autograder/common_checks.py", True),
         ("autograder/grading.py", True),
         ("robot_sim/gait.py", True),
-        ("autograder/exercises/cancellable_walk/checks.py", False),
+        ("solutions/cancellable_walk/checks.py", False),
+        ("solutions/battery_service/known/faulty/sleeps.py", False),
         ("autograder/report/table.py", False),
     ],
 )
@@ -72,8 +73,8 @@ def test_a_change_of_what_judges_makes_old_grades_void(tmp_path, monkeypatch, ch
         (tmp_path / name).write_text("before")
     monkeypatch.setattr(module, "PROJECT", tmp_path)
     checks_version.cache_clear()
-    before = checks_version("battery_service")
+    before = checks_version(tmp_path / "solutions" / "battery_service")
     (tmp_path / changed).write_text("after")
     checks_version.cache_clear()
-    assert (checks_version("battery_service") != before) == matters
+    assert (checks_version(tmp_path / "solutions" / "battery_service") != before) == matters
     checks_version.cache_clear()

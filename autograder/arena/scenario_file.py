@@ -1,0 +1,20 @@
+"""The scenarios of an exercise: one file, of which the arena knows nothing but where it lies."""
+
+from __future__ import annotations
+
+import importlib.util
+from functools import cache
+from types import ModuleType
+
+NAME = "scenarios_of_the_exercise"
+
+
+@cache
+def scenarios_in(path: str) -> ModuleType:
+    """Run the file, once in this process and its forks, and return it as a module."""
+    spec = importlib.util.spec_from_file_location(NAME, path)
+    assert spec
+    assert spec.loader
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module

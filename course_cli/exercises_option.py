@@ -1,0 +1,30 @@
+"""The option `--course`, which several commands have."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from autograder.exercise import UnusableExercise, use_exercises_of
+
+
+def _use(folder: Path | None) -> Path | None:
+    """Work with the exercises of this folder, before anything of the command is done."""
+    if folder is not None:
+        try:
+            use_exercises_of(folder)
+        except UnusableExercise as error:
+            raise typer.BadParameter(str(error)) from error
+    return folder
+
+
+CourseOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--course",
+        metavar="FOLDER",
+        help="exercises of another repository, laid out like solutions/ (default: those of this course)",
+        callback=_use,
+        is_eager=True,
+    ),
+]

@@ -1,0 +1,202 @@
+"""What students can see being checked."""
+
+from __future__ import annotations
+
+from autograder.checks import RESTING, CheckList, Scenario, expect
+from autograder.common_checks import require_clean_exit
+from autograder.readiness import require_ready
+from autograder.transcript import Transcript
+
+from .goals import (
+    ABORTED,
+    FELL,
+    PREEMPTED,
+    require_accepted,
+    require_canceled,
+    require_error_code,
+    require_rejected,
+    require_result,
+)
+from .reports import (
+    require_feedback,
+    require_filled_result,
+    require_good_feedback_rate,
+    require_silence_after_the_end,
+    require_true_feedback,
+)
+from .robot import (
+    require_arrival,
+    require_fall,
+    require_stopped,
+    require_walking,
+)
+
+CHECKS = CheckList()
+
+WALK = Scenario("walk", {"x": 0.6, "y": 0.2, "yaw": 0.5})
+IMPOSSIBLE = Scenario("ask_for_the_impossible", {"frame": "map"}, robot=RESTING)
+UNPOWERED = Scenario("ask_without_power")
+MID_STRIDE = Scenario("cancel_in_mid_stride", {"delays": [1.0]})
+WALK_AGAIN = Scenario("walk_again_after_a_cancel", {"x": 0.8, "y": 0.0, "yaw": 0.0})
+PREEMPT = Scenario("preempt", {"x": 0.7, "y": 0.2, "yaw": 0.3})
+FALL = Scenario("fall", {"impulse": [0.0, 60.0, 0.0]})
+INTERRUPT = Scenario("interrupt", robot=RESTING)
+
+KNOWN = 0.6  # s for a change of the robot to be known to the node
+
+
+@CHECKS.check(points=1, on=INTERRUPT)  # the shortest scenario: its verdict comes first
+def server_appears(run: Transcript) -> None:
+    """The node offers the action walk_to"""
+    require_ready(run)
+
+
+@CHECKS.check(points=1, on=WALK, needs=["server_appears"])
+def accepts_a_goal(run: Transcript) -> None:
+    """It accepts a pose in frame odom"""
+    require_accepted(run, "walk")
+
+
+@CHECKS.check(points=2, on=WALK, needs=["accepts_a_goal"])
+def arrives(run: Transcript) -> None:
+    """It SUCCEEDS, and the robot is then within 0.10 m and 0.15 rad of the goal"""
+    require_arrival(run, "walk")
+
+
+@CHECKS.check(points=1, on=WALK, needs=["arrives"])
+def fills_the_result(run: Transcript) -> None:
+    """The result holds the final pose, the steps and error_code NONE"""
+    require_filled_result(run, "walk")
+
+
+@CHECKS.check(points=1, on=WALK, needs=["accepts_a_goal"])
+def feedback_keeps_its_rate(run: Transcript) -> None:
+    """Feedback comes at 5 Hz without a gap over 1 s"""
+    require_good_feedback_rate(run, "walk")
+
+
+@CHECKS.check(points=1, on=WALK, needs=["feedback_keeps_its_rate"])
+def feedback_is_true(run: Transcript) -> None:
+    """Pose, distance and steps in the feedback are the robot's"""
+    require_true_feedback(run, "walk")
+
+
+@CHECKS.check(points=1, on=WALK, needs=["arrives", "feedback_keeps_its_rate"])
+def feedback_ends_with_the_goal(run: Transcript) -> None:
+    """After the result no more feedback comes"""
+    require_feedback(run, "walk")
+    require_silence_after_the_end(run, "walk")
+
+
+@CHECKS.check(points=1, on=IMPOSSIBLE, needs=["accepts_a_goal"])
+def rejects_a_wrong_frame(run: Transcript) -> None:
+    """It rejects a pose in frame map"""
+    require_rejected(
+        run,
+        "wrong frame",
+        "the robot knows no frame 'map'",
+        "Compare goal_request.target_pose.header.frame_id with 'odom' in goal_callback and return "
+        "GoalResponse.REJECT.",
+    )
+
+
+@CHECKS.check(points=1, on=IMPOSSIBLE, needs=["accepts_a_goal"])
+def rejects_nan(run: Transcript) -> None:
+    """It rejects a pose that holds NaN"""
+    for name in ("NaN position", "NaN orientation"):
+        require_rejected(
+            run,
+            name,
+            f"{name} cannot be walked to",
+            "Test every number of position and orientation with math.isfinite() in goal_callback: NaN "
+            "compares false with everything.",
+        )
+
+
+@CHECKS.check(points=1, on=UNPOWERED, needs=["accepts_a_goal"])
+def rejects_without_power(run: Transcript) -> None:
+    """It rejects a goal while the motors are off"""
+    _require_power_cut(run)
+    require_rejected(
+        run,
+        "unpowered",
+        "robot_state.motors_enabled is false",
+        "Subscribe to robot_state and reject in goal_callback when motors_enabled is false in the last "
+        "message.",
+    )
+
+
+def _require_power_cut(run: Transcript) -> None:
+    """The motors were off when the goal came, and the robot had said so."""
+    sent = run.goal("unpowered").sent
+    run.told("motor_power", before=sent.t, on=False)
+    powered = [robot for robot in run.robot_between(sent.t - KNOWN, sent.t) if robot.motors_enabled]
+    expect(
+        not powered,
+        expected="the robot's motors off, as the grader has switched them",
+        observed="they were switched on again",
+        help="Publish nothing on motor_power: this node only walks.",
+        at=sent.t,
+    )
+
+
+@CHECKS.check(points=2, on=MID_STRIDE, needs=["accepts_a_goal"])
+def cancels_in_mid_stride(run: Transcript) -> None:
+    """A cancel while the robot walks is agreed to and ends CANCELED"""
+    request = require_canceled(run, "after 1 s")
+    require_walking(run, request.t)
+
+
+@CHECKS.check(points=2, on=MID_STRIDE, needs=["cancels_in_mid_stride"])
+def stops_when_canceled(run: Transcript) -> None:
+    """Within 2 s of the cancel the robot stands still and upright"""
+    request = run.cancels_of("after 1 s")[-1].sent
+    require_walking(run, request.t)
+    require_stopped(run, request.t)
+
+
+@CHECKS.check(points=1, on=WALK_AGAIN, needs=["cancels_in_mid_stride", "arrives"])
+def walks_again_after_a_cancel(run: Transcript) -> None:
+    """A new goal after a cancel is walked to"""
+    require_walking(run, run.cancels_of("canceled")[-1].sent.t)
+    require_arrival(run, "again")
+
+
+@CHECKS.check(points=2, on=PREEMPT, needs=["arrives"])
+def new_goal_preempts_the_old(run: Transcript) -> None:
+    """A new goal aborts the old one with PREEMPTED and is walked to"""
+    require_accepted(run, "old")
+    new = require_accepted(run, "new")
+    require_walking(run, new.sent.t)
+    old = require_result(run, run.goal("old"), ABORTED)
+    require_error_code(old, PREEMPTED, "PREEMPTED")
+    expect(
+        old.t >= new.sent.t,
+        expected="the old goal to go on until the new one comes",
+        observed=f"it ended {new.sent.t - old.t:.1f} s before",
+        help="Abort with PREEMPTED only when another goal has been accepted.",
+        at=old.t,
+    )
+    require_arrival(run, "new")
+
+
+@CHECKS.check(points=1, on=FALL, needs=["accepts_a_goal"])
+def aborts_when_the_robot_falls(run: Transcript) -> None:
+    """When the robot falls the goal is ABORTED with FELL"""
+    goal = require_accepted(run, "walk")
+    fallen = require_fall(run)
+    result = require_result(run, goal, ABORTED)
+    expect(
+        result.t >= fallen.t - 1.0,
+        expected="the goal to go on until the robot falls",
+        observed=f"it ended {fallen.t - result.t:.1f} s before the robot fell",
+        help="A push alone is no reason to give up: abort when robot_state.mode is FALLEN.",
+        at=result.t,
+    )
+    require_error_code(result, FELL, "FELL")
+
+
+@CHECKS.check(points=1, on=INTERRUPT, needs=["server_appears"])
+def ends_cleanly(run: Transcript) -> None:
+    """Ctrl-C ends the node with exit status 0"""
+    require_clean_exit(run)

@@ -1,0 +1,165 @@
+"""What only the instructor's grading checks."""
+
+from __future__ import annotations
+
+from autograder.checks import CheckList, Scenario, expect
+from autograder.common_checks import require_alive
+from autograder.missing import unseen
+from autograder.transcript import Transcript
+
+from .goals import (
+    CANCELED,
+    SUCCEEDED,
+    require_accepted,
+    require_cancel_accepted,
+    require_canceled,
+    require_result,
+)
+from .planar import error
+from .reports import (
+    require_silence_after_the_end,
+)
+from .robot import (
+    require_arrival,
+    require_stopped,
+    require_walking,
+)
+
+CHECKS = CheckList(hidden=True)
+
+
+def _poses(random) -> dict:
+    """Two poses less than a metre apart, the second partly behind the first.
+
+    Both face backwards, to the same side, so that a velocity sent in odom's axes leads away on the whole second leg.
+    """
+    side = random.choice((-1, 1))
+    first = (random.uniform(0.3, 0.6), random.uniform(-0.3, 0.3), side * random.uniform(1.9, 2.8))
+    second = (
+        first[0] - random.uniform(0.2, 0.4),
+        first[1] + random.uniform(-0.3, 0.3),
+        side * random.uniform(1.9, 2.8),
+    )
+    return {"poses": [[round(value, 3) for value in pose] for pose in (first, second)]}
+
+
+RANDOM_POSES = Scenario("walk_in_turn", _poses)
+AT_THE_START = Scenario("cancel_at_the_start")
+SEVERAL_PHASES = Scenario(
+    "cancel_in_mid_stride",
+    lambda random: {"delays": [round(0.5 + 0.11 * k + random.uniform(0, 0.1), 3) for k in range(4)]},
+)
+NEAR_ARRIVAL = Scenario(
+    "cancel_near_arrival", lambda random: {"distance": round(random.uniform(0.12, 0.2), 3)}
+)
+AFTER_THE_END = Scenario("cancel_after_the_end")
+TWICE = Scenario("cancel_twice")
+BY_A_STRANGER = Scenario("cancel_by_a_stranger")
+NEAR = 0.1  # m the robot may have walked on, or back, until it was cancelled
+OTHER_NAMESPACE = Scenario("walk", {"x": 0.3, "y": 0.0, "yaw": 0.0}, namespace="/lab_7/robot")
+
+
+@CHECKS.check(points=2, on=RANDOM_POSES, needs=["arrives"])
+def arrives_anywhere(run: Transcript) -> None:
+    """It reaches poses with any heading, one after the other"""
+    for number in range(1, len(run.params["poses"]) + 1):
+        require_arrival(run, f"leg {number}")
+
+
+@CHECKS.check(points=1, on=AT_THE_START, needs=["cancels_in_mid_stride"])
+def cancels_at_the_start(run: Transcript) -> None:
+    """A cancel before execution, or at the first feedback, ends CANCELED with the robot still"""
+    require_canceled(run, "at once")
+    request = require_canceled(run, "first feedback")
+    require_stopped(run, request.t)
+
+
+@CHECKS.check(points=2, on=SEVERAL_PHASES, needs=["stops_when_canceled"])
+def stops_in_any_phase_of_the_gait(run: Transcript) -> None:
+    """Wherever its feet are when the cancel comes, the robot stops upright"""
+    for delay in run.params["delays"]:
+        goal = f"after {delay:g} s"
+        request = require_canceled(run, goal)
+        require_walking(run, request.t)
+        require_stopped(run, request.t)
+
+
+@CHECKS.check(points=1, on=NEAR_ARRIVAL, needs=["stops_when_canceled"])
+def cancels_near_arrival(run: Transcript) -> None:
+    """A cancel just before arrival ends CANCELED, or SUCCEEDED at the goal, with the robot still"""
+    goal = require_accepted(run, "near")
+    cancel = run.cancels_of("near")[-1]
+    distance, _turn = error(run.robot_at(cancel.sent.t), goal)
+    expect(
+        distance <= run.params["distance"] + NEAR,
+        expected="the robot near its goal after 15 s, where it is cancelled",
+        observed=f"it is {distance:.2f} m away",
+        help="Walk at 0.3 m/s or so: 0.7 m take a few seconds.",
+        at=cancel.sent.t,
+    )
+    if goal.status == SUCCEEDED:
+        require_arrival(run, "near")
+    else:
+        require_cancel_accepted(run, cancel, goal)
+        require_result(run, goal, CANCELED)
+    require_stopped(run, cancel.sent.t)
+
+
+@CHECKS.check(points=1, on=AFTER_THE_END, needs=["arrives"])
+def survives_a_cancel_after_the_end(run: Transcript) -> None:
+    """A cancel after the result changes nothing, and the next goal is walked to"""
+    require_arrival(run, "first")
+    cancel = run.cancels_of("first")[0]
+    result = run.goal("first").result
+    if result is None or result.t > cancel.sent.t:
+        raise unseen(run, "the cancel did not come after the end")
+    require_alive(run)
+    expect(
+        cancel.answer is not None and not cancel.answer.canceling,
+        expected="the cancel of a goal that has ended to be refused",
+        observed="no answer" if cancel.answer is None else "the server agreed to cancel it",
+        help="Keep no list of goals of your own: rclpy knows which goals are active and refuses the others.",
+        at=cancel.sent.t,
+    )
+    require_arrival(run, "second")
+
+
+@CHECKS.check(points=1, on=TWICE, needs=["cancels_in_mid_stride"])
+def survives_two_cancels(run: Transcript) -> None:
+    """The same cancel asked for twice ends CANCELED once, and both are answered"""
+    require_canceled_by_first(run)
+    require_alive(run)
+    cancels = run.cancels_of("walk")
+    if len(cancels) < 2:
+        raise unseen(run, "the cancel was asked for only once")
+    require_walking(run, cancels[0].sent.t)
+    expect(
+        all(cancel.answer is not None for cancel in cancels),
+        expected="an answer to both cancel requests",
+        observed="one was not answered within 5 s",
+        help="cancel_callback may be called again for the same goal: return CancelResponse.ACCEPT and change "
+        "nothing else in it.",
+        at=cancels[-1].sent.t,
+    )
+    require_silence_after_the_end(run, "walk")
+
+
+def require_canceled_by_first(run: Transcript) -> None:
+    """The first of several requests was agreed to, and the goal ended CANCELED."""
+    goal = require_accepted(run, "walk")
+    require_cancel_accepted(run, run.cancels_of("walk")[0], goal)
+    require_result(run, goal, CANCELED)
+
+
+@CHECKS.check(points=1, on=BY_A_STRANGER, needs=["stops_when_canceled"])
+def obeys_a_stranger(run: Transcript) -> None:
+    """Another client may cancel every goal"""
+    request = require_canceled(run, "walk", by_request_for_all=True)
+    require_walking(run, request.t)
+    require_stopped(run, request.t)
+
+
+@CHECKS.check(points=1, on=OTHER_NAMESPACE, needs=["arrives"])
+def works_in_any_namespace(run: Transcript) -> None:
+    """Started in another namespace, it walks the robot there"""
+    require_arrival(run, "walk")

@@ -1,0 +1,90 @@
+"""What the robot did, as the simulator has it: where it arrived, whether it stopped, whether it stands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from autograder import events as ev
+from autograder.checks import Failure, expect
+from autograder.transcript import Transcript
+
+from .goals import SUCCEEDED, require_accepted, require_result
+from .planar import error
+
+WALKING, FALLEN = 2, 3  # humanoid_interfaces/RobotState
+SHORTLY = 0.6  # s
+POSITION_TOLERANCE = 0.10  # m
+YAW_TOLERANCE = 0.15  # rad
+STOP_TIME = 2.0  # s
+STOP_SPEED = 0.05  # m/s
+WATCHED = 3.5  # s after the cancel
+
+
+def require_arrival(run: Transcript, name: str) -> None:
+    """The goal succeeded, and by then the simulated robot was where the goal says."""
+    goal = require_accepted(run, name)
+    result = require_result(run, goal, SUCCEEDED)
+    distance, turn = error(run.robot_at(result.t), goal)
+    expect(
+        distance <= POSITION_TOLERANCE and turn <= YAW_TOLERANCE,
+        expected=f"the robot within {POSITION_TOLERANCE:.2f} m and {YAW_TOLERANCE:.2f} rad of the goal when it "
+        "SUCCEEDED",
+        observed=f"{distance:.2f} m and {turn:.2f} rad away in the simulator",
+        help="Compare odom with the goal pose, position and yaw, stop the robot, and look again once it stands "
+        "before succeed().",
+        at=result.t,
+    )
+
+
+def require_walking(run: Transcript, at: float) -> None:
+    """The robot walked shortly before a moment (s) of the scenario's: without that there is nothing to stop."""
+    expect(
+        any(robot.mode == WALKING for robot in run.robot_between(at - SHORTLY, at)),
+        expected="the robot walking to its goal by then",
+        observed=f"it does not walk at {at:.1f} s",
+        help="Publish a velocity on cmd_vel as soon as the goal executes, and again all the time: the robot stops by "
+        "itself 0.5 s after the last one.",
+        at=at,
+    )
+
+
+def require_stopped(run: Transcript, since: float) -> None:
+    """From 2 s after `since` on the robot stands still and upright."""
+    watched = run.robot_between(since + STOP_TIME, since + WATCHED)
+    fastest = max(watched, key=lambda robot: robot.speed)
+    expect(
+        fastest.speed < STOP_SPEED,
+        expected=f"the robot slower than {STOP_SPEED:.2f} m/s within {STOP_TIME:.0f} s of the cancel, and still "
+        "from then on",
+        observed=f"{fastest.speed:.2f} m/s {fastest.t - since:.1f} s after the cancel",
+        help="Publish a zero Twist on cmd_vel when the cancel is seen, and nothing else on it afterwards.",
+        at=fastest.t,
+    )
+    require_upright(watched)
+
+
+def require_fall(run: Transcript) -> ev.RobotTruth:
+    """Return the robot when it had fallen after it was pushed while it walked."""
+    push = run.told("push")
+    require_walking(run, push.t)
+    for robot in run.robot_between(push.t, run.end):
+        if robot.mode == FALLEN:
+            return robot
+    raise Failure(
+        expected="the walking robot to be knocked over by the push",
+        observed="it did not fall",
+        help="Walk it with cmd_vel alone, until robot_state.mode is FALLEN.",
+        at=push.t,
+    )
+
+
+def require_upright(watched: Sequence[ev.RobotTruth]) -> None:
+    """The robot did not fall."""
+    fallen = next((robot for robot in watched if robot.mode == FALLEN or robot.up < 0.6), None)
+    expect(
+        fallen is None,
+        expected="the robot upright",
+        observed="it fell",
+        help="Stop with cmd_vel; motor_power off makes the robot collapse.",
+        at=fallen.t if fallen else None,
+    )

@@ -1,0 +1,67 @@
+"""Recognises a common mistake by what would have been right."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from .two_link_arm import DEFAULT, TOLERANCE, Point, TwoLinkArm
+
+Reading = Callable[[float, float], tuple[float, float]]
+# Angles (shoulder, elbow) of common mistakes, read so that they are right, and what to do about it.
+_MISREADINGS: list[tuple[Reading, str]] = [
+    (
+        lambda shoulder, elbow: (math.radians(shoulder), math.radians(elbow)),
+        "These are degrees. ROS has radians: leave out math.degrees().",
+    ),
+    (
+        lambda shoulder, elbow: (shoulder, elbow - shoulder),
+        "The elbow's angle is counted from the upper arm, not from x: subtract the shoulder's angle.",
+    ),
+    (
+        lambda shoulder, elbow: (shoulder, math.pi - elbow),
+        "The elbow's angle is 0 where the arm is straight; this is the angle between the links. Take it from pi, or "
+        "turn the sign of the cosine in the law of cosines.",
+    ),
+    (
+        lambda shoulder, elbow: (shoulder, elbow - math.pi),
+        "The elbow's angle is 0 where the arm is straight; this is the angle between the links: take pi from it.",
+    ),
+    (
+        lambda shoulder, elbow: (shoulder, -elbow),
+        "The two angles belong to different sides: where the elbow's angle is positive, the shoulder's is smaller than "
+        "the direction of the target, and the other way round.",
+    ),
+    (
+        lambda shoulder, elbow: (-shoulder, -elbow),
+        "These angles count clockwise. With x forward and y up, counter-clockwise is positive.",
+    ),
+    (lambda shoulder, elbow: (elbow, shoulder), "shoulder and elbow are exchanged in the response."),
+]
+
+
+def advice_for(shoulder: float, elbow: float, target: Point, arm: TwoLinkArm) -> str:
+    """Say what to do about angles (rad) that do not bring the hand of `arm` to the target (m)."""
+    if not math.isfinite(shoulder + elbow):
+        return "An angle is not a number: find the step that divides by 0 or takes acos of more than 1."
+    if shoulder == elbow == 0:
+        return "Both angles are 0, as in a new response: set response.shoulder and response.elbow."
+    for reading, advice in _MISREADINGS:
+        if arm.misses(*reading(shoulder, elbow), target) <= TOLERANCE:
+            return advice
+    if arm.misses(shoulder, elbow, target[::-1]) <= TOLERANCE:
+        return "That is the target with x and y exchanged: it is math.atan2(y, x), in this order."
+    if arm != DEFAULT and DEFAULT.misses(shoulder, elbow, target) <= TOLERANCE:
+        return (
+            "That is right for 0.30 and 0.25 m. Declare the parameters upper_arm_length and forearm_length, and "
+            "compute with the values they have when the request comes."
+        )
+    if abs(math.dist(arm.hand_at(shoulder, elbow), (0.0, 0.0)) - math.hypot(*target)) <= TOLERANCE:
+        return (
+            "The distance is right, so the elbow's angle is; the direction is not: look at the shoulder's, and take "
+            "atan2(y, x), which knows all four quadrants, instead of atan(y / x) or asin."
+        )
+    return (
+        "Put the angles back in: x = l1 cos(shoulder) + l2 cos(shoulder + elbow), y the same with sin. Begin with the "
+        "elbow: cos(elbow) = (x² + y² - l1² - l2²) / (2 l1 l2)."
+    )

@@ -1,0 +1,142 @@
+"""What only the instructor's grading checks."""
+
+from __future__ import annotations
+
+import math
+from random import Random
+from typing import Any
+
+from autograder.checks import CheckList, Scenario, expect
+from autograder.common_checks import require_answer
+from autograder.missing import Missing
+from autograder.transcript import CallHistory, Transcript
+
+from .checks import POINTS, REAL_ARM, ROBOTS_ARM
+from .judging import (
+    SUCCESS,
+    code_in_words,
+    replies,
+    require_code,
+    require_hit,
+    require_refusal,
+    require_side,
+)
+from .questions import ahead, anywhere, ask_for
+from .two_link_arm import DEFAULT, TwoLinkArm
+
+CHECKS = CheckList(hidden=True)
+
+DOUBLE = 3  # rcl_interfaces/msg/ParameterType
+NOT_SET = {"type": 0}
+
+
+def _anywhere_then_other_lengths(random: Random) -> dict[str, Any]:
+    """Points all around the shoulder; then others, all within reach whichever of the two lengths is taken over.
+
+    The last one, 0.10 m away, is only within reach as long as both lengths are the old ones.
+    """
+    return {
+        "questions": {"anywhere": [anywhere(random, DEFAULT) for _ in range(8)]},
+        "lengths": {
+            "upper_arm_length": round(random.uniform(0.38, 0.42), 3),
+            "forearm_length": round(random.uniform(0.15, 0.19), 3),
+        },
+        "then": {"with other lengths": [*(ahead(random, 0.30, 0.42) for _ in range(3)), ask_for(0.08, 0.06)]},
+    }
+
+
+SET_LENGTHS = Scenario("set_lengths", _anywhere_then_other_lengths, robot=None)
+OTHER_NAMESPACE = Scenario(
+    "ask", {"questions": {"within reach": [ask_for(0.4, 0.3)]}}, robot=None, namespace="/lab_7/robot"
+)
+
+
+@CHECKS.check(points=2, on=[SET_LENGTHS, REAL_ARM], needs=["bends_the_elbow_as_asked", "moves_the_real_hand"])
+def reaches_any_point(run: Transcript, with_other_lengths: Transcript) -> None:
+    """All around the shoulder, and close to it with a forearm longer than the upper arm, it hits the point"""
+    for reply in replies(run, "anywhere"):
+        require_hit(reply)
+        require_side(reply)
+    for reply in replies(with_other_lengths, "near the shoulder"):
+        require_hit(reply, ROBOTS_ARM)
+
+
+@CHECKS.check(points=1, on=POINTS, needs=["says_what_is_out_of_reach"])
+def refuses_what_is_no_number(run: Transcript) -> None:
+    """A target that is not a number is no success, and the next question is answered as ever"""
+    nonsense, sound = replies(run, "not a number")
+    expect(
+        nonsense.error_code != SUCCESS,
+        expected=f"any error_code but SUCCESS for {nonsense.question}",
+        observed=f"error_code {code_in_words(nonsense.error_code)}, {nonsense.angles}",
+        help="Every comparison with NaN is false, so a test such as `distance > reach` lets it through: ask "
+        "math.isfinite(), or test for what is good.",
+        at=nonsense.at,
+    )
+    require_code(
+        sound, SUCCESS, because="this can be reached", help="Keep nothing from one request to the next."
+    )
+
+
+@CHECKS.check(points=1, on=SET_LENGTHS, needs=["server_appears"])
+def declares_its_lengths(run: Transcript) -> None:
+    """upper_arm_length and forearm_length are parameters of type double: 0.30 and 0.25 m"""
+    call = _call(run, "get_parameters")
+    values = iter(require_answer(run, call).response["values"])
+    for name, length in (("upper_arm_length", DEFAULT.upper_arm), ("forearm_length", DEFAULT.forearm)):
+        value = next(values, NOT_SET)  # a node that lacks one may say nothing of any
+        expect(
+            value["type"] == DOUBLE and math.isclose(value["double_value"], length, abs_tol=1e-6),
+            expected=f"a parameter {name} of type double with the value {length:.2f}",
+            observed=_in_words(value),
+            help=f"Declare it with its default in the constructor: self.declare_parameter({name!r}, {length:.2f}).",
+            at=call.sent.t,
+        )
+
+
+@CHECKS.check(
+    points=1,
+    on=SET_LENGTHS,
+    needs=["bends_the_elbow_as_asked", "says_what_is_out_of_reach", "declares_its_lengths"],
+)
+def does_what_it_says_of_new_lengths(run: Transcript) -> None:
+    """Lengths that are set while it runs are taken into account, or refused"""
+    arm = _arm_after_setting(run)
+    for reply in replies(run, "with other lengths"):
+        if math.hypot(*reply.target) > arm.nearest:
+            require_hit(reply, arm)
+            require_side(reply, arm)
+        else:
+            require_refusal(reply, arm)
+
+
+@CHECKS.check(points=1, on=OTHER_NAMESPACE, needs=["reaches_the_point"])
+def works_in_any_namespace(run: Transcript) -> None:
+    """Started in another namespace, it serves there"""
+    for reply in replies(run, "within reach"):
+        require_hit(reply)
+
+
+def _arm_after_setting(run: Transcript) -> TwoLinkArm:
+    """The lengths the node has said it has: each new one that it took over, and the old one otherwise."""
+    results = require_answer(run, _call(run, "set_parameters")).response["results"]
+    lengths = [DEFAULT.upper_arm, DEFAULT.forearm]
+    for index, (result, new) in enumerate(zip(results, run.params["lengths"].values(), strict=False)):
+        if result["successful"]:
+            lengths[index] = new
+    return TwoLinkArm(*lengths)
+
+
+def _call(run: Transcript, service: str) -> CallHistory:
+    """The call of one of the node's own parameter services; every call before it must have been answered."""
+    for call in run.calls:
+        if call.sent.service.endswith(f"/{service}"):
+            return call
+        require_answer(run, call)
+    raise Missing(run, expected=f"a node that can be asked for its {service}", never="that was never asked")
+
+
+def _in_words(value: dict[str, Any]) -> str:
+    if value["type"] == NOT_SET["type"]:
+        return "no value: it is not declared, or without a default"
+    return f"the value {value['double_value']:g}" if value["type"] == DOUBLE else "a value of another type"

@@ -1,0 +1,62 @@
+"""What students can see being checked."""
+
+from __future__ import annotations
+
+from autograder.checks import CheckList, program
+from autograder.transcript import Transcript
+
+from .judging import require_built, require_fields
+
+CHECKS = CheckList()
+
+SERVICE = program("build", {"file": "GetBatteryStatus.srv"}, timed=False)
+ACTION = program("build", {"file": "NavigateToPose.action"}, timed=False)
+
+RESPONSE = {"available": "bool", "battery": "sensor_msgs/BatteryState", "message": "string"}
+GOAL = {"pose": "geometry_msgs/PoseStamped", "tolerance": "float32"}
+RESULT = {"error_code": "uint16", "error_msg": "string", "distance_traveled": "float32"}
+FEEDBACK = {
+    "status": "string",
+    "current_pose": "geometry_msgs/PoseStamped",
+    "navigation_time": "builtin_interfaces/Duration",
+    "estimated_time_remaining": "builtin_interfaces/Duration",
+    "number_of_recoveries": "int16",
+    "distance_remaining": "float32",
+    "progress_percentage": "float32",
+}
+
+
+@CHECKS.check(points=1, on=SERVICE)
+def service_builds(run: Transcript) -> None:
+    """GetBatteryStatus.srv builds"""
+    require_built(run)
+
+
+@CHECKS.check(points=2, on=SERVICE, needs=["service_builds"])
+def response_has_its_fields(run: Transcript) -> None:
+    """Its response has available, battery and message"""
+    require_fields(run, "response", RESPONSE)
+
+
+@CHECKS.check(points=1, on=ACTION)
+def action_builds(run: Transcript) -> None:
+    """NavigateToPose.action builds"""
+    require_built(run)
+
+
+@CHECKS.check(points=2, on=ACTION, needs=["action_builds"])
+def goal_has_its_fields(run: Transcript) -> None:
+    """Its goal has a pose with a frame, and a tolerance"""
+    require_fields(run, "goal", GOAL)
+
+
+@CHECKS.check(points=2, on=ACTION, needs=["action_builds"])
+def result_has_its_fields(run: Transcript) -> None:
+    """Its result has error_code, error_msg and distance_traveled"""
+    require_fields(run, "result", RESULT)
+
+
+@CHECKS.check(points=2, on=ACTION, needs=["action_builds"])
+def feedback_has_its_fields(run: Transcript) -> None:
+    """Its feedback has the seven fields of the task"""
+    require_fields(run, "feedback", FEEDBACK)

@@ -1,0 +1,138 @@
+"""What students can see being checked."""
+
+from __future__ import annotations
+
+import re
+
+from autograder.checks import RESTING, CheckList, Scenario, expect
+from autograder.common_checks import require_answer, require_clean_exit
+from autograder.readiness import require_ready
+from autograder.transcript import Transcript
+
+from .judging import (
+    call_for,
+    listed,
+    question,
+    require_names,
+    require_positions,
+    require_posture,
+    require_refusal,
+    require_silence_so_far,
+    require_success,
+    robot_joints,
+)
+
+CHECKS = CheckList()
+
+# Six joints that stand at different angles, in an order that is neither the robot's nor the alphabet's.
+SIX_JOINTS = ["r_knee", "l_shoulder_roll", "r_shoulder_roll", "l_hip_pitch", "l_elbow", "r_shoulder_pitch"]
+POSTURE = {
+    "r_elbow": -0.9,
+    "l_wrist_yaw": 0.3,
+    "l_shoulder_pitch": -0.5,
+    "head_pan": 0.7,
+    "r_shoulder_roll": -0.8,
+    "l_elbow": -1.4,
+}  # rad
+STRANGERS = ["tail_yaw", "l_knee", "r_wing_pitch", "head_pan", "antenna_2"]
+
+ASK = Scenario("ask", {"names": SIX_JOINTS, "posture": POSTURE, "strangers": STRANGERS})
+UNPLUGGED = Scenario(
+    "ask_before_the_first_message", {"names": SIX_JOINTS}, robot=(*RESTING, "--joint-sensors-unplugged")
+)
+INTERRUPT = Scenario("interrupt", {"names": SIX_JOINTS}, robot=RESTING)
+
+
+@CHECKS.check(points=1, on=INTERRUPT)  # the shortest scenario: its verdict comes first
+def server_appears(run: Transcript) -> None:
+    """The node offers get_joint_positions"""
+    require_ready(run)
+
+
+@CHECKS.check(points=1, on=ASK, needs=["server_appears"])
+def finds_the_joints(run: Transcript) -> None:
+    """Asked for joints that the robot has, it answers success: true"""
+    require_success(run, call_for(run, SIX_JOINTS))
+
+
+@CHECKS.check(points=1, on=ASK, needs=["finds_the_joints"])
+def keeps_the_order_asked(run: Transcript) -> None:
+    """joint_state.name holds the names asked for, in the order of the request"""
+    require_names(run, call_for(run, SIX_JOINTS))
+
+
+@CHECKS.check(points=2, on=ASK, needs=["finds_the_joints"])
+def positions_are_the_robots(run: Transcript) -> None:
+    """Each position is that of the joint beside it, in radians, as the robot published it"""
+    require_positions(run, call_for(run, SIX_JOINTS))
+
+
+@CHECKS.check(points=1, on=ASK, needs=["positions_are_the_robots"])
+def no_names_means_all(run: Transcript) -> None:
+    """Asked with an empty list, it answers with every joint once"""
+    call = call_for(run, [])
+    require_success(run, call)
+    answer, joints = require_answer(run, call), robot_joints(run)
+    names = answer.response["joint_state"]["name"]
+    missing = sorted(set(joints) - set(names))
+    expect(
+        sorted(names) == sorted(joints),
+        expected=f"all {len(joints)} joints of the robot, each once, in any order",
+        observed=f"{len(names)} names; missing: {listed(missing)}",
+        help="When request.names is empty, answer as if every name of the last joint_states had been asked for.",
+        at=answer.t,
+    )
+    require_positions(run, call)
+
+
+@CHECKS.check(points=1, on=ASK, needs=["positions_are_the_robots"])
+def follows_the_robot(run: Transcript) -> None:
+    """When the arms have moved, the answer has moved with them"""
+    call = call_for(run, list(POSTURE))
+    require_success(run, call)
+    require_posture(run, call, POSTURE)
+    require_positions(run, call)
+
+
+@CHECKS.check(points=2, on=ASK, needs=["finds_the_joints"])
+def names_every_unknown_joint(run: Transcript) -> None:
+    """Unknown joints: success: false and a message that names each of them; then it serves on"""
+    call = call_for(run, STRANGERS)
+    answer, joints = require_answer(run, call), robot_joints(run)
+    unknown = [name for name in STRANGERS if name not in joints]
+    require_refusal(
+        run,
+        call,
+        because=f"the robot has no {', '.join(unknown)}",
+        help="An unknown name fails the whole request: success stays false and message says which names.",
+    )
+    message = answer.response["message"]
+    unnamed = [name for name in unknown if not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", message)]
+    expect(
+        not unnamed,
+        expected=f"a message with every unknown joint: {', '.join(unknown)}",
+        observed=f"{message[:200]!r}, without {', '.join(unnamed)}",
+        help="Collect the unknown names of the whole request before you answer, instead of stopping at the first.",
+        at=answer.t,
+    )
+    require_success(run, question(run, 5))
+
+
+@CHECKS.check(points=1, on=UNPLUGGED, needs=["server_appears"])
+def says_when_it_knows_nothing(run: Transcript) -> None:
+    """Before the first joint_states it answers success: false, also to an empty list"""
+    for names in (SIX_JOINTS, []):
+        call = call_for(run, names)
+        require_silence_so_far(run, call)
+        require_refusal(
+            run,
+            call,
+            because="the robot has not published its joints yet",
+            help="Start with no message (None) and answer success: false as long as none has arrived.",
+        )
+
+
+@CHECKS.check(points=1, on=INTERRUPT, needs=["server_appears"])
+def ends_cleanly(run: Transcript) -> None:
+    """Ctrl-C ends the node with exit status 0"""
+    require_clean_exit(run)

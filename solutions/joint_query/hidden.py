@@ -1,0 +1,130 @@
+"""What only the instructor's grading checks."""
+
+from __future__ import annotations
+
+import random
+from typing import Any
+
+from autograder.checks import RESTING, CheckList, Scenario, expect
+from autograder.common_checks import require_answer
+from autograder.transcript import CallHistory, Transcript
+
+from .checks import SIX_JOINTS, UNPLUGGED
+from .judging import (
+    call_for,
+    listed,
+    question,
+    require_names,
+    require_positions,
+    require_posture,
+    require_refusal,
+    require_reversed,
+    require_success,
+)
+
+CHECKS = CheckList(hidden=True)
+
+# Where the robot can hold its arms and head without touching itself: rad.
+RANGES = {
+    "head_pan": (-1.0, 1.0),
+    "head_tilt": (-0.5, 0.7),
+    "l_shoulder_pitch": (-0.9, 0.5),
+    "l_shoulder_roll": (0.3, 1.0),
+    "l_elbow": (-2.1, -1.7),
+    "l_wrist_yaw": (-0.8, 0.8),
+    "r_shoulder_pitch": (-0.9, 0.5),
+    "r_shoulder_roll": (-1.0, -0.3),
+    "r_elbow": (-1.5, -0.4),
+    "r_wrist_pitch": (-0.8, 0.8),
+}
+BURST = 8
+
+
+def _inputs(random: random.Random) -> dict[str, Any]:
+    """A posture, several lists for one moment, a list for another order on the topic, and parts of names."""
+    joints = random.sample(sorted(RANGES), len(RANGES))
+    return {
+        "posture": {name: round(random.uniform(*RANGES[name]), 3) for name in joints},
+        "burst": [
+            [f"{random.choice('lr')}_hip_yaw", *random.sample(sorted(RANGES), 3)] for _ in range(BURST)
+        ],
+        "reordered": random.sample(sorted(RANGES), 5),
+        "parts": random.sample(["elbow", "l_shoulder", "hip_", "wrist_yaw", "head", "r_"], 2),
+    }
+
+
+EVERY_WAY = Scenario("ask_in_every_way", _inputs)
+OTHER_NAMESPACE = Scenario("ask_once", {"names": SIX_JOINTS}, robot=RESTING, namespace="/lab_7/robot")
+
+
+def _require_positions_as_asked(run: Transcript, call: CallHistory) -> None:
+    require_success(run, call)
+    require_names(run, call)
+    require_positions(run, call)
+
+
+@CHECKS.check(points=1, on=UNPLUGGED, needs=["positions_are_the_robots", "says_when_it_knows_nothing"])
+def recovers_when_the_sensors_appear(run: Transcript) -> None:
+    """Once the first message has come, it answers with it"""
+    call = question(run, 3)
+    run.told("joint_sensors", before=call.sent.t, connected=True)
+    _require_positions_as_asked(run, call)
+
+
+@CHECKS.check(points=1, on=EVERY_WAY, needs=["keeps_the_order_asked", "follows_the_robot"])
+def answers_in_any_posture(run: Transcript) -> None:
+    """Whatever the posture, it answers with it"""
+    call = call_for(run, list(run.params["posture"]))
+    _require_positions_as_asked(run, call)
+    require_posture(run, call, run.params["posture"])
+
+
+@CHECKS.check(points=1, on=EVERY_WAY, needs=["finds_the_joints"])
+def answers_every_request(run: Transcript) -> None:
+    """Eight different requests at once are all answered, each with its own joints and within 2 s"""
+    for names in run.params["burst"]:
+        call = call_for(run, names)
+        answer = require_answer(run, call)
+        expect(
+            call.latency <= 2.0,
+            expected="every answer within 2 s",
+            observed=f"one took {call.latency:.1f} s",
+            help="Answer from memory: the callback must not sleep or wait for the next message.",
+            at=call.sent.t,
+        )
+        returned = answer.response["joint_state"]["name"]
+        expect(
+            sorted(returned) == sorted(names),
+            expected=f"an answer to {', '.join(names)}",
+            observed=f"joints of another request: {listed(returned)}",
+            help="Requests may be served at the same time: keep what belongs to one in local variables, not in self.",
+            at=answer.t,
+        )
+
+
+@CHECKS.check(points=1, on=EVERY_WAY, needs=["answers_in_any_posture"])
+def looks_joints_up_by_name(run: Transcript) -> None:
+    """When joint_states lists the joints in another order, each position is still its own joint's"""
+    call = call_for(run, run.params["reordered"])
+    _require_positions_as_asked(run, call)
+    require_reversed(run, call)
+
+
+@CHECKS.check(points=1, on=EVERY_WAY, needs=["names_every_unknown_joint"])
+def takes_no_joint_for_another(run: Transcript) -> None:
+    """A part of a joint's name is no joint: success: false"""
+    for part in run.params["parts"]:
+        require_refusal(
+            run,
+            call_for(run, [part]),
+            because="that is only a part of joints' names",
+            help="Compare whole names: `name in positions` with a dictionary, not `part in name` with a string.",
+        )
+
+
+@CHECKS.check(points=1, on=OTHER_NAMESPACE, needs=["positions_are_the_robots"])
+def works_in_any_namespace(run: Transcript) -> None:
+    """Started in another namespace, it serves the robot there"""
+    call = call_for(run, SIX_JOINTS)
+    require_success(run, call)
+    require_positions(run, call)

@@ -1,0 +1,75 @@
+"""How answers are marked: a pattern and a reason for each situation, both right or no point."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from autograder.checks import Failure, expect
+from autograder.client_checks import require_success
+from autograder.transcript import Transcript
+
+WITHIN = 20.0  # s for printing twelve lines
+PATTERNS = ("topic", "service", "action")
+REASONS = "abc"
+SITUATIONS = range(1, 13)
+
+_LINE = re.compile(r"\s*(\d+)\W+(\w+)\W+(\w+)\s*")
+
+
+@dataclass(frozen=True)
+class Situation:
+    """The right answer to one situation, and what is wrong with each of the others."""
+
+    number: int
+    about: str
+    pattern: str
+    reason: str
+    against: Mapping[str, str]
+
+
+def judge_of(situation: Situation) -> Callable[[Transcript], None]:
+    """Return the check of one situation."""
+
+    def judge(run: Transcript) -> None:
+        require_answer(run, situation)
+
+    judge.__name__ = f"situation_{situation.number}"
+    judge.__doc__ = f"Situation {situation.number}: {situation.about}"
+    return judge
+
+
+def require_answers(run: Transcript) -> dict[int, tuple[str, str]]:
+    """The program printed one answer for each situation; returns pattern and reason by number."""
+    require_success(run, WITHIN)
+    found = [match for line in run.output("stdout").splitlines() if (match := _LINE.fullmatch(line))]
+    answers = {int(match[1]): (match[2].lower(), match[3].lower()) for match in found}
+    missing = [number for number in SITUATIONS if number not in answers]
+    expect(
+        not missing,
+        expected="a line “NUMBER PATTERN REASON” for each of the 12 situations, such as “1 topic a”",
+        observed=f"none for {', '.join(map(str, missing))}",
+        help="Fill in ANSWERS and leave main() as it was: it prints them.",
+    )
+    for number, (pattern, reason) in answers.items():
+        expect(
+            pattern in PATTERNS and len(reason) == 1 and reason in REASONS,
+            expected=f"for situation {number} one of {', '.join(PATTERNS)}, and a reason a, b or c",
+            observed=f"{pattern} {reason}",
+            help="Write both as strings, such as ('topic', 'a').",
+        )
+    return answers
+
+
+def require_answer(run: Transcript, situation: Situation) -> None:
+    """One situation was answered with the right pattern for the right reason."""
+    pattern, reason = require_answers(run)[situation.number]
+    if (pattern, reason) == (situation.pattern, situation.reason):
+        return
+    wrong = pattern if pattern != situation.pattern else reason
+    raise Failure(
+        expected="the pattern that fits, and the reason that decides it",
+        observed=f"{pattern}, because of {reason}",
+        help=situation.against[wrong],
+    )
