@@ -1,4 +1,6 @@
-"""A submission whose verdict is known beforehand, told in its first docstring, or in the about.md of its folder.
+"""A submission whose verdict is known beforehand, told in its first docstring.
+
+Of a patch, which says what differs from a sound submission, the first lines tell it; of a folder, its about.md.
 
 correct:  Style: how it is written
 faulty:   Fault: the mistake (M2)            the number of the misconception, where it has one
@@ -19,7 +21,8 @@ from fnmatch import fnmatch
 from pathlib import Path
 from typing import Literal, get_args
 
-from autograder.exercise import exercises_folder
+from autograder.audit.fault_patch import SUFFIX, header_of, whole_program
+from autograder.exercise import exercises_folder, file_names
 from autograder.submission import Submission, read_submission
 
 KNOWN = "known"  # their folder, in an exercise's
@@ -53,22 +56,38 @@ class KnownSubmission:
         return f"{self.kind}/{self.path.stem}"
 
     def read(self) -> Submission:
-        """Return it as the grader takes it."""
+        """Return it as the grader takes it; raises :class:`~.fault_patch.PatchError`."""
+        if self.path.suffix == SUFFIX:
+            (file_name,) = file_names(self.exercise)
+            return Submission(self.exercise, self.name, {file_name: whole_program(self.path)})
         return read_submission(self.path, self.exercise, student=self.name)
 
 
 def known_submissions(exercise: str, *, only: str = "*") -> list[KnownSubmission]:
     """Read the submissions in <exercise>/known/<kind>/; `only` is a glob on kind/stem or stem.
 
-    Each is a .py file, or a folder where students of the exercise write several files.
+    Each is a program, a patch, or a folder where students of the exercise write several files.
     """
     folders = [exercises_folder() / exercise / KNOWN / kind for kind in get_args(Kind)]
-    paths = [path for place in folders for path in sorted([*place.glob("*.py"), *place.glob("[!_]*/")])]
+    patterns = ("*.py", f"*{SUFFIX}", "[!_]*/")
+    paths = [
+        path for place in folders for path in sorted(p for pattern in patterns for p in place.glob(pattern))
+    ]
     return [
         read_known_submission(path)
         for path in paths
         if fnmatch(path.stem, only) or fnmatch(f"{path.parent.name}/{path.stem}", only)
     ]
+
+
+def known_submission(exercise: str, name: str) -> KnownSubmission:
+    """Read the one of this name, such as faulty/sleeps; raises :class:`HeaderError` where there is none, or two."""
+    kind, _, stem = name.rpartition("/")
+    found = known_submissions(exercise, only=name)
+    if len(found) != 1:
+        names = ", ".join(known.name for known in found) or "none"
+        raise HeaderError(f"expected one submission of {exercise} called {kind or '*'}/{stem}; found {names}")
+    return found[0]
 
 
 def read_known_submission(path: Path) -> KnownSubmission:
@@ -77,12 +96,7 @@ def read_known_submission(path: Path) -> KnownSubmission:
     header = _parse(_header_text(path))
     headline = _HEADLINE[kind]
     if not header.get(headline):
-        place = (
-            f"{ABOUT} in {path} must have"
-            if path.is_dir()
-            else f"{path} must begin with a docstring that has"
-        )
-        raise HeaderError(f'{place} a line "{headline}: …"')
+        raise HeaderError(f'{_header_place(path)} must have a line "{headline}: …"')
     known = KnownSubmission(
         exercise, kind, path, header[headline], _ids(header, "Caught by"), _ids(header, "Also fails")
     )
@@ -104,8 +118,17 @@ def _header_text(path: Path) -> str:
     if path.is_dir():
         about = path / ABOUT
         return about.read_text(encoding="utf-8") if about.exists() else ""
-    found = _FIRST_DOCSTRING.match(path.read_text(encoding="utf-8"))
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == SUFFIX:
+        return header_of(text)
+    found = _FIRST_DOCSTRING.match(text)
     return found[1] if found else ""
+
+
+def _header_place(path: Path) -> str:
+    if path.is_dir():
+        return f"{ABOUT} in {path}"
+    return f"the beginning of {path}" if path.suffix == SUFFIX else f"the first docstring of {path}"
 
 
 def _kind(path: Path) -> Kind:

@@ -7,8 +7,14 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from autograder.audit.fault_patch import SUFFIX, PatchError, as_patch
 from autograder.audit.kill_matrix import kill_matrix, print_progress
-from autograder.audit.known_submission import HeaderError, known_submissions
+from autograder.audit.known_submission import (
+    HeaderError,
+    KnownSubmission,
+    known_submission,
+    known_submissions,
+)
 from autograder.audit.run import AuditedRun
 from autograder.audit.run import audit as run_audit
 from autograder.exercise import UnknownExercise, UnusableExercise, exercise_names, load_exercise
@@ -26,12 +32,26 @@ def audit(
     only: Annotated[str, typer.Option(help="only submissions whose name matches, such as 'faulty/*'")] = "*",
     scale: Annotated[float | None, typer.Option(help="how much faster the arenas' clock runs")] = None,
     json_file: Annotated[Path | None, typer.Option("--json", help="write every verdict to this file")] = None,
+    show: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="print one submission, such as faulty/sleeps, as a whole program"),
+    ] = None,
+    to_patch: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="keep of a program only what differs from the nearest correct one"),
+    ] = None,
     course: CourseOption = None,
 ) -> None:
     """Grade submissions whose faults are known; exit 0 only when every verdict is the right one."""
     console = Console(highlight=False)
     audited: dict[str, list[AuditedRun]] = {}
     try:
+        if show:
+            _show(_found(exercise, show))
+            return
+        if to_patch:
+            console.print(_to_patch(_found(exercise, to_patch)), markup=False, soft_wrap=True)
+            return
         for name in [exercise] if exercise else exercise_names():
             loaded = load_exercise(name, hidden=True)
             runs = run_audit(
@@ -46,7 +66,7 @@ def audit(
             console.print(kill_matrix(runs, loaded), width=max(console.width, MATRIX_WIDTH))
             console.print()
             audited[name] = runs
-    except (UnknownExercise, UnusableExercise, HeaderError) as error:
+    except (UnknownExercise, UnusableExercise, HeaderError, PatchError) as error:
         raise ended(console, error, UNUSABLE) from error
     except HiddenChecksRefused as error:
         raise ended(console, error, COULD_NOT) from error
@@ -57,3 +77,40 @@ def audit(
     if not every_run:
         raise ended(console, f"no submission matches {only!r}", UNUSABLE)
     raise typer.Exit(COULD_NOT if any(run.surprises() for run in every_run) else 0)
+
+
+def _found(exercise: str | None, name: str) -> KnownSubmission:
+    """Return the submission of this name; `name` may begin with the exercise's."""
+    first, _, rest = name.partition("/")
+    if exercise is None and first in exercise_names():
+        return known_submission(first, rest)
+    having = (
+        [exercise] if exercise else [one for one in exercise_names() if known_submissions(one, only=name)]
+    )
+    if len(having) != 1:
+        raise HeaderError(
+            f"{name} is a submission of {', '.join(having) or 'no exercise'}; name one: EXERCISE {name}"
+        )
+    return known_submission(having[0], name)
+
+
+def _show(known: KnownSubmission) -> None:
+    """Print the program; where there are several files, each under its name."""
+    sources = known.read().sources
+    for name, text in sources.items():
+        if len(sources) > 1:
+            print(f"# {name}")
+        print(text, end="" if text.endswith("\n") else "\n")
+
+
+def _to_patch(known: KnownSubmission) -> str:
+    """Replace a program by its patch, unless little is shared; returns what was done."""
+    program = known.path
+    if program.suffix != ".py":
+        return f"{program} is no program; nothing was changed"
+    patch = as_patch(program, sorted((program.parents[1] / "correct").glob("*.py")))
+    if patch is None:
+        return f"{program.name} shares too little with any correct one; it stays whole"
+    program.with_suffix(SUFFIX).write_text(patch, encoding="utf-8")
+    program.unlink()
+    return f"{program.with_suffix(SUFFIX)}: {len(patch.splitlines())} lines"

@@ -5,6 +5,7 @@ import io
 import json
 import sys
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated
@@ -15,6 +16,7 @@ from rich.table import Table
 from rich.text import Text
 
 import lab
+from autograder.audit.known_submission import known_submission
 from autograder.exercise import load_exercise
 from autograder.grading import grade
 from autograder.report.page import Section, write_page
@@ -29,12 +31,7 @@ from humanoid_interfaces.action import WalkTo
 EXERCISE = "cancellable_walk"
 PROJECT = Path(__file__).resolve().parents[2]
 SOLUTION = PROJECT / "solutions" / EXERCISE / f"{EXERCISE}.ipynb"
-FAULTY = PROJECT / "solutions" / EXERCISE / "known" / "faulty"
-SUBMISSIONS = {
-    "right": SOLUTION,
-    "ignores cancel": FAULTY / "ignores_cancel.py",
-    "crashes": FAULTY / "crashes_in_execute.py",
-}
+FAULTY = {"ignores cancel": "faulty/ignores_cancel", "crashes": "faulty/crashes_in_execute"}
 
 
 class DemoFailed(Exception):
@@ -110,7 +107,14 @@ def _grade_three(console: Console, jobs: int) -> tuple[list[Grade], list[Section
     console.print("4  Three submissions are graded by what they do, each in arenas of its own", style="bold")
     exercise = load_exercise(EXERCISE, hidden=False)
     grades, sections = [], []
-    for name, path in SUBMISSIONS.items():
+    submissions = [
+        read_submission(SOLUTION, EXERCISE, student="right"),
+        *(
+            replace(known_submission(EXERCISE, name).read(), student=student)
+            for student, name in FAULTY.items()
+        ),
+    ]
+    for submission in submissions:
         diagrams: dict[str, str] = {}
 
         def keep(
@@ -119,7 +123,7 @@ def _grade_three(console: Console, jobs: int) -> tuple[list[Grade], list[Section
             if verdict.status == "failed":
                 diagrams[verdict.id] = transcript_svg(runs[-1], verdict.title)
 
-        submission = read_submission(path, EXERCISE, student=name)
+        name = submission.student
         with console.status(f"   {name} …"):
             result = grade(submission, exercise, jobs=jobs, evidence=keep)
         console.print(f"   {name}: {summary(result)}", markup=False)

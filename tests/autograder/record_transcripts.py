@@ -8,14 +8,13 @@ exercise on a quiet machine.
 
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 from recorded import FOLDER, scenarios_of, write
 
 from autograder.arena_run import ArenaRun, run_in_arena
-from autograder.audit.known_submission import KNOWN, read_known_submission
+from autograder.audit.known_submission import KnownSubmission, known_submission
 from autograder.audit.proof import enough_to_catch
-from autograder.exercise import Exercise, exercise_names, exercises_folder, load_exercise
+from autograder.exercise import Exercise, exercise_names, load_exercise
 from autograder.grading import STRAINED
 from autograder.lateness import lateness
 from autograder.submission_arenas import SubmissionArenas
@@ -55,13 +54,10 @@ def main(wanted: list[str]) -> None:
     for each in wanted or exercise_names():
         name, _, scenario = each.partition(":")
         for submission in SUBMISSIONS_OF[name]:
-            folder = exercises_folder() / name / KNOWN / submission
-            path = folder if folder.is_dir() else folder.with_suffix(".py")
-            _record(load_exercise(name, hidden=True), path, scenario)
+            _record(load_exercise(name, hidden=True), known_submission(name, submission), scenario)
 
 
-def _record(exercise: Exercise, path: Path, only: str) -> None:
-    known = read_known_submission(path)
+def _record(exercise: Exercise, known: KnownSubmission, only: str) -> None:
     files = known.read().files
     wanted = {scenario for check in enough_to_catch(known, exercise).checks for scenario in check.on}
     with SubmissionArenas(exercise.scenario_file) as arenas:
@@ -69,8 +65,8 @@ def _record(exercise: Exercise, path: Path, only: str) -> None:
             if scenario in wanted and only in ("", scenario.name):
                 run = ArenaRun(exercise, files, scenario, cold=False)
                 transcript = _carry_out(run, arenas)
-                write(FOLDER / exercise.name / f"{path.stem}.{name}.jsonl.gz", transcript)
-                print(f"{exercise.name} {path.stem} {name}: {transcript.end:.1f} s", flush=True)
+                write(FOLDER / exercise.name / f"{known.path.stem}.{name}.jsonl.gz", transcript)
+                print(f"{exercise.name} {known.path.stem} {name}: {transcript.end:.1f} s", flush=True)
 
 
 def _carry_out(run: ArenaRun, arenas: SubmissionArenas) -> Transcript:

@@ -1,0 +1,83 @@
+"""A fault as what differs from a sound submission: a header, and a unified diff of the program below its docstring.
+
+Fault: sleeps in the callback (M2)
+Caught by: answers_in_time
+
+--- correct/class_based.py
++++ faulty/sleeps_in_the_callback.py
+@@ -21,4 +21,5 @@
+…
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+import whatthepatch
+from whatthepatch.exceptions import WhatThePatchException
+
+SUFFIX = ".patch"
+LARGEST_SHARE = 0.6  # of a program; where more differs, nothing much is shared and the whole file is clearer
+_CONTEXT = 2  # lines around a change
+_DOCSTRING = re.compile(r'\A(?:#.*\n|\s)*"""(.*?)"""\n?', re.DOTALL)  # also where the file does not parse
+_BEGINNING = re.compile(r"^--- (\S+)", re.MULTILINE)
+
+
+class PatchError(Exception):
+    """A patch that cannot be read, or that no longer applies."""
+
+
+def header_of(text: str) -> str:
+    """Return what stands before the changes."""
+    found = _BEGINNING.search(text)
+    return text[: found.start()] if found else text
+
+
+def whole_program(path: Path) -> str:
+    """Return the program that a patch in known/<kind>/ makes of the submission it names, under the patch's header.
+
+    Raises :class:`PatchError` saying what to do when it does not apply.
+    """
+    text = path.read_text(encoding="utf-8")
+    found = _BEGINNING.search(text)
+    base = path.parents[1] / found[1] if found else path
+    if not found or not base.is_file():
+        raise PatchError(
+            f"{path} must name, after ---, the sound submission it changes, such as correct/class_based.py"
+        )
+    try:
+        (change,) = whatthepatch.parse_patch(text[found.start() :])
+        body = whatthepatch.apply_diff(change, _below_the_docstring(base).splitlines())
+    except (WhatThePatchException, ValueError) as error:
+        raise PatchError(
+            f"{path} no longer applies to {found[1]}: {error}. Write the whole program as {path.stem}.py, remove "
+            f"{path.name}, and run ./course audit {path.parents[2].name} --to-patch {path.stem}"
+        ) from error
+    return f'"""{header_of(text).strip()}\n"""\n' + "\n".join(body) + "\n"
+
+
+def as_patch(program: Path, sound: Sequence[Path]) -> str | None:
+    """Return the patch that makes a program of the nearest of some sound ones; None where too little is shared."""
+    docstring = _DOCSTRING.match(program.read_text(encoding="utf-8"))
+    if docstring is None or not sound:
+        return None
+    body = _below_the_docstring(program).splitlines()
+
+    def changes_from(base: Path) -> list[str]:
+        old, new = (f"{path.parent.name}/{path.name}" for path in (base, program))
+        before = _below_the_docstring(base).splitlines()
+        return list(difflib.unified_diff(before, body, old, new, n=_CONTEXT, lineterm=""))
+
+    shortest = min(map(changes_from, sound), key=len)
+    if len(shortest) > LARGEST_SHARE * len(body):
+        return None
+    return docstring[1].strip() + "\n\n" + "\n".join(shortest) + "\n"
+
+
+def _below_the_docstring(program: Path) -> str:
+    text = program.read_text(encoding="utf-8")
+    found = _DOCSTRING.match(text)
+    return text[found.end() :] if found else text
