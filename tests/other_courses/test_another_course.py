@@ -1,0 +1,173 @@
+"""Exercises of somebody else's repository, with this engine: checked, graded, audited, released."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+
+COURSE = Path(sys.executable).with_name("course")
+
+SCENARIOS = """
+def count(stage, to):
+    stage.start_program([str(to)])
+    stage.wait_for_end()
+"""
+CHECKS = '''
+from autograder.checks import CheckList, program
+from .judging import require_numbers
+
+CHECKS = CheckList()
+TO_THREE = program("count", {"to": 3}, timed=False)
+
+
+@CHECKS.check(points=1, on=TO_THREE)
+def counts_to_three(run):
+    """It prints 1, 2, 3"""
+    require_numbers(run)
+'''
+HIDDEN = '''
+from autograder.checks import CheckList, program
+from .judging import require_numbers
+
+CHECKS = CheckList(hidden=True)
+FURTHER = program("count", lambda random: {"to": random.randint(5, 9)}, timed=False)
+
+
+@CHECKS.check(points=2, on=FURTHER, needs=["counts_to_three"])
+def counts_to_any_number(run):
+    """It prints as many as it is told to"""
+    require_numbers(run)
+'''
+JUDGING = """
+from autograder.checks import expect
+from autograder.client_checks import require_end
+
+
+def require_numbers(run):
+    require_end(run, within=10.0)
+    wanted = " ".join(str(number) for number in range(1, run.params["to"] + 1))
+    printed = " ".join(run.output("stdout").split())
+    help = "Count from 1 to the first argument."
+    expect(printed == wanted, expected=wanted, observed=printed or "nothing", help=help)
+"""
+PROGRAM = """import sys
+
+for number in range(1, int(sys.argv[1]) + 1):
+    print(number)
+"""
+KNOWN = {
+    "correct/plain.py": f'"""Style: a loop."""\n{PROGRAM}',
+    "faulty/only_three.py": '"""Fault: always counts to three\nCaught by: counts_to_any_number\n"""\nprint(1, 2, 3)\n',
+    "faulty/from_nought.patch": """Fault: begins at 0
+Caught by: counts_to_three
+
+--- correct/plain.py
++++ faulty/from_nought.py
+@@ -3,2 +3,2 @@
+-for number in range(1, int(sys.argv[1]) + 1):
++for number in range(int(sys.argv[1]) + 1):
+     print(number)
+""",
+}
+
+
+def run(*arguments: str | Path, cwd: Path, status: int = 0) -> str:
+    """Run `course`; return what it printed."""
+    ran = subprocess.run(
+        [COURSE, *map(str, arguments)],
+        cwd=cwd,
+        env={**os.environ, "COLUMNS": "300"},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+    )
+    said = ran.stdout + ran.stderr
+    assert ran.returncode == status, said
+    return said
+
+
+@pytest.fixture
+def repository(tmp_path: Path) -> Path:
+    """A repository whose folder tasks/ holds one exercise."""
+    folder = tmp_path / "tasks" / "counting"
+    texts = {"scenarios.py": SCENARIOS, "checks.py": CHECKS, "hidden.py": HIDDEN, "judging.py": JUDGING}
+    for name, text in {**texts, **{f"known/{name}": text for name, text in KNOWN.items()}}.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    solution = f"%%writefile counting.py\n### BEGIN SOLUTION\n{PROGRAM}### END SOLUTION\n"
+    metadata = {
+        "grade": False,
+        "grade_id": "solution",
+        "locked": False,
+        "schema_version": 3,
+        "solution": True,
+    }
+    cells = [
+        new_markdown_cell("# Count", id="title"),
+        new_code_cell(solution, id="solution", metadata={"nbgrader": {**metadata, "task": False}}),
+    ]
+    nbformat.write(new_notebook(cells=cells), folder / "counting.ipynb")
+    return tmp_path
+
+
+def test_it_is_audited_graded_checked_and_released(repository):
+    tasks = repository / "tasks"
+    assert "false failures: 0" in run("audit", "--course", tasks, cwd=repository)
+
+    run("release", "--exercises", "--course", tasks, cwd=repository)
+    released = (repository / "exercises/counting/counting.ipynb").read_text()
+    assert "BEGIN SOLUTION" not in released
+    assert "Hidden check 1 (2 points)" in released
+
+    for student, program in {"anna": PROGRAM, "bert": "print(1, 2, 3)\n"}.items():
+        (repository / "submitted" / student).mkdir(parents=True)
+        (repository / "submitted" / student / "counting.py").write_text(program)
+    grades = repository / "grades.json"
+    run("grade", repository / "submitted", "--course", tasks, "--json", grades, cwd=repository)
+    assert {g["student"]: (g["status"], g["score"]) for g in json.loads(grades.read_text())} == {
+        "anna": ("graded", 3),
+        "bert": ("graded", 1),
+    }
+
+    (repository / "counting.py").write_text("print(1, 2)\n")
+    said = run("check", "counting", "--course", tasks, cwd=repository, status=1)
+    assert "Count from 1 to the first argument" in said
+
+
+def test_its_archive_has_the_visible_checks_alone(repository):
+    run("release", "--out", "students.zip", "--course", repository / "tasks", cwd=repository)
+    with zipfile.ZipFile(repository / "students.zip") as archive:
+        names = {name.split("/", 1)[1] for name in archive.namelist()}
+    ours = {name for name in names if "counting" in name}
+    assert ours == {
+        "exercises/counting/counting.ipynb",
+        *(f"checks/counting/{module}.py" for module in ("checks", "judging", "scenarios")),
+    }
+    assert not [name for name in names if "battery_service" in name and not name.startswith("chapters")]
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "said"),
+    [
+        ("scenarios.py", "from .judging import x\n" + SCENARIOS, "the arena sees this file alone"),
+        ("scenarios.py", "def another(stage): ...\n", "'count', which"),
+        ("checks.py", CHECKS.replace("on=TO_THREE", 'on=TO_THREE, needs=["none"]'), "do not come before it"),
+    ],
+)
+def test_what_its_author_has_to_mend_is_said(repository, file, text, said):
+    (repository / "tasks/counting" / file).write_text(text)
+    printed = run("audit", "--course", repository / "tasks", cwd=repository, status=2)
+    assert said in " ".join(printed.split())
+
+
+def test_a_folder_without_exercises_is_refused(tmp_path):
+    assert "holds no exercise" in " ".join(run("audit", "--course", tmp_path, cwd=tmp_path, status=2).split())
