@@ -1,6 +1,8 @@
 """What the author of a check writes: a function over transcripts, its docstring as title.
 
-@check(points=2, on=WALK, needs=["server_appears"])
+server_appears = standard.server_appears("the action walk_to", points=1, on=WALK)
+
+@check(points=2, on=WALK, needs=server_appears)
 def arrives_at_the_goal(walk: Transcript) -> None:
     \"""The robot ends within 0.10 m of the goal\"""
     ...
@@ -12,6 +14,7 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from types import ModuleType
 from typing import Any, Literal
 
 from autograder.failure import CannotBeJudged, Failure, expect
@@ -22,9 +25,10 @@ __all__ = [
     "RESTING",
     "CannotBeJudged",
     "Check",
-    "CheckList",
     "Failure",
     "Scenario",
+    "check",
+    "checks_in",
     "expect",
     "program",
 ]
@@ -71,9 +75,12 @@ def program(name: str, inputs: Inputs | None = None, **options: Any) -> Scenario
     return Scenario(name, inputs or {}, robot=None, student="program", **options)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Check:
-    """One check: `id` and `title` come from the function, `on` are the scenarios it judges."""
+    """One check: `id` and `title` come from the function, `on` are the scenarios it judges, `needs` the ids of others.
+
+    `hidden` is set when it is loaded: a check is hidden because it stands in hidden.py.
+    """
 
     id: str
     title: str
@@ -81,40 +88,37 @@ class Check:
     judge: Judge
     on: tuple[Scenario, ...]
     needs: tuple[str, ...]
-    hidden: bool
+    hidden: bool = False
 
     def run(self, transcripts: Sequence[Transcript]) -> None:
         """Judge; a :class:`Failure` says what is wrong."""
         self.judge(*transcripts)
 
 
-class CheckList:
-    """The checks of one exercise in the order they are shown; use :meth:`check` as a decorator."""
+def check(
+    *, points: int, on: Scenario | Sequence[Scenario], needs: Check | Sequence[Check] = ()
+) -> Callable[[Judge], Check]:
+    """Make a check worth `points` of a function, judged on the transcript of each scenario in `on`.
 
-    def __init__(self, *, hidden: bool = False) -> None:
-        self.hidden = hidden
-        self.checks: list[Check] = []
+    `needs` are checks that must have passed; otherwise this one is reported as not run.
+    """
+    scenarios = (on,) if isinstance(on, Scenario) else tuple(on)
+    needed = (needs,) if isinstance(needs, Check) else tuple(needs)
 
-    def check(
-        self,
-        *,
-        points: int,
-        on: Scenario | Sequence[Scenario],
-        needs: Sequence[str] = (),
-    ) -> Callable[[Judge], Judge]:
-        """Register a function as a check worth `points`, judged on the transcript of each scenario in `on`.
+    def make(judge: Judge) -> Check:
+        if not judge.__doc__:
+            raise ValueError(f"the check {judge.__name__} needs a docstring: it is its title")
+        title = judge.__doc__.strip().splitlines()[0].rstrip(".")
+        return Check(judge.__name__, title, points, judge, scenarios, tuple(need.id for need in needed))
 
-        `needs` names checks that must have passed; otherwise this one is reported as not run.
-        """
-        scenarios = (on,) if isinstance(on, Scenario) else tuple(on)
+    return make
 
-        def register(judge: Judge) -> Judge:
-            if not judge.__doc__:
-                raise ValueError(f"the check {judge.__name__} needs a docstring: it is its title")
-            title = judge.__doc__.strip().splitlines()[0].rstrip(".")
-            self.checks.append(
-                Check(judge.__name__, title, points, judge, scenarios, tuple(needs), self.hidden)
-            )
-            return judge
 
-        return register
+def checks_in(module: ModuleType, *, but: Sequence[Check] = ()) -> list[Check]:
+    """Return the checks that a module defines, in its order, also those in its lists; `but` are others' it imports."""
+    found: list[Check] = []
+    for value in vars(module).values():
+        for one in value if isinstance(value, list | tuple) else (value,):
+            if isinstance(one, Check) and one not in found and one not in but:
+                found.append(one)
+    return found

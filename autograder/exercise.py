@@ -2,7 +2,7 @@
 
     FOLDER/battery_service/battery_service.ipynb   the task, with its solution
                            scenarios.py            what is done to the student's program; runs in the arena
-                           checks.py, hidden.py    how that is judged, by CHECKS of each
+                           checks.py, hidden.py    how that is judged
                            known/                  submissions whose verdict is known
 
 Other modules beside these are for checks.py and hidden.py, which import them as `from .judging import …`.
@@ -15,8 +15,9 @@ import hashlib
 import importlib
 import os
 import sys
+import traceback
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -105,11 +106,16 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
 
     Raises :class:`UnusableExercise` for what its author has to mend.
     """
+    from autograder.checks import (
+        checks_in,  # which takes time to import, and the names of exercises do not need it
+    )
+
     folder = exercises_folder() / name
-    checks = list(exercise_module(name, CHECKS).CHECKS.checks)
+    checks = visible = checks_in(exercise_module(name, CHECKS))
     has_hidden = (folder / f"{HIDDEN}.py").exists()
     if hidden and has_hidden:
-        checks += exercise_module(name, HIDDEN).CHECKS.checks
+        also = checks_in(exercise_module(name, HIDDEN), but=visible)
+        checks = visible + [replace(check, hidden=True) for check in also]
     exercise = Exercise(name, folder, checks, has_hidden)
     _require_sound_checks(exercise)
     _require_scenarios(exercise)
@@ -119,14 +125,21 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
 def exercise_module(exercise: str, module: str = "") -> ModuleType:
     """Import a module of an exercise's folder, or, without a name, the folder as a package.
 
-    Raises :class:`UnknownExercise`.
+    Raises :class:`UnknownExercise`, and :class:`UnusableExercise` when it cannot be imported.
     """
     folder = exercises_folder()
     if exercise not in _names_in(folder):
         raise UnknownExercise(
             f"there is no exercise {exercise!r} in {folder}; there are {', '.join(_names_in(folder))}"
         )
-    return importlib.import_module(".".join(filter(None, (_package(folder), exercise, module))))
+    try:
+        return importlib.import_module(".".join(filter(None, (_package(folder), exercise, module))))
+    except Exception as error:  # whatever an author's module can raise
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        raise UnusableExercise(
+            f"{folder / exercise / (module or '__init__')}.py cannot be imported: {type(error).__name__}: {error} "
+            f"({place.filename}, line {place.lineno})"
+        ) from error
 
 
 def _names_in(folder: Path) -> list[str]:

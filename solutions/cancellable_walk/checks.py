@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from autograder.checks import RESTING, CheckList, Scenario, expect
-from autograder.common_checks import require_clean_exit
-from autograder.readiness import require_ready
+from autograder import standard
+from autograder.checks import RESTING, Scenario, check, expect
 from autograder.transcript import Transcript
 
 from .goals import (
@@ -31,8 +30,6 @@ from .robot import (
     require_walking,
 )
 
-CHECKS = CheckList()
-
 WALK = Scenario("walk", {"x": 0.6, "y": 0.2, "yaw": 0.5})
 IMPOSSIBLE = Scenario("ask_for_the_impossible", {"frame": "map"}, robot=RESTING)
 UNPOWERED = Scenario("ask_without_power")
@@ -45,50 +42,47 @@ INTERRUPT = Scenario("interrupt", robot=RESTING)
 KNOWN = 0.6  # s for a change of the robot to be known to the node
 
 
-@CHECKS.check(points=1, on=INTERRUPT)  # the shortest scenario: its verdict comes first
-def server_appears(run: Transcript) -> None:
-    """The node offers the action walk_to"""
-    require_ready(run)
+server_appears = standard.server_appears("the action walk_to", points=1, on=INTERRUPT)
 
 
-@CHECKS.check(points=1, on=WALK, needs=["server_appears"])
+@check(points=1, on=WALK, needs=server_appears)
 def accepts_a_goal(run: Transcript) -> None:
     """It accepts a pose in frame odom"""
     require_accepted(run, "walk")
 
 
-@CHECKS.check(points=2, on=WALK, needs=["accepts_a_goal"])
+@check(points=2, on=WALK, needs=accepts_a_goal)
 def arrives(run: Transcript) -> None:
     """It SUCCEEDS, and the robot is then within 0.10 m and 0.15 rad of the goal"""
     require_arrival(run, "walk")
 
 
-@CHECKS.check(points=1, on=WALK, needs=["arrives"])
+@check(points=1, on=WALK, needs=arrives)
 def fills_the_result(run: Transcript) -> None:
     """The result holds the final pose, the steps and error_code NONE"""
     require_filled_result(run, "walk")
 
 
-@CHECKS.check(points=1, on=WALK, needs=["accepts_a_goal"])
+@check(points=1, on=WALK, needs=accepts_a_goal)
 def feedback_keeps_its_rate(run: Transcript) -> None:
     """Feedback comes at 5 Hz without a gap over 1 s"""
     require_good_feedback_rate(run, "walk")
 
 
-@CHECKS.check(points=1, on=WALK, needs=["feedback_keeps_its_rate"])
+@check(points=1, on=WALK, needs=feedback_keeps_its_rate)
 def feedback_is_true(run: Transcript) -> None:
     """Pose, distance and steps in the feedback are the robot's"""
     require_true_feedback(run, "walk")
 
 
-@CHECKS.check(points=1, on=WALK, needs=["arrives", "feedback_keeps_its_rate"])
+@check(points=1, on=WALK, needs=[arrives, feedback_keeps_its_rate])
 def feedback_ends_with_the_goal(run: Transcript) -> None:
     """After the result no more feedback comes"""
     require_feedback(run, "walk")
     require_silence_after_the_end(run, "walk")
 
 
-@CHECKS.check(points=1, on=IMPOSSIBLE, needs=["accepts_a_goal"])
+@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal)
 def rejects_a_wrong_frame(run: Transcript) -> None:
     """It rejects a pose in frame map"""
     require_rejected(
@@ -100,7 +94,7 @@ def rejects_a_wrong_frame(run: Transcript) -> None:
     )
 
 
-@CHECKS.check(points=1, on=IMPOSSIBLE, needs=["accepts_a_goal"])
+@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal)
 def rejects_nan(run: Transcript) -> None:
     """It rejects a pose that holds NaN"""
     for name in ("NaN position", "NaN orientation"):
@@ -113,7 +107,7 @@ def rejects_nan(run: Transcript) -> None:
         )
 
 
-@CHECKS.check(points=1, on=UNPOWERED, needs=["accepts_a_goal"])
+@check(points=1, on=UNPOWERED, needs=accepts_a_goal)
 def rejects_without_power(run: Transcript) -> None:
     """It rejects a goal while the motors are off"""
     _require_power_cut(run)
@@ -140,14 +134,14 @@ def _require_power_cut(run: Transcript) -> None:
     )
 
 
-@CHECKS.check(points=2, on=MID_STRIDE, needs=["accepts_a_goal"])
+@check(points=2, on=MID_STRIDE, needs=accepts_a_goal)
 def cancels_in_mid_stride(run: Transcript) -> None:
     """A cancel while the robot walks is agreed to and ends CANCELED"""
     request = require_canceled(run, "after 1 s")
     require_walking(run, request.t)
 
 
-@CHECKS.check(points=2, on=MID_STRIDE, needs=["cancels_in_mid_stride"])
+@check(points=2, on=MID_STRIDE, needs=cancels_in_mid_stride)
 def stops_when_canceled(run: Transcript) -> None:
     """Within 2 s of the cancel the robot stands still and upright"""
     request = run.cancels_of("after 1 s")[-1].sent
@@ -155,14 +149,14 @@ def stops_when_canceled(run: Transcript) -> None:
     require_stopped(run, request.t)
 
 
-@CHECKS.check(points=1, on=WALK_AGAIN, needs=["cancels_in_mid_stride", "arrives"])
+@check(points=1, on=WALK_AGAIN, needs=[cancels_in_mid_stride, arrives])
 def walks_again_after_a_cancel(run: Transcript) -> None:
     """A new goal after a cancel is walked to"""
     require_walking(run, run.cancels_of("canceled")[-1].sent.t)
     require_arrival(run, "again")
 
 
-@CHECKS.check(points=2, on=PREEMPT, needs=["arrives"])
+@check(points=2, on=PREEMPT, needs=arrives)
 def new_goal_preempts_the_old(run: Transcript) -> None:
     """A new goal aborts the old one with PREEMPTED and is walked to"""
     require_accepted(run, "old")
@@ -180,7 +174,7 @@ def new_goal_preempts_the_old(run: Transcript) -> None:
     require_arrival(run, "new")
 
 
-@CHECKS.check(points=1, on=FALL, needs=["accepts_a_goal"])
+@check(points=1, on=FALL, needs=accepts_a_goal)
 def aborts_when_the_robot_falls(run: Transcript) -> None:
     """When the robot falls the goal is ABORTED with FELL"""
     goal = require_accepted(run, "walk")
@@ -196,7 +190,4 @@ def aborts_when_the_robot_falls(run: Transcript) -> None:
     require_error_code(result, FELL, "FELL")
 
 
-@CHECKS.check(points=1, on=INTERRUPT, needs=["server_appears"])
-def ends_cleanly(run: Transcript) -> None:
-    """Ctrl-C ends the node with exit status 0"""
-    require_clean_exit(run)
+ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)

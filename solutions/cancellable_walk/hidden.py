@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from autograder.checks import CheckList, Scenario, expect
+from autograder.checks import Scenario, check, expect
 from autograder.common_checks import require_alive
 from autograder.missing import unseen
 from autograder.transcript import Transcript
 
+from .checks import arrives, cancels_in_mid_stride, stops_when_canceled
 from .goals import (
     CANCELED,
     SUCCEEDED,
@@ -24,8 +25,6 @@ from .robot import (
     require_stopped,
     require_walking,
 )
-
-CHECKS = CheckList(hidden=True)
 
 
 def _poses(random) -> dict:
@@ -59,14 +58,14 @@ NEAR = 0.1  # m the robot may have walked on, or back, until it was cancelled
 OTHER_NAMESPACE = Scenario("walk", {"x": 0.3, "y": 0.0, "yaw": 0.0}, namespace="/lab_7/robot")
 
 
-@CHECKS.check(points=2, on=RANDOM_POSES, needs=["arrives"])
+@check(points=2, on=RANDOM_POSES, needs=arrives)
 def arrives_anywhere(run: Transcript) -> None:
     """It reaches poses with any heading, one after the other"""
     for number in range(1, len(run.params["poses"]) + 1):
         require_arrival(run, f"leg {number}")
 
 
-@CHECKS.check(points=1, on=AT_THE_START, needs=["cancels_in_mid_stride"])
+@check(points=1, on=AT_THE_START, needs=cancels_in_mid_stride)
 def cancels_at_the_start(run: Transcript) -> None:
     """A cancel before execution, or at the first feedback, ends CANCELED with the robot still"""
     require_canceled(run, "at once")
@@ -74,7 +73,7 @@ def cancels_at_the_start(run: Transcript) -> None:
     require_stopped(run, request.t)
 
 
-@CHECKS.check(points=2, on=SEVERAL_PHASES, needs=["stops_when_canceled"])
+@check(points=2, on=SEVERAL_PHASES, needs=stops_when_canceled)
 def stops_in_any_phase_of_the_gait(run: Transcript) -> None:
     """Wherever its feet are when the cancel comes, the robot stops upright"""
     for delay in run.params["delays"]:
@@ -84,7 +83,7 @@ def stops_in_any_phase_of_the_gait(run: Transcript) -> None:
         require_stopped(run, request.t)
 
 
-@CHECKS.check(points=1, on=NEAR_ARRIVAL, needs=["stops_when_canceled"])
+@check(points=1, on=NEAR_ARRIVAL, needs=stops_when_canceled)
 def cancels_near_arrival(run: Transcript) -> None:
     """A cancel just before arrival ends CANCELED, or SUCCEEDED at the goal, with the robot still"""
     goal = require_accepted(run, "near")
@@ -105,7 +104,7 @@ def cancels_near_arrival(run: Transcript) -> None:
     require_stopped(run, cancel.sent.t)
 
 
-@CHECKS.check(points=1, on=AFTER_THE_END, needs=["arrives"])
+@check(points=1, on=AFTER_THE_END, needs=arrives)
 def survives_a_cancel_after_the_end(run: Transcript) -> None:
     """A cancel after the result changes nothing, and the next goal is walked to"""
     require_arrival(run, "first")
@@ -124,7 +123,7 @@ def survives_a_cancel_after_the_end(run: Transcript) -> None:
     require_arrival(run, "second")
 
 
-@CHECKS.check(points=1, on=TWICE, needs=["cancels_in_mid_stride"])
+@check(points=1, on=TWICE, needs=cancels_in_mid_stride)
 def survives_two_cancels(run: Transcript) -> None:
     """The same cancel asked for twice ends CANCELED once, and both are answered"""
     require_canceled_by_first(run)
@@ -151,7 +150,7 @@ def require_canceled_by_first(run: Transcript) -> None:
     require_result(run, goal, CANCELED)
 
 
-@CHECKS.check(points=1, on=BY_A_STRANGER, needs=["stops_when_canceled"])
+@check(points=1, on=BY_A_STRANGER, needs=stops_when_canceled)
 def obeys_a_stranger(run: Transcript) -> None:
     """Another client may cancel every goal"""
     request = require_canceled(run, "walk", by_request_for_all=True)
@@ -159,7 +158,7 @@ def obeys_a_stranger(run: Transcript) -> None:
     require_stopped(run, request.t)
 
 
-@CHECKS.check(points=1, on=OTHER_NAMESPACE, needs=["arrives"])
+@check(points=1, on=OTHER_NAMESPACE, needs=arrives)
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it walks the robot there"""
     require_arrival(run, "walk")

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 
 from autograder import events as ev
-from autograder.checks import RESTING, CheckList, Scenario, expect
-from autograder.common_checks import require_clean_exit
+from autograder import standard
+from autograder.checks import RESTING, Scenario, check, expect
 from autograder.missing import held_up, unseen
-from autograder.readiness import require_ready
 from autograder.transcript import Transcript
 
 from .judging import (
@@ -24,8 +23,6 @@ from .judging import (
 )
 from .questions import ask_for, ask_for_both
 from .two_link_arm import TwoLinkArm
-
-CHECKS = CheckList()
 
 ROBOTS_ARM = TwoLinkArm(upper_arm=0.22, forearm=0.30)  # m: shoulder to elbow, elbow to between the fingers
 ARM_TOLERANCE = 0.01  # m; its servos bring the hand within 2 mm
@@ -68,27 +65,24 @@ REAL_ARM = Scenario(
 INTERRUPT = Scenario("interrupt", {"questions": {"within reach": [ask_for(0.4, 0.3)]}}, robot=RESTING)
 
 
-@CHECKS.check(points=1, on=INTERRUPT)  # the shortest scenario: its verdict comes first
-def server_appears(run: Transcript) -> None:
-    """The node offers compute_ik"""
-    require_ready(run)
+server_appears = standard.server_appears("compute_ik", points=1, on=INTERRUPT)
 
 
-@CHECKS.check(points=2, on=POINTS, needs=["server_appears"])
+@check(points=2, on=POINTS, needs=server_appears)
 def reaches_the_point(run: Transcript) -> None:
     """The angles it answers with bring the hand to the point, within 1 mm"""
     for reply in replies(run, "within reach"):
         require_hit(reply)
 
 
-@CHECKS.check(points=2, on=POINTS, needs=["reaches_the_point"])
+@check(points=2, on=POINTS, needs=reaches_the_point)
 def bends_the_elbow_as_asked(run: Transcript) -> None:
     """The elbow is above the line to the target with elbow_up, below it without"""
     for reply in replies(run, "within reach"):
         require_side(reply)
 
 
-@CHECKS.check(points=2, on=POINTS, needs=["server_appears"])
+@check(points=2, on=POINTS, needs=server_appears)
 def says_what_is_out_of_reach(run: Transcript) -> None:
     """Too far and too near is NO_IK_SOLUTION, and what can be reached is not"""
     for reply in replies(run, "within reach"):
@@ -102,7 +96,7 @@ def says_what_is_out_of_reach(run: Transcript) -> None:
         require_refusal(reply)
 
 
-@CHECKS.check(points=1, on=FRAMES, needs=["server_appears"])
+@check(points=1, on=FRAMES, needs=server_appears)
 def refuses_other_frames(run: Transcript) -> None:
     """A target in any frame but "shoulder" is FRAME_TRANSFORM_FAILURE, and no other is"""
     for reply in replies(run, "in shoulder"):
@@ -123,7 +117,7 @@ def refuses_other_frames(run: Transcript) -> None:
         )
 
 
-@CHECKS.check(points=2, on=REAL_ARM, needs=["bends_the_elbow_as_asked"])
+@check(points=2, on=REAL_ARM, needs=bends_the_elbow_as_asked)
 def moves_the_real_hand(run: Transcript) -> None:
     """Started with the robot's own lengths as parameters, its angles bring the robot's hand to the point"""
     for reply in replies(run, "with the arm"):
@@ -156,7 +150,4 @@ def _require_the_hand_there(run: Transcript, reply: Reply) -> None:
     )
 
 
-@CHECKS.check(points=1, on=INTERRUPT, needs=["server_appears"])
-def ends_cleanly(run: Transcript) -> None:
-    """Ctrl-C ends the node with exit status 0"""
-    require_clean_exit(run)
+ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)

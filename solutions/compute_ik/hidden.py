@@ -6,12 +6,21 @@ import math
 from random import Random
 from typing import Any
 
-from autograder.checks import CheckList, Scenario, expect
+from autograder.checks import Scenario, check, expect
 from autograder.common_checks import require_answer
 from autograder.missing import Missing
 from autograder.transcript import CallHistory, Transcript
 
-from .checks import POINTS, REAL_ARM, ROBOTS_ARM
+from .checks import (
+    POINTS,
+    REAL_ARM,
+    ROBOTS_ARM,
+    bends_the_elbow_as_asked,
+    moves_the_real_hand,
+    reaches_the_point,
+    says_what_is_out_of_reach,
+    server_appears,
+)
 from .judging import (
     SUCCESS,
     code_in_words,
@@ -23,8 +32,6 @@ from .judging import (
 )
 from .questions import ahead, anywhere, ask_for
 from .two_link_arm import DEFAULT, TwoLinkArm
-
-CHECKS = CheckList(hidden=True)
 
 DOUBLE = 3  # rcl_interfaces/msg/ParameterType
 NOT_SET = {"type": 0}
@@ -51,7 +58,7 @@ OTHER_NAMESPACE = Scenario(
 )
 
 
-@CHECKS.check(points=2, on=[SET_LENGTHS, REAL_ARM], needs=["bends_the_elbow_as_asked", "moves_the_real_hand"])
+@check(points=2, on=[SET_LENGTHS, REAL_ARM], needs=[bends_the_elbow_as_asked, moves_the_real_hand])
 def reaches_any_point(run: Transcript, with_other_lengths: Transcript) -> None:
     """All around the shoulder, and close to it with a forearm longer than the upper arm, it hits the point"""
     for reply in replies(run, "anywhere"):
@@ -61,7 +68,7 @@ def reaches_any_point(run: Transcript, with_other_lengths: Transcript) -> None:
         require_hit(reply, ROBOTS_ARM)
 
 
-@CHECKS.check(points=1, on=POINTS, needs=["says_what_is_out_of_reach"])
+@check(points=1, on=POINTS, needs=says_what_is_out_of_reach)
 def refuses_what_is_no_number(run: Transcript) -> None:
     """A target that is not a number is no success, and the next question is answered as ever"""
     nonsense, sound = replies(run, "not a number")
@@ -78,7 +85,7 @@ def refuses_what_is_no_number(run: Transcript) -> None:
     )
 
 
-@CHECKS.check(points=1, on=SET_LENGTHS, needs=["server_appears"])
+@check(points=1, on=SET_LENGTHS, needs=server_appears)
 def declares_its_lengths(run: Transcript) -> None:
     """upper_arm_length and forearm_length are parameters of type double: 0.30 and 0.25 m"""
     call = _call(run, "get_parameters")
@@ -94,10 +101,10 @@ def declares_its_lengths(run: Transcript) -> None:
         )
 
 
-@CHECKS.check(
+@check(
     points=1,
     on=SET_LENGTHS,
-    needs=["bends_the_elbow_as_asked", "says_what_is_out_of_reach", "declares_its_lengths"],
+    needs=[bends_the_elbow_as_asked, says_what_is_out_of_reach, declares_its_lengths],
 )
 def does_what_it_says_of_new_lengths(run: Transcript) -> None:
     """Lengths that are set while it runs are taken into account, or refused"""
@@ -110,7 +117,7 @@ def does_what_it_says_of_new_lengths(run: Transcript) -> None:
             require_refusal(reply, arm)
 
 
-@CHECKS.check(points=1, on=OTHER_NAMESPACE, needs=["reaches_the_point"])
+@check(points=1, on=OTHER_NAMESPACE, needs=reaches_the_point)
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it serves there"""
     for reply in replies(run, "within reach"):

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from autograder.checks import CheckList, program
+from autograder.checks import check, program
 from autograder.transcript import Transcript
 
 from .judging import require_built, require_fields
-
-CHECKS = CheckList()
 
 SERVICE = program("build", {"file": "GetBatteryStatus.srv"}, timed=False)
 ACTION = program("build", {"file": "NavigateToPose.action"}, timed=False)
@@ -26,37 +24,37 @@ FEEDBACK = {
 }
 
 
-@CHECKS.check(points=1, on=SERVICE)
+@check(points=1, on=SERVICE)
 def service_builds(run: Transcript) -> None:
     """GetBatteryStatus.srv builds"""
     require_built(run)
 
 
-@CHECKS.check(points=2, on=SERVICE, needs=["service_builds"])
+@check(points=2, on=SERVICE, needs=service_builds)
 def response_has_its_fields(run: Transcript) -> None:
     """Its response has available, battery and message"""
     require_fields(run, "response", RESPONSE)
 
 
-@CHECKS.check(points=1, on=ACTION)
+@check(points=1, on=ACTION)
 def action_builds(run: Transcript) -> None:
     """NavigateToPose.action builds"""
     require_built(run)
 
 
-@CHECKS.check(points=2, on=ACTION, needs=["action_builds"])
+@check(points=2, on=ACTION, needs=action_builds)
 def goal_has_its_fields(run: Transcript) -> None:
     """Its goal has a pose with a frame, and a tolerance"""
     require_fields(run, "goal", GOAL)
 
 
-@CHECKS.check(points=2, on=ACTION, needs=["action_builds"])
+@check(points=2, on=ACTION, needs=action_builds)
 def result_has_its_fields(run: Transcript) -> None:
     """Its result has error_code, error_msg and distance_traveled"""
     require_fields(run, "result", RESULT)
 
 
-@CHECKS.check(points=2, on=ACTION, needs=["action_builds"])
+@check(points=2, on=ACTION, needs=action_builds)
 def feedback_has_its_fields(run: Transcript) -> None:
     """Its feedback has the seven fields of the task"""
     require_fields(run, "feedback", FEEDBACK)

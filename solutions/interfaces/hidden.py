@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-from autograder.checks import CheckList
+from autograder.checks import check
 from autograder.transcript import Transcript
 
-from .checks import ACTION, SERVICE
+from .checks import ACTION, SERVICE, action_builds, service_builds
 from .judging import require_constants, require_fields
-
-CHECKS = CheckList(hidden=True)
 
 ERROR_CODES = {"NONE": 0, "FELL": 1, "PREEMPTED": 2, "TIMEOUT": 3}
 
 
-@CHECKS.check(points=1, on=SERVICE, needs=["service_builds"])
+@check(points=1, on=SERVICE, needs=service_builds)
 def request_is_empty(run: Transcript) -> None:
     """The request of GetBatteryStatus is empty"""
     require_fields(run, "request", {})
 
 
-@CHECKS.check(points=2, on=ACTION, needs=["action_builds"])
+@check(points=2, on=ACTION, needs=action_builds)
 def error_codes_have_names(run: Transcript) -> None:
     """The result names its error codes, 0 to 3"""
     require_constants(run, "result", "uint16", ERROR_CODES)

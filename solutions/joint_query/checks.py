@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 
-from autograder.checks import RESTING, CheckList, Scenario, expect
-from autograder.common_checks import require_answer, require_clean_exit
-from autograder.readiness import require_ready
+from autograder import standard
+from autograder.checks import RESTING, Scenario, check, expect
+from autograder.common_checks import require_answer
 from autograder.transcript import Transcript
 
 from .judging import (
@@ -21,8 +21,6 @@ from .judging import (
     require_success,
     robot_joints,
 )
-
-CHECKS = CheckList()
 
 # Six joints that stand at different angles, in an order that is neither the robot's nor the alphabet's.
 SIX_JOINTS = ["r_knee", "l_shoulder_roll", "r_shoulder_roll", "l_hip_pitch", "l_elbow", "r_shoulder_pitch"]
@@ -43,31 +41,28 @@ UNPLUGGED = Scenario(
 INTERRUPT = Scenario("interrupt", {"names": SIX_JOINTS}, robot=RESTING)
 
 
-@CHECKS.check(points=1, on=INTERRUPT)  # the shortest scenario: its verdict comes first
-def server_appears(run: Transcript) -> None:
-    """The node offers get_joint_positions"""
-    require_ready(run)
+server_appears = standard.server_appears("get_joint_positions", points=1, on=INTERRUPT)
 
 
-@CHECKS.check(points=1, on=ASK, needs=["server_appears"])
+@check(points=1, on=ASK, needs=server_appears)
 def finds_the_joints(run: Transcript) -> None:
     """Asked for joints that the robot has, it answers success: true"""
     require_success(run, call_for(run, SIX_JOINTS))
 
 
-@CHECKS.check(points=1, on=ASK, needs=["finds_the_joints"])
+@check(points=1, on=ASK, needs=finds_the_joints)
 def keeps_the_order_asked(run: Transcript) -> None:
     """joint_state.name holds the names asked for, in the order of the request"""
     require_names(run, call_for(run, SIX_JOINTS))
 
 
-@CHECKS.check(points=2, on=ASK, needs=["finds_the_joints"])
+@check(points=2, on=ASK, needs=finds_the_joints)
 def positions_are_the_robots(run: Transcript) -> None:
     """Each position is that of the joint beside it, in radians, as the robot published it"""
     require_positions(run, call_for(run, SIX_JOINTS))
 
 
-@CHECKS.check(points=1, on=ASK, needs=["positions_are_the_robots"])
+@check(points=1, on=ASK, needs=positions_are_the_robots)
 def no_names_means_all(run: Transcript) -> None:
     """Asked with an empty list, it answers with every joint once"""
     call = call_for(run, [])
@@ -85,7 +80,7 @@ def no_names_means_all(run: Transcript) -> None:
     require_positions(run, call)
 
 
-@CHECKS.check(points=1, on=ASK, needs=["positions_are_the_robots"])
+@check(points=1, on=ASK, needs=positions_are_the_robots)
 def follows_the_robot(run: Transcript) -> None:
     """When the arms have moved, the answer has moved with them"""
     call = call_for(run, list(POSTURE))
@@ -94,7 +89,7 @@ def follows_the_robot(run: Transcript) -> None:
     require_positions(run, call)
 
 
-@CHECKS.check(points=2, on=ASK, needs=["finds_the_joints"])
+@check(points=2, on=ASK, needs=finds_the_joints)
 def names_every_unknown_joint(run: Transcript) -> None:
     """Unknown joints: success: false and a message that names each of them; then it serves on"""
     call = call_for(run, STRANGERS)
@@ -118,7 +113,7 @@ def names_every_unknown_joint(run: Transcript) -> None:
     require_success(run, question(run, 5))
 
 
-@CHECKS.check(points=1, on=UNPLUGGED, needs=["server_appears"])
+@check(points=1, on=UNPLUGGED, needs=server_appears)
 def says_when_it_knows_nothing(run: Transcript) -> None:
     """Before the first joint_states it answers success: false, also to an empty list"""
     for names in (SIX_JOINTS, []):
@@ -132,7 +127,4 @@ def says_when_it_knows_nothing(run: Transcript) -> None:
         )
 
 
-@CHECKS.check(points=1, on=INTERRUPT, needs=["server_appears"])
-def ends_cleanly(run: Transcript) -> None:
-    """Ctrl-C ends the node with exit status 0"""
-    require_clean_exit(run)
+ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)

@@ -5,11 +5,20 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from autograder.checks import RESTING, CheckList, Scenario, expect
+from autograder.checks import RESTING, Scenario, check, expect
 from autograder.common_checks import require_answer
 from autograder.transcript import CallHistory, Transcript
 
-from .checks import SIX_JOINTS, UNPLUGGED
+from .checks import (
+    SIX_JOINTS,
+    UNPLUGGED,
+    finds_the_joints,
+    follows_the_robot,
+    keeps_the_order_asked,
+    names_every_unknown_joint,
+    positions_are_the_robots,
+    says_when_it_knows_nothing,
+)
 from .judging import (
     call_for,
     listed,
@@ -21,8 +30,6 @@ from .judging import (
     require_reversed,
     require_success,
 )
-
-CHECKS = CheckList(hidden=True)
 
 # Where the robot can hold its arms and head without touching itself: rad.
 RANGES = {
@@ -63,7 +70,7 @@ def _require_positions_as_asked(run: Transcript, call: CallHistory) -> None:
     require_positions(run, call)
 
 
-@CHECKS.check(points=1, on=UNPLUGGED, needs=["positions_are_the_robots", "says_when_it_knows_nothing"])
+@check(points=1, on=UNPLUGGED, needs=[positions_are_the_robots, says_when_it_knows_nothing])
 def recovers_when_the_sensors_appear(run: Transcript) -> None:
     """Once the first message has come, it answers with it"""
     call = question(run, 3)
@@ -71,7 +78,7 @@ def recovers_when_the_sensors_appear(run: Transcript) -> None:
     _require_positions_as_asked(run, call)
 
 
-@CHECKS.check(points=1, on=EVERY_WAY, needs=["keeps_the_order_asked", "follows_the_robot"])
+@check(points=1, on=EVERY_WAY, needs=[keeps_the_order_asked, follows_the_robot])
 def answers_in_any_posture(run: Transcript) -> None:
     """Whatever the posture, it answers with it"""
     call = call_for(run, list(run.params["posture"]))
@@ -79,7 +86,7 @@ def answers_in_any_posture(run: Transcript) -> None:
     require_posture(run, call, run.params["posture"])
 
 
-@CHECKS.check(points=1, on=EVERY_WAY, needs=["finds_the_joints"])
+@check(points=1, on=EVERY_WAY, needs=finds_the_joints)
 def answers_every_request(run: Transcript) -> None:
     """Eight different requests at once are all answered, each with its own joints and within 2 s"""
     for names in run.params["burst"]:
@@ -102,7 +109,7 @@ def answers_every_request(run: Transcript) -> None:
         )
 
 
-@CHECKS.check(points=1, on=EVERY_WAY, needs=["answers_in_any_posture"])
+@check(points=1, on=EVERY_WAY, needs=answers_in_any_posture)
 def looks_joints_up_by_name(run: Transcript) -> None:
     """When joint_states lists the joints in another order, each position is still its own joint's"""
     call = call_for(run, run.params["reordered"])
@@ -110,7 +117,7 @@ def looks_joints_up_by_name(run: Transcript) -> None:
     require_reversed(run, call)
 
 
-@CHECKS.check(points=1, on=EVERY_WAY, needs=["names_every_unknown_joint"])
+@check(points=1, on=EVERY_WAY, needs=names_every_unknown_joint)
 def takes_no_joint_for_another(run: Transcript) -> None:
     """A part of a joint's name is no joint: success: false"""
     for part in run.params["parts"]:
@@ -122,7 +129,7 @@ def takes_no_joint_for_another(run: Transcript) -> None:
         )
 
 
-@CHECKS.check(points=1, on=OTHER_NAMESPACE, needs=["positions_are_the_robots"])
+@check(points=1, on=OTHER_NAMESPACE, needs=positions_are_the_robots)
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it serves the robot there"""
     call = call_for(run, SIX_JOINTS)

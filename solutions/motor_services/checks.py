@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from autograder.checks import RESTING, CheckList, Scenario, expect
-from autograder.common_checks import require_answer, require_clean_exit
-from autograder.readiness import require_ready
+from autograder import standard
+from autograder.checks import RESTING, Scenario, check, expect
+from autograder.common_checks import require_answer
 from autograder.transcript import Transcript
 
 from .judging import (
@@ -15,8 +15,6 @@ from .judging import (
     require_switched,
 )
 
-CHECKS = CheckList()
-
 # A stand holds the robot by its chest, so that it hangs limp without power and stands when it returns.
 ON_A_STAND = ("--scene", "stand")
 INTERRUPT = Scenario("interrupt", robot=RESTING)
@@ -26,26 +24,23 @@ SWITCH = Scenario("switch_off_and_on", robot=ON_A_STAND)
 WALK = Scenario("switch_off_while_walking", {"velocity": [0.3, 0.0, 0.0]})
 
 
-@CHECKS.check(points=1, on=INTERRUPT)  # the shortest scenario: its verdict comes first
-def server_appears(run: Transcript) -> None:
-    """The node offers enable_motors and get_status"""
-    require_ready(run)
+server_appears = standard.server_appears("enable_motors and get_status", points=1, on=INTERRUPT)
 
 
-@CHECKS.check(points=1, on=STATUS, needs=["server_appears"])
+@check(points=1, on=STATUS, needs=server_appears)
 def tells_the_status(run: Transcript) -> None:
     """get_status says "Motors: ON" while the motors are on"""
     require_status(run, 1, on=True)
 
 
-@CHECKS.check(points=2, on=STATUS, needs=["tells_the_status"])
+@check(points=2, on=STATUS, needs=tells_the_status)
 def follows_the_robot(run: Transcript) -> None:
     """When somebody else cuts the power and returns it, get_status says so"""
     require_status_after_a_change(run, 2, on=False)
     require_status_after_a_change(run, 3, on=True)
 
 
-@CHECKS.check(points=1, on=SILENT_ROBOT, needs=["server_appears"])
+@check(points=1, on=SILENT_ROBOT, needs=server_appears)
 def says_when_it_knows_nothing(run: Transcript) -> None:
     """Before the first robot_state, get_status answers success: false"""
     answer = require_answer(run, require_silence_so_far(run))
@@ -59,25 +54,22 @@ def says_when_it_knows_nothing(run: Transcript) -> None:
     )
 
 
-@CHECKS.check(points=2, on=SWITCH, needs=["server_appears"])
+@check(points=2, on=SWITCH, needs=server_appears)
 def powers_off(run: Transcript) -> None:
     """enable_motors with data: false is granted to a standing robot, and its motors lose their torque"""
     require_switched(run, 1)
 
 
-@CHECKS.check(points=1, on=SWITCH, needs=["powers_off"])
+@check(points=1, on=SWITCH, needs=powers_off)
 def powers_on(run: Transcript) -> None:
     """enable_motors with data: true is granted, and the motors have their torque again"""
     require_switched(run, 2)
 
 
-@CHECKS.check(points=3, on=WALK, needs=["powers_off"])
+@check(points=3, on=WALK, needs=powers_off)
 def refuses_off_while_walking(run: Transcript) -> None:
     """While the robot walks, power off is refused with a sentence, and it walks on"""
     require_refused(run, 1)
 
 
-@CHECKS.check(points=1, on=INTERRUPT, needs=["server_appears"])
-def ends_cleanly(run: Transcript) -> None:
-    """Ctrl-C ends the node with exit status 0"""
-    require_clean_exit(run)
+ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from autograder.checks import CheckList, program
+from autograder.checks import check, program
 from autograder.transcript import Transcript
 
 from .judging import Situation, judge_of, require_answers
 
-CHECKS = CheckList()
-
 ANSWERS = program("print_answers", timed=False)
 
 
-@CHECKS.check(points=1, on=ANSWERS)
+@check(points=1, on=ANSWERS)
 def answers_everything(run: Transcript) -> None:
     """Each of the twelve situations has a pattern and a reason"""
     require_answers(run)
@@ -93,5 +91,6 @@ SEEN = (
     ),
 )
 
-for situation in SEEN:
-    CHECKS.check(points=1, on=ANSWERS, needs=["answers_everything"])(judge_of(situation))
+situations = [
+    check(points=1, on=ANSWERS, needs=answers_everything)(judge_of(situation)) for situation in SEEN
+]

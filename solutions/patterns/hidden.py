@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from autograder.checks import CheckList
+from autograder.checks import check
 
-from .checks import ANSWERS
+from .checks import ANSWERS, answers_everything
 from .judging import Situation, judge_of
-
-CHECKS = CheckList(hidden=True)
 
 UNSEEN = (
     Situation(
@@ -84,5 +82,6 @@ UNSEEN = (
     ),
 )
 
-for situation in UNSEEN:
-    CHECKS.check(points=1, on=ANSWERS, needs=["answers_everything"])(judge_of(situation))
+situations = [
+    check(points=1, on=ANSWERS, needs=answers_everything)(judge_of(situation)) for situation in UNSEEN
+]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 
-from autograder.checks import CheckList, program
+from autograder.checks import check, program
 from autograder.client_checks import (
     require_failure,
     require_played,
@@ -14,6 +14,12 @@ from autograder.client_checks import (
 from autograder.missing import unseen
 from autograder.transcript import Transcript
 
+from .checks import (
+    asks_once_more,
+    gives_up_without_servers,
+    makes_use_of_the_second_answer,
+    prints_the_status,
+)
 from .judging import (
     ENABLE,
     NO_SERVER,
@@ -23,8 +29,6 @@ from .judging import (
     require_printed_status,
     require_silence,
 )
-
-CHECKS = CheckList(hidden=True)
 
 SOON = 0.9  # of the time after which an answer is due
 REFUSED = (1, 2, 3)  # the contract names no status of its own for a refusal; it is none of success
@@ -49,19 +53,19 @@ TWO = program("two_of_one_name", _any_status)
 REFUSING = program("refusing", {"reason": "the emergency stop is pressed"})
 
 
-@CHECKS.check(points=1, on=ANY_STATUS, needs=["prints_the_status"])
+@check(points=1, on=ANY_STATUS, needs=prints_the_status)
 def prints_any_status(run: Transcript) -> None:
     """Whatever the status says, it is printed as it came"""
     require_printed_status(run, [run.params["status"]])
 
 
-@CHECKS.check(points=1, on=OTHER_NAMESPACE, needs=["prints_the_status"])
+@check(points=1, on=OTHER_NAMESPACE, needs=prints_the_status)
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it asks the robot there"""
     require_printed_status(run, [run.params["status"]])
 
 
-@CHECKS.check(points=1, on=[ONE_OF_TWO, ANOTHER_TYPE], needs=["gives_up_without_servers"])
+@check(points=1, on=[ONE_OF_TWO, ANOTHER_TYPE], needs=gives_up_without_servers)
 def needs_both_services(missing: Transcript, other_type: Transcript) -> None:
     """A get_status that is missing, or of another type, ends it with status 1"""
     require_played(missing, ENABLE)
@@ -71,7 +75,7 @@ def needs_both_services(missing: Transcript, other_type: Transcript) -> None:
     require_failure(other_type, WITHIN, NO_SERVER, "get_status is there with another type")
 
 
-@CHECKS.check(points=1, on=SILENT_STATUS, needs=["asks_once_more"])
+@check(points=1, on=SILENT_STATUS, needs=asks_once_more)
 def gives_up_on_a_silent_status(run: Transcript) -> None:
     """get_status is also asked twice and then given up"""
     require_reply(run, ENABLE)
@@ -79,14 +83,14 @@ def gives_up_on_a_silent_status(run: Transcript) -> None:
     require_failure(run, WITHIN, NO_SERVER, "get_status has not answered")
 
 
-@CHECKS.check(points=1, on=SLOW, needs=["prints_the_status"])
+@check(points=1, on=SLOW, needs=prints_the_status)
 def waits_for_slow_answers(run: Transcript) -> None:
     """Answers that take 1 s are waited for"""
     require_printed_status(run, [run.params["status"]])
     require_pause(run, run.params["after"])
 
 
-@CHECKS.check(points=1, on=LATE, needs=["makes_use_of_the_second_answer"])
+@check(points=1, on=LATE, needs=makes_use_of_the_second_answer)
 def is_not_confused_by_a_late_answer(run: Transcript) -> None:
     """An answer that comes after its time, while the next is waited for, does no harm"""
     require_printed_status(run, run.params["statuses"])
@@ -95,28 +99,28 @@ def is_not_confused_by_a_late_answer(run: Transcript) -> None:
         raise unseen(run, "the first answer did not come late")
 
 
-@CHECKS.check(points=1, on=DYING, needs=["asks_once_more"])
+@check(points=1, on=DYING, needs=asks_once_more)
 def survives_a_dying_server(run: Transcript) -> None:
     """A server that dies in the middle of a request ends it with status 1"""
     require_withdrawn(run, STATUS)
     require_failure(run, WITHIN, NO_SERVER, "get_status died before it answered")
 
 
-@CHECKS.check(points=1, on=RESTARTING, needs=["makes_use_of_the_second_answer"])
+@check(points=1, on=RESTARTING, needs=makes_use_of_the_second_answer)
 def finds_a_restarted_server(run: Transcript) -> None:
     """A server that dies and comes back is asked again"""
     require_withdrawn(run, STATUS)
     require_printed_status(run, [run.params["status"]])
 
 
-@CHECKS.check(points=1, on=TWO, needs=["prints_the_status"])
+@check(points=1, on=TWO, needs=prints_the_status)
 def copes_with_two_servers(run: Transcript) -> None:
     """Two servers of one name give one status"""
     require_played(run, STATUS, servers=2)
     require_printed_status(run, [run.params["status"]])
 
 
-@CHECKS.check(points=1, on=REFUSING, needs=["prints_the_status"])
+@check(points=1, on=REFUSING, needs=prints_the_status)
 def reports_a_refusal(run: Transcript) -> None:
     """When enable_motors says no, it does not end with status 0"""
     reply = require_reply(run, ENABLE)

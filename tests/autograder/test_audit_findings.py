@@ -10,7 +10,7 @@ from autograder.audit.kill_matrix import figures, kill_matrix
 from autograder.audit.known_submission import HeaderError, known_submissions, read_known_submission
 from autograder.audit.proof import enough_to_catch, enough_to_prove
 from autograder.audit.run import AuditedRun, checks_without_a_killer
-from autograder.checks import CheckList, Scenario
+from autograder.checks import Scenario, check
 from autograder.exercise import FOLDER_VARIABLE, Exercise
 from autograder.verdict import CheckVerdict, Grade
 
@@ -36,15 +36,15 @@ def folder(tmp_path, monkeypatch):
 
 @pytest.fixture
 def exercise():
-    checks = CheckList()
-    for name, needs in (("appears", []), ("answers", ["appears"]), ("ends", ["answers"])):
+    checks = []
+    for name in ("appears", "answers", "ends"):
 
         def judge(run):
             """It does"""
 
         judge.__name__ = name
-        checks.check(points=1, on=Scenario("ask"), needs=needs)(judge)
-    return Exercise("service", Path("service"), checks.checks, False)
+        checks.append(check(points=1, on=Scenario("ask"), needs=checks[-1:])(judge))
+    return Exercise("service", Path("service"), checks, False)
 
 
 def read(folder, kind):

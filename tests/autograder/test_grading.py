@@ -8,7 +8,7 @@ import pytest
 from autograder import events as ev
 from autograder import grading
 from autograder.arena_run import NotGraded
-from autograder.checks import CheckList, Scenario, expect
+from autograder.checks import Scenario, check, expect
 from autograder.exercise import Exercise
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
@@ -36,24 +36,22 @@ def transcript(scenario, *, lag=0.0, mark=None, scale=5.0):
     return Transcript.from_events(scenario.name, {}, events, scale)
 
 
-def exercise(checks, **kwargs):
-    return Exercise("anything", Path("anything"), checks.checks, False, **kwargs)
+def exercise(*checks):
+    return Exercise("anything", Path("anything"), checks, False)
 
 
 @pytest.fixture
 def two_checks():
-    checks = CheckList()
-
-    @checks.check(points=2, on=FIRST)
+    @check(points=2, on=FIRST)
     def base(run):
         """The base holds."""
         expect(bool(run.all(ev.Mark)), expected="a mark", observed="none", help="Set a mark.", at=1.5)
 
-    @checks.check(points=3, on=SECOND, needs=["base"])
+    @check(points=3, on=SECOND, needs=base)
     def above(run):
         """What stands on it holds"""
 
-    return exercise(checks)
+    return exercise(base, above)
 
 
 def arenas(monkeypatch, answer):
@@ -106,15 +104,13 @@ def test_an_arena_that_fails_is_tried_again_and_then_not_graded(monkeypatch, two
 
 
 def test_a_check_that_breaks_costs_nothing(monkeypatch):
-    checks = CheckList()
-
-    @checks.check(points=1, on=FIRST)
+    @check(points=1, on=FIRST)
     def broken(run):
         """Broken"""
         raise KeyError("oops")
 
     arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
-    grade = grading.grade(SUBMISSION, exercise(checks), isolation=ISOLATED)
+    grade = grading.grade(SUBMISSION, exercise(broken), isolation=ISOLATED)
     assert (grade.status, grade.checks[0].status) == ("not graded", "error")
     assert "oops" in grade.checks[0].help
 
@@ -159,9 +155,7 @@ def without_robot(scenario, scale, *, starved):
 def test_a_program_that_got_no_processor_is_run_again_more_slowly_where_time_counts(
     monkeypatch, timed, scales
 ):
-    checks = CheckList()
-
-    @checks.check(points=1, on=Scenario("program", robot=None, student="program", timed=timed))
+    @check(points=1, on=Scenario("program", robot=None, student="program", timed=timed))
     def ends(run):
         """It ends"""
 
@@ -169,7 +163,7 @@ def test_a_program_that_got_no_processor_is_run_again_more_slowly_where_time_cou
         monkeypatch,
         lambda scenario, scale: without_robot(scenario, scale, starved=3.0 if scale > 2 else 0.1),
     )
-    assert grading.grade(SUBMISSION, exercise(checks), isolation=ISOLATED, scale=5.0).all_passed
+    assert grading.grade(SUBMISSION, exercise(ends), isolation=ISOLATED, scale=5.0).all_passed
     assert [scale for _, scale in ran] == scales
 
 
@@ -192,16 +186,14 @@ def test_a_failure_on_a_strained_run_counts_only_if_it_is_seen_again_on_one_that
     ("marks", "status"), [(["here"], "passed"), ([None, "here"], "passed"), ([None, None, "here"], "failed")]
 )
 def test_a_failure_counts_only_if_it_is_seen_twice(monkeypatch, marks, status):
-    checks = CheckList()
-
-    @checks.check(points=1, on=FIRST)
+    @check(points=1, on=FIRST)
     def ends(run):
         """It ends well"""
         expect(bool(run.all(ev.Mark)), expected="a mark", observed="none", help="Set a mark.")
 
     coming = iter(marks)
     ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario, mark=next(coming)))
-    grade = grading.grade(SUBMISSION, exercise(checks), isolation=ISOLATED, scale=5.0)
+    grade = grading.grade(SUBMISSION, exercise(ends), isolation=ISOLATED, scale=5.0)
     assert statuses(grade) == {"ends": status}
     assert len(ran) == min(len(marks), 2)
 
@@ -214,7 +206,7 @@ def test_the_first_scenario_and_every_second_look_start_the_program_cold(monkeyp
         return transcript(run.scenario, mark="here" if run.scenario is FIRST else None)
 
     monkeypatch.setattr(grading, "run_in_arena", run_in_arena)
-    checks = CheckList()
+    checks = []
     for number, scenario in enumerate((FIRST, SECOND)):
 
         def judge(run):
@@ -222,8 +214,8 @@ def test_the_first_scenario_and_every_second_look_start_the_program_cold(monkeyp
             expect(bool(run.all(ev.Mark)), expected="a mark", observed="none", help="Set a mark.")
 
         judge.__name__ = f"check_{number}"
-        checks.check(points=1, on=scenario)(judge)
-    grade = grading.grade(SUBMISSION, exercise(checks), isolation=ISOLATED, jobs=1)
+        checks.append(check(points=1, on=scenario)(judge))
+    grade = grading.grade(SUBMISSION, exercise(*checks), isolation=ISOLATED, jobs=1)
     assert statuses(grade) == {"check_0": "passed", "check_1": "failed"}
     assert starts == [("first", True), ("second", False), ("second", True)]
 
@@ -243,15 +235,17 @@ def test_what_runs_now_is_told(monkeypatch, two_checks):
 
 
 def test_hidden_checks_are_refused_without_isolation(monkeypatch):
-    checks = CheckList(hidden=True)
-
-    @checks.check(points=1, on=FIRST)
+    @check(points=1, on=FIRST)
     def secret(run):
         """Secret"""
 
     ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
     with pytest.raises(grading.HiddenChecksRefused, match="no namespaces here"):
-        grading.grade(SUBMISSION, exercise(checks), isolation=Isolation(Kind.NONE, "no namespaces here"))
+        grading.grade(
+            SUBMISSION,
+            exercise(replace(secret, hidden=True)),
+            isolation=Isolation(Kind.NONE, "no namespaces here"),
+        )
     assert ran == []
 
 

@@ -21,27 +21,26 @@ def count(stage, to):
     stage.wait_for_end()
 """
 CHECKS = '''
-from autograder.checks import CheckList, program
+from autograder.checks import check, program
 from .judging import require_numbers
 
-CHECKS = CheckList()
 TO_THREE = program("count", {"to": 3}, timed=False)
 
 
-@CHECKS.check(points=1, on=TO_THREE)
+@check(points=1, on=TO_THREE)
 def counts_to_three(run):
     """It prints 1, 2, 3"""
     require_numbers(run)
 '''
 HIDDEN = '''
-from autograder.checks import CheckList, program
+from autograder.checks import check, program
+from .checks import counts_to_three
 from .judging import require_numbers
 
-CHECKS = CheckList(hidden=True)
 FURTHER = program("count", lambda random: {"to": random.randint(5, 9)}, timed=False)
 
 
-@CHECKS.check(points=2, on=FURTHER, needs=["counts_to_three"])
+@check(points=2, on=FURTHER, needs=counts_to_three)
 def counts_to_any_number(run):
     """It prints as many as it is told to"""
     require_numbers(run)
@@ -160,7 +159,12 @@ def test_its_archive_has_the_visible_checks_alone(repository):
     [
         ("scenarios.py", "from .judging import x\n" + SCENARIOS, "the arena sees this file alone"),
         ("scenarios.py", "def another(stage): ...\n", "'count', which"),
-        ("checks.py", CHECKS.replace("on=TO_THREE", 'on=TO_THREE, needs=["none"]'), "do not come before it"),
+        (
+            "hidden.py",
+            HIDDEN + "\nagain = counts_to_any_number\nalso = check(points=1, on=FURTHER)(again.judge)\n",
+            "two checks",
+        ),
+        ("checks.py", CHECKS.replace("counts_to_three", "counts"), "cannot import name"),
     ],
 )
 def test_what_its_author_has_to_mend_is_said(repository, file, text, said):
