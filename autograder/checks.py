@@ -79,6 +79,7 @@ def program(name: str, inputs: Inputs | None = None, **options: Any) -> Scenario
 class Check:
     """One check: `id` and `title` come from the function, `on` are the scenarios it judges, `needs` the ids of others.
 
+    `see` is the lesson that its failures point to, unless one names another: CHAPTER#cell, or an address.
     `hidden` is set when it is loaded: a check is hidden because it stands in hidden.py.
     """
 
@@ -88,6 +89,7 @@ class Check:
     judge: Judge
     on: tuple[Scenario, ...]
     needs: tuple[str, ...]
+    see: str = ""
     hidden: bool = False
 
     def run(self, transcripts: Sequence[Transcript]) -> None:
@@ -96,11 +98,12 @@ class Check:
 
 
 def check(
-    *, points: int, on: Scenario | Sequence[Scenario], needs: Check | Sequence[Check] = ()
+    *, points: int, on: Scenario | Sequence[Scenario], needs: Check | Sequence[Check] = (), see: str = ""
 ) -> Callable[[Judge], Check]:
     """Make a check worth `points` of a function, judged on the transcript of each scenario in `on`.
 
-    `needs` are checks that must have passed; otherwise this one is reported as not run.
+    `needs` are checks that must have passed; otherwise this one is reported as not run. `see` is the lesson that its
+    failures point to, such as "02_services#m9-why".
     """
     scenarios = (on,) if isinstance(on, Scenario) else tuple(on)
     needed = (needs,) if isinstance(needs, Check) else tuple(needs)
@@ -109,7 +112,7 @@ def check(
         if not judge.__doc__:
             raise ValueError(f"the check {judge.__name__} needs a docstring: it is its title")
         title = judge.__doc__.strip().splitlines()[0].rstrip(".")
-        return Check(judge.__name__, title, points, judge, scenarios, tuple(need.id for need in needed))
+        return Check(judge.__name__, title, points, judge, scenarios, tuple(need.id for need in needed), see)
 
     return make
 

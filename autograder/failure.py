@@ -4,21 +4,29 @@ from __future__ import annotations
 
 
 class Failure(Exception):
-    """A fault of the submission: expected, observed, when (arena s), and one next step in plain words."""
+    """A fault of the submission: expected, observed, when (arena s), and one next step in plain words.
 
-    def __init__(self, *, expected: str, observed: str, help: str, at: float | None = None) -> None:
+    `see` is the lesson it points to, such as "02_services#m9-why"; without one it is the check's.
+    """
+
+    def __init__(
+        self, *, expected: str, observed: str, help: str, at: float | None = None, see: str = ""
+    ) -> None:
         super().__init__(f"expected {expected}; observed {observed}")
         self.expected = expected
         self.observed = observed
         self.help = help
         self.at = at
+        self.see = see
 
 
 class CannotBeJudged(Exception):
     """The arena did not do what the scenario says, and nothing of the submission's explains it: no grade."""
 
 
-def expect(condition: bool, *, expected: str, observed: str, help: str, at: float | None = None) -> None:
+def expect(
+    condition: bool, *, expected: str, observed: str, help: str, at: float | None = None, see: str = ""
+) -> None:
     """Raise a :class:`Failure` unless the condition holds."""
     if not condition:
-        raise Failure(expected=expected, observed=observed, help=help, at=at)
+        raise Failure(expected=expected, observed=observed, help=help, at=at, see=see)

@@ -6,6 +6,7 @@ import traceback
 from collections.abc import Sequence
 
 from autograder import events as ev
+from autograder import lesson
 from autograder.bounds import require_bounded
 from autograder.checks import Check
 from autograder.failure import CannotBeJudged, Failure
@@ -33,7 +34,7 @@ def judge(check: Check, transcripts: Sequence[Transcript]) -> CheckVerdict:
             "failed",
             expected=failure.expected,
             observed=failure.observed,
-            help=failure.help,
+            help=_with_lesson(failure.help, failure.see or check.see),
             robot_time=failure.at,
             log=log,
         )
@@ -43,6 +44,10 @@ def judge(check: Check, transcripts: Sequence[Transcript]) -> CheckVerdict:
         trace = traceback.format_exc()
         return verdict_on(check, "error", help=f"Not graded: the check itself failed.\n{trace}", log=log)
     return verdict_on(check, "passed", points=check.points, log=log)
+
+
+def _with_lesson(help: str, see: str) -> str:
+    return f"{help} Read {lesson.in_words(see)}." if see else help
 
 
 def verdict_on(

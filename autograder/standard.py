@@ -17,15 +17,15 @@ from autograder.transcript import Transcript
 Needs = Check | Sequence[Check]
 
 
-def server_appears(what: str, *, points: int, on: Scenario) -> Check:
+def server_appears(what: str, *, points: int, on: Scenario, see: str = "") -> Check:
     """The node offers `what`, in words; `on` is best the shortest scenario, as this verdict is waited for."""
-    return _check("server_appears", f"The node offers {what}", require_ready, points=points, on=on)
+    return _check("server_appears", f"The node offers {what}", require_ready, points=points, on=on, see=see)
 
 
-def ends_cleanly(*, points: int, on: Scenario, needs: Needs) -> Check:
+def ends_cleanly(*, points: int, on: Scenario, needs: Needs, see: str = "") -> Check:
     """Ctrl-C ends the node with exit status 0; the scenario presses it."""
     title = "Ctrl-C ends the node with exit status 0"
-    return _check("ends_cleanly", title, require_clean_exit, points=points, on=on, needs=needs)
+    return _check("ends_cleanly", title, require_clean_exit, points=points, on=on, needs=needs, see=see)
 
 
 def answers_every_request(
@@ -61,9 +61,10 @@ def _check(
     points: int,
     on: Scenario,
     needs: Needs = (),
+    see: str = "",
 ) -> Check:
     def judge(run: Transcript) -> None:
         require(run)
 
     judge.__name__, judge.__doc__ = id, title
-    return check(points=points, on=on, needs=needs)(judge)
+    return check(points=points, on=on, needs=needs, see=see)(judge)

@@ -48,7 +48,7 @@ class SubmissionArena:
     Raises :class:`.isolation.bubblewrap.SandboxError` when it cannot start.
     """
 
-    def __init__(self, scenario_file: Path, kind: Kind | None = None) -> None:
+    def __init__(self, scenario_file: Path, kind: Kind) -> None:
         self._orders, theirs = socket.socketpair()
         environment = {
             **ros_environment(),

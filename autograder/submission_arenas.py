@@ -11,6 +11,7 @@ from pathlib import Path
 from types import TracebackType
 
 from autograder.isolation.arena_spec import ISOLATION_VARIABLE, Kind
+from autograder.isolation.availability import available_isolation
 from autograder.isolation.bubblewrap import SandboxError
 from autograder.submission_arena import SubmissionArena
 
@@ -50,7 +51,7 @@ class SubmissionArenas:
     @contextmanager
     def one(self) -> Iterator[SubmissionArena]:
         """Lend an arena that nobody uses; after an exception it is closed and not used again."""
-        arena = self._take() or SubmissionArena(self._scenario_file, self._kind)
+        arena = self._take() or SubmissionArena(self._scenario_file, self._kind or available_isolation().kind)
         try:
             yield arena
         except BaseException:

@@ -31,19 +31,18 @@ PARTS = (
     "docs/images",
     "docs/robot.md",
 )
-# The instructor's side, and a walking server for measurements. `course` lists only commands whose modules are there.
+# The instructor's side. `course` lists only commands whose modules are there.
 KEPT_BACK = (
     "autograder/audit",
     "autograder/batch",
     "autograder/nbgrader_bridge",
-    "course_cli/demo",
+    "autograder/new_exercise",
     "course_cli/student_bundle.py",
-    "ros_runtime/executor_bench",
     "autograder/bench",
     "course_cli/arena_bench.py",
     *(
         f"course_cli/commands/{name}.py"
-        for name in ("audit", "bench", "demo", "export", "grade", "release", "test")
+        for name in ("audit", "bench", "demo", "grade", "new", "release", "test")
     ),
 )
 _DATED = (2026, 1, 1, 0, 0, 0)  # a fixed date makes the archive reproducible

@@ -170,10 +170,6 @@ class Stage(Waiting):
             return False
         return self._wait_for_reply("result", goal, lambda: goal in probe.results, timeout)
 
-    def has_result(self, action: str, goal: str) -> bool:
-        """Whether the goal's result has come."""
-        return goal in self._actions[action].results
-
     def cancel(self, action: str, goal: str = "", *, by: str = "client", wait: bool = True) -> str:
         """Ask to cancel a goal (none named: every goal); returns the request's name ('cancel 1', …)."""
         cancel = self._name("cancel")

@@ -15,8 +15,3 @@ def write_grades(path: Path, grades: Sequence[Grade]) -> None:
     """Write a batch as one list, for the instructor: with everything that hidden checks have seen."""
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps([grade.to_json() for grade in grades], indent=2) + "\n")
-
-
-def read_grades(path: Path) -> list[Grade]:
-    """Read back what :func:`write_grades` wrote."""
-    return [Grade.from_json(record) for record in json.loads(path.read_text())]

@@ -1,7 +1,7 @@
 """The controller's side of an arena: start it, watch its memory and its deadline, know that nothing is left.
 
     spec = ArenaSpec([sys.executable, "-m", "autograder.arena.host"], read_only_paths=[…], pass_fds=[orders])
-    arena = start_arena(spec)
+    arena = start_arena(spec, available_isolation().kind)
     report = arena.wait()
 
 The command is trusted; what it starts with :mod:`.student_process` is not.
@@ -68,16 +68,11 @@ class ArenaReport:
         return f"the arena's command ended with status {self.exit_code}"
 
 
-def start_arena(spec: ArenaSpec, kind: Kind | None = None) -> ArenaProcess:
-    """Start an arena and return once its command is about to run.
+def start_arena(spec: ArenaSpec, kind: Kind) -> ArenaProcess:
+    """Start an arena of a kind and return once its command is about to run.
 
-    `kind` is what :func:`.availability.available_isolation` found unless given. Raises
-    :class:`.bubblewrap.SandboxError` when it cannot start.
+    Raises :class:`.bubblewrap.SandboxError` when it cannot start.
     """
-    if kind is None:
-        from autograder.isolation.availability import available_isolation
-
-        kind = available_isolation().kind
     return ArenaProcess(spec, kind)
 
 

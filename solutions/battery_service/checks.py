@@ -20,16 +20,18 @@ LEVELS = Scenario("ask_at_levels", {"levels": [0.8, 0.35]}, robot=RESTING)
 INTERRUPT = Scenario("interrupt", robot=RESTING)
 
 
-server_appears = standard.server_appears("get_battery_status", points=1, on=INTERRUPT)
+server_appears = standard.server_appears(
+    "get_battery_status", points=1, on=INTERRUPT, see="02_services#first-file"
+)
 
 
-@check(points=1, on=ASK_ONCE, needs=server_appears)
+@check(points=1, on=ASK_ONCE, needs=server_appears, see="02_services#battery-rules")
 def answers_with_the_last_message(run: Transcript) -> None:
     """It answers with the robot's last battery_state, field by field"""
     require_last_message(run)
 
 
-@check(points=2, on=SENSOR_UNPLUGGED, needs=server_appears)
+@check(points=2, on=SENSOR_UNPLUGGED, needs=server_appears, see="02_services#m9-fix-why")
 def says_when_it_knows_nothing(run: Transcript) -> None:
     """Before the first message it answers available: false and a percentage of NaN"""
     answer = require_first_answer(run)
@@ -51,10 +53,12 @@ def says_when_it_knows_nothing(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=LEVELS, needs=answers_with_the_last_message)
+@check(points=1, on=LEVELS, needs=answers_with_the_last_message, see="02_services#battery-rules")
 def follows_the_battery(run: Transcript) -> None:
     """When the charge changes, so does the answer"""
     require_last_message_at_each_level(run)
 
 
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)
+ends_cleanly = standard.ends_cleanly(
+    points=1, on=INTERRUPT, needs=server_appears, see="02_services#conventions"
+)

@@ -42,10 +42,12 @@ INTERRUPT = Scenario("interrupt", robot=RESTING)
 KNOWN = 0.6  # s for a change of the robot to be known to the node
 
 
-server_appears = standard.server_appears("the action walk_to", points=1, on=INTERRUPT)
+server_appears = standard.server_appears(
+    "the action walk_to", points=1, on=INTERRUPT, see="07_cancel_and_preempt#fix-file"
+)
 
 
-@check(points=1, on=WALK, needs=server_appears)
+@check(points=1, on=WALK, needs=server_appears, see="07_cancel_and_preempt#m2-why")
 def accepts_a_goal(run: Transcript) -> None:
     """It accepts a pose in frame odom"""
     require_accepted(run, "walk")
@@ -57,7 +59,7 @@ def arrives(run: Transcript) -> None:
     require_arrival(run, "walk")
 
 
-@check(points=1, on=WALK, needs=arrives)
+@check(points=1, on=WALK, needs=arrives, see="07_cancel_and_preempt#m13-why")
 def fills_the_result(run: Transcript) -> None:
     """The result holds the final pose, the steps and error_code NONE"""
     require_filled_result(run, "walk")
@@ -134,14 +136,14 @@ def _require_power_cut(run: Transcript) -> None:
     )
 
 
-@check(points=2, on=MID_STRIDE, needs=accepts_a_goal)
+@check(points=2, on=MID_STRIDE, needs=accepts_a_goal, see="07_cancel_and_preempt#m1-why")
 def cancels_in_mid_stride(run: Transcript) -> None:
     """A cancel while the robot walks is agreed to and ends CANCELED"""
     request = require_canceled(run, "after 1 s")
     require_walking(run, request.t)
 
 
-@check(points=2, on=MID_STRIDE, needs=cancels_in_mid_stride)
+@check(points=2, on=MID_STRIDE, needs=cancels_in_mid_stride, see="07_cancel_and_preempt#m12-robot-why")
 def stops_when_canceled(run: Transcript) -> None:
     """Within 2 s of the cancel the robot stands still and upright"""
     request = run.cancels_of("after 1 s")[-1].sent
@@ -156,7 +158,7 @@ def walks_again_after_a_cancel(run: Transcript) -> None:
     require_arrival(run, "again")
 
 
-@check(points=2, on=PREEMPT, needs=arrives)
+@check(points=2, on=PREEMPT, needs=arrives, see="07_cancel_and_preempt#preempt-why")
 def new_goal_preempts_the_old(run: Transcript) -> None:
     """A new goal aborts the old one with PREEMPTED and is walked to"""
     require_accepted(run, "old")
@@ -174,7 +176,7 @@ def new_goal_preempts_the_old(run: Transcript) -> None:
     require_arrival(run, "new")
 
 
-@check(points=1, on=FALL, needs=accepts_a_goal)
+@check(points=1, on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why")
 def aborts_when_the_robot_falls(run: Transcript) -> None:
     """When the robot falls the goal is ABORTED with FELL"""
     goal = require_accepted(run, "walk")
@@ -190,4 +192,6 @@ def aborts_when_the_robot_falls(run: Transcript) -> None:
     require_error_code(result, FELL, "FELL")
 
 
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)
+ends_cleanly = standard.ends_cleanly(
+    points=1, on=INTERRUPT, needs=server_appears, see="07_cancel_and_preempt#conventions"
+)

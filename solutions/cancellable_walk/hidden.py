@@ -123,7 +123,7 @@ def survives_a_cancel_after_the_end(run: Transcript) -> None:
     require_arrival(run, "second")
 
 
-@check(points=1, on=TWICE, needs=cancels_in_mid_stride)
+@check(points=1, on=TWICE, needs=cancels_in_mid_stride, see="07_cancel_and_preempt#m12-why")
 def survives_two_cancels(run: Transcript) -> None:
     """The same cancel asked for twice ends CANCELED once, and both are answered"""
     require_canceled_by_first(run)
@@ -158,7 +158,7 @@ def obeys_a_stranger(run: Transcript) -> None:
     require_stopped(run, request.t)
 
 
-@check(points=1, on=OTHER_NAMESPACE, needs=arrives)
+@check(points=1, on=OTHER_NAMESPACE, needs=arrives, see="01_robot_and_graph#names-why")
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it walks the robot there"""
     require_arrival(run, "walk")

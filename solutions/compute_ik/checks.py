@@ -65,24 +65,24 @@ REAL_ARM = Scenario(
 INTERRUPT = Scenario("interrupt", {"questions": {"within reach": [ask_for(0.4, 0.3)]}}, robot=RESTING)
 
 
-server_appears = standard.server_appears("compute_ik", points=1, on=INTERRUPT)
+server_appears = standard.server_appears("compute_ik", points=1, on=INTERRUPT, see="02_services#first-file")
 
 
-@check(points=2, on=POINTS, needs=server_appears)
+@check(points=2, on=POINTS, needs=server_appears, see="04_your_own_interfaces#cosine-why")
 def reaches_the_point(run: Transcript) -> None:
     """The angles it answers with bring the hand to the point, within 1 mm"""
     for reply in replies(run, "within reach"):
         require_hit(reply)
 
 
-@check(points=2, on=POINTS, needs=reaches_the_point)
+@check(points=2, on=POINTS, needs=reaches_the_point, see="04_your_own_interfaces#cosine-why")
 def bends_the_elbow_as_asked(run: Transcript) -> None:
     """The elbow is above the line to the target with elbow_up, below it without"""
     for reply in replies(run, "within reach"):
         require_side(reply)
 
 
-@check(points=2, on=POINTS, needs=server_appears)
+@check(points=2, on=POINTS, needs=server_appears, see="04_your_own_interfaces#cosine-why")
 def says_what_is_out_of_reach(run: Transcript) -> None:
     """Too far and too near is NO_IK_SOLUTION, and what can be reached is not"""
     for reply in replies(run, "within reach"):
@@ -117,7 +117,7 @@ def refuses_other_frames(run: Transcript) -> None:
         )
 
 
-@check(points=2, on=REAL_ARM, needs=bends_the_elbow_as_asked)
+@check(points=2, on=REAL_ARM, needs=bends_the_elbow_as_asked, see="04_your_own_interfaces#parameters-why")
 def moves_the_real_hand(run: Transcript) -> None:
     """Started with the robot's own lengths as parameters, its angles bring the robot's hand to the point"""
     for reply in replies(run, "with the arm"):
@@ -150,4 +150,6 @@ def _require_the_hand_there(run: Transcript, reply: Reply) -> None:
     )
 
 
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)
+ends_cleanly = standard.ends_cleanly(
+    points=1, on=INTERRUPT, needs=server_appears, see="02_services#conventions"
+)

@@ -24,37 +24,37 @@ FEEDBACK = {
 }
 
 
-@check(points=1, on=SERVICE)
+@check(points=1, on=SERVICE, see="04_your_own_interfaces#draft-why")
 def service_builds(run: Transcript) -> None:
     """GetBatteryStatus.srv builds"""
     require_built(run)
 
 
-@check(points=2, on=SERVICE, needs=service_builds)
+@check(points=2, on=SERVICE, needs=service_builds, see="04_your_own_interfaces#anatomy")
 def response_has_its_fields(run: Transcript) -> None:
     """Its response has available, battery and message"""
     require_fields(run, "response", RESPONSE)
 
 
-@check(points=1, on=ACTION)
+@check(points=1, on=ACTION, see="04_your_own_interfaces#draft-why")
 def action_builds(run: Transcript) -> None:
     """NavigateToPose.action builds"""
     require_built(run)
 
 
-@check(points=2, on=ACTION, needs=action_builds)
+@check(points=2, on=ACTION, needs=action_builds, see="04_your_own_interfaces#anatomy")
 def goal_has_its_fields(run: Transcript) -> None:
     """Its goal has a pose with a frame, and a tolerance"""
     require_fields(run, "goal", GOAL)
 
 
-@check(points=2, on=ACTION, needs=action_builds)
+@check(points=2, on=ACTION, needs=action_builds, see="04_your_own_interfaces#anatomy")
 def result_has_its_fields(run: Transcript) -> None:
     """Its result has error_code, error_msg and distance_traveled"""
     require_fields(run, "result", RESULT)
 
 
-@check(points=2, on=ACTION, needs=action_builds)
+@check(points=2, on=ACTION, needs=action_builds, see="04_your_own_interfaces#anatomy")
 def feedback_has_its_fields(run: Transcript) -> None:
     """Its feedback has the seven fields of the task"""
     require_fields(run, "feedback", FEEDBACK)

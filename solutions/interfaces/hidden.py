@@ -17,7 +17,7 @@ def request_is_empty(run: Transcript) -> None:
     require_fields(run, "request", {})
 
 
-@check(points=2, on=ACTION, needs=action_builds)
+@check(points=2, on=ACTION, needs=action_builds, see="04_your_own_interfaces#anatomy")
 def error_codes_have_names(run: Transcript) -> None:
     """The result names its error codes, 0 to 3"""
     require_constants(run, "result", "uint16", ERROR_CODES)

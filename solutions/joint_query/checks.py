@@ -41,7 +41,9 @@ UNPLUGGED = Scenario(
 INTERRUPT = Scenario("interrupt", {"names": SIX_JOINTS}, robot=RESTING)
 
 
-server_appears = standard.server_appears("get_joint_positions", points=1, on=INTERRUPT)
+server_appears = standard.server_appears(
+    "get_joint_positions", points=1, on=INTERRUPT, see="02_services#first-file"
+)
 
 
 @check(points=1, on=ASK, needs=server_appears)
@@ -50,13 +52,13 @@ def finds_the_joints(run: Transcript) -> None:
     require_success(run, call_for(run, SIX_JOINTS))
 
 
-@check(points=1, on=ASK, needs=finds_the_joints)
+@check(points=1, on=ASK, needs=finds_the_joints, see="01_robot_and_graph#joints-run")
 def keeps_the_order_asked(run: Transcript) -> None:
     """joint_state.name holds the names asked for, in the order of the request"""
     require_names(run, call_for(run, SIX_JOINTS))
 
 
-@check(points=2, on=ASK, needs=finds_the_joints)
+@check(points=2, on=ASK, needs=finds_the_joints, see="01_robot_and_graph#joints-run")
 def positions_are_the_robots(run: Transcript) -> None:
     """Each position is that of the joint beside it, in radians, as the robot published it"""
     require_positions(run, call_for(run, SIX_JOINTS))
@@ -89,7 +91,7 @@ def follows_the_robot(run: Transcript) -> None:
     require_positions(run, call)
 
 
-@check(points=2, on=ASK, needs=finds_the_joints)
+@check(points=2, on=ASK, needs=finds_the_joints, see="02_services#set-refuse-why")
 def names_every_unknown_joint(run: Transcript) -> None:
     """Unknown joints: success: false and a message that names each of them; then it serves on"""
     call = call_for(run, STRANGERS)
@@ -113,7 +115,7 @@ def names_every_unknown_joint(run: Transcript) -> None:
     require_success(run, question(run, 5))
 
 
-@check(points=1, on=UNPLUGGED, needs=server_appears)
+@check(points=1, on=UNPLUGGED, needs=server_appears, see="02_services#m9-fix-why")
 def says_when_it_knows_nothing(run: Transcript) -> None:
     """Before the first joint_states it answers success: false, also to an empty list"""
     for names in (SIX_JOINTS, []):
@@ -127,4 +129,6 @@ def says_when_it_knows_nothing(run: Transcript) -> None:
         )
 
 
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)
+ends_cleanly = standard.ends_cleanly(
+    points=1, on=INTERRUPT, needs=server_appears, see="02_services#conventions"
+)

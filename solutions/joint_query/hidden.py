@@ -109,7 +109,7 @@ def answers_every_request(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=EVERY_WAY, needs=answers_in_any_posture)
+@check(points=1, on=EVERY_WAY, needs=answers_in_any_posture, see="01_robot_and_graph#joints-run")
 def looks_joints_up_by_name(run: Transcript) -> None:
     """When joint_states lists the joints in another order, each position is still its own joint's"""
     call = call_for(run, run.params["reordered"])

@@ -24,10 +24,12 @@ SWITCH = Scenario("switch_off_and_on", robot=ON_A_STAND)
 WALK = Scenario("switch_off_while_walking", {"velocity": [0.3, 0.0, 0.0]})
 
 
-server_appears = standard.server_appears("enable_motors and get_status", points=1, on=INTERRUPT)
+server_appears = standard.server_appears(
+    "enable_motors and get_status", points=1, on=INTERRUPT, see="02_services#first-file"
+)
 
 
-@check(points=1, on=STATUS, needs=server_appears)
+@check(points=1, on=STATUS, needs=server_appears, see="02_services#first-file")
 def tells_the_status(run: Transcript) -> None:
     """get_status says "Motors: ON" while the motors are on"""
     require_status(run, 1, on=True)
@@ -40,7 +42,7 @@ def follows_the_robot(run: Transcript) -> None:
     require_status_after_a_change(run, 3, on=True)
 
 
-@check(points=1, on=SILENT_ROBOT, needs=server_appears)
+@check(points=1, on=SILENT_ROBOT, needs=server_appears, see="02_services#m9-fix-why")
 def says_when_it_knows_nothing(run: Transcript) -> None:
     """Before the first robot_state, get_status answers success: false"""
     answer = require_answer(run, require_silence_so_far(run))
@@ -54,22 +56,24 @@ def says_when_it_knows_nothing(run: Transcript) -> None:
     )
 
 
-@check(points=2, on=SWITCH, needs=server_appears)
+@check(points=2, on=SWITCH, needs=server_appears, see="02_services#set-file")
 def powers_off(run: Transcript) -> None:
     """enable_motors with data: false is granted to a standing robot, and its motors lose their torque"""
     require_switched(run, 1)
 
 
-@check(points=1, on=SWITCH, needs=powers_off)
+@check(points=1, on=SWITCH, needs=powers_off, see="02_services#set-file")
 def powers_on(run: Transcript) -> None:
     """enable_motors with data: true is granted, and the motors have their torque again"""
     require_switched(run, 2)
 
 
-@check(points=3, on=WALK, needs=powers_off)
+@check(points=3, on=WALK, needs=powers_off, see="02_services#set-refuse-why")
 def refuses_off_while_walking(run: Transcript) -> None:
     """While the robot walks, power off is refused with a sentence, and it walks on"""
     require_refused(run, 1)
 
 
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)
+ends_cleanly = standard.ends_cleanly(
+    points=1, on=INTERRUPT, needs=server_appears, see="02_services#conventions"
+)

@@ -7,6 +7,7 @@ from autograder.transcript import Transcript
 
 from .judging import Situation, judge_of, require_answers
 
+PATTERNS = "01_robot_and_graph#patterns"  # the lesson
 ANSWERS = program("print_answers", timed=False)
 
 
@@ -92,5 +93,6 @@ SEEN = (
 )
 
 situations = [
-    check(points=1, on=ANSWERS, needs=answers_everything)(judge_of(situation)) for situation in SEEN
+    check(points=1, on=ANSWERS, needs=answers_everything, see=PATTERNS)(judge_of(situation))
+    for situation in SEEN
 ]

@@ -25,19 +25,19 @@ FIRST_LOST = program("first_lost", {"status": "Motors: ON"})
 SOONEST, LATEST = 1.5, 3.5  # s between a request and its repetition; 2 s are asked for
 
 
-@check(points=2, on=GOOD)
+@check(points=2, on=GOOD, see="03_clients_that_survive#fix-frame")
 def enables_then_asks(run: Transcript) -> None:
     """It enables the motors, and asks for the status once that is answered"""
     require_enabled_before_asked(run)
 
 
-@check(points=2, on=GOOD, needs=enables_then_asks)
+@check(points=2, on=GOOD, needs=enables_then_asks, see="03_clients_that_survive#fix-frame")
 def prints_the_status(run: Transcript) -> None:
     """It prints “Robot status: ” with the message of the answer, and ends with status 0"""
     require_printed_status(run, [run.params["status"]])
 
 
-@check(points=2, on=NOBODY, needs=prints_the_status)
+@check(points=2, on=NOBODY, needs=prints_the_status, see="03_clients_that_survive#fix-why")
 def gives_up_without_servers(run: Transcript) -> None:
     """Without any server it ends with status 1 within 10 s, and says so on stderr"""
     for service in (ENABLE, STATUS):
@@ -45,7 +45,7 @@ def gives_up_without_servers(run: Transcript) -> None:
     require_failure(run, WITHIN, NO_SERVER, "nobody offers enable_motors and get_status")
 
 
-@check(points=2, on=SILENT_ENABLE, needs=prints_the_status)
+@check(points=2, on=SILENT_ENABLE, needs=prints_the_status, see="03_clients_that_survive#fix-why")
 def asks_once_more(run: Transcript) -> None:
     """Without an answer it asks once more after 2 s, then gives up with status 1"""
     first, second = require_silence(run, ENABLE, 2)
@@ -60,7 +60,7 @@ def asks_once_more(run: Transcript) -> None:
     require_failure(run, WITHIN, NO_SERVER, "enable_motors has not answered")
 
 
-@check(points=1, on=FIRST_LOST, needs=prints_the_status)
+@check(points=1, on=FIRST_LOST, needs=prints_the_status, see="03_clients_that_survive#late-why")
 def makes_use_of_the_second_answer(run: Transcript) -> None:
     """When the first request of a service is lost, the second one counts"""
     require_printed_second_answer(run)

@@ -59,7 +59,7 @@ def prints_any_status(run: Transcript) -> None:
     require_printed_status(run, [run.params["status"]])
 
 
-@check(points=1, on=OTHER_NAMESPACE, needs=prints_the_status)
+@check(points=1, on=OTHER_NAMESPACE, needs=prints_the_status, see="01_robot_and_graph#names-why")
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it asks the robot there"""
     require_printed_status(run, [run.params["status"]])
@@ -83,14 +83,14 @@ def gives_up_on_a_silent_status(run: Transcript) -> None:
     require_failure(run, WITHIN, NO_SERVER, "get_status has not answered")
 
 
-@check(points=1, on=SLOW, needs=prints_the_status)
+@check(points=1, on=SLOW, needs=prints_the_status, see="03_clients_that_survive#fix-why")
 def waits_for_slow_answers(run: Transcript) -> None:
     """Answers that take 1 s are waited for"""
     require_printed_status(run, [run.params["status"]])
     require_pause(run, run.params["after"])
 
 
-@check(points=1, on=LATE, needs=makes_use_of_the_second_answer)
+@check(points=1, on=LATE, needs=makes_use_of_the_second_answer, see="03_clients_that_survive#late-why")
 def is_not_confused_by_a_late_answer(run: Transcript) -> None:
     """An answer that comes after its time, while the next is waited for, does no harm"""
     require_printed_status(run, run.params["statuses"])
@@ -99,28 +99,30 @@ def is_not_confused_by_a_late_answer(run: Transcript) -> None:
         raise unseen(run, "the first answer did not come late")
 
 
-@check(points=1, on=DYING, needs=asks_once_more)
+@check(points=1, on=DYING, needs=asks_once_more, see="03_clients_that_survive#kill-why")
 def survives_a_dying_server(run: Transcript) -> None:
     """A server that dies in the middle of a request ends it with status 1"""
     require_withdrawn(run, STATUS)
     require_failure(run, WITHIN, NO_SERVER, "get_status died before it answered")
 
 
-@check(points=1, on=RESTARTING, needs=makes_use_of_the_second_answer)
+@check(
+    points=1, on=RESTARTING, needs=makes_use_of_the_second_answer, see="03_clients_that_survive#restart-why"
+)
 def finds_a_restarted_server(run: Transcript) -> None:
     """A server that dies and comes back is asked again"""
     require_withdrawn(run, STATUS)
     require_printed_status(run, [run.params["status"]])
 
 
-@check(points=1, on=TWO, needs=prints_the_status)
+@check(points=1, on=TWO, needs=prints_the_status, see="03_clients_that_survive#two-why")
 def copes_with_two_servers(run: Transcript) -> None:
     """Two servers of one name give one status"""
     require_played(run, STATUS, servers=2)
     require_printed_status(run, [run.params["status"]])
 
 
-@check(points=1, on=REFUSING, needs=prints_the_status)
+@check(points=1, on=REFUSING, needs=prints_the_status, see="03_clients_that_survive#success-why")
 def reports_a_refusal(run: Transcript) -> None:
     """When enable_motors says no, it does not end with status 0"""
     reply = require_reply(run, ENABLE)

@@ -13,6 +13,7 @@ from typing import Any
 
 import autograder.isolation
 from autograder.isolation.arena_process import ArenaReport, ArenaSpec, Kind, start_arena
+from autograder.isolation.availability import available_isolation
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.python_paths import python_read_only_paths
 from autograder.isolation.student_sandbox import waiting_environment
@@ -72,7 +73,8 @@ class Student:
 
 def run_student(student: Student, kind: Kind | None = None, deadline_s: float = 30.0) -> StudentRun:
     """Run the program in an arena to its end; what the trusted process meets with is an AssertionError here."""
-    report = start_arena(student.spec(ArenaLimits(deadline_s=deadline_s, output_kib=8192)), kind).wait()
+    spec = student.spec(ArenaLimits(deadline_s=deadline_s, output_kib=8192))
+    report = start_arena(spec, kind or available_isolation().kind).wait()
     assert report.exit_code == 0, f"{report}\n{report.stdout.text}\n{report.stderr.text}"
     seen = json.loads(report.stdout.text.replace("\n", ""))
     return StudentRun(report=report, **seen)

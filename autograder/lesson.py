@@ -1,0 +1,43 @@
+"""The lesson that a failure points to: CHAPTER#cell, as in docs/coverage.md, or an address of the author's own."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+
+CHAPTERS = Path(__file__).resolve().parents[1] / "chapters"
+
+
+def in_words(see: str) -> str:
+    """Return where to read: the chapter's file and the heading above the cell.
+
+    >>> in_words("02_services#m9-why")
+    'chapters/02_services.ipynb, “Break it: ask before there is an answer”'
+    """
+    chapter, _, cell = see.partition("#")
+    if "://" in see:
+        return see
+    heading = _headings(chapter).get(cell)
+    return f"chapters/{chapter}.ipynb" + (f", “{heading}”" if heading else "")
+
+
+def is_there(see: str) -> bool:
+    """Whether there is such a cell; an address is taken as it is."""
+    chapter, _, cell = see.partition("#")
+    return "://" in see or cell in _headings(chapter)
+
+
+@cache
+def _headings(chapter: str) -> dict[str, str]:
+    """Return, for each cell of a chapter, the heading it stands under; {} where there is no such chapter."""
+    path = CHAPTERS / f"{chapter}.ipynb"
+    if not path.exists():
+        return {}
+    headings, latest = {}, ""
+    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "markdown":
+            titles = [line for line in "".join(cell["source"]).splitlines() if line.startswith("#")]
+            latest = titles[-1].lstrip("# ") if titles else latest
+        headings[cell["id"]] = latest
+    return headings

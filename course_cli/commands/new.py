@@ -1,0 +1,45 @@
+"""`course new`: the folder of a new exercise."""
+
+from enum import Enum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from autograder.exercise import exercises_folder, use_exercises_of
+from autograder.nbgrader_bridge.release import bring_in_step
+from autograder.new_exercise.make import KINDS, CannotMake, make_exercise
+from course_cli.ending import UNUSABLE, ended
+
+Kind = Enum("Kind", {kind: kind for kind in KINDS}, type=str)  # type: ignore[misc]
+
+
+def new(
+    exercise: Annotated[str, typer.Argument(help="its name, such as battery_service")],
+    kind: Annotated[Kind, typer.Option(help="what students write")],
+    course: Annotated[
+        Path | None,
+        typer.Option(
+            "--course",
+            metavar="FOLDER",
+            help="a folder of exercises, made when missing (default: that of this course)",
+        ),
+    ] = None,
+) -> None:
+    """Make the folder of a new exercise, which passes its own audit, to be changed into yours."""
+    console = Console(highlight=False)
+    place = course or exercises_folder()
+    try:
+        folder = make_exercise(exercise, kind.value, place)
+    except CannotMake as error:
+        raise ended(console, error, UNUSABLE) from error
+    use_exercises_of(place)
+    bring_in_step(place, place.parent / "exercises")
+    for path in sorted(path for path in folder.rglob("*") if path.is_file() and path.suffix != ".pyc"):
+        console.print(f"  {path}", markup=False, soft_wrap=True)
+    also = f" --course {course}" if course else ""
+    console.print(
+        f"See it work: ./course audit {exercise}{also}. Then change task, scenarios and checks, and audit it again.",
+        soft_wrap=True,
+    )

@@ -1,0 +1,57 @@
+"""A failure points to the lesson where its fault is seen, and that lesson is there."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from autograder import events as ev
+from autograder import lesson
+from autograder.checks import Failure, Scenario, check
+from autograder.exercise import exercise_names, exercises_folder, load_exercise
+from autograder.judging import judge
+from autograder.transcript import Transcript
+
+WHOLE = [ev.NodeStarted(t=0.0), ev.NodeReady(t=0.1, waited=0.1), ev.ScenarioEnded(t=3.0)]
+
+
+def lessons_of(exercise: str) -> list[str]:
+    """What its checks and the failures in its modules point to."""
+    modules = (exercises_folder() / exercise).glob("*.py")
+    named = [see for module in modules for see in re.findall(r'see="([^"]+)"', module.read_text())]
+    return [*named, *(one.see for one in load_exercise(exercise, hidden=True).checks if one.see)]
+
+
+@pytest.mark.parametrize("exercise", exercise_names())
+def test_every_lesson_that_an_exercise_points_to_is_there(exercise: str) -> None:
+    assert lessons_of(exercise)
+    assert [see for see in lessons_of(exercise) if not lesson.is_there(see)] == []
+
+
+@pytest.mark.parametrize("see", ["02_services#no-such-cell", "99_nothing#title", "02_services"])
+def test_a_lesson_that_is_gone_is_noticed(see: str) -> None:
+    assert not lesson.is_there(see)
+
+
+def test_a_cell_is_found_by_the_heading_it_stands_under() -> None:
+    assert lesson.in_words("02_services#m9-why") == (
+        "chapters/02_services.ipynb, “Break it: ask before there is an answer”"
+    )
+    assert lesson.in_words("https://docs.ros.org/x#y") == "https://docs.ros.org/x#y"
+    assert lesson.in_words("99_of_another_course#cell") == "chapters/99_of_another_course.ipynb"
+
+
+@pytest.mark.parametrize(
+    ("own", "told"),
+    [("", "“Break it: ask before there is an answer”"), ("02_services#m4-why", "“Pitfall: calling")],
+)
+def test_the_next_step_names_the_lesson_of_the_failure_or_of_the_check(own: str, told: str) -> None:
+    @check(points=1, on=Scenario("any", robot=None), see="02_services#m9-why")
+    def fails(run):
+        """It fails"""
+        raise Failure(expected="a", observed="b", help="Do this.", see=own)
+
+    help = judge(fails, [Transcript.from_events("any", {}, WHOLE)]).help
+    assert help.startswith("Do this. Read chapters/02_services.ipynb, ")
+    assert told in help
