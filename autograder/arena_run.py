@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import threading
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from autograder import events as ev
+from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.checks import Scenario
 from autograder.clock_scale import USUAL
 from autograder.exercise import Exercise
@@ -68,24 +68,25 @@ def run_in_arena(
         raise NotGraded(f"scenario {run.scenario.name}: {error}") from error
 
 
-def _specification(run: ArenaRun, params: dict[str, Any], scale: float, is_isolated: bool) -> dict[str, Any]:
-    return {
-        "scenario_file": str(run.exercise.scenario_file),
-        "scenario": run.scenario.name,
-        "params": params,
-        "namespace": run.scenario.namespace,
-        "robot_options": None if run.scenario.robot is None else list(run.scenario.robot),
-        "student": run.scenario.student,
-        "parameters": dict(run.scenario.parameters),
-        "file_name": run.exercise.file_names[0],
-        "files": {name: base64.b64encode(content).decode() for name, content in run.files.items()},
-        "scale": scale,
-        "timed": run.scenario.timed,
-        "student_paths": [str(path) for path in student_paths()],
-        "warm": not run.cold,
-        "own_network": is_isolated,
-        "measured": run.measured,
-    }
+def _specification(run: ArenaRun, params: dict[str, Any], scale: float, is_isolated: bool) -> ScenarioSpec:
+    scenario = run.scenario
+    return ScenarioSpec(
+        scenario_file=str(run.exercise.scenario_file),
+        scenario=scenario.name,
+        params=params,
+        scale=scale,
+        timed=scenario.timed,
+        namespace=scenario.namespace,
+        robot_options=scenario.robot,
+        student=scenario.student,
+        program=run.exercise.file_names[0],
+        files=run.files,
+        parameters=scenario.parameters,
+        student_paths=[str(path) for path in student_paths()],
+        warm=not run.cold,
+        own_network=is_isolated,
+        measured=run.measured,
+    )
 
 
 def _transcript(run: ArenaRun, params: dict[str, Any], scale: float, report: bytes) -> Transcript:

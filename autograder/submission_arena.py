@@ -15,9 +15,9 @@ import time
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 from autograder.arena.orders import DONE, send_order
+from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.isolation.arena_process import ArenaReport, ArenaSpec, Kind, start_arena
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.python_paths import python_read_only_paths
@@ -75,7 +75,7 @@ class SubmissionArena:
         self.kind = self._process.kind
         self.scenarios = 0  # so far
 
-    def carry_out(self, spec: dict[str, Any], deadline: float, stop: threading.Event | None) -> bytes:
+    def carry_out(self, spec: ScenarioSpec, deadline: float, stop: threading.Event | None) -> bytes:
         """Carry out a scenario and return its events, one JSON object a line.
 
         Raises :class:`ArenaEnded` when the arena ends before that: at the `deadline` (s), when `stop` is set, at more

@@ -14,13 +14,14 @@ import traceback
 from collections.abc import Sequence
 from contextlib import nullcontext, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from autograder.arena.phases import Phase, Phases
 from autograder.arena.punctuality import Punctuality
 from autograder.arena.recorder import Recorder
 from autograder.arena.robots import Robots
 from autograder.arena.scenario_file import scenarios_in
+from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
 from autograder.isolation.warm_interpreter import WarmInterpreter
@@ -30,15 +31,15 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 
-def import_everything(spec: dict[str, Any]) -> None:
+def import_everything(spec: ScenarioSpec) -> None:
     """Import what the scenario needs, so that a fork has it."""
     for module in ("autograder.arena.stage", "autograder.arena.client_stage"):
         importlib.import_module(module)
-    scenarios_in(spec["scenario_file"])
+    scenarios_in(spec.scenario_file)
 
 
 def carry_out(
-    spec: dict[str, Any],
+    spec: ScenarioSpec,
     events_fd: int,
     robots: Robots,
     interpreter: WarmInterpreter | None,
@@ -48,7 +49,7 @@ def carry_out(
     """Carry out the scenario in this process, a new fork of the host, and end it."""
     status = 0
     recorder = Recorder(events_fd)
-    phases = Phases(recorder, spec["measured"], earlier_phases)
+    phases = Phases(recorder, spec.measured, earlier_phases)
     try:
         with tempfile.TemporaryDirectory(prefix="scenario-") as folder:
             clock = ScaledClock.create(Path(folder, "clock"))
@@ -65,7 +66,7 @@ def carry_out(
 
 
 def _carry_out(
-    spec: dict[str, Any],
+    spec: ScenarioSpec,
     recorder: Recorder,
     phases: Phases,
     clock: ScaledClock,
@@ -74,13 +75,13 @@ def _carry_out(
 ) -> None:
     changed = threading.Condition()
     simulator = None
-    if spec["robot_options"] is not None:  # forked while this process has one thread
-        simulator = Simulator(recorder, changed, robots, spec["namespace"], spec["robot_options"])
+    if spec.robot_options is not None:  # forked while this process has one thread
+        simulator = Simulator(recorder, changed, robots, spec.namespace, spec.robot_options)
     student = Student(spec, recorder, changed, clock, interpreter)
     try:
         if simulator:
             simulator.listen()
-        if spec["student"] == "node":
+        if spec.student == "node":
             student.start()
         phases.end("start")
         _perform(spec, recorder, phases, changed, simulator, student, clock)
@@ -92,7 +93,7 @@ def _carry_out(
 
 
 def _perform(
-    spec: dict[str, Any],
+    spec: ScenarioSpec,
     recorder: Recorder,
     phases: Phases,
     changed: threading.Condition,
@@ -108,30 +109,30 @@ def _perform(
     from autograder.arena.spinning import keep_spinning
     from autograder.arena.stage import NodeMissing, Stage
 
-    punctuality = Punctuality(recorder, student, spec["scale"])
+    punctuality = Punctuality(recorder, student, spec.scale)
 
     def speed_up() -> None:
         punctuality.begin()
-        clock.run_at(spec["scale"])
+        clock.run_at(spec.scale)
         phases.end("settling")
 
-    scenario = getattr(scenarios_in(spec["scenario_file"]), spec["scenario"])
+    scenario = getattr(scenarios_in(spec.scenario_file), spec.scenario)
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-    node = _bare_node("observer", spec["namespace"])
+    node = _bare_node("observer", spec.namespace)
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     stage: Stage | ClientStage
-    if spec["student"] == "program":
+    if spec.student == "program":
         stage = ClientStage(node, recorder, changed, student, phases, speed_up)
     else:
-        stranger = _bare_node("stranger", spec["namespace"])
+        stranger = _bare_node("stranger", spec.namespace)
         executor.add_node(stranger)
         stage = Stage(node, stranger, recorder, changed, simulator, student, phases, speed_up)
     threading.Thread(target=keep_spinning, args=(executor, recorder), daemon=True).start()
     # a robot says itself how late it is
-    watch = punctuality.watch() if spec["timed"] and not simulator else nullcontext()
+    watch = punctuality.watch() if spec.timed and not simulator else nullcontext()
     with suppress(NodeMissing), watch:  # what is missing is recorded already
-        scenario(stage, **spec["params"])
+        scenario(stage, **spec.params)
     stage.close()
     if simulator and not simulator.is_running():
         raise RuntimeError(f"the simulator ended with status {simulator.process.exitcode}")

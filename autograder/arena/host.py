@@ -24,12 +24,12 @@ import sys
 import time
 from contextlib import suppress
 from itertools import count
-from typing import Any
 
 from autograder.arena.agent import carry_out, import_everything
 from autograder.arena.orders import DONE, receive_order
 from autograder.arena.phases import Phase
 from autograder.arena.robots import Robots
+from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.isolation.process_tree import descendants
 from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.warm_start.preload import preload
@@ -49,12 +49,12 @@ class Host:
         # what a scenario's processes leave behind becomes ours, to be ended
         ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 
-    def carry_out(self, spec: dict[str, Any], events_fd: int) -> None:
+    def carry_out(self, spec: ScenarioSpec, events_fd: int) -> None:
         """Carry out one scenario in processes of its own, on a ROS domain of its own; returns when they have ended."""
         number = next(self._numbers)
         phases = self._prepare(spec)
-        interpreter = self._interpreter if spec["warm"] else None
-        domain = _FIRST_DOMAIN + number % _DOMAINS if spec["own_network"] else None
+        interpreter = self._interpreter if spec.warm else None
+        domain = _FIRST_DOMAIN + number % _DOMAINS if spec.own_network else None
         gc.freeze()  # the forks go on sharing what there is now
         agent = multiprocessing.get_context("fork").Process(
             target=carry_out,
@@ -65,12 +65,12 @@ class Host:
         agent.join()
         self._end_what_is_left()
 
-    def _prepare(self, spec: dict[str, Any]) -> list[Phase]:
+    def _prepare(self, spec: ScenarioSpec) -> list[Phase]:
         """Import and build what the scenario needs and is not there yet; returns what the arena's beginning cost."""
         import_everything(spec)
         phases = [INTERPRETER, self._stopwatch.lap("imports")]
-        if spec["robot_options"] is not None:
-            self._robots.build(spec["robot_options"])
+        if spec.robot_options is not None:
+            self._robots.build(spec.robot_options)
             phases.append(self._stopwatch.lap("model"))
         return phases
 

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-import json
 import socket
 import struct
-from typing import Any
+
+from autograder.arena.scenario_spec import ScenarioSpec
 
 DONE = b"\n"  # the answer to an order, when nothing of its scenario is left
 _LENGTH = struct.Struct("=Q")
 _CHUNK = 2**20
 
 
-def send_order(orders: socket.socket, spec: dict[str, Any], events_fd: int) -> None:
+def send_order(orders: socket.socket, spec: ScenarioSpec, events_fd: int) -> None:
     """Send a scenario's specification and the descriptor of its events."""
-    content = json.dumps(spec).encode()
+    content = spec.to_json()
     socket.send_fds(orders, [_LENGTH.pack(len(content))], [events_fd])
     orders.sendall(content)
 
 
-def receive_order(orders: socket.socket) -> tuple[dict[str, Any], int] | None:
+def receive_order(orders: socket.socket) -> tuple[ScenarioSpec, int] | None:
     """Wait for an order; None when there will be no more."""
     length, descriptors, _, _ = socket.recv_fds(orders, _LENGTH.size, 1)
     if len(length) < _LENGTH.size:
@@ -32,4 +32,4 @@ def receive_order(orders: socket.socket) -> tuple[dict[str, Any], int] | None:
             return None
         content += chunk
         left -= len(chunk)
-    return json.loads(content), descriptors[0]
+    return ScenarioSpec.from_json(bytes(content)), descriptors[0]

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import base64
 import json
 import threading
 from collections.abc import Sequence
-from typing import Any
 
 from autograder.arena.recorder import Recorder
+from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.arena.student_watch import StudentWatch
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.student_process import StudentProcess, start_student
@@ -20,13 +19,12 @@ from ros_runtime.environment import ros_environment
 class Student:
     """Runs the files of a submission in the student's sandbox and records output and end.
 
-    `spec` is what the controller sent: the files by name, which of them is the program, namespace, paths to be seen.
     `interpreter` waits to become the program; without one a new interpreter is started, as at home.
     """
 
     def __init__(
         self,
-        spec: dict[str, Any],
+        spec: ScenarioSpec,
         recorder: Recorder,
         changed: threading.Condition,
         clock: ScaledClock,
@@ -43,11 +41,11 @@ class Student:
 
     def start(self, arguments: Sequence[str] = ()) -> None:
         """Run the student's program as a ROS node in the robot's namespace."""
-        ros_arguments = ["--ros-args", "-r", f"__ns:={self._spec['namespace']}"]
-        for name, value in self._spec["parameters"].items():
+        ros_arguments = ["--ros-args", "-r", f"__ns:={self._spec.namespace}"]
+        for name, value in self._spec.parameters.items():
             ros_arguments += ["-p", f"{name}:={json.dumps(value)}"]
-        arguments = [self._spec["file_name"], *arguments, *ros_arguments]
-        self._start(arguments, list(self._spec["files"]), self._interpreter)
+        arguments = [self._spec.program, *arguments, *ros_arguments]
+        self._start(arguments, list(self._spec.files), self._interpreter)
 
     def start_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:
         """Run a module of ours on some of the student's files, with no more rights than the student's program has."""
@@ -90,13 +88,13 @@ class Student:
     def _start(
         self, arguments: Sequence[str], names: Sequence[str], interpreter: WarmInterpreter | None = None
     ) -> None:
-        files = {name: text for name, text in self._spec["files"].items() if name in names}
+        files = {name: content for name, content in self._spec.files.items() if name in names}
         self._recorder.record("node_started")
         self._process = start_student(
             arguments,
-            workdir_files={name: base64.b64decode(content) for name, content in files.items()},
+            workdir_files=files,
             env={**ros_environment(), **self._clock.environment()},
-            read_only_paths=[*self._spec["student_paths"], self._clock.path],
+            read_only_paths=[*self._spec.student_paths, self._clock.path],
             interpreter=interpreter,
             on_line=self._on_line,
             on_exit=self._on_exit,

@@ -65,7 +65,7 @@ def test_the_page_leads_to_an_exercise_that_is_graded(tmp_path):
     assert "false failures: 0 in 1" in audit
     released = (tmp_path / "exercises/is_upright/is_upright.ipynb").read_text()
     assert "says_when_it_has_fallen" in released
-    assert "RobotState.WALKING" not in released
+    assert "mode in UPRIGHT" not in released
     with zipfile.ZipFile(tmp_path / "students.zip") as archive:
         names = [name for name in archive.namelist() if "is_upright" in name]
     assert sorted(Path(name).name for name in names) == ["checks.py", "is_upright.ipynb", "scenarios.py"]
