@@ -12,9 +12,9 @@ from IPython.display import HTML
 from PIL import Image
 
 from lab import topics
-from robot_sim.gl_backend import NoOpenGLError
 from robot_sim.humanoid import Humanoid
-from robot_sim.view import snapshot
+from robot_sim.views.gl_backend import NoOpenGLError
+from robot_sim.views.view import snapshot
 
 WIDTH, HEIGHT = 480, 360  # px
 

@@ -16,7 +16,7 @@ from lab.live_view import stop_watching, watch_robot
 from lab.robot import robot_process, start_robot
 from lab.session import stop_everything
 from lab.waiting import wait_until
-from robot_sim.gl_backend import NoOpenGLError
+from robot_sim.views.gl_backend import NoOpenGLError
 
 CIRCLE = {"forward": 0.2, "turn": 0.3}  # m/s, rad/s: every picture differs
 

@@ -1,6 +1,6 @@
 """`python -m robot_sim`: the robot node alone."""
 
-from robot_sim.serve import parse_options, serve_robot
+from robot_sim.ros.serve import parse_options, serve_robot
 
 
 def main() -> None:

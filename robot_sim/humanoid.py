@@ -7,30 +7,30 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 
-from robot_sim.balance_gains import BalanceGains, trunk_of
+from robot_sim.arms.hand import Hand
+from robot_sim.arms.joint_trajectory import HOLD, JointTrajectory
+from robot_sim.arms.reach import HandTarget, Reach
+from robot_sim.arms.upper_body import UpperBody
 from robot_sim.battery import Battery
-from robot_sim.body_height import BodyHeight
-from robot_sim.floor import Floor
-from robot_sim.footsteps import Command, Goal
-from robot_sim.gait import Phase
-from robot_sim.hand import Hand
-from robot_sim.height_change import HeightChange, HeightPhase
-from robot_sim.imu import Imu
-from robot_sim.joint_names import ACTUATED_JOINTS, SIDES
-from robot_sim.joint_trajectory import HOLD, JointTrajectory
-from robot_sim.model import build_model
+from robot_sim.model.build import build_model
+from robot_sim.model.floor import Floor
+from robot_sim.model.joint_names import ACTUATED_JOINTS, SIDES
+from robot_sim.model.posture import take_stance
+from robot_sim.model.scenes import OBJECTS
 from robot_sim.parameters import FallThresholds, HeightLimits, WalkerParameters, WalkingLimits
-from robot_sim.planar import clamp
-from robot_sim.posture import take_stance
 from robot_sim.push import Pusher
-from robot_sim.reach import HandTarget, Reach
 from robot_sim.rest import Rest
-from robot_sim.scenes import OBJECTS
+from robot_sim.sensors.imu import Imu
+from robot_sim.sensors.state_estimate import StateEstimate
 from robot_sim.state import BasePose, BaseVelocity, ImuSample, JointState, Mode, ObjectPose
-from robot_sim.state_estimate import StateEstimate
-from robot_sim.upper_body import UpperBody
-from robot_sim.velocity_limits import walkable_velocity
-from robot_sim.walker import Walker
+from robot_sim.walking.balance_gains import BalanceGains, trunk_of
+from robot_sim.walking.body_height import BodyHeight
+from robot_sim.walking.footsteps import Command, Goal
+from robot_sim.walking.gait import Phase
+from robot_sim.walking.height_change import HeightChange, HeightPhase
+from robot_sim.walking.planar import clamp
+from robot_sim.walking.walkable_velocity import walkable_velocity
+from robot_sim.walking.walker import Walker
 
 
 class Humanoid:

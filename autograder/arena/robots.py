@@ -14,7 +14,7 @@ class Robots:
 
     def build(self, options: Sequence[str]) -> None:
         """Build the robot for these options of `python -m robot_sim`, unless it is there."""
-        from robot_sim.serve import build_humanoid, parse_options
+        from robot_sim.ros.serve import build_humanoid, parse_options
 
         key = tuple(options)
         if key not in self._built:
@@ -22,6 +22,6 @@ class Robots:
 
     def serve(self, options: Sequence[str], *more: str) -> None:
         """Run the robot, with `more` options that do not concern its body, until this process is told to end."""
-        from robot_sim.serve import parse_options, serve_robot
+        from robot_sim.ros.serve import parse_options, serve_robot
 
         serve_robot(parse_options([*options, *more]), self._built[tuple(options)])

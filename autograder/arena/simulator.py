@@ -53,7 +53,7 @@ class Simulator:
         self._thread.start()
 
     def command(self, do: str, **arguments: Any) -> None:
-        """Send one command of :mod:`robot_sim.scenario_control`."""
+        """Send one command of :mod:`robot_sim.ros.scenario_control`."""
         command = {"do": do, **arguments}
         self._recorder.record("command_sent", command=command)
         with self._changed:

@@ -198,7 +198,7 @@ class Stage(Waiting):
         return robot
 
     def command_robot(self, do: str, **arguments: Any) -> None:
-        """Push the robot, set its battery, cut its motors…: the commands of :mod:`robot_sim.scenario_control`."""
+        """Push the robot, set its battery, cut its motors…: the commands of :mod:`robot_sim.ros.scenario_control`."""
         self._simulator.command(do, **arguments)
 
     def wait_for_commands(self) -> bool:

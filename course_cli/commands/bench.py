@@ -27,9 +27,9 @@ from autograder.verdict import CheckVerdict
 from course_cli.arena_bench import bench_arenas
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from lab.view_cost import view_cost
-from robot_sim.gl_backend import NoOpenGLError
 from robot_sim.trials import run_trials
 from robot_sim.trials.__main__ import table_of
+from robot_sim.views.gl_backend import NoOpenGLError
 
 PROJECT = Path(__file__).resolve().parents[2]
 EXERCISE = "cancellable_walk"

@@ -4,8 +4,8 @@ import math
 import random
 from collections.abc import Sequence
 
+from robot_sim.arms.joint_trajectory import HOLD
 from robot_sim.humanoid import Humanoid
-from robot_sim.joint_trajectory import HOLD
 from robot_sim.trials.grasping import Grasp
 from robot_sim.trials.trial import (
     Clock,

@@ -4,7 +4,6 @@ import math
 import random
 from collections.abc import Sequence
 
-from robot_sim.height_change import HeightChange, HeightPhase
 from robot_sim.humanoid import Humanoid
 from robot_sim.trials.trial import (
     Clock,
@@ -18,6 +17,7 @@ from robot_sim.trials.trial import (
     summary,
     values_of,
 )
+from robot_sim.walking.height_change import HeightChange, HeightPhase
 
 SEED = 20266
 STANCE = 0.60  # m, height of the pelvis

@@ -5,7 +5,6 @@ import random
 from collections.abc import Sequence
 
 from robot_sim.humanoid import Humanoid
-from robot_sim.planar import wrap
 from robot_sim.trials.trial import (
     Clock,
     Run,
@@ -19,6 +18,7 @@ from robot_sim.trials.trial import (
     summary,
     values_of,
 )
+from robot_sim.walking.planar import wrap
 
 SEED = 20260
 TIME_LIMIT = 30.0  # s

@@ -5,10 +5,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
+from robot_sim.arms.reach import HandTarget
 from robot_sim.humanoid import Humanoid
-from robot_sim.joint_names import arm_joints
-from robot_sim.joint_trajectory import JointTrajectory, Waypoint
-from robot_sim.reach import HandTarget
+from robot_sim.model.joint_names import arm_joints
 from robot_sim.trials.trial import simulate
 
 SIDE = "r"

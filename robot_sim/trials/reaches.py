@@ -4,10 +4,10 @@ import math
 import random
 from collections.abc import Sequence
 
+from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
+from robot_sim.arms.reach import HandTarget
 from robot_sim.humanoid import Humanoid
-from robot_sim.joint_names import arm_joints
-from robot_sim.joint_trajectory import JointTrajectory, Waypoint
-from robot_sim.reach import HandTarget
+from robot_sim.model.joint_names import arm_joints
 from robot_sim.trials.grasping import READY, READY_TIME, SIDE
 from robot_sim.trials.trial import Clock, Run, Summary, Trial, mean, run_of, simulate, summary, values_of
 

@@ -5,7 +5,6 @@ import random
 from collections.abc import Sequence
 
 from robot_sim.humanoid import Humanoid
-from robot_sim.planar import clamp, wrap
 from robot_sim.trials.trial import (
     Clock,
     Run,
@@ -18,6 +17,7 @@ from robot_sim.trials.trial import (
     summary,
     values_of,
 )
+from robot_sim.walking.planar import clamp, wrap
 
 SEED = 4100
 RATES = (10, 20)  # Hz

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import mujoco
 
 from robot_sim.humanoid import Humanoid
+from robot_sim.model.posture import take_stance
 from robot_sim.parameters import Dimensions
-from robot_sim.posture import take_stance
 from robot_sim.trials.trial import Clock, Run, Summary, Trial, simulate, summary
 
 REQUIRED = 30.0  # simulated seconds per processor second

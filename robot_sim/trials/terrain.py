@@ -4,8 +4,8 @@ import math
 import random
 from collections.abc import Sequence
 
-from robot_sim.floor import Floor
 from robot_sim.humanoid import Humanoid
+from robot_sim.model.floor import Floor
 from robot_sim.trials.trial import Clock, Run, Summary, Trial, run_of, simulate, summary
 
 DISTANCE = 2.0  # m

@@ -61,7 +61,7 @@ def test_what_was_not_graded_is_not_remembered(tmp_path):
         ("solutions/battery_service/hidden.py", True),
         ("autograder/common_checks.py", True),
         ("autograder/grading.py", True),
-        ("robot_sim/gait.py", True),
+        ("robot_sim/walking/gait.py", True),
         ("solutions/cancellable_walk/checks.py", False),
         ("solutions/battery_service/known/faulty/sleeps.py", False),
         ("autograder/report/table.py", False),

@@ -12,7 +12,7 @@ from ros_runtime.environment import ros_environment
 
 BUILD_FORK_AND_SERVE = """
 import os, sys
-from robot_sim.serve import build_humanoid, parse_options, serve_robot
+from robot_sim.ros.serve import build_humanoid, parse_options, serve_robot
 built = build_humanoid(parse_options(sys.argv[1:]))
 robot = os.fork()
 if robot == 0:

@@ -9,10 +9,10 @@ from rclpy.serialization import serialize_message
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from autograder.events import RobotRefused, parse_event
-from robot_sim.inbox import BYTES_A_SECOND, FLOOD, MESSAGES_A_SECOND, Inbox
-from robot_sim.joint_trajectory import MOVABLE
-from robot_sim.trajectory_size import MOST_BYTES, MOST_POINTS, count_joints_and_points, why_too_large
-from robot_sim.truth import TruthWriter
+from robot_sim.arms.joint_trajectory import MOVABLE
+from robot_sim.ros.inbox import BYTES_A_SECOND, FLOOD, MESSAGES_A_SECOND, Inbox
+from robot_sim.ros.trajectory_size import MOST_BYTES, MOST_POINTS, count_joints_and_points, why_too_large
+from robot_sim.ros.truth import TruthWriter
 
 
 class Topic:

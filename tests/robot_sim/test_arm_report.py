@@ -7,8 +7,8 @@ import os
 import pytest
 
 from robot_sim.humanoid import Humanoid
-from robot_sim.scenario_control import obey
-from robot_sim.truth import TruthWriter
+from robot_sim.ros.scenario_control import obey
+from robot_sim.ros.truth import TruthWriter
 
 UPPER_ARM, FOREARM = 0.22, 0.30  # m: shoulder to elbow, elbow to between the fingers
 STRAIGHT = ("shoulder_roll", "shoulder_yaw", "wrist_yaw", "wrist_pitch", "wrist_roll")

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
-from robot_sim.film import Reel, film
 from robot_sim.humanoid import Humanoid
+from robot_sim.views.film import Reel, film
 
 
 def test_a_film_plays_the_motion_at_the_pace_of_the_simulation(tmp_path):

@@ -6,8 +6,8 @@ import os
 import pytest
 
 from robot_sim.humanoid import Humanoid
-from robot_sim.options import RobotOptions
-from robot_sim.serve import build_humanoid
+from robot_sim.ros.options import RobotOptions
+from robot_sim.ros.serve import build_humanoid
 
 SCENES = ("flat", "stand")
 

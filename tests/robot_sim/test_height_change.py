@@ -5,10 +5,10 @@ from itertools import pairwise
 
 import pytest
 
-from robot_sim.height_change import HeightChange
 from robot_sim.humanoid import Humanoid
 from robot_sim.state import Mode
 from robot_sim.trials.trial import simulate
+from robot_sim.walking.height_change import HeightChange
 
 CROUCH, STANCE = 0.45, 0.60  # m
 FASTEST = 0.15  # m/s

@@ -3,8 +3,8 @@
 import mujoco
 import pytest
 
-from robot_sim.joint_names import ACTUATED_JOINTS
-from robot_sim.model import build_model
+from robot_sim.model.build import build_model
+from robot_sim.model.joint_names import ACTUATED_JOINTS
 from robot_sim.parameters import Dimensions
 
 

@@ -7,7 +7,7 @@ import pytest
 
 pytest.importorskip("mujoco_menagerie", reason="MuJoCo Menagerie needs Python 3.11")
 
-from robot_sim.other_robots import OtherRobot, RobotUnavailable
+from robot_sim.views.other_robots import OtherRobot, RobotUnavailable
 
 POLE = """
 <mujoco>

@@ -2,13 +2,13 @@
 
 import pytest
 
-from robot_sim.pacing import Pacing
+from robot_sim.ros.pacing import Pacing
 
 
 @pytest.fixture
 def clock(monkeypatch):
     now = [100.0]
-    monkeypatch.setattr("robot_sim.pacing.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("robot_sim.ros.pacing.time.monotonic", lambda: now[0])
     return now
 
 

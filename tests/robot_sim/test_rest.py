@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.humanoid import Humanoid
-from robot_sim.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.trials.trial import simulate
 
 SETTLED = 4.0  # s, more than it takes to come to rest after a reset

@@ -4,8 +4,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.humanoid import Humanoid
-from robot_sim.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.state import Mode
 from robot_sim.trials.trial import simulate
 

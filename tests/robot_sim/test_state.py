@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from robot_sim.humanoid import Humanoid
-from robot_sim.joint_names import ACTUATED_JOINTS
+from robot_sim.model.joint_names import ACTUATED_JOINTS
 from robot_sim.trials.trial import simulate
 
 

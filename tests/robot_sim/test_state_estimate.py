@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from robot_sim.humanoid import Humanoid
-from robot_sim.imu import Imu
+from robot_sim.sensors.imu import Imu
+from robot_sim.sensors.state_estimate import StateEstimate
 from robot_sim.state import Mode
-from robot_sim.state_estimate import StateEstimate
 from robot_sim.trials.trial import feet_midpoint, simulate
 
 

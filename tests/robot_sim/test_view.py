@@ -8,9 +8,9 @@ from ctypes.util import find_library
 import numpy as np
 import pytest
 
-from robot_sim.gl_backend import NoOpenGLError, open_context
 from robot_sim.humanoid import Humanoid
-from robot_sim.view import View, snapshot
+from robot_sim.views.gl_backend import NoOpenGLError, open_context
+from robot_sim.views.view import View, snapshot
 
 ACCENT = (0.15, 0.45, 0.75)  # the blue plate on the chest, RGB
 
@@ -55,7 +55,7 @@ def test_osmesa_draws_where_egl_has_no_device():
         name: value for name, value in os.environ.items() if name not in ("MUJOCO_GL", "PYOPENGL_PLATFORM")
     }
     program = (
-        "import os; from robot_sim.humanoid import Humanoid; from robot_sim.view import snapshot;"
+        "import os; from robot_sim.humanoid import Humanoid; from robot_sim.views.view import snapshot;"
         "print(os.environ.get('MUJOCO_GL'), snapshot(Humanoid(), 64, 48).std() > 5, os.environ['MUJOCO_GL'])"
     )
     outcome = subprocess.run(

@@ -1,0 +1,1 @@
+"""Waist, head, arms and hands: trajectories, reaching, gripping."""

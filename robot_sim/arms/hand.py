@@ -1,0 +1,49 @@
+"""A hand of two fingers that slide apart."""
+
+import math
+
+import mujoco
+
+from robot_sim.model.joint_names import finger_joints
+
+WIDEST = 0.09  # m between the pads
+
+
+class Hand:
+    """The gripper of a side ("l" or "r"); both fingers move alike."""
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, side: str) -> None:
+        joints = finger_joints(side)
+        self._data = data
+        self._motors = [model.actuator(name).id for name in joints]
+        self._slides = [model.joint(name).qposadr[0] for name in joints]
+        self._touches = [model.sensor(f"{name}_touch").adr[0] for name in joints]
+
+    def open_to(self, opening: float) -> None:
+        """Bring the pads ``opening`` (m) apart; beyond 0 to 0.09 m it goes to the nearer end.
+
+        Around an object the fingers press with their stiffness, 800 N/m, times half of what is missing, at most
+        25 N each.
+
+        Raises:
+            ValueError: the opening is not finite.
+        """
+        if not math.isfinite(opening):
+            raise ValueError(f"the opening is {opening}; expected 0 to {WIDEST} m")
+        self._data.ctrl[self._motors] = min(max(opening, 0.0), WIDEST) / 2
+
+    @property
+    def opening(self) -> float:
+        """Distance of the pads, m."""
+        return float(self._data.qpos[self._slides].sum())
+
+    @property
+    def forces(self) -> tuple[float, float]:
+        """Contact force of each pad, N."""
+        first, second = self._data.sensordata[self._touches].tolist()
+        return first, second
+
+    @property
+    def grip_force(self) -> float:
+        """Force with which an object is held, N: the weaker pad's, as what the other has more is no grip."""
+        return min(self.forces)

@@ -1,0 +1,145 @@
+"""Bringing a hand to a place: resolved-rate control of an arm with damped least squares."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from robot_sim.model.joint_names import SIDES, WAIST, arm_joints
+from robot_sim.model.posture import MIRRORED
+from robot_sim.parameters import ReachParameters
+
+HARDLY = 1e-3  # damping that only keeps a matrix invertible
+RELAXED_ARM = {
+    "shoulder_pitch": 0.3,
+    "shoulder_roll": 0.7,
+    "elbow": -1.4,
+}  # rad, left; where a free arm drifts to: the elbow away from the body
+
+
+@dataclass(frozen=True)
+class HandTarget:
+    """Where the grip point of a hand shall be, in the world frame.
+
+    Attributes:
+        position: (x, y, z), m.
+        rotation: (3, 3) of the hand, whose fingers point along -z and open along y; None: as it comes.
+        speed: m/s, along the straight line there.
+        with_waist: the waist may turn to help.
+    """
+
+    position: tuple[float, float, float]
+    rotation: np.ndarray | None = None
+    speed: float = 0.3
+    with_waist: bool = False
+
+
+class Reach:
+    """Moves one hand along a straight line to a target and keeps it there.
+
+    Joint velocities follow from the hand's velocity by damped least squares, q̇ = Jᵀ(JJᵀ + λ²I)⁻¹ v (C. W. Wampler,
+    "Manipulator inverse kinematic solutions based on vector formulations and damped least-squares methods", IEEE
+    SMC-16, 1986); what the task leaves free brings the arm to a relaxed posture through the null space.
+
+    Attributes:
+        joints: names of the joints it moves.
+    """
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        side: str,
+        target: HandTarget,
+        parameters: ReachParameters,
+    ) -> None:
+        if side not in SIDES:
+            raise ValueError(f"side {side!r} is not known; expected 'l' or 'r'")
+        if not all(map(math.isfinite, target.position)):
+            raise ValueError(f"the target is {target.position}; expected three finite numbers in m")
+        self.joints = [*(WAIST[:1] if target.with_waist else ()), *arm_joints(side)]
+        self._model, self._data, self._target, self._parameters = model, data, target, parameters
+        self._grip = model.site(f"{side}_grip").id
+        self._dofs = np.array([model.joint(name).dofadr[0] for name in self.joints])
+        self._relaxed = np.array([_relaxed(name) for name in self.joints])
+        self._reference = data.site_xpos[self._grip].copy()
+        self._jacobian = np.zeros((6, model.nv))
+
+    def error(self) -> float:
+        """Distance of the grip point from the target, m."""
+        return float(np.linalg.norm(np.array(self._target.position) - self._data.site_xpos[self._grip]))
+
+    def rotation_error(self) -> float:
+        """Angle between the hand and the wanted rotation, rad; 0 where none is wanted."""
+        if self._target.rotation is None:
+            return 0.0
+        return float(np.linalg.norm(rotation_vector(self._rotation(), self._target.rotation)))
+
+    def joint_velocities(self, reference: np.ndarray) -> np.ndarray:
+        """Velocities (n,) rad/s of the joints, which are at ``reference`` (n,) rad, for the next tick."""
+        mujoco.mj_jacSite(self._model, self._data, self._jacobian[:3], self._jacobian[3:], self._grip)
+        jacobian, velocity = self._task()
+        relax = self._parameters.relaxation * (self._relaxed - reference)
+        # The projection is hardly damped: it would let the relaxation pull the hand away from its target.
+        velocities = (
+            _damped_inverse(jacobian, self._parameters.damping) @ velocity
+            + relax
+            - _damped_inverse(jacobian, HARDLY) @ (jacobian @ relax)
+        )
+        fastest = np.abs(velocities).max() / self._parameters.joint_speed
+        return velocities / fastest if fastest > 1 else velocities
+
+    def _task(self) -> tuple[np.ndarray, np.ndarray]:
+        """The Jacobian of what is wanted of the hand, and its velocity: position, and rotation if one is given."""
+        weight = self._parameters.rotation_weight
+        linear = self._linear_velocity()
+        if self._target.rotation is None:
+            return self._jacobian[:3, self._dofs], linear
+        jacobian = np.vstack((self._jacobian[:3, self._dofs], weight * self._jacobian[3:, self._dofs]))
+        turn = self._parameters.gain * rotation_vector(self._rotation(), self._target.rotation)
+        return jacobian, np.concatenate((linear, weight * _shortened(turn, self._parameters.turn_speed)))
+
+    def _linear_velocity(self) -> np.ndarray:
+        """Feed-forward along the line plus a correction of the measured error, m/s."""
+        speed, step = self._target.speed, self._target.speed * self._model.opt.timestep
+        left = np.array(self._target.position) - self._reference
+        distance = float(np.linalg.norm(left))
+        ahead = np.zeros(3)
+        if distance > step:
+            ahead = left / distance * speed
+            self._reference += left / distance * step
+        else:
+            self._reference += left
+        correction = self._parameters.gain * (self._reference - self._data.site_xpos[self._grip])
+        return _shortened(ahead + correction, 2 * speed)
+
+    def _rotation(self) -> np.ndarray:
+        return self._data.site_xmat[self._grip].reshape(3, 3)
+
+
+def rotation_vector(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """The rotation (3,) rad, world frame, that turns rotation matrix ``start`` (3, 3) into ``end`` (3, 3)."""
+    quaternion, vector = np.empty(4), np.empty(3)
+    mujoco.mju_mat2Quat(quaternion, (end @ start.T).ravel())
+    mujoco.mju_quat2Vel(vector, quaternion, 1.0)
+    return vector
+
+
+def _damped_inverse(jacobian: np.ndarray, damping: float) -> np.ndarray:
+    """Jᵀ(JJᵀ + λ²I)⁻¹ (n, m) of a Jacobian (m, n)."""
+    regular = jacobian @ jacobian.T + damping**2 * np.eye(len(jacobian))
+    return np.linalg.solve(regular, jacobian).T
+
+
+def _shortened(vector: np.ndarray, longest: float) -> np.ndarray:
+    length = float(np.linalg.norm(vector))
+    return vector * (longest / length) if length > longest else vector
+
+
+def _relaxed(joint: str) -> float:
+    side, _, name = joint.partition("_")
+    angle = RELAXED_ARM.get(name, 0.0)
+    return -angle if side == "r" and name in MIRRORED else angle

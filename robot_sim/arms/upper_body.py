@@ -1,0 +1,101 @@
+"""Waist, head and arms: they hold, follow a trajectory, or bring a hand to a place."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from robot_sim.arms.joint_trajectory import MOVABLE, JointPath, JointTrajectory
+from robot_sim.arms.reach import HandTarget, Reach
+from robot_sim.arms.servos import Servos
+from robot_sim.parameters import UpperBodyParameters
+
+
+class UpperBody:
+    """Moves the 18 joints above the hips, the fingers excepted. What is not told to move holds its place.
+
+    Until the first command the servos hold the posture of the stance by themselves.
+    """
+
+    def __init__(
+        self, model: mujoco.MjModel, data: mujoco.MjData, parameters: UpperBodyParameters | None = None
+    ) -> None:
+        self._parameters = parameters or UpperBodyParameters()
+        self._model, self._data = model, data
+        self._servos = Servos(model, data, MOVABLE)
+        self._index = {name: index for index, name in enumerate(MOVABLE)}
+        self._speed_limit = np.array([self._parameters.speed_limit(name) for name in MOVABLE])
+        self._position = self._servos.position.copy()
+        self._goal = self._position.copy()
+        self._velocity = np.zeros(len(MOVABLE))
+        self._commanded = False
+        self._path: JointPath | None = None
+        self._path_joints: list[int] = []
+        self._path_time = 0.0
+        self._reaches: dict[str, Reach] = {}
+
+    def follow(self, trajectory: JointTrajectory) -> None:
+        """Follow a trajectory from where the joints are; it replaces whatever was followed. Empty: hold.
+
+        Positions beyond a joint's range are brought to its end, and no joint moves faster than its limit.
+        """
+        self._begin()
+        self._reaches.clear()
+        self._path = None
+        self._goal[:] = self._position
+        if trajectory.waypoints and trajectory.joints:
+            self._path_joints = [self._index[name] for name in trajectory.joints]
+            self._path = JointPath(
+                trajectory,
+                self._position[self._path_joints].tolist(),
+                self._velocity[self._path_joints].tolist(),
+            )
+            self._path_time = 0.0
+
+    def reach(self, side: str, target: HandTarget) -> Reach:
+        """Bring the hand of a side ("l" or "r") to a target in a straight line; ends a trajectory."""
+        self._begin()
+        self._path = None
+        self._goal[:] = self._position
+        reach = Reach(self._model, self._data, side, target, self._parameters.reach)
+        self._reaches[side] = reach
+        return reach
+
+    def tick(self, dt: float) -> None:
+        """Command the servos for the next ``dt`` (s); call it between ``mj_step1`` and ``mj_step2``."""
+        if not self._commanded:
+            return
+        if self._path is not None:
+            self._path_time += dt
+            self._goal[self._path_joints] = self._path.at(self._path_time)
+            if self._path_time >= self._path.duration:
+                self._path = None
+        for reach in self._reaches.values():
+            joints = [self._index[name] for name in reach.joints]
+            self._goal[joints] = self._position[joints] + reach.joint_velocities(self._position[joints]) * dt
+        step = self._speed_limit * dt
+        before = self._position.copy()
+        within_range = np.clip(self._goal, self._servos.low, self._servos.high)
+        self._position += np.clip(within_range - before, -step, step)
+        for reach in self._reaches.values():
+            self._stay_near_the_measured(reach)
+        self._velocity = (self._position - before) / dt
+        self._servos.command(self._position, self._velocity)
+
+    @property
+    def is_idle(self) -> bool:
+        """Nothing moves, and nothing is to."""
+        return self._path is None and not self._reaches and not self._velocity.any()
+
+    def _begin(self) -> None:
+        """Take over from the servos' own hold, at the place they hold."""
+        if not self._commanded:
+            self._commanded = True
+            self._position[:] = np.clip(self._servos.position, self._servos.low, self._servos.high)
+            self._goal[:] = self._position
+
+    def _stay_near_the_measured(self, reach: Reach) -> None:
+        """Keep the reference of a blocked arm from running away (anti-windup)."""
+        joints = [self._index[name] for name in reach.joints]
+        measured, slack = self._servos.position[joints], self._parameters.reach.windup
+        self._position[joints] = np.clip(self._position[joints], measured - slack, measured + slack)

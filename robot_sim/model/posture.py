@@ -1,0 +1,49 @@
+"""The pose in which the robot stands up, and the position servos that hold its upper body."""
+
+import math
+
+import mujoco
+
+from robot_sim.model.joint_names import SIDES, UPPER_BODY_JOINTS
+from robot_sim.parameters import Dimensions
+
+ARMS_AT_REST = {  # rad, left arm; mirrored joints change sign on the right
+    "shoulder_pitch": 0.2,
+    "shoulder_roll": 0.15,
+    "shoulder_yaw": 0.0,
+    "elbow": -0.5,
+    "wrist_yaw": 0.0,
+    "wrist_pitch": 0.0,
+    "wrist_roll": 0.0,
+}
+MIRRORED = {"shoulder_roll", "shoulder_yaw", "wrist_yaw", "wrist_roll"}
+
+
+def natural_posture(size: Dimensions) -> dict[str, float]:
+    """Every joint's position (rad, fingers m) in stance: knees bent, arms hanging, looking ahead."""
+    posture = dict.fromkeys(UPPER_BODY_JOINTS, 0.0)
+    hip_height = size.stance_height - size.ankle_height
+    knee = 2 * math.acos(math.hypot(hip_height, size.stance_lean) / (size.thigh + size.shank))
+    lean = math.atan2(size.stance_lean, hip_height)
+    for side in SIDES:
+        for joint, angle in ARMS_AT_REST.items():
+            posture[f"{side}_{joint}"] = -angle if side == "r" and joint in MIRRORED else angle
+        posture[f"{side}_hip_pitch"] = lean - knee / 2
+        posture[f"{side}_ankle_pitch"] = -lean - knee / 2
+        posture[f"{side}_knee"] = knee
+    return posture
+
+
+def take_stance(
+    model: mujoco.MjModel, data: mujoco.MjData, size: Dimensions, x: float, y: float, yaw: float
+) -> None:
+    """Reset the state to standing with the pelvis at (x, y) m, heading ``yaw`` rad, servos holding."""
+    mujoco.mj_resetData(model, data)
+    half = yaw / 2
+    data.joint("root").qpos = [x, y, size.stance_height, math.cos(half), 0, 0, math.sin(half)]
+    posture = natural_posture(size)
+    for joint, position in posture.items():
+        data.joint(joint).qpos = position
+    for joint in UPPER_BODY_JOINTS:
+        data.actuator(joint).ctrl = posture[joint]
+    mujoco.mj_forward(model, data)

@@ -1,0 +1,87 @@
+"""Topics of the arms, the hands and the objects they can take."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from geometry_msgs.msg import PoseStamped, WrenchStamped
+from rclpy.node import Node
+from rclpy.subscription import Subscription
+from std_msgs.msg import Float64
+from trajectory_msgs.msg import JointTrajectory as JointTrajectoryMessage
+
+from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
+from robot_sim.humanoid import Humanoid
+from robot_sim.model.joint_names import SIDES
+from robot_sim.ros.messages import is_heard, set_fields
+
+WRENCH_RATE = 20.0  # Hz, as all rates below, in simulated time
+OBJECTS_RATE = 10.0
+
+
+class ManipulationTopics:
+    """Adds joint_trajectory, the grippers and the objects' poses to the humanoid's node."""
+
+    def __init__(self, node: Node, humanoid: Humanoid) -> None:
+        self._node = node
+        self._humanoid = humanoid
+        self.trajectory: Subscription = node.create_subscription(
+            JointTrajectoryMessage, "joint_trajectory", self._on_trajectory, 10
+        )
+        self.grippers: list[Subscription] = [
+            node.create_subscription(Float64, f"{side}_gripper/command", partial(self._on_opening, side), 10)
+            for side in SIDES
+        ]
+        self._wrenches = {
+            side: node.create_publisher(WrenchStamped, f"{side}_gripper/wrench", 10) for side in SIDES
+        }
+        self._objects = {
+            name: node.create_publisher(PoseStamped, f"objects/{name}/pose", 10)
+            for name in humanoid.object_poses()
+        }
+        self.jobs = ((WRENCH_RATE, self._publish_wrenches), (OBJECTS_RATE, self._publish_objects))
+
+    def _on_trajectory(self, message: JointTrajectoryMessage) -> None:
+        try:
+            self._humanoid.move_joints(_trajectory(message))
+        except ValueError as error:
+            self._node.get_logger().error(f"joint_trajectory ignored: {error}")
+
+    def _on_opening(self, side: str, message: Float64) -> None:
+        try:
+            self._humanoid.open_hand(side, message.data)
+        except ValueError as error:
+            self._node.get_logger().error(f"{side}_gripper/command ignored: {error}")
+
+    def _publish_wrenches(self) -> None:
+        for side, publisher in self._wrenches.items():
+            if is_heard(publisher):
+                message = WrenchStamped()
+                message.header.stamp = self._node.get_clock().now().to_msg()
+                message.header.frame_id = f"{side}_hand"
+                message.wrench.force.y = self._humanoid.hands[side].grip_force
+                publisher.publish(message)
+
+    def _publish_objects(self) -> None:
+        if not any(map(is_heard, self._objects.values())):
+            return
+        for name, pose in self._humanoid.object_poses().items():
+            message = PoseStamped()
+            message.header.stamp = self._node.get_clock().now().to_msg()
+            message.header.frame_id = "odom"
+            set_fields(message.pose.position, "xyz", pose.position)
+            set_fields(message.pose.orientation, "xyzw", pose.quaternion)
+            self._objects[name].publish(message)
+
+
+def _trajectory(message: JointTrajectoryMessage) -> JointTrajectory:
+    """The trajectory of a message; a ValueError says what is wrong with it. It starts when it arrives."""
+    waypoints = tuple(
+        Waypoint(
+            point.time_from_start.sec + point.time_from_start.nanosec * 1e-9,
+            tuple(point.positions),
+            tuple(point.velocities),
+        )
+        for point in message.points
+    )
+    return JointTrajectory(tuple(message.joint_names), waypoints)

@@ -1,0 +1,270 @@
+"""The robot's ROS face: node `humanoid`, every name relative to its namespace."""
+
+from __future__ import annotations
+
+import math
+
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import BatteryState, Imu, JointState
+from std_msgs.msg import Bool
+
+from humanoid_interfaces.msg import BalanceGains as BalanceGainsMessage
+from humanoid_interfaces.msg import RobotState
+from robot_sim.humanoid import Humanoid, Mode
+from robot_sim.model.joint_names import ACTUATED_JOINTS
+from robot_sim.ros.inbox import Inbox
+from robot_sim.ros.manipulation_topics import ManipulationTopics
+from robot_sim.ros.messages import floats, is_heard, set_fields
+from robot_sim.ros.periodic_jobs import Schedule
+from robot_sim.ros.trajectory_size import MOST_BYTES, why_too_large
+from robot_sim.ros.truth import BatterySample, TruthWriter
+from robot_sim.walking.balance_gains import BalanceGains
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+CMD_VEL_TIMEOUT = 0.5  # s; an older command stops the robot
+
+JOINT_STATE_RATE = 20.0  # Hz, as all rates below, in simulated time
+IMU_RATE = 50.0
+ODOM_RATE = 20.0
+BATTERY_RATE = 2.0
+ROBOT_STATE_RATE = 5.0
+CLOCK_RATE = 50.0
+PEERS_RATE = 10.0
+
+
+class HumanoidNode(Node):
+    """Publishes the humanoid's state and passes commands on to it.
+
+    The node neither spins nor steps: :func:`robot_sim.ros.run.run` calls :meth:`publish_due` after each step and
+    :meth:`hear` in between, so one thread owns the simulation. `heard` are the topics it listens to.
+    """
+
+    def __init__(
+        self, humanoid: Humanoid, namespace: str = "/robot", truth: TruthWriter | None = None
+    ) -> None:
+        super().__init__("humanoid", namespace=namespace)
+        self.humanoid = humanoid
+        self.battery_sensor_connected = True
+        self.joint_sensors_connected = True
+        self.joint_states_reversed = False
+        self.robot_state_published = True
+        self._truth = truth
+        self._velocity_command_time: float | None = None
+        self._last_announced: tuple[int, bool, int] | None = None
+
+        self._joint_states = self.create_publisher(JointState, "joint_states", qos_profile_sensor_data)
+        self._imu = self.create_publisher(Imu, "imu", qos_profile_sensor_data)
+        self._odom = self.create_publisher(Odometry, "odom", 10)
+        self._battery_state = self.create_publisher(BatteryState, "battery_state", LATCHED)
+        self._robot_state = self.create_publisher(RobotState, "robot_state", LATCHED)
+        self._clock_topic = self.create_publisher(Clock, "/clock", 10)
+        manipulation = ManipulationTopics(self, humanoid)
+        report = truth.refused if truth else None
+        subscriptions = (
+            self.create_subscription(Twist, "cmd_vel", self._on_velocity, 10),
+            self.create_subscription(Bool, "motor_power", self._on_motor_power, 10),
+            self.create_subscription(BalanceGainsMessage, "balance_gains", self._on_balance_gains, 10),
+            *manipulation.grippers,
+        )
+        self.heard = [Inbox(subscription, report) for subscription in subscriptions]
+        self.heard.append(
+            Inbox(manipulation.trajectory, report, most_bytes=MOST_BYTES, why_not=why_too_large)
+        )
+        self._heard_topics = [heard.topic for heard in self.heard]
+        self._peers: tuple[dict[str, int], dict[str, int]] = ({}, {})
+        self._make_messages()
+
+        self._schedule = Schedule(
+            (PEERS_RATE, self._report_peers),
+            (JOINT_STATE_RATE, self._publish_joint_states),
+            (IMU_RATE, self._publish_imu),
+            (ODOM_RATE, self._publish_odom),
+            (BATTERY_RATE, self._publish_battery_state),
+            (ROBOT_STATE_RATE, self._publish_robot_state),
+            (CLOCK_RATE, self._publish_clock),
+            *manipulation.jobs,
+        )
+
+    def _make_messages(self) -> None:
+        """Messages that are published again and again, filled anew each time: making one costs more than sending it.
+
+        They share one stamp.
+        """
+        self._stamp = Time()
+        self._joint_message = JointState(name=list(ACTUATED_JOINTS))
+        self._imu_message = Imu()
+        self._imu_message.header.frame_id = "imu_link"
+        self._odom_message = Odometry(child_frame_id="base_link")
+        self._odom_message.header.frame_id = "odom"
+        nan = math.nan
+        self._battery_message = BatteryState(
+            temperature=nan,
+            charge=nan,
+            capacity=nan,
+            design_capacity=nan,
+            power_supply_status=BatteryState.POWER_SUPPLY_STATUS_DISCHARGING,
+            power_supply_health=BatteryState.POWER_SUPPLY_HEALTH_GOOD,
+            power_supply_technology=BatteryState.POWER_SUPPLY_TECHNOLOGY_LION,
+            present=True,
+        )
+        self._state_message = RobotState()
+        self._clock_message = Clock()
+        for message in (
+            *(self._joint_message, self._imu_message, self._odom_message),
+            *(self._battery_message, self._state_message),
+        ):
+            message.header.stamp = self._stamp
+
+    @property
+    def next_due(self) -> float:
+        """Simulated time (s) at which the next message is due."""
+        return self._schedule.next_due
+
+    def publish_due(self) -> None:
+        """Publish whatever is due at the simulated time, and the robot's state as soon as it changes."""
+        self._stop_on_stale_command()
+        if self._announcement() != self._last_announced:
+            self._publish_robot_state()
+        self._schedule.run(self.humanoid.time)
+
+    def hear(self) -> None:
+        """Obey the commands that have arrived, without the 0.3 ms that an executor's wait set costs each time."""
+        for heard in self.heard:
+            heard.look(self.humanoid.time)
+
+    def tell_refused(self) -> None:
+        """Report what was not heard since the last report; call it at the end."""
+        for heard in self.heard:
+            heard.tell()
+
+    def restart(self) -> None:
+        """Forget commands and deadlines of before; call it after the humanoid was reset."""
+        self._velocity_command_time = None
+        self._last_announced = None
+        self._schedule.restart()
+
+    # -- commands -----------------------------------------------------------------------------------------------------
+
+    def _on_velocity(self, message: Twist) -> None:
+        """Walk; or, where no walking is asked for, crouch or rise at linear.z (m/s)."""
+        command = (message.linear.x, message.linear.y, message.angular.z)
+        if not all(math.isfinite(value) for value in (*command, message.linear.z)):
+            self.get_logger().error(f"cmd_vel ignored: it must be finite, got {command}")
+            return
+        self._velocity_command_time = self.humanoid.time
+        self.humanoid.walk_velocity(*command)
+        if not any(command):
+            self.humanoid.move_body(message.linear.z)
+
+    def _stop_on_stale_command(self) -> None:
+        commanded = self._velocity_command_time
+        if commanded is not None and self.humanoid.time - commanded > CMD_VEL_TIMEOUT:
+            self._velocity_command_time = None
+            self.humanoid.stop()
+            self.humanoid.move_body(0.0)
+
+    def _on_motor_power(self, message: Bool) -> None:
+        self.humanoid.set_motor_power(message.data)
+
+    def _on_balance_gains(self, message: BalanceGainsMessage) -> None:
+        try:
+            self.humanoid.balance_gains = BalanceGains(
+                message.kp_pitch, message.kd_pitch, message.kp_roll, message.kd_roll, message.max_torque
+            )
+        except ValueError as error:
+            self.get_logger().error(f"balance_gains ignored: {error}")
+
+    # -- state --------------------------------------------------------------------------------------------------------
+
+    def _publish_joint_states(self) -> None:
+        if not self.joint_sensors_connected or not is_heard(self._joint_states):
+            return
+        joints = self.humanoid.joint_state()
+        order = slice(None, None, -1 if self.joint_states_reversed else 1)
+        message = self._joint_message
+        message.name = list(joints.names)[order]
+        message.position = floats(joints.position[order])
+        message.velocity = floats(joints.velocity[order])
+        message.effort = floats(joints.effort[order])
+        self._read_clock()
+        if self._truth:  # before others can answer with it
+            self._truth.joints_published(message.name, message.position)
+        self._joint_states.publish(message)
+
+    def _publish_imu(self) -> None:
+        if not is_heard(self._imu):
+            return
+        sample, message = self.humanoid.imu(), self._imu_message
+        self._read_clock()
+        set_fields(message.orientation, "xyzw", sample.orientation.tolist())
+        set_fields(message.angular_velocity, "xyz", sample.angular_velocity.tolist())
+        set_fields(message.linear_acceleration, "xyz", sample.linear_acceleration.tolist())
+        self._imu.publish(message)
+
+    def _publish_odom(self) -> None:
+        if not is_heard(self._odom):
+            return
+        pose, velocity = self.humanoid.base_pose(), self.humanoid.base_velocity()
+        message = self._odom_message
+        self._read_clock()
+        set_fields(message.pose.pose.position, "xyz", pose.position.tolist())
+        set_fields(message.pose.pose.orientation, "xyzw", pose.quaternion.tolist())
+        set_fields(message.twist.twist.linear, "xyz", velocity.linear.tolist())
+        set_fields(message.twist.twist.angular, "xyz", velocity.angular.tolist())
+        self._odom.publish(message)
+
+    def _publish_battery_state(self) -> None:
+        if not self.battery_sensor_connected:
+            return
+        battery = self.humanoid.battery
+        sample = BatterySample(battery.percentage, battery.voltage, battery.current)
+        message = self._battery_message
+        message.voltage, message.current = sample.voltage, sample.current
+        message.percentage = sample.percentage
+        self._read_clock()
+        self._battery_state.publish(message)
+        if self._truth:
+            self._truth.battery_published(sample)
+
+    def _publish_robot_state(self) -> None:
+        mode, motors_enabled, steps = self._last_announced = self._announcement()
+        if not self.robot_state_published:
+            return
+        message = self._state_message
+        message.mode, message.motors_enabled, message.steps = mode, motors_enabled, steps
+        self._read_clock()
+        self._robot_state.publish(message)
+
+    def _announcement(self) -> tuple[int, bool, int]:
+        robot = self.humanoid
+        return int(Mode(robot.mode)), bool(robot.motors_enabled), int(robot.steps)
+
+    def _publish_clock(self) -> None:
+        if not is_heard(self._clock_topic):
+            return
+        clock = self._clock_message.clock
+        clock.sec, clock.nanosec = divmod(round(self.humanoid.time * 1e9), 10**9)
+        self._clock_topic.publish(self._clock_message)
+
+    def _report_peers(self) -> None:
+        """Tell when connections change, so that a scenario need not guess how long discovery takes."""
+        if self._truth is None:
+            return
+        said = (self._joint_states, self._imu, self._odom, self._battery_state, self._robot_state)
+        peers = (
+            {publisher.topic_name: publisher.get_subscription_count() for publisher in said},
+            # Node.count_publishers would take names apart and check them each time.
+            {topic: self.handle.get_count_publishers(topic) for topic in self._heard_topics},
+        )
+        if peers != self._peers:
+            self._peers = peers
+            self._truth.peers(*peers)
+
+    def _read_clock(self) -> None:
+        """Stamp the messages: system clock."""
+        self._stamp.sec, self._stamp.nanosec = divmod(self.get_clock().now().nanoseconds, 10**9)

@@ -1,0 +1,82 @@
+"""The command line of the robot, as a value."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from robot_sim.model.scenes import SCENES
+
+
+@dataclass(frozen=True)
+class RobotOptions:
+    """How to run the robot.
+
+    Attributes:
+        rtf: simulated seconds a second; 0: as fast as it can.
+        namespace: of the node.
+        view: show it in a browser, served at ``port`` (0: the first free from 8080 on).
+        robot: name of a real robot to look at instead.
+        scene, crouch, seed: which humanoid stands where, how, and with which noise.
+        truth_fd, control_fd: descriptors of the arena's pipes; with the latter the robot is graded and /sim absent.
+        battery_sensor_unplugged, joint_sensors_unplugged, robot_state_unpublished: faults it begins with.
+        may_rest: it is not integrated while it stands still and nothing is asked of its body.
+    """
+
+    rtf: float = 1.0
+    namespace: str = "/robot"
+    view: bool = False
+    port: int = 0
+    robot: str | None = None
+    scene: str = "flat"
+    crouch: bool = False
+    seed: int = 0
+    truth_fd: int | None = None
+    control_fd: int | None = None
+    battery_sensor_unplugged: bool = False
+    joint_sensors_unplugged: bool = False
+    robot_state_unpublished: bool = False
+    may_rest: bool = False
+
+
+def parse_options(arguments: Sequence[str] | None = None) -> RobotOptions:
+    """The options of a command line, this process's unless given; a wrong one ends the process and says why."""
+    return RobotOptions(**vars(_parser().parse_args(arguments)))
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="course sim", description="Run the humanoid under ROS 2.")
+    parser.add_argument(
+        "--rtf",
+        type=_factor,
+        default=1.0,
+        help="simulated seconds per second; 0: as fast as it can (default 1)",
+    )
+    parser.add_argument("--namespace", default="/robot", help="ROS namespace (default /robot)")
+    parser.add_argument("--view", action="store_true", help="show the robot in a browser on this machine")
+    parser.add_argument(
+        "--port", type=int, default=0, help="of the view (default: the first free from 8080 on)"
+    )
+    parser.add_argument(
+        "--robot",
+        metavar="NAME",
+        help="look at a real robot instead, such as unitree_g1: it stands in the browser view and has no ROS side",
+    )
+    parser.add_argument("--scene", choices=tuple(SCENES), default="flat")
+    parser.add_argument("--crouch", action="store_true", help="begin in a crouch instead of standing")
+    parser.add_argument("--seed", type=int, default=0, help="seed of the sensors' noise (default 0)")
+    parser.add_argument("--truth-fd", type=int, help=argparse.SUPPRESS)
+    parser.add_argument("--control-fd", type=int, help=argparse.SUPPRESS)
+    parser.add_argument("--battery-sensor-unplugged", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--joint-sensors-unplugged", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--robot-state-unpublished", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--may-rest", action="store_true", help=argparse.SUPPRESS)
+    return parser
+
+
+def _factor(text: str) -> float:
+    value = float(text)
+    if not 0 <= value <= 100:
+        raise argparse.ArgumentTypeError(f"must lie between 0 and 100, got {text}")
+    return value

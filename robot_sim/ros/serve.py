@@ -1,0 +1,127 @@
+"""Serve the humanoid under ROS 2 in this process, which may be a fork of one that has built it."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import rclpy
+from rclpy.signals import SignalHandlerOptions
+
+from robot_sim.humanoid import Humanoid
+from robot_sim.ros.node import HumanoidNode
+from robot_sim.ros.options import RobotOptions, parse_options
+from robot_sim.ros.pacing import Pacing
+from robot_sim.ros.run import run
+from robot_sim.ros.scenario_control import ScenarioControl
+from robot_sim.ros.truth import TruthWriter
+
+if TYPE_CHECKING:
+    from robot_sim.views.web_view import WebView
+
+__all__ = ["RobotOptions", "build_humanoid", "parse_options", "serve_robot"]
+
+CROUCH = 0.45  # m, height of the pelvis
+LONGEST_SETTLING = 10.0  # s, simulated, until a robot that may rest does, if ever it does
+
+
+def build_humanoid(options: RobotOptions, built: Humanoid | None = None) -> Humanoid:
+    """The humanoid that the options ask for: ``built``, reset, if it is in their scene, else another.
+
+    A humanoid that is reset does to the bit what one that is made does, and a reset takes a tenth of the time. One that
+    may rest has stood until it rests.
+    """
+    if built is None or built.scene != options.scene:
+        built = Humanoid(options.scene, seed=options.seed)
+    built.seed = options.seed
+    built.may_rest = options.may_rest
+    built.reset(height=CROUCH if options.crouch else None)
+    while built.may_rest and not built.is_resting and built.time < LONGEST_SETTLING:
+        built.step()
+    return built
+
+
+def serve_robot(
+    options: RobotOptions,
+    humanoid: Humanoid | None = None,
+    is_running: Callable[[], bool] = lambda: True,
+) -> None:
+    """Run the robot until SIGINT, SIGTERM, or until ``is_running`` says no; call it in the main thread.
+
+    Args:
+        humanoid: what ``build_humanoid`` has made for these options, to be used as it is; made here unless given.
+
+    Nothing of ROS may have been set up in this process or in one that it was forked from: the middleware's threads
+    do not survive a fork.
+    """
+    signalled = False
+
+    def stop(_signal, _frame) -> None:
+        nonlocal signalled
+        signalled = True
+
+    def goes_on() -> bool:
+        return not signalled and is_running()
+
+    signal.signal(signal.SIGINT, stop)
+    signal.signal(signal.SIGTERM, stop)
+
+    if options.robot:
+        return _show_other_robot(options.robot, options.port, goes_on)
+    truth = TruthWriter(options.truth_fd) if options.truth_fd is not None else None
+    control = ScenarioControl(options.control_fd) if options.control_fd is not None else None
+    humanoid = humanoid or build_humanoid(options)
+    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    node = HumanoidNode(humanoid, options.namespace, truth)
+    node.battery_sensor_connected = not options.battery_sensor_unplugged
+    node.joint_sensors_connected = not options.joint_sensors_unplugged
+    node.robot_state_published = not options.robot_state_unpublished
+    pacing = Pacing(options.rtf)
+    controls = view = None
+    if control is None:  # nobody is graded
+        from robot_sim.ros.sim_controls import SimControls
+
+        controls = SimControls(node, humanoid, pacing)
+        node.heard += controls.heard
+        view = _open_view(humanoid, options.port) if options.view else None
+        print(
+            f"humanoid stands in {options.namespace} at {options.rtf:g} times real time; Ctrl-C ends it",
+            flush=True,
+        )
+    try:
+        run(humanoid, node, pacing, goes_on, truth=truth, control=control, controls=controls, view=view)
+    finally:
+        if view:
+            view.close()
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+def _show_other_robot(name: str, port: int, is_running: Callable[[], bool]) -> None:
+    from robot_sim.views.other_robots import RobotUnavailable, show
+
+    try:
+        show(name, port, is_running)
+    except RobotUnavailable as error:
+        sys.exit(f"course sim: {error}")
+    except (ImportError, OSError) as error:
+        sys.exit(_why_there_is_no_view(error))
+
+
+def _open_view(humanoid: Humanoid, port: int) -> WebView:
+    from robot_sim.views.web_view import WebView
+
+    try:
+        view = WebView(humanoid, port)
+    except (ImportError, OSError) as error:
+        sys.exit(_why_there_is_no_view(error))
+    print(f"view: {view.url}", flush=True)
+    return view
+
+
+def _why_there_is_no_view(error: ImportError | OSError) -> str:
+    if isinstance(error, ImportError):
+        return "course sim: the view needs MuJoCo 4, which needs Python 3.11 or newer"
+    return f"course sim: the view could not be opened: {error}"

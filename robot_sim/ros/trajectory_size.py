@@ -1,0 +1,56 @@
+"""How much a trajectory_msgs/JointTrajectory holds, read from its bytes without making a message of them."""
+
+from __future__ import annotations
+
+import struct
+
+from robot_sim.arms.joint_trajectory import MOVABLE
+
+MOST_POINTS = 500
+MOST_JOINTS = 64  # more than the robot has, so that one who names a wrong one is told which
+_HEAD = 8192  # bytes for the header and the joints' names
+_POINT = 8 + 4 * (8 + 8 * len(MOVABLE))  # bytes: a duration and four lists, each with its length
+MOST_BYTES = _HEAD + MOST_POINTS * _POINT
+
+
+def why_too_large(message: bytes) -> str:
+    """Why no trajectory for this robot is like that, in words; "" for one that may be.
+
+    Raises:
+        ValueError: the bytes end too soon.
+    """
+    joints, points = count_joints_and_points(message)
+    if points > MOST_POINTS:
+        return f"more than {MOST_POINTS} points"
+    if joints > MOST_JOINTS:
+        return f"more than {MOST_JOINTS} joints"
+    return ""
+
+
+def count_joints_and_points(message: bytes) -> tuple[int, int]:
+    """The lengths of ``joint_names`` and ``points`` in a serialized message (CDR: OMG formal/02-06-51, 15.3).
+
+    More names than a sane message has are not passed over, and their points count as none.
+
+    Raises:
+        ValueError: the bytes end too soon.
+    """
+    read = struct.Struct("<I" if len(message) > 1 and message[1] & 1 else ">I")
+
+    def number_at(where: int) -> tuple[int, int]:
+        """The number at the next multiple of four, and where what follows begins."""
+        where += -where % 4
+        try:
+            return read.unpack_from(message, where)[0], where + 4
+        except struct.error:
+            raise ValueError("the bytes end too soon") from None
+
+    frame_length, where = number_at(4 + 8)  # after encapsulation and stamp
+    joints, where = number_at(where + frame_length)
+    if joints > MOST_JOINTS:
+        return joints, 0
+    for _ in range(joints):
+        length, where = number_at(where)
+        where += length
+    points, _ = number_at(where)
+    return joints, points

@@ -1,0 +1,1 @@
+"""What the robot feels, and where it believes it is."""

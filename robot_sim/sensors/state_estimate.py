@@ -1,0 +1,110 @@
+"""Where the robot believes it is: the floating base from inertial sensor, joint encoders and foot contacts."""
+
+import mujoco
+import numpy as np
+
+from robot_sim.model.joint_names import SIDES
+from robot_sim.parameters import GRAVITY, EstimateParameters
+from robot_sim.sensors.imu import Imu
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+class StateEstimate:
+    """A second MjData whose base is estimated while its joints are measured; the controller can read it like the first.
+
+    Attitude: the gyro, less its bias, integrated; the accelerometer slowly corrects the tilt (R. Mahony, T. Hamel,
+    J.-M. Pflimlin, "Nonlinear complementary filters on the special orthogonal group", IEEE TAC 53, 2008). Nothing
+    corrects the heading, which drifts. Velocity: the accelerometer integrated, corrected by leg odometry: a foot that
+    bears load stands still. Position: the velocity integrated, held to where the loaded feet came down, and to a level
+    floor in height.
+
+    Args:
+        model, data: the simulation, of which only encoders, touch sensors and IMU are read.
+        imu: its inertial sensor.
+
+    Attributes:
+        data: the believed state.
+    """
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        imu: Imu,
+        parameters: EstimateParameters | None = None,
+    ) -> None:
+        self.data = mujoco.MjData(model)
+        self._model, self._measured, self._imu = model, data, imu
+        self._parameters = parameters or EstimateParameters()
+        self._pelvis = model.body("pelvis").id
+        self._soles = [model.site(f"{side}_sole").id for side in SIDES]
+        self._touches = [model.sensor(f"{side}_foot_touch").adr[0] for side in SIDES]
+        self._anchors: list[np.ndarray | None] = [None, None]
+        self._gyro_bias = np.zeros(3)
+        self._jacobian = np.zeros((3, model.nv))
+        self.data.qpos[:], self.data.qvel[:] = data.qpos, data.qvel  # it is told where it is set up
+        self._compute()
+
+    def tick(self, dt: float) -> None:
+        """Take in the sensors and move on by ``dt`` (s)."""
+        sample = self._imu.read()
+        loads = self._loads()
+        self._learn_gyro_bias(sample.angular_velocity, all(loads), dt)
+        rate = sample.angular_velocity - self._gyro_bias
+        velocity = self._predict(sample.linear_acceleration, rate, dt)
+        self._correct(velocity, loads)
+        self._compute()
+
+    def _loads(self) -> list[float]:
+        """The contact forces (N) of the feet; 0 for one that bears too little to stand still."""
+        loads = [float(self._measured.sensordata[touch]) for touch in self._touches]
+        return [load if load > self._parameters.contact_force else 0.0 for load in loads]
+
+    def _predict(self, force: np.ndarray, rate: np.ndarray, dt: float) -> np.ndarray:
+        """Move the base on by accelerometer (m/s²) and gyro (rad/s), both in base_link; returns its velocity, m/s."""
+        believed, measured = self.data, self._measured
+        rotation = believed.xmat[self._pelvis].reshape(3, 3)
+        tilt = np.cross(force / np.linalg.norm(force), rotation.T @ UP)
+        velocity = believed.qvel[:3] + (rotation @ force - GRAVITY * UP) * dt
+        mujoco.mju_quatIntegrate(believed.qpos[3:7], rate + self._parameters.tilt_gain * tilt, dt)
+        believed.qpos[:3] += velocity * dt
+        believed.qpos[7:], believed.qvel[6:] = measured.qpos[7:], measured.qvel[6:]
+        believed.qvel[:3], believed.qvel[3:6] = 0.0, rate
+        mujoco.mj_kinematics(self._model, believed)
+        mujoco.mj_comPos(self._model, believed)
+        return velocity
+
+    def _correct(self, velocity: np.ndarray, loads: list[float]) -> None:
+        """Correct velocity (m/s) and position of the base by the feet that stand, each by its share of the load."""
+        believed, gains = self.data, self._parameters
+        moved = np.zeros(3)
+        for side, sole in enumerate(self._soles):
+            if not loads[side]:
+                self._anchors[side] = None
+                continue
+            share, place = loads[side] / sum(loads), believed.site_xpos[sole]
+            if self._anchors[side] is None:
+                self._anchors[side] = np.array([place[0], place[1], 0.0])
+            mujoco.mj_jacSite(self._model, believed, self._jacobian, None, sole)
+            # The base's own velocity is 0 in the believed state as yet: this is the foot's, seen from the base.
+            velocity += gains.odometry_gain * share * (-self._jacobian @ believed.qvel - velocity)
+            moved += gains.anchor_gain * share * (self._anchors[side] - place)
+        believed.qpos[:3] += moved
+        believed.qvel[:3] = velocity
+
+    def _learn_gyro_bias(self, rate: np.ndarray, stands: bool, dt: float) -> None:
+        """A robot that stands still turns at no rate."""
+        gains = self._parameters
+        if stands and np.abs(rate).max() < gains.still:
+            self._gyro_bias += dt / gains.bias_time * (rate - self._gyro_bias)
+
+    def _compute(self) -> None:
+        """Everything that the controller reads of a state; kinematics (3 µs) again, as the feet have moved the base."""
+        model, believed = self._model, self.data
+        mujoco.mj_kinematics(model, believed)
+        mujoco.mj_comPos(model, believed)
+        mujoco.mj_makeM(model, believed)
+        mujoco.mj_comVel(model, believed)
+        mujoco.mj_subtreeVel(model, believed)
+        mujoco.mj_rne(model, believed, 0, believed.qfrc_bias)

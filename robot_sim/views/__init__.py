@@ -1,0 +1,1 @@
+"""Pictures of the robot: in a browser, in a notebook, as a film."""

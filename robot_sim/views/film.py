@@ -1,0 +1,103 @@
+"""Moving pictures of the robot, as a file that browsers, notebooks and slides play: animated WebP."""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import BinaryIO
+
+from PIL import Image
+
+from robot_sim.humanoid import Humanoid
+from robot_sim.views.view import View
+
+RATE = 25.0  # frames a second
+QUALITY = 70  # of 100
+
+
+def film(
+    humanoid: Humanoid,
+    seconds: float,
+    file: Path | str | BinaryIO,
+    *,
+    camera: str = "track",
+    each_step: Callable[[], object] = lambda: None,
+) -> None:
+    """Simulate for ``seconds`` and write what is seen to ``file``; ``each_step`` is called before every timestep.
+
+    Raises:
+        ValueError: the duration is not positive, or the model has no such camera.
+        NoOpenGLError: this machine cannot draw.
+    """
+    if not (math.isfinite(seconds) and seconds > 0):
+        raise ValueError(f"the film would last {seconds} s; expected a positive number")
+    reel = Reel(humanoid, camera=camera)
+    try:
+        began = humanoid.time
+        for frame in range(max(1, round(seconds * RATE))):
+            while humanoid.time - began < frame / RATE - humanoid.timestep / 2:
+                each_step()
+                humanoid.step()
+            reel.add()
+        reel.save(file)
+    finally:
+        reel.close()
+
+
+class Reel:
+    """Frames of one robot; ``close()`` it, because it holds an OpenGL context.
+
+    Args:
+        humanoid: whom to film.
+        width, height: px.
+        camera: "track", "side", "front" or "head_camera".
+        rate: frames a second at which it is played.
+
+    Raises:
+        NoOpenGLError: this machine cannot draw.
+    """
+
+    def __init__(
+        self,
+        humanoid: Humanoid,
+        width: int = 480,
+        height: int = 360,
+        *,
+        camera: str = "track",
+        rate: float = RATE,
+    ) -> None:
+        self._view = View(humanoid, width, height, shadows=False)
+        self._camera = camera
+        self._rate = rate
+        self._frames: list[Image.Image] = []
+
+    def add(self) -> None:
+        """Add the robot as it is now.
+
+        Raises:
+            ValueError: the model has no such camera.
+        """
+        self._frames.append(Image.fromarray(self._view.picture(self._camera)))
+
+    def save(self, file: Path | str | BinaryIO) -> None:
+        """Write all frames, to be played again and again.
+
+        Raises:
+            ValueError: there are none.
+        """
+        if not self._frames:
+            raise ValueError("there are no frames to save; add() some first")
+        first, *others = self._frames
+        first.save(
+            file,
+            "WEBP",
+            save_all=True,
+            append_images=others,
+            duration=round(1000 / self._rate),
+            loop=0,
+            quality=QUALITY,
+            method=2,
+        )
+
+    def close(self) -> None:
+        """Free the OpenGL context."""
+        self._view.close()

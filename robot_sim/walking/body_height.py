@@ -1,0 +1,82 @@
+"""Crouching and standing up: the height of the pelvis that the whole-body controller holds."""
+
+import math
+
+from robot_sim.parameters import Dimensions, HeightLimits
+from robot_sim.walking.height_change import HeightChange
+from robot_sim.walking.planar import clamp
+from robot_sim.walking.walker import Walker
+
+
+class BodyHeight:
+    """Lowers and raises a standing robot; a robot that is to walk is raised first.
+
+    Attributes:
+        rate: m/s, upwards, that the body is asked to move at.
+        change: the last one in phases, if any; while it goes on the rate is 0.
+    """
+
+    def __init__(self, walker: Walker, size: Dimensions, limits: HeightLimits) -> None:
+        self._walker = walker
+        self._limits = limits
+        self._stance = size.stance_height
+        self.rate = 0.0
+        self.change: HeightChange | None = None
+
+    @property
+    def is_risen(self) -> bool:
+        """High enough to walk."""
+        return self._walker.height > self._stance - self._limits.risen
+
+    @property
+    def is_idle(self) -> bool:
+        """It is not told to go anywhere, or is where it was told to go."""
+        goes = self.rate < 0 or (self.rate > 0 and self._walker.height < self._stance)
+        return not goes and (self.change is None or self.change.phase.is_last)
+
+    def move(self, rate: float) -> None:
+        """Go up at ``rate`` (m/s; negative: down) until told otherwise, within the limits of height and speed.
+
+        Raises:
+            ValueError: the rate is not finite.
+        """
+        if not math.isfinite(rate):
+            raise ValueError(f"the rate is {rate}; expected a finite number in m/s")
+        self.interrupt("another command came")
+        self.rate = clamp(rate, -self._limits.speed, self._limits.speed)
+
+    def rise(self) -> None:
+        """Go up to the height of the stance."""
+        self.move(self._limits.speed)
+
+    def change_to(self, height: float) -> HeightChange:
+        """Go to a height (m), brought within the limits, in phases.
+
+        Raises:
+            ValueError: the height is not finite.
+        """
+        if not math.isfinite(height):
+            raise ValueError(f"the height is {height}; expected a finite number in m")
+        self.move(0.0)
+        self.change = HeightChange(self._walker, self._within_limits(height), self._limits)
+        return self.change
+
+    def interrupt(self, problem: str) -> None:
+        """Let a change that goes on fail, and say why; the height that is reached stays."""
+        if self.change is not None:
+            self.change.fail(problem)
+
+    def set(self, height: float) -> None:
+        """Take a height (m) at once, as a robot that is put there does."""
+        self._walker.height = self._within_limits(height)
+
+    def tick(self, dt: float) -> None:
+        """Move the reference for the next ``dt`` (s); the body goes down only while both feet stand."""
+        if self.rate > 0 or (self.rate < 0 and self._walker.stands):
+            self.set(self._walker.height + self.rate * dt)
+        elif self.change is not None and not self.change.phase.is_last:
+            self.change.tick(dt)
+            self.set(self.change.height)
+
+    def _within_limits(self, height: float) -> float:
+        return clamp(height, self._limits.lowest, self._stance)

@@ -1,0 +1,89 @@
+"""From the force the motion needs to what each foot does: total wrench, its centre of pressure, the split."""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from robot_sim.model.joint_names import LEFT
+from robot_sim.parameters import GRAVITY, BalanceParameters, Dimensions
+from robot_sim.walking.attitude import to_world
+from robot_sim.walking.dcm_plan import Point
+from robot_sim.walking.planar import Frame, clamp
+from robot_sim.walking.sensing import Sensing
+
+
+class ContactWrench(NamedTuple):
+    """The floor's force (N) on the robot, acting at the CoP (m) with a yaw moment (N·m)."""
+
+    fx: float
+    fy: float
+    fz: float
+    yaw_moment: float
+    cop: Point
+
+
+def contact_wrench(
+    base_rows: Sequence[float], sensed: Sensing, mass: float, limits: BalanceParameters
+) -> ContactWrench:
+    """The wrench that makes the base move as wanted.
+
+    Args:
+        base_rows: the six generalized forces of the free joint that inverse dynamics leaves over: force (N)
+            in the world, moment (N·m) in and about base_link. Nothing but the floor can supply them.
+        sensed: the robot now.
+        mass: of the robot, kg.
+        limits: load and friction; the force is brought within them.
+
+    The CoP is the point of the floor about which the moment has no horizontal part: P. Sardain, G. Bessonnet,
+    "Forces acting on a biped robot. Center of pressure - zero moment point", IEEE Transactions on Systems,
+    Man, and Cybernetics A 34(5), 2004.
+    """
+    fx, fy, fz = base_rows[:3]
+    weight = mass * GRAVITY
+    fz = clamp(fz, limits.min_load * weight, limits.max_load * weight)
+    sliding, grip = math.hypot(fx, fy), limits.friction * fz
+    if sliding > grip:
+        fx, fy = fx * grip / sliding, fy * grip / sliding
+    roll, pitch, yaw = base_rows[3:]
+    moment_x, moment_y, moment_z = to_world(sensed.pelvis_rotation, (roll, pitch, yaw))
+    x, y, z = sensed.pelvis[0], sensed.pelvis[1], sensed.pelvis[2] - sensed.ground
+    moment_x += y * fz - z * fy
+    moment_y += z * fx - x * fz
+    moment_z += x * fy - y * fx
+    cop_x, cop_y = -moment_y / fz, moment_x / fz
+    return ContactWrench(fx, fy, fz, moment_z - (cop_x * fy - cop_y * fx), (cop_x, cop_y))
+
+
+class LoadSplit:
+    """Shares a contact wrench between the feet, each CoP kept on its sole."""
+
+    def __init__(self, size: Dimensions, limits: BalanceParameters) -> None:
+        self._length = size.sole_half_length * limits.sole_edge_share
+        self._width = size.sole_half_width * limits.sole_edge_share
+        self._yaw_lever = limits.yaw_moment_per_load
+
+    def foot_wrench(
+        self, side: int, wrench: ContactWrench, left_share: float, sensed: Sensing, shift: Point
+    ) -> tuple[float, ...] | None:
+        """Force (N) and moment (N·m) about the sole's centre, world frame; None for a foot without load.
+
+        Both CoPs have the same offset from their soles' centres: the one of the total CoP from the load-
+        weighted mean of the centres, and ``shift`` (m) of this foot.
+        """
+        share = left_share if side == LEFT else 1 - left_share
+        if share < 1e-3:
+            return None
+        left, right = sensed.soles
+        middle_x = left_share * left[0] + (1 - left_share) * right[0]
+        middle_y = left_share * left[1] + (1 - left_share) * right[1]
+        around_sole = Frame(0.0, 0.0, sensed.foot_yaws[side])
+        offset_x, offset_y = around_sole.clamped(
+            wrench.cop[0] - middle_x + shift[0],
+            wrench.cop[1] - middle_y + shift[1],
+            self._length,
+            self._width,
+        )
+        fx, fy, fz = wrench.fx * share, wrench.fy * share, wrench.fz * share
+        strongest = self._yaw_lever * fz
+        yaw_moment = clamp(wrench.yaw_moment * share, -strongest, strongest)
+        return fx, fy, fz, offset_y * fz, -offset_x * fz, offset_x * fy - offset_y * fx + yaw_moment

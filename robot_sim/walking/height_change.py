@@ -1,0 +1,161 @@
+"""Crouching and standing up in phases, each of which ends when the robot is seen to be so far."""
+
+import math
+from enum import Enum
+
+from robot_sim.parameters import HeightChangeParameters, HeightLimits
+from robot_sim.walking.planar import clamp
+from robot_sim.walking.walker import Walker
+
+PEAK_OVER_MEAN = 15 / 8  # speed of a minimum-jerk motion
+
+
+class HeightPhase(Enum):
+    """Where a change of height is; the values are words for a student's feedback."""
+
+    SHIFTING = "shifting"  # the weight comes to rest over the middle of both feet
+    LOWERING = "lowering"
+    RISING = "rising"
+    SETTLING = "settling"  # the last centimetre, until height, attitude and speed are within bounds
+    DONE = "done"
+    FAILED = "failed"
+
+    @property
+    def is_last(self) -> bool:
+        """Nothing follows it."""
+        return self in (HeightPhase.DONE, HeightPhase.FAILED)
+
+
+class HeightChange:
+    """One way of the pelvis to a height, along a minimum-jerk profile under the speed limit.
+
+    T. Flash, N. Hogan, "The coordination of arm movements", Journal of Neuroscience 5(7), 1985. A push that carries the
+    weight away from the middle of the feet, or makes the robot step, takes it back to shifting; from there it goes on.
+
+    Args:
+        walker: whose state is measured.
+        target: height (m) of the pelvis above the floor.
+        limits: of the speed.
+
+    Attributes:
+        phase: where it is now.
+        problem: why it failed, in words; "" as long as it has not.
+        height: that the pelvis should have now, m.
+    """
+
+    def __init__(
+        self,
+        walker: Walker,
+        target: float,
+        limits: HeightLimits,
+        parameters: HeightChangeParameters | None = None,
+    ) -> None:
+        self.phase = HeightPhase.SHIFTING
+        self.problem = ""
+        self.height = walker.height
+        self._walker, self._sensed = walker, walker.sensed
+        self._target = target
+        self._speed = limits.speed
+        self._parameters = parameters or HeightChangeParameters()
+        self._first_height = self._measured_height()
+        self._start, self._progress, self._duration = self.height, 0.0, 0.0
+        self._time = self._fulfilled = 0.0
+
+    @property
+    def percent_complete(self) -> float:
+        """Share of the way that the pelvis has really gone, 0 to 100; 100 only when it is done."""
+        if self.phase is HeightPhase.DONE:
+            return 100.0
+        way = self._target - self._first_height
+        if abs(way) < self._parameters.near:
+            return 0.0
+        return clamp(100 * (self._measured_height() - self._first_height) / way, 0.0, 99.0)
+
+    def fail(self, problem: str) -> None:
+        """End it for a reason from outside, such as a fall, unless it has ended."""
+        if not self.phase.is_last:
+            self.problem = f"{problem} while {self.phase.value}"
+            self.phase = HeightPhase.FAILED
+
+    def tick(self, dt: float) -> None:
+        """Take in the state and move ``height`` for the next ``dt`` (s); not to be called once it has ended."""
+        self._time += dt
+        if self._time > self._parameters.patience:
+            self.fail(f"not done within {self._parameters.patience:g} s ({self._state()})")
+        elif self.phase is HeightPhase.SHIFTING:
+            if self._lasts(self._is_balanced(), dt):
+                self._set_out()
+        elif self._is_thrown():
+            self._enter(HeightPhase.SHIFTING)
+        else:
+            self._follow_profile(dt)
+
+    def _set_out(self) -> None:
+        """Begin a profile from the height that is held now."""
+        self._start, self._progress = self.height, 0.0
+        way = self._target - self._start
+        self._duration = PEAK_OVER_MEAN * abs(way) / self._speed
+        if way == 0:
+            self._enter(HeightPhase.SETTLING)
+        else:
+            self._enter(HeightPhase.RISING if way > 0 else HeightPhase.LOWERING)
+
+    def _follow_profile(self, dt: float) -> None:
+        self._progress = min(1.0, self._progress + dt / self._duration) if self._duration else 1.0
+        s = self._progress
+        self.height = self._start + (self._target - self._start) * s * s * s * (10 + s * (6 * s - 15))
+        if self.phase is not HeightPhase.SETTLING:
+            if abs(self._error()) < self._parameters.near:
+                self._enter(HeightPhase.SETTLING)
+        elif self._lasts(self._is_settled(), dt):
+            self._enter(HeightPhase.DONE)
+
+    def _enter(self, phase: HeightPhase) -> None:
+        self.phase, self._fulfilled = phase, 0.0
+
+    def _lasts(self, condition: bool, dt: float) -> bool:
+        """Whether a condition has been true without a break for as long as counts."""
+        self._fulfilled = self._fulfilled + dt if condition else 0.0
+        return self._fulfilled >= self._parameters.hold
+
+    # What is measured
+
+    def _measured_height(self) -> float:
+        return self._sensed.pelvis[2] - self._sensed.ground
+
+    def _error(self) -> float:
+        """The target's distance, m."""
+        return self._target - self._measured_height()
+
+    def _offset(self) -> float:
+        """How far the DCM is from the middle of the feet, m."""
+        x, y, _ = self._sensed.feet_centre
+        return math.hypot(self._sensed.dcm[0] - x, self._sensed.dcm[1] - y)
+
+    def _base_speed(self) -> float:
+        return math.hypot(*self._sensed.base_velocity[:3])
+
+    def _is_balanced(self) -> bool:
+        """Both feet stand, bear about the same, and the weight rests between them."""
+        loads = self._sensed.foot_loads
+        even = min(loads) >= self._parameters.least_load_share * sum(loads) > 0
+        return self._walker.stands and even and self._offset() < self._parameters.balanced
+
+    def _is_thrown(self) -> bool:
+        return not self._walker.stands or self._offset() > self._parameters.thrown
+
+    def _is_settled(self) -> bool:
+        bounds = self._parameters
+        return (
+            abs(self._error()) < bounds.settled
+            and self._sensed.pelvis_rotation[8] > bounds.upright
+            and self._base_speed() < bounds.still
+        )
+
+    def _state(self) -> str:
+        """The measured state, for a message."""
+        return (
+            f"{'both feet stand' if self._walker.stands else 'the feet step'}, the weight is "
+            f"{1000 * self._offset():.0f} mm off their middle, the pelvis {1000 * abs(self._error()):.0f} mm from its "
+            f"height, at {self._base_speed():.2f} m/s"
+        )

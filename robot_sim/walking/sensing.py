@@ -1,0 +1,87 @@
+"""What the walking controller senses, read once a tick into plain floats.
+
+Views of MuJoCo's arrays are made once and turned into lists in bulk: indexing NumPy arrays element by element
+costs more than the arithmetic done with the numbers.
+"""
+
+import math
+
+import mujoco
+
+from robot_sim.model.joint_names import LEFT, RIGHT, SIDES
+from robot_sim.parameters import GRAVITY
+from robot_sim.walking.floor_slope import FloorSlope
+from robot_sim.walking.planar import wrap
+
+
+class Sensing:
+    """The robot as its controller sees it, in the world frame.
+
+    Args:
+        data: the state it is in, or believes to be in.
+        measured: has the touch sensors.
+
+    Attributes:
+        com: centre of mass (x, y, z), m.
+        com_velocity: (x, y, z), m/s.
+        dcm: divergent component of motion (x, y), m: com + com_velocity / omega.
+        omega: natural frequency of the linear inverted pendulum √(g/h), 1/s.
+        ground: height of the floor under the supporting foot, m.
+        slope: rise of the floor per m along x and y, as the soles feel it.
+        soles: centres of the two soles (x, y, z), m; left first.
+        sole_rotations: their rotation matrices, row by row.
+        foot_yaws: headings of the feet, rad.
+        foot_loads: contact forces of the feet, N.
+        feet_centre: (x, y, yaw) midway between the soles.
+        pelvis, pelvis_rotation: position and rotation matrix (row by row) of base_link.
+        base_velocity: linear in the world, angular in base_link: MuJoCo's six velocities of a free joint.
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, measured: mujoco.MjData) -> None:
+        pelvis = model.body("pelvis").id
+        soles = [model.site(f"{side}_sole").id for side in SIDES]
+        root = model.joint("root").dofadr[0]
+        self._com = data.subtree_com[pelvis]
+        self._com_velocity = data.subtree_linvel[pelvis]
+        self._loads = [_sensor(model, measured, f"{side}_foot_touch") for side in SIDES]
+        self._soles = [data.site_xpos[sole] for sole in soles]
+        self._sole_rotations = [data.site_xmat[sole] for sole in soles]
+        self._pelvis = data.xpos[pelvis]
+        self._pelvis_rotation = data.xmat[pelvis]
+        self._base_velocity = data.qvel[root : root + 6]
+        self._slope = FloorSlope(model.opt.timestep)
+        self.read(swing_side=None)
+
+    def read(self, swing_side: int | None) -> None:
+        """Take in the present state; ``swing_side`` is the foot in the air, if any."""
+        self.com = self._com.tolist()
+        self.com_velocity = self._com_velocity.tolist()
+        self.soles = [sole.tolist() for sole in self._soles]
+        self.sole_rotations = [rotation.tolist() for rotation in self._sole_rotations]
+        self.foot_loads = [load.item() for load in self._loads]
+        self.foot_yaws = [math.atan2(rotation[3], rotation[0]) for rotation in self.sole_rotations]
+        self.pelvis = self._pelvis.tolist()
+        self.pelvis_rotation = self._pelvis_rotation.tolist()
+        self.base_velocity = self._base_velocity.tolist()
+
+        left, right = self.soles
+        if swing_side is not None:
+            self._slope.feel(self.sole_rotations[1 - swing_side])
+        self.slope = self._slope.estimate()
+        self.ground = min(left[2], right[2]) if swing_side is None else self.soles[1 - swing_side][2]
+        self.omega = math.sqrt(GRAVITY / max(0.3, self.com[2] - self.ground))
+        self.dcm = (
+            self.com[0] + self.com_velocity[0] / self.omega,
+            self.com[1] + self.com_velocity[1] / self.omega,
+        )
+        turn = wrap(self.foot_yaws[RIGHT] - self.foot_yaws[LEFT])
+        self.feet_centre = (
+            (left[0] + right[0]) / 2,
+            (left[1] + right[1]) / 2,
+            self.foot_yaws[LEFT] + turn / 2,
+        )
+
+
+def _sensor(model: mujoco.MjModel, data: mujoco.MjData, name: str):
+    sensor = model.sensor(name)
+    return data.sensordata[sensor.adr[0] : sensor.adr[0] + sensor.dim[0]]

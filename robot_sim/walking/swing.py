@@ -1,0 +1,66 @@
+"""The path of a foot through the air."""
+
+from typing import NamedTuple
+
+from robot_sim.walking.footsteps import Footstep
+from robot_sim.walking.planar import wrap
+
+Vector = tuple[float, float, float]
+
+
+class SwingReference(NamedTuple):
+    """Where the swing sole should be now; world frame."""
+
+    side: int  # LEFT or RIGHT
+    position: Vector  # m
+    velocity: Vector  # m/s
+    acceleration: Vector  # m/s²
+    yaw: float  # rad
+    yaw_rate: float  # rad/s
+    yaw_acceleration: float  # rad/s²
+    slope: tuple[float, float]  # rise per m of the floor under it, along x and y
+
+
+PUSH_DOWN_SPEED = 0.3  # m/s, when the floor is later than expected
+
+
+def swing_reference(
+    side: int,
+    start: Footstep,
+    start_height: float,
+    landing: Footstep,
+    landing_height: float,
+    lift: float,
+    progress: float,
+    rate: float,
+    overdue: float,
+    slope: tuple[float, float],
+) -> SwingReference:
+    """The reference of a foot at ``progress`` (0 to 1) of its swing, which passes at ``rate`` (1/s).
+
+    Horizontally a quintic with zero speed and acceleration at both ends; vertically a bump of height ``lift``
+    (m). A landing that moves while the foot is in the air bends the rest of the path. When touchdown is
+    ``overdue`` (s) the foot is pushed down until it meets the floor.
+    """
+    q = progress
+    blend = q * q * q * (10 + q * (6 * q - 15))
+    blend_rate = 30 * q * q * (1 - q) ** 2 * rate
+    blend_acceleration = (60 * q - 180 * q * q + 120 * q**3) * rate * rate
+    bump = 16 * q * q * (1 - q) ** 2 * lift
+    bump_rate = 16 * (2 * q - 6 * q * q + 4 * q**3) * lift * rate
+    bump_acceleration = 16 * (2 - 12 * q + 12 * q * q) * lift * rate * rate
+    if overdue > 0:
+        bump, bump_rate, bump_acceleration = bump - PUSH_DOWN_SPEED * overdue, -PUSH_DOWN_SPEED, 0.0
+
+    dx, dy, dz = landing.x - start.x, landing.y - start.y, landing_height - start_height
+    turn = wrap(landing.yaw - start.yaw)
+    return SwingReference(
+        side,
+        (start.x + dx * blend, start.y + dy * blend, start_height + dz * blend + bump),
+        (dx * blend_rate, dy * blend_rate, dz * blend_rate + bump_rate),
+        (dx * blend_acceleration, dy * blend_acceleration, bump_acceleration),
+        start.yaw + turn * blend,
+        turn * blend_rate,
+        turn * blend_acceleration,
+        slope,
+    )

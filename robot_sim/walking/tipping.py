@@ -1,0 +1,35 @@
+"""What to do about a foot that tips over the edge of something it stands on, such as a bump."""
+
+import math
+from collections.abc import Sequence
+
+from robot_sim.parameters import TippingParameters
+from robot_sim.walking.dcm_plan import Point
+
+NOWHERE = (0.0, 0.0)
+
+
+def cop_against_tipping(
+    sole: Sequence[float], slope: Point, spin: Sequence[float], parameters: TippingParameters
+) -> Point:
+    """How far (m, along x and y of the world) to move the CoP of a foot so that its sole lies down again.
+
+    Where less than the whole sole is supported, a CoP beyond the edge of the support turns the foot over that edge: its
+    normal leans the way the CoP is off. The CoP is moved the other way, by how far and how fast the normal leans.
+
+    Args:
+        sole: rotation matrix of the sole, row by row.
+        slope: rise of the floor per m along x and y.
+        spin: angular velocity of the sole (x, y, z), rad/s, world frame.
+        parameters: gains, and the lean that a sole on a flat floor has too.
+    """
+    lean_x, lean_y = sole[2] + slope[0], sole[5] + slope[1]
+    lean = math.hypot(lean_x, lean_y)
+    if lean < parameters.tolerated:
+        return NOWHERE
+    share = parameters.stiffness * (1 - parameters.tolerated / lean)
+    # The rate of the normal, ω × n with n close to z.
+    return (
+        -share * lean_x - parameters.damping * spin[1],
+        -share * lean_y + parameters.damping * spin[0],
+    )

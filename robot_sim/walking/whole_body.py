@@ -1,0 +1,219 @@
+"""Whole-body control: leg torques that make the body and the swing foot accelerate as the gait wants.
+
+Inverse dynamics of the floating base without an optimizer: the wanted accelerations of pelvis and feet fix
+those of the legs; M q̈ + h then tells the generalized forces; the rows of the base are what the floor must
+supply, and mapped through the feet's Jacobians they leave the torques of the legs. As the legs' and arms' own
+motion moves the centre of mass too, the base acceleration is corrected until the whole body's linear momentum
+changes as the inverted pendulum asks (linear momentum rate = contact force + weight; D. E. Orin, A. Goswami,
+S.-H. Lee, "Centroidal dynamics of a humanoid robot", Autonomous Robots 35, 2013).
+"""
+
+import math
+
+import mujoco
+import numpy as np
+
+from robot_sim.model.joint_names import SIDES, leg_joints
+from robot_sim.parameters import GRAVITY, WalkerParameters
+from robot_sim.walking.attitude import to_body, upright_error
+from robot_sim.walking.balance_gains import Trunk, default_gains
+from robot_sim.walking.balance_task import BalanceTask
+from robot_sim.walking.contact_wrench import LoadSplit, contact_wrench
+from robot_sim.walking.dcm_plan import Point
+from robot_sim.walking.planar import clamp, wrap
+from robot_sim.walking.sensing import Sensing
+from robot_sim.walking.support import left_share_of
+from robot_sim.walking.swing import SwingReference
+from robot_sim.walking.tipping import cop_against_tipping
+
+UPWARD_GRAVITY = np.array([0.0, 0.0, GRAVITY])
+REGULARIZATION = 1e-4  # keeps a leg's Jacobian invertible when the knee is straight
+
+
+class WholeBody:
+    """Turns balance tasks into the torques of the twelve leg motors.
+
+    Attributes:
+        cop_shift: low-pass filtered offset (m) of the CoP that was produced from the one asked for.
+        height: of the pelvis above the floor (m) that is held.
+        gains: how stiffly the trunk is held upright.
+    """
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        ctrl: np.ndarray,
+        trunk: Trunk,
+        parameters: WalkerParameters,
+    ) -> None:
+        self.cop_shift: Point = (0.0, 0.0)
+        self._model, self._data = model, data
+        self._balance = parameters.balance
+        self._tipping = parameters.tipping
+        self.height = parameters.dimensions.stance_height
+        self._trunk = trunk
+        self.gains = default_gains(trunk, parameters.balance)
+        self._split = LoadSplit(parameters.dimensions, parameters.balance)
+        self._mass = float(model.body_subtreemass[model.body("pelvis").id])
+        self._yaw: float | None = None
+
+        root = model.joint("root").dofadr[0]
+        self._base = slice(root, root + 6)
+        self._base_force = slice(root, root + 3)
+        self._soles = [model.site(f"{side}_sole").id for side in SIDES]
+        legs = [leg_joints(side) for side in SIDES]
+        self._legs = [_consecutive([model.joint(name).dofadr[0] for name in leg]) for leg in legs]
+        self._motors = [_consecutive([model.actuator(name).id for name in leg]) for leg in legs]
+        self._torque_limits = [model.actuator_ctrlrange[motors].T.copy() for motors in self._motors]
+        self._friction = [model.dof_damping[leg].copy() for leg in self._legs]
+
+        self._velocity, self._bias, self._ctrl = data.qvel, data.qfrc_bias, ctrl
+        self._jacobian = np.zeros((2, 6, model.nv))
+        self._rows = self._jacobian.reshape(12, model.nv)
+        self._base_jacobian = self._rows[:, self._base]
+        self._halves = [(sole[:3], sole[3:]) for sole in self._jacobian]
+        self._leg_jacobian = np.zeros((2, 6, 6))
+        self._leg_columns = [self._jacobian[side, :, leg] for side, leg in enumerate(self._legs)]
+        self._acceleration = np.zeros(model.nv)
+        self._base_acceleration_view = self._acceleration[self._base]
+        self._base_linear = self._acceleration[self._base_force]
+        self._leg_acceleration = [self._acceleration[leg] for leg in self._legs]
+        self._forces = np.zeros(model.nv)
+        self._base_forces = self._forces[self._base_force]
+        self._regularization = REGULARIZATION * np.eye(6)
+
+    def command(self, task: BalanceTask, sensed: Sensing, dt: float) -> None:
+        """Write the leg torques (N·m) of the next ``dt`` (s) into the motors."""
+        forces = self._inverse_dynamics(task, sensed, dt)
+        wrench = contact_wrench(forces[self._base].tolist(), sensed, self._mass, self._balance)
+        self._filter_cop_shift(wrench.cop, task.cop, dt)
+        left_share = task.left_share
+        if left_share is None:
+            left_share = left_share_of(wrench.cop, sensed)
+        for side, leg in enumerate(self._legs):
+            torque = forces[leg] + self._friction[side] * self._velocity[leg]
+            shift = cop_against_tipping(
+                sensed.sole_rotations[side], sensed.slope, self._sole_spin[side], self._tipping
+            )
+            foot = self._split.foot_wrench(side, wrench, left_share, sensed, shift)
+            if foot is not None:
+                torque -= np.array(foot) @ self._leg_jacobian[side]
+            low, high = self._torque_limits[side]
+            self._ctrl[self._motors[side]] = np.minimum(np.maximum(torque, low), high)
+
+    def _inverse_dynamics(self, task: BalanceTask, sensed: Sensing, dt: float) -> np.ndarray:
+        """Generalized forces (nv,) of the motion that the task asks for, contact forces left out."""
+        model, data = self._model, self._data
+        for side, sole in enumerate(self._soles):
+            mujoco.mj_jacSite(model, data, *self._halves[side], sole)
+            self._leg_jacobian[side] = self._leg_columns[side]
+        base = self._base_acceleration(task, sensed, dt)
+        self._base_acceleration_view[:] = base
+
+        foot_acceleration = self._foot_acceleration(task, sensed)
+        foot_acceleration -= (self._base_jacobian @ self._base_acceleration_view).reshape(2, 6)
+        to_joints = np.linalg.inv(self._leg_jacobian + self._regularization)
+        left_leg, right_leg = self._leg_acceleration
+        left_leg[:] = to_joints[0] @ foot_acceleration[0]
+        right_leg[:] = to_joints[1] @ foot_acceleration[1]
+        forces = self._forces_of_acceleration()
+
+        wanted = self._mass * (np.array(base[:3]) + UPWARD_GRAVITY)
+        to_left, to_right = to_joints[0, :, :3], to_joints[1, :, :3]
+        for _ in range(self._balance.momentum_iterations):
+            correction = (wanted - self._base_forces) / self._mass
+            self._base_linear += correction
+            left_leg -= to_left @ correction
+            right_leg -= to_right @ correction
+            forces = self._forces_of_acceleration()
+        return forces
+
+    def _forces_of_acceleration(self) -> np.ndarray:
+        """M q̈ + h (nv,) of the accelerations noted so far; MuJoCo's product knows which elements of M are 0."""
+        mujoco.mj_mulM(self._model, self._data, self._forces, self._acceleration)
+        self._forces += self._bias
+        return self._forces
+
+    def _base_acceleration(self, task: BalanceTask, sensed: Sensing, dt: float) -> list[float]:
+        """Linear (m/s², world) and angular (rad/s², base_link) acceleration wanted of the base.
+
+        Horizontally the linear inverted pendulum: c̈ = ω² (c - p). Height and attitude are held by PD; the trunk
+        is an inverted pendulum too, whose topple the gains have to overcome.
+        """
+        gains, trunk = self._balance, self._trunk
+        stiffness = sensed.omega**2
+        height_error = self.height + sensed.ground - sensed.pelvis[2]
+        yaw = self._slew_yaw(task.yaw, dt)
+        attitude = to_body(
+            sensed.pelvis_rotation,
+            upright_error(sensed.pelvis_rotation, math.cos(yaw), math.sin(yaw)),
+        )
+        _, _, climb, *spin = sensed.base_velocity
+        return [
+            stiffness * (sensed.com[0] - task.cop[0]),
+            stiffness * (sensed.com[1] - task.cop[1]),
+            gains.height_stiffness * height_error - gains.height_damping * climb,
+            (self.gains.roll_torque(attitude[0], spin[0]) - trunk.topple * attitude[0]) / trunk.roll_inertia,
+            (self.gains.pitch_torque(attitude[1], spin[1]) - trunk.topple * attitude[1])
+            / trunk.pitch_inertia,
+            gains.yaw_stiffness * attitude[2] - gains.yaw_damping * spin[2],
+        ]
+
+    def _slew_yaw(self, yaw: float, dt: float) -> float:
+        """The heading reference, led to ``yaw`` (rad) at a limited rate because it jumps at touchdown."""
+        if self._yaw is None:
+            self._yaw = yaw
+        most = self._balance.yaw_rate * dt
+        self._yaw += clamp(wrap(yaw - self._yaw), -most, most)
+        return self._yaw
+
+    def _foot_acceleration(self, task: BalanceTask, sensed: Sensing) -> np.ndarray:
+        """Accelerations (2, 6) wanted of the soles, world frame: come to rest, or follow the swing."""
+        velocity = (self._rows @ self._velocity).reshape(2, 6)
+        self._sole_spin = velocity[:, 3:].tolist()
+        acceleration = -self._balance.stance_damping * velocity
+        if task.swing is not None:
+            side = task.swing.side
+            acceleration[side] = self._swing_acceleration(
+                task.swing, sensed.soles[side], sensed.sole_rotations[side], velocity[side].tolist()
+            )
+        return acceleration
+
+    def _swing_acceleration(
+        self,
+        swing: SwingReference,
+        position: list[float],
+        rotation: list[float],
+        velocity: list[float],
+    ) -> list[float]:
+        """Feed-forward plus PD on the path and on a sole that lies as the floor does."""
+        gains = self._balance
+        linear = [
+            feed_forward + gains.swing_stiffness * (goal - at) + gains.swing_damping * (goal_speed - speed)
+            for feed_forward, goal, at, goal_speed, speed in zip(
+                swing.acceleration, swing.position, position, swing.velocity, velocity[:3], strict=True
+            )
+        ]
+        roll, pitch, turn = upright_error(rotation, math.cos(swing.yaw), math.sin(swing.yaw))
+        tilt = (roll + swing.slope[1], pitch - swing.slope[0], turn)
+        angular = [
+            gains.swing_turn_stiffness * error - gains.swing_turn_damping * rate
+            for error, rate in zip(tilt, velocity[3:], strict=True)
+        ]
+        angular[2] += swing.yaw_acceleration + gains.swing_turn_damping * swing.yaw_rate
+        return linear + angular
+
+    def _filter_cop_shift(self, produced: Point, asked: Point, dt: float) -> None:
+        gains = self._balance
+        fresh = 1 - gains.cop_shift_filter ** (dt / gains.cop_shift_period)
+        x, y = self.cop_shift
+        self.cop_shift = (
+            x + fresh * (produced[0] - asked[0] - x),
+            y + fresh * (produced[1] - asked[1] - y),
+        )
+
+
+def _consecutive(indices: list[int]) -> slice:
+    """The slice of indices that follow one another: a slice of an array is a view, a list makes a copy."""
+    return slice(indices[0], indices[-1] + 1)
