@@ -7,14 +7,14 @@ from pathlib import Path
 
 from rich.console import Console
 
-from autograder.checks import Check
-from autograder.exercise import file_names, load_exercise
-from autograder.grading import grade
+from autograder.authoring.checks import Check
+from autograder.engine.exercise import file_names, load_exercise
+from autograder.engine.grading import grade
+from autograder.engine.submission import place_of_work, read_submission
+from autograder.engine.submission_arenas import SubmissionArenas
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.running import RunningLine
 from autograder.report.table import grade_table, print_beginning, print_second_look, print_verdict
-from autograder.submission import place_of_work, read_submission
-from autograder.submission_arenas import SubmissionArenas
-from autograder.verdict import CheckVerdict, Grade
 
 NOTEBOOK_WIDTH = 104  # characters; JupyterLab shows as many beside its file browser on 1280 pixels
 
@@ -43,7 +43,7 @@ class SelfCheck:
 def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
     """Check `file` (default: what the notebook has written here) with the visible checks and print the table.
 
-    Raises :class:`~autograder.submission.UnusableSubmission` when the file cannot be read.
+    Raises :class:`~autograder.engine.submission.UnusableSubmission` when the file cannot be read.
     """
     console = _console()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
@@ -57,7 +57,7 @@ def check_aloud(
 
     `arenas` are those of this work, when one has been opened ahead.
 
-    Raises :class:`~autograder.submission.UnusableSubmission` and :class:`~autograder.exercise.UnknownExercise`.
+    Raises :class:`~.engine.submission.UnusableSubmission` and :class:`~.engine.exercise.UnknownExercise`.
     """
     loaded = load_exercise(exercise, hidden=False)
     submission = read_submission(path, exercise)

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from autograder.exercise import UnusableExercise, use_exercises_of
+from autograder.engine.exercise import UnusableExercise, use_exercises_of
 
 
 def _use(folder: Path | None) -> Path | None:

@@ -8,7 +8,7 @@ import zipfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from autograder.exercise import exercise_names, exercises_folder, file_names, load_exercise
+from autograder.engine.exercise import exercise_names, exercises_folder, file_names, load_exercise
 from autograder.nbgrader_bridge.release import generate_release
 
 TOP = "humanoid-course"  # the folder the archive unpacks to
@@ -34,6 +34,7 @@ PARTS = (
 # The instructor's side. `course` lists only commands whose modules are there.
 KEPT_BACK = (
     "autograder/audit",
+    "autograder/authoring/standard_hidden.py",
     "autograder/batch",
     "autograder/nbgrader_bridge",
     "autograder/new_exercise",

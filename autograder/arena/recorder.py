@@ -38,7 +38,7 @@ class _Dropped:
 
 
 class Recorder:
-    """Safe to use from any thread; the types of events are those of :mod:`autograder.events`."""
+    """Safe to use from any thread; the types of events are those of :mod:`autograder.authoring.events`."""
 
     def __init__(self, fd: int) -> None:
         self._fd = fd

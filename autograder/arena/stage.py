@@ -191,7 +191,7 @@ class Stage(Waiting):
 
     @property
     def robot(self) -> dict[str, Any]:
-        """The latest truth about the robot (fields of :class:`autograder.events.RobotTruth`)."""
+        """The latest truth about the robot (fields of :class:`autograder.authoring.events.RobotTruth`)."""
         robot = self._simulator.robot
         if robot is None:
             raise RobotTrouble("the simulator has said nothing yet")

@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from autograder.audit.run import AuditedRun, checks_without_a_killer
-from autograder.exercise import Exercise
+from autograder.engine.exercise import Exercise
 from autograder.report.table import MARKS
 
 KILL = ("✗", "bold green")  # failed as its header says it must

@@ -22,8 +22,8 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from autograder.audit.fault_patch import SUFFIX, header_of, whole_program
-from autograder.exercise import exercises_folder, file_names
-from autograder.submission import Submission, read_submission
+from autograder.engine.exercise import exercises_folder, file_names
+from autograder.engine.submission import Submission, read_submission
 
 KNOWN = "known"  # their folder, in an exercise's
 ABOUT = "about.md"

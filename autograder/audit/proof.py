@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from autograder.audit.known_submission import KnownSubmission
-from autograder.exercise import Exercise
+from autograder.engine.exercise import Exercise
 
 _MISCONCEPTION = re.compile(r"\(M\d+\)")
 

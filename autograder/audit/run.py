@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from autograder.audit.known_submission import KnownSubmission, require_known_checks
-from autograder.exercise import Exercise
-from autograder.grading import grade
-from autograder.verdict import CheckStatus, Grade
+from autograder.engine.exercise import Exercise
+from autograder.engine.grading import grade
+from autograder.engine.verdict import CheckStatus, Grade
 
 
 @dataclass(frozen=True)

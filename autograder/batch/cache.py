@@ -8,11 +8,11 @@ import json
 from functools import lru_cache
 from pathlib import Path
 
-from autograder.exercise import Exercise
+from autograder.engine.exercise import Exercise
+from autograder.engine.submission import Submission
+from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation
-from autograder.submission import Submission
-from autograder.submission_arena import PROJECT
-from autograder.verdict import Grade
+from autograder.project import PROJECT
 
 # What a verdict depends on besides the submission: the checks and the engine, the robot, the clock.
 JUDGING = ("autograder", "robot_sim", "ros_runtime", "humanoid_interfaces")

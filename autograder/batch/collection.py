@@ -9,8 +9,8 @@ from pathlib import Path
 
 from nbgrader.utils import parse_utc
 
-from autograder.exercise import exercise_names, file_names
-from autograder.submission import Submission, UnusableSubmission, read_submission
+from autograder.engine.exercise import exercise_names, file_names
+from autograder.engine.submission import Submission, UnusableSubmission, read_submission
 
 STUDENT = re.compile(r"[\w@+][\w@+.,' -]*")  # what nbgrader, a file system and a shell all take as a name
 LAYOUT = "SUBMITTED/<student>/<exercise>/<exercise>.ipynb or SUBMITTED/<student>/<exercise>.py"

@@ -6,7 +6,7 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from autograder.verdict import Grade
+from autograder.engine.verdict import Grade
 
 GRADES = "grades.json"
 

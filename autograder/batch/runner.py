@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 from autograder.batch.cache import GradeCache
 from autograder.batch.collection import Work
-from autograder.exercise import Exercise, load_exercise
-from autograder.grading import Report, grade
+from autograder.engine.exercise import Exercise, load_exercise
+from autograder.engine.grading import Report, grade
+from autograder.engine.submission import Submission, UnusableSubmission
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.availability import Isolation
-from autograder.submission import Submission, UnusableSubmission
-from autograder.verdict import CheckVerdict, Grade
 
 
 @dataclass(frozen=True)

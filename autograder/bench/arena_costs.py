@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from autograder.bench.processor_time import metered_group
+from autograder.project import PROJECT
 
-PROJECT = Path(__file__).resolve().parents[2]
 ARENAS = (
     ("battery_service", "ask_once"),  # the robot rests
     ("robot_controller", "good"),  # no robot

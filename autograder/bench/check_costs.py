@@ -7,10 +7,10 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
-from autograder.arena_run import ArenaRun, run_in_arena
-from autograder.checks import Check, Scenario
-from autograder.exercise import Exercise
-from autograder.submission import Submission
+from autograder.authoring.checks import Check, Scenario
+from autograder.engine.arena_run import ArenaRun, run_in_arena
+from autograder.engine.exercise import Exercise
+from autograder.engine.submission import Submission
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ def cost_of_checks(
 ) -> ExerciseCost:
     """Run every scenario of the exercise once, `jobs` at a time.
 
-    Raises :class:`~autograder.arena_run.NotGraded` when an arena failed.
+    Raises :class:`~autograder.engine.arena_run.NotGraded` when an arena failed.
     """
     scenarios = list(dict.fromkeys(scenario for check in exercise.checks for scenario in check.on))
 

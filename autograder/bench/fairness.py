@@ -7,13 +7,13 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import pairwise
 
-from autograder.arena_run import ArenaRun, NotGraded, run_in_arena
-from autograder.checks import Failure, Scenario
-from autograder.exercise import Exercise
-from autograder.lateness import lateness
-from autograder.submission import Submission
-from autograder.submission_arenas import SubmissionArenas
-from autograder.transcript import Transcript
+from autograder.authoring.checks import Failure, Scenario
+from autograder.authoring.transcript import Transcript
+from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
+from autograder.engine.exercise import Exercise
+from autograder.engine.lateness import lateness
+from autograder.engine.submission import Submission
+from autograder.engine.submission_arenas import SubmissionArenas
 
 FAIR_RATE = (4.0, 6.0)  # Hz, of feedback that is meant at 5 Hz
 

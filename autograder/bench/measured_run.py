@@ -13,17 +13,25 @@ import json
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager, suppress
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from robot_watch import RobotWatch  # beside this file, in whatever version is measured
 
-from autograder import arena_run
-from autograder import events as ev
-from autograder.exercise import Exercise, load_exercise
-from autograder.grading import grade
-from autograder.submission import Submission, read_submission
+try:
+    from autograder.authoring import events as ev
+    from autograder.engine import arena_run
+    from autograder.engine.exercise import Exercise, load_exercise
+    from autograder.engine.grading import grade
+    from autograder.engine.submission import Submission, read_submission
+except ImportError:  # as it was before the rooms were made
+    from autograder import arena_run  # type: ignore
+    from autograder import events as ev  # type: ignore
+    from autograder.exercise import Exercise, load_exercise  # type: ignore
+    from autograder.grading import grade  # type: ignore
+    from autograder.submission import Submission, read_submission  # type: ignore
 
 
 def main() -> None:
@@ -82,17 +90,16 @@ def _gradings(task: dict[str, Any], exercise: Exercise, submission: Submission) 
 @contextmanager
 def _shared_arenas(exercise: Exercise) -> Iterator[Any]:
     """Yield what keeps an arena open between scenarios; None in versions whose arenas serve one."""
-    try:
-        from autograder.submission_arenas import SubmissionArenas
-    except ImportError:
-        with nullcontext():
-            yield None
+    for module in ("autograder.engine.submission_arenas", "autograder.submission_arenas"):
+        with suppress(ImportError):
+            arenas_type = import_module(module).SubmissionArenas
+            break
     else:
-        where: Any = getattr(
-            exercise, "scenario_file", exercise.name
-        )  # the name, before exercises were folders
-        with SubmissionArenas(where) as arenas:
-            yield arenas
+        yield None
+        return
+    # by the exercise's name, before exercises were folders
+    with arenas_type(getattr(exercise, "scenario_file", exercise.name)) as arenas:
+        yield arenas
 
 
 def _floor(transcript: Any) -> float:

@@ -7,8 +7,8 @@ from typing import Any
 from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell
 
-from autograder.checks import Check
-from autograder.exercise import Exercise
+from autograder.authoring.checks import Check
+from autograder.engine.exercise import Exercise
 from autograder.nbgrader_bridge.cell_names import cell_names
 
 HEADING_ID = "verdicts"

@@ -11,7 +11,8 @@ from typing import Any
 
 import nbformat
 
-from autograder.exercise import file_names, load_exercise
+from autograder.engine.exercise import file_names, load_exercise
+from autograder.engine.verdict import Grade
 from autograder.nbgrader_bridge.check_cells import with_check_cells
 from autograder.nbgrader_bridge.course_folder import (
     RECORDS,
@@ -21,7 +22,6 @@ from autograder.nbgrader_bridge.course_folder import (
     write_config_file,
 )
 from autograder.nbgrader_bridge.transplant import transplant
-from autograder.verdict import Grade
 
 TIMESTAMP = "timestamp.txt"
 

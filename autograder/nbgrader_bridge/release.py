@@ -8,7 +8,7 @@ from pathlib import Path
 
 import nbformat
 
-from autograder.exercise import load_exercise
+from autograder.engine.exercise import load_exercise
 from autograder.nbgrader_bridge.check_cells import with_check_cells
 from autograder.nbgrader_bridge.course_folder import call, open_course
 

@@ -12,8 +12,8 @@ from nbgrader.preprocessors import NbGraderPreprocessor
 from nbgrader.utils import is_grade, is_solution
 from traitlets import Unicode
 
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.nbgrader_bridge.cell_names import cell_names
-from autograder.verdict import CheckVerdict, Grade
 
 UNJUDGED = "unjudged_cells"  # resources["nbgrader"] key: grade_ids that have no verdict
 LONGEST_TEXT = 8000  # characters of one cell's output

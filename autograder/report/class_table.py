@@ -8,8 +8,8 @@ from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.table import summary
-from autograder.verdict import CheckVerdict, Grade
 
 
 def class_table(grades: Sequence[Grade]) -> RenderableType:

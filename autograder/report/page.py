@@ -9,8 +9,8 @@ from pathlib import Path
 from jinja2 import Environment, FileSystemLoader, select_autoescape
 from markupsafe import Markup
 
+from autograder.engine.verdict import Grade
 from autograder.report.table import summary
-from autograder.verdict import Grade
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from types import TracebackType
 from rich.console import Console
 from rich.status import Status
 
-from autograder.checks import Scenario
+from autograder.authoring.checks import Scenario
 
 
 class RunningLine:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from autograder import events as ev
-from autograder.transcript import Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.transcript import Transcript
 from ros_runtime.sequence_diagram import Arrow, sequence_svg
 
 CLIENT, SERVER, ROBOT = "client", "server", "robot"

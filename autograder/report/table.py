@@ -9,9 +9,9 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from autograder.checks import Check
-from autograder.exercise import Exercise
-from autograder.verdict import CheckVerdict, Grade
+from autograder.authoring.checks import Check
+from autograder.engine.exercise import Exercise
+from autograder.engine.verdict import CheckVerdict, Grade
 
 LOG_LINES = 6
 

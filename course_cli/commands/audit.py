@@ -17,8 +17,8 @@ from autograder.audit.known_submission import (
 )
 from autograder.audit.run import AuditedRun
 from autograder.audit.run import audit as run_audit
-from autograder.exercise import UnknownExercise, UnusableExercise, exercise_names, load_exercise
-from autograder.grading import HiddenChecksRefused
+from autograder.engine.exercise import UnknownExercise, UnusableExercise, exercise_names, load_exercise
+from autograder.engine.grading import HiddenChecksRefused
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 

@@ -13,17 +13,17 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
-from autograder.arena_run import ArenaRun, run_in_arena
 from autograder.bench.arena_costs import BenchFailed
 from autograder.bench.check_costs import ArenaCost, cost_of_checks, total
 from autograder.bench.fairness import fairness_runs
 from autograder.bench.processor_time import CannotBeMeasured
-from autograder.clock_scale import highest_scale
-from autograder.exercise import Exercise, UnknownExercise, exercise_names, load_exercise
-from autograder.grading import grade
+from autograder.engine.arena_run import ArenaRun, run_in_arena
+from autograder.engine.clock_scale import highest_scale
+from autograder.engine.exercise import Exercise, UnknownExercise, exercise_names, load_exercise
+from autograder.engine.grading import grade
+from autograder.engine.submission import Submission, read_submission
+from autograder.engine.verdict import CheckVerdict
 from autograder.isolation.availability import available_isolation
-from autograder.submission import Submission, read_submission
-from autograder.verdict import CheckVerdict
 from course_cli.arena_bench import bench_arenas
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from lab.view_cost import view_cost

@@ -7,9 +7,15 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.exercise import UnknownExercise, UnusableExercise, exercise_names, file_names, scenario_file
-from autograder.submission import UnusableSubmission, place_of_work
-from autograder.submission_arenas import SubmissionArenas
+from autograder.engine.exercise import (
+    UnknownExercise,
+    UnusableExercise,
+    exercise_names,
+    file_names,
+    scenario_file,
+)
+from autograder.engine.submission import UnusableSubmission, place_of_work
+from autograder.engine.submission_arenas import SubmissionArenas
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 

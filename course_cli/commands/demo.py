@@ -17,14 +17,14 @@ from rich.text import Text
 
 import lab
 from autograder.audit.known_submission import known_submission
-from autograder.exercise import load_exercise
-from autograder.grading import grade
+from autograder.authoring.transcript import Transcript
+from autograder.engine.exercise import load_exercise
+from autograder.engine.grading import grade
+from autograder.engine.submission import read_submission
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.page import Section, write_page
 from autograder.report.sequence import transcript_svg
 from autograder.report.table import MARKS, summary
-from autograder.submission import read_submission
-from autograder.transcript import Transcript
-from autograder.verdict import CheckVerdict, Grade
 from course_cli.ending import COULD_NOT, ended
 from humanoid_interfaces.action import WalkTo
 

@@ -15,7 +15,7 @@ from autograder.batch.cache import GradeCache
 from autograder.batch.collection import Collection, NoSubmissions, collect
 from autograder.batch.records import GRADES, write_grades
 from autograder.batch.runner import BatchRunner, Graded
-from autograder.exercise import UnusableExercise, exercises_folder
+from autograder.engine.exercise import UnusableExercise, exercises_folder
 from autograder.isolation.availability import Isolation, available_isolation
 from autograder.nbgrader_bridge.course_folder import NbgraderError
 from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry

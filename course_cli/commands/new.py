@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.exercise import exercises_folder, use_exercises_of
+from autograder.engine.exercise import exercises_folder, use_exercises_of
 from autograder.nbgrader_bridge.release import bring_in_step
 from autograder.new_exercise.make import KINDS, CannotMake, make_exercise
 from course_cli.ending import UNUSABLE, ended

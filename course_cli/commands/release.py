@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.exercise import UnusableExercise, exercises_folder
+from autograder.engine.exercise import UnusableExercise, exercises_folder
 from autograder.nbgrader_bridge.release import bring_in_step, out_of_step
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from autograder import standard
-from autograder.checks import RESTING, Scenario, check, expect
-from autograder.transcript import Transcript
+from autograder.authoring import standard
+from autograder.authoring.checks import RESTING, Scenario, check, expect
+from autograder.authoring.transcript import Transcript
 
 from .judging import (
     require_first_answer,

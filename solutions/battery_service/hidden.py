@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from autograder import standard
-from autograder.checks import RESTING, Scenario, check
-from autograder.transcript import Transcript
+from autograder.authoring import standard_hidden
+from autograder.authoring.checks import RESTING, Scenario, check
+from autograder.authoring.transcript import Transcript
 
 from .checks import (
     SENSOR_UNPLUGGED,
@@ -42,7 +42,7 @@ def keeps_the_last_message(changing: Transcript, stopped: Transcript) -> None:
     require_last_message_after_silence(stopped)
 
 
-answers_every_request = standard.answers_every_request(
+answers_every_request = standard_hidden.answers_every_request(
     "Eight requests at once, four times, are all answered, each within 2 s",
     requests=32,
     within=2.0,
@@ -53,7 +53,7 @@ answers_every_request = standard.answers_every_request(
 )
 
 
-works_in_any_namespace = standard.works_in_any_namespace(
+works_in_any_namespace = standard_hidden.works_in_any_namespace(
     "serves the robot",
     require_last_message,
     points=1,

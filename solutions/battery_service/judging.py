@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 
-from autograder import events as ev
-from autograder.checks import Failure, expect
-from autograder.common_checks import last_messages, require_answer
-from autograder.missing import unseen
-from autograder.transcript import CallHistory, Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Failure, expect
+from autograder.authoring.missing import unseen
+from autograder.authoring.server_checks import last_messages, require_answer
+from autograder.authoring.transcript import CallHistory, Transcript
 
 SERVICE = "get_battery_status"
 ROUNDING = 1e-5  # BatteryState holds float32

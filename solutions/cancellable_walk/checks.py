@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from autograder import standard
-from autograder.checks import RESTING, Scenario, check, expect
-from autograder.transcript import Transcript
+from autograder.authoring import standard
+from autograder.authoring.checks import RESTING, Scenario, check, expect
+from autograder.authoring.transcript import Transcript
 
 from .goals import (
     ABORTED,

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from autograder import events as ev
-from autograder.checks import Failure, expect
-from autograder.common_checks import require_alive
-from autograder.transcript import CancelHistory, GoalHistory, Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Failure, expect
+from autograder.authoring.server_checks import require_alive
+from autograder.authoring.transcript import CancelHistory, GoalHistory, Transcript
 
 STATUS = {1: "ACCEPTED", 2: "EXECUTING", 3: "CANCELING", 4: "SUCCEEDED", 5: "CANCELED", 6: "ABORTED"}
 SUCCEEDED, CANCELED, ABORTED = 4, 5, 6

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from autograder.checks import Scenario, check, expect
-from autograder.common_checks import require_alive
-from autograder.missing import unseen
-from autograder.transcript import Transcript
+from autograder.authoring.checks import Scenario, check, expect
+from autograder.authoring.missing import unseen
+from autograder.authoring.server_checks import require_alive
+from autograder.authoring.transcript import Transcript
 
 from .checks import arrives, cancels_in_mid_stride, stops_when_canceled
 from .goals import (

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from autograder import events as ev
-from autograder.transcript import GoalHistory
+from autograder.authoring import events as ev
+from autograder.authoring.transcript import GoalHistory
 
 
 def error(robot: ev.RobotTruth, goal: GoalHistory) -> tuple[float, float]:

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
-from autograder import events as ev
-from autograder.checks import expect
-from autograder.missing import Missing, unseen
-from autograder.transcript import GoalHistory, Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.checks import expect
+from autograder.authoring.missing import Missing, unseen
+from autograder.authoring.transcript import GoalHistory, Transcript
 
 from .goals import (
     SUCCEEDED,

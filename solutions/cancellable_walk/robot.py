@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from autograder import events as ev
-from autograder.checks import Failure, expect
-from autograder.transcript import Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Failure, expect
+from autograder.authoring.transcript import Transcript
 
 from .goals import SUCCEEDED, require_accepted, require_result
 from .planar import error

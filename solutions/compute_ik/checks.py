@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 
-from autograder import events as ev
-from autograder import standard
-from autograder.checks import RESTING, Scenario, check, expect
-from autograder.missing import held_up, unseen
-from autograder.transcript import Transcript
+from autograder.authoring import events as ev
+from autograder.authoring import standard
+from autograder.authoring.checks import RESTING, Scenario, check, expect
+from autograder.authoring.missing import held_up, unseen
+from autograder.authoring.transcript import Transcript
 
 from .judging import (
     FRAME_TRANSFORM_FAILURE,

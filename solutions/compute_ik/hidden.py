@@ -6,10 +6,10 @@ import math
 from random import Random
 from typing import Any
 
-from autograder.checks import Scenario, check, expect
-from autograder.common_checks import require_answer
-from autograder.missing import Missing
-from autograder.transcript import CallHistory, Transcript
+from autograder.authoring.checks import Scenario, check, expect
+from autograder.authoring.missing import Missing
+from autograder.authoring.server_checks import require_answer
+from autograder.authoring.transcript import CallHistory, Transcript
 
 from .checks import (
     POINTS,

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from autograder.checks import Failure, expect
-from autograder.common_checks import require_answer
-from autograder.transcript import Transcript
+from autograder.authoring.checks import Failure, expect
+from autograder.authoring.server_checks import require_answer
+from autograder.authoring.transcript import Transcript
 
 from .advice import advice_for
 from .two_link_arm import DEFAULT, TOLERANCE, Point, TwoLinkArm

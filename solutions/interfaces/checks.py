@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from autograder.checks import check, program
-from autograder.transcript import Transcript
+from autograder.authoring.checks import check, program
+from autograder.authoring.transcript import Transcript
 
 from .judging import require_built, require_fields
 

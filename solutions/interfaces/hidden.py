@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from autograder.checks import check
-from autograder.transcript import Transcript
+from autograder.authoring.checks import check
+from autograder.authoring.transcript import Transcript
 
 from .checks import ACTION, SERVICE, action_builds, service_builds
 from .judging import require_constants, require_fields

@@ -6,11 +6,11 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from autograder import events as ev
-from autograder.checks import CannotBeJudged, Failure, expect
-from autograder.missing import unseen
-from autograder.readiness import require_within_limits
-from autograder.transcript import Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.checks import CannotBeJudged, Failure, expect
+from autograder.authoring.missing import unseen
+from autograder.authoring.readiness import require_within_limits
+from autograder.authoring.transcript import Transcript
 
 BUSY = 60.0  # s of processor time; a sound file is built with 25, so one that took more is what took so long
 LONGEST = 300  # characters of what a verdict quotes

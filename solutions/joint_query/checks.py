@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 
-from autograder import standard
-from autograder.checks import RESTING, Scenario, check, expect
-from autograder.common_checks import require_answer
-from autograder.transcript import Transcript
+from autograder.authoring import standard
+from autograder.authoring.checks import RESTING, Scenario, check, expect
+from autograder.authoring.server_checks import require_answer
+from autograder.authoring.transcript import Transcript
 
 from .judging import (
     call_for,

@@ -5,9 +5,9 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from autograder.checks import RESTING, Scenario, check, expect
-from autograder.common_checks import require_answer
-from autograder.transcript import CallHistory, Transcript
+from autograder.authoring.checks import RESTING, Scenario, check, expect
+from autograder.authoring.server_checks import require_answer
+from autograder.authoring.transcript import CallHistory, Transcript
 
 from .checks import (
     SIX_JOINTS,

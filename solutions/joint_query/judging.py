@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from autograder import events as ev
-from autograder.checks import Failure, expect
-from autograder.common_checks import last_messages, require_answer
-from autograder.missing import Missing, unseen
-from autograder.transcript import CallHistory, Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Failure, expect
+from autograder.authoring.missing import Missing, unseen
+from autograder.authoring.server_checks import last_messages, require_answer
+from autograder.authoring.transcript import CallHistory, Transcript
 
 SERVICE = "get_joint_positions"
 MOVED = 0.1  # rad that a joint may be off where it was told to be, under its load

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from autograder import standard
-from autograder.checks import RESTING, Scenario, check, expect
-from autograder.common_checks import require_answer
-from autograder.transcript import Transcript
+from autograder.authoring import standard
+from autograder.authoring.checks import RESTING, Scenario, check, expect
+from autograder.authoring.server_checks import require_answer
+from autograder.authoring.transcript import Transcript
 
 from .judging import (
     require_refused,

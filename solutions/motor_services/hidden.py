@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import random
 
-from autograder import standard
-from autograder.checks import Scenario, check
-from autograder.common_checks import DELIVERY
-from autograder.transcript import Transcript
+from autograder.authoring import standard_hidden
+from autograder.authoring.checks import Scenario, check
+from autograder.authoring.server_checks import DELIVERY
+from autograder.authoring.transcript import Transcript
 
 from .checks import (
     ON_A_STAND,
@@ -69,7 +69,7 @@ def recovers_when_the_robot_speaks(run: Transcript) -> None:
     require_status(run, 2, on=True)
 
 
-answers_every_request = standard.answers_every_request(
+answers_every_request = standard_hidden.answers_every_request(
     "Eight requests at once, three times, are all answered, each within 2 s",
     requests=24,
     within=2.0,

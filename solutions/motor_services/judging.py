@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 
-from autograder import events as ev
-from autograder.checks import expect
-from autograder.common_checks import DELIVERY, require_answer
-from autograder.missing import unseen
-from autograder.transcript import CallHistory, Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.checks import expect
+from autograder.authoring.missing import unseen
+from autograder.authoring.server_checks import DELIVERY, require_answer
+from autograder.authoring.transcript import CallHistory, Transcript
 
 ENABLE, STATUS = "enable_motors", "get_status"
 MODES = ("OFF", "STANDING", "WALKING", "FALLEN")  # by their number in humanoid_interfaces/RobotState

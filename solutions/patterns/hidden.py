@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.checks import check
+from autograder.authoring.checks import check
 
 from .checks import ANSWERS, answers_everything
 from .judging import Situation, judge_of

@@ -6,9 +6,9 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from autograder.checks import Failure, expect
-from autograder.client_checks import require_success
-from autograder.transcript import Transcript
+from autograder.authoring.checks import Failure, expect
+from autograder.authoring.client_checks import require_success
+from autograder.authoring.transcript import Transcript
 
 WITHIN = 20.0  # s for printing twelve lines
 PATTERNS = ("topic", "service", "action")

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from autograder.checks import check, expect, program
-from autograder.client_checks import require_failure, require_played
-from autograder.transcript import Transcript
+from autograder.authoring.checks import check, expect, program
+from autograder.authoring.client_checks import require_failure, require_played
+from autograder.authoring.transcript import Transcript
 
 from .judging import (
     ENABLE,

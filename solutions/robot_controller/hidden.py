@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import random
 
-from autograder.checks import check, program
-from autograder.client_checks import (
+from autograder.authoring.checks import check, program
+from autograder.authoring.client_checks import (
     require_failure,
     require_played,
     require_reply,
     require_withdrawn,
 )
-from autograder.missing import unseen
-from autograder.transcript import Transcript
+from autograder.authoring.missing import unseen
+from autograder.authoring.transcript import Transcript
 
 from .checks import (
     asks_once_more,

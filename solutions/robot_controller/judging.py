@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from autograder.checks import expect
-from autograder.client_checks import (
+from autograder.authoring.checks import expect
+from autograder.authoring.client_checks import (
     require_end,
     require_played,
     require_reply,
     require_requests,
     require_success,
 )
-from autograder.missing import Missing, unseen
-from autograder.transcript import RequestHistory, Transcript
+from autograder.authoring.missing import Missing, unseen
+from autograder.authoring.transcript import RequestHistory, Transcript
 
 ENABLE, STATUS = "enable_motors", "get_status"
 WITHIN = 10.0  # s for everything

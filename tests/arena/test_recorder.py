@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from autograder import events as ev
 from autograder.arena import recorder as recorder_module
 from autograder.arena.long_texts import LONGEST
 from autograder.arena.recorder import MOST_OF, MOST_OF_NOBODYS, NOBODYS, Recorder
+from autograder.authoring import events as ev
 
 
 class Recording:

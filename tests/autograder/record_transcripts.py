@@ -11,14 +11,14 @@ from dataclasses import replace
 
 from recorded import FOLDER, scenarios_of, write
 
-from autograder.arena_run import ArenaRun, run_in_arena
 from autograder.audit.known_submission import KnownSubmission, known_submission
 from autograder.audit.proof import enough_to_catch
-from autograder.exercise import Exercise, exercise_names, load_exercise
-from autograder.grading import STRAINED
-from autograder.lateness import lateness
-from autograder.submission_arenas import SubmissionArenas
-from autograder.transcript import Transcript
+from autograder.authoring.transcript import Transcript
+from autograder.engine.arena_run import ArenaRun, run_in_arena
+from autograder.engine.exercise import Exercise, exercise_names, load_exercise
+from autograder.engine.grading import STRAINED
+from autograder.engine.lateness import lateness
+from autograder.engine.submission_arenas import SubmissionArenas
 
 # One that passes everything, and a few that go wrong in different ways: an answer that is wrong, one that never comes,
 # a node that ends.

@@ -9,10 +9,10 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from autograder import events as ev
-from autograder.checks import Check, Scenario
-from autograder.exercise import load_exercise
-from autograder.transcript import Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Check, Scenario
+from autograder.authoring.transcript import Transcript
+from autograder.engine.exercise import load_exercise
 
 FOLDER = Path(__file__).parent / "transcripts"
 

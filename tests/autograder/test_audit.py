@@ -13,7 +13,7 @@ import pytest
 from autograder.audit.known_submission import known_submissions, require_known_checks
 from autograder.audit.proof import enough_to_catch, enough_to_prove
 from autograder.audit.run import audit_one
-from autograder.exercise import exercise_names, load_exercise
+from autograder.engine.exercise import exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
 
 ARENAS_AT_A_TIME = 2

@@ -10,9 +10,9 @@ from autograder.audit.kill_matrix import figures, kill_matrix
 from autograder.audit.known_submission import HeaderError, known_submissions, read_known_submission
 from autograder.audit.proof import enough_to_catch, enough_to_prove
 from autograder.audit.run import AuditedRun, checks_without_a_killer
-from autograder.checks import Scenario, check
-from autograder.exercise import FOLDER_VARIABLE, Exercise
-from autograder.verdict import CheckVerdict, Grade
+from autograder.authoring.checks import Scenario, check
+from autograder.engine.exercise import FOLDER_VARIABLE, Exercise
+from autograder.engine.verdict import CheckVerdict, Grade
 
 CORRECT = '"""Style: plain."""\n'
 FAULTY = '"""Fault: sleeps\nin the callback (M2)\nCaught by: answers\nAlso fails: ends\n\nCaught by nobody else."""\n'

@@ -7,11 +7,11 @@ from typing import Any
 
 import pytest
 
-from autograder import events as ev
-from autograder.bounds import require_bounded
-from autograder.checks import CannotBeJudged, Failure, Scenario
-from autograder.exercise import exercise_module
-from autograder.transcript import Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.checks import CannotBeJudged, Failure, Scenario
+from autograder.authoring.transcript import Transcript
+from autograder.engine.bounds import require_bounded
+from autograder.engine.exercise import exercise_module
 
 JUDGING = exercise_module("interfaces", "judging")
 LONGEST, require_built, require_fields = JUDGING.LONGEST, JUDGING.require_built, JUDGING.require_fields

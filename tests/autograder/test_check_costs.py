@@ -4,7 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from autograder.exercise import load_exercise
+from autograder.engine.exercise import load_exercise
 
 COURSE = Path(sys.executable).with_name("course")
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from autograder import clock_scale
-from autograder.checks import MAY_REST, Scenario
-from autograder.clock_scale import FAST, USUAL, ClockScale
+from autograder.authoring.checks import MAY_REST, Scenario
+from autograder.engine import clock_scale
+from autograder.engine.clock_scale import FAST, USUAL, ClockScale
 
 WALK = Scenario("walk")
 LIGHT = (Scenario("ask", robot=(MAY_REST,)), Scenario("good", robot=None, student="program"))

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from autograder.checks import Failure
-from autograder.exercise import exercise_module
+from autograder.authoring.checks import Failure
+from autograder.engine.exercise import exercise_module
 
 JUDGING = exercise_module("compute_ik", "judging")
 Reply, require_hit, require_side = JUDGING.Reply, JUDGING.require_hit, JUDGING.require_side

@@ -13,11 +13,11 @@ import pytest
 from needed import ALWAYS, NEEDED
 from recorded import Case, cases
 
-from autograder import events as ev
 from autograder.audit.known_submission import known_submissions
-from autograder.exercise import exercise_names, load_exercise
-from autograder.judging import judge
-from autograder.transcript import Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.transcript import Transcript
+from autograder.engine.exercise import exercise_names, load_exercise
+from autograder.engine.judging import judge
 
 EXERCISES = exercise_names()
 RUNS_OF = ("joints", "feedback", "battery", "peers", "woken_late")  # of a row of these the ends are enough

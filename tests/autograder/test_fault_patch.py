@@ -5,7 +5,7 @@ from typer.testing import CliRunner
 
 from autograder.audit.fault_patch import PatchError, as_patch, whole_program
 from autograder.audit.known_submission import known_submission, known_submissions
-from autograder.exercise import FOLDER_VARIABLE, exercise_names
+from autograder.engine.exercise import FOLDER_VARIABLE, exercise_names
 from course_cli.app import app
 
 SOUND = '"""Style: plain."""\n' + "".join(f"line_{number} = {number}\n" for number in range(20))

@@ -5,15 +5,15 @@ from pathlib import Path
 
 import pytest
 
-from autograder import events as ev
-from autograder import grading
-from autograder.arena_run import NotGraded
-from autograder.checks import Scenario, check, expect
-from autograder.exercise import Exercise
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Scenario, check, expect
+from autograder.authoring.transcript import Transcript
+from autograder.engine import grading
+from autograder.engine.arena_run import NotGraded
+from autograder.engine.exercise import Exercise
+from autograder.engine.submission import Submission
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
-from autograder.submission import Submission
-from autograder.transcript import Transcript
 
 ISOLATED = Isolation(Kind.NAMESPACES, "given")
 SUBMISSION = Submission("battery_service", "ada", {"battery_service.py": ""})

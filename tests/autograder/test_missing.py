@@ -2,13 +2,13 @@
 
 import pytest
 
-from autograder import events as ev
-from autograder.checks import Check, Scenario
-from autograder.failure import CannotBeJudged, Failure
-from autograder.judging import judge
-from autograder.missing import Missing, unseen
-from autograder.transcript import Transcript
-from autograder.wholeness import require_whole
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Check, Scenario
+from autograder.authoring.failure import CannotBeJudged, Failure
+from autograder.authoring.missing import Missing, unseen
+from autograder.authoring.transcript import Transcript
+from autograder.engine.judging import judge
+from autograder.engine.wholeness import require_whole
 
 BEGINNING = (ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0))
 ASKED = ev.ServiceCalled(t=2.0, call="call 1", service="get_status", request={})

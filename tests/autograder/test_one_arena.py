@@ -6,14 +6,14 @@ import os
 
 import pytest
 
-from autograder import events as ev
-from autograder.arena_run import ArenaRun, NotGraded, run_in_arena
-from autograder.checks import Scenario
-from autograder.exercise import Exercise, exercises_folder
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Scenario
+from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
+from autograder.engine.exercise import Exercise, exercises_folder
+from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import available_isolation
 from autograder.isolation.process_tree import descendants
-from autograder.submission_arenas import SubmissionArenas
 
 pytestmark = pytest.mark.skipif(
     not available_isolation().trusted, reason=f"no namespaces here: {available_isolation().reason}"

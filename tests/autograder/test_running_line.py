@@ -6,7 +6,7 @@ import io
 
 from rich.console import Console
 
-from autograder.checks import Scenario
+from autograder.authoring.checks import Scenario
 from autograder.report.running import RunningLine
 
 ASK, WALK = Scenario("ask_once"), Scenario("walk")

@@ -3,7 +3,7 @@ import json
 import nbformat
 import pytest
 
-from autograder.submission import MAX_BYTES, UnusableSubmission, read_submission
+from autograder.engine.submission import MAX_BYTES, UnusableSubmission, read_submission
 
 
 def notebook(*sources):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from autograder.verdict import LENGTH_NOTE, LONGEST, CheckVerdict, Grade
+from autograder.engine.verdict import LENGTH_NOTE, LONGEST, CheckVerdict, Grade
 
 
 def verdict(**texts: str) -> CheckVerdict:

@@ -6,11 +6,11 @@ import pytest
 
 from autograder.batch import cache as module
 from autograder.batch.cache import GradeCache, checks_version
-from autograder.exercise import load_exercise
+from autograder.engine.exercise import load_exercise
+from autograder.engine.submission import Submission
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
-from autograder.submission import Submission
-from autograder.verdict import CheckVerdict, Grade
 
 ISOLATED = Isolation(Kind.NAMESPACES, "as a test says")
 EXERCISE = load_exercise("battery_service", hidden=True)
@@ -59,8 +59,8 @@ def test_what_was_not_graded_is_not_remembered(tmp_path):
     ("changed", "matters"),
     [
         ("solutions/battery_service/hidden.py", True),
-        ("autograder/common_checks.py", True),
-        ("autograder/grading.py", True),
+        ("autograder/authoring/server_checks.py", True),
+        ("autograder/engine/grading.py", True),
         ("robot_sim/walking/gait.py", True),
         ("solutions/cancellable_walk/checks.py", False),
         ("solutions/battery_service/known/faulty/sleeps.py", False),
@@ -68,7 +68,7 @@ def test_what_was_not_graded_is_not_remembered(tmp_path):
     ],
 )
 def test_a_change_of_what_judges_makes_old_grades_void(tmp_path, monkeypatch, changed, matters):
-    for name in ("autograder/grading.py", changed):
+    for name in ("autograder/engine/grading.py", changed):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("before")
     monkeypatch.setattr(module, "PROJECT", tmp_path)

@@ -9,7 +9,7 @@ import pytest
 from nbformat.v4 import new_code_cell, new_notebook
 
 from autograder.batch.collection import NoSubmissions, collect
-from autograder.submission import UnusableSubmission
+from autograder.engine.submission import UnusableSubmission
 
 NOTEBOOK = json.dumps(
     new_notebook(cells=[new_code_cell("%%writefile battery_service.py\nfrom_notebook = 1\n")])

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from nbgrader.api import Gradebook
 
-from autograder.exercise import load_exercise
+from autograder.engine.exercise import load_exercise
 from autograder.isolation.availability import available_isolation
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -11,10 +11,10 @@ from autograder.batch import runner as module
 from autograder.batch.cache import GradeCache
 from autograder.batch.collection import Work
 from autograder.batch.runner import BatchRunner
-from autograder.exercise import load_exercise
+from autograder.engine.exercise import load_exercise
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
-from autograder.verdict import CheckVerdict, Grade
 
 ISOLATED = Isolation(Kind.NAMESPACES, "as a test says")
 CHECKS = load_exercise("battery_service", hidden=True).checks

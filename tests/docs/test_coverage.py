@@ -10,7 +10,7 @@ import nbformat
 import pytest
 
 from autograder.audit.known_submission import HeaderError, known_submission
-from autograder.exercise import load_exercise
+from autograder.engine.exercise import load_exercise
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs/coverage.md").read_text()

@@ -6,12 +6,12 @@ import re
 
 import pytest
 
-from autograder import events as ev
-from autograder import lesson
-from autograder.checks import Failure, Scenario, check
-from autograder.exercise import exercise_names, exercises_folder, load_exercise
-from autograder.judging import judge
-from autograder.transcript import Transcript
+from autograder.authoring import events as ev
+from autograder.authoring import lesson
+from autograder.authoring.checks import Failure, Scenario, check
+from autograder.authoring.transcript import Transcript
+from autograder.engine.exercise import exercise_names, exercises_folder, load_exercise
+from autograder.engine.judging import judge
 
 WHOLE = [ev.NodeStarted(t=0.0), ev.NodeReady(t=0.1, waited=0.1), ev.ScenarioEnded(t=3.0)]
 

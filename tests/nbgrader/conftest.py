@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from autograder.exercise import load_exercise
+from autograder.engine.exercise import load_exercise
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.nbgrader_bridge.course_folder import open_course
 from autograder.nbgrader_bridge.gradebook import CourseGradebook
-from autograder.verdict import CheckVerdict, Grade
 
 ROOT = Path(__file__).resolve().parents[2]
 SOLUTIONS = ROOT / "solutions"

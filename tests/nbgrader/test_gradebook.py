@@ -10,7 +10,7 @@ from conftest import FAILED, SOLUTIONS, grade_of
 from nbgrader.api import Gradebook, MissingEntry
 from traitlets.config import PyFileConfigLoader
 
-from autograder.exercise import load_exercise
+from autograder.engine.exercise import load_exercise
 from autograder.nbgrader_bridge import course_folder
 from autograder.nbgrader_bridge import gradebook as gradebook_module
 from autograder.nbgrader_bridge.course_folder import NbgraderError, StudentCodeWouldRun, call, open_course

@@ -13,8 +13,8 @@ from nbgrader.api import Gradebook
 from nbgrader.utils import is_grade, is_solution
 
 from autograder.batch.collection import collect
+from autograder.engine.submission import UnusableSubmission
 from autograder.nbgrader_bridge.gradebook import Entry
-from autograder.submission import UnusableSubmission
 
 MOST_BYTES = 2_000_000  # of a page, whatever was handed in
 ATTACK = "<img src=x onerror=alert('owned')>"

@@ -12,7 +12,7 @@ from conftest import ROOT, SOLUTIONS
 from nbgrader.nbgraderformat import MetadataValidator
 from nbgrader.utils import is_grade, is_solution
 
-from autograder.exercise import exercise_names, file_names, load_exercise
+from autograder.engine.exercise import exercise_names, file_names, load_exercise
 from autograder.nbgrader_bridge.release import bring_in_step, generate_release, out_of_step, source_notebooks
 
 EXERCISES = ROOT / "exercises"

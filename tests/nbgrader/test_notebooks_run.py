@@ -110,7 +110,7 @@ def test_a_verdict_cell_repeats_what_the_self_check_found(capsys):
 
 SHOW_A_LONG_VERDICT = """
 from autograder.self_check import NOTEBOOK_WIDTH, SelfCheck
-from autograder.verdict import CheckVerdict, Grade
+from autograder.engine.verdict import CheckVerdict, Grade
 failed = CheckVerdict("a", "A title", "failed", 0, 1, expected="more", observed="less", help="do this " * 30)
 SelfCheck(Grade("battery_service", "you", "namespaces", [failed])).show("a")
 print(NOTEBOOK_WIDTH)

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from autograder.exercise import exercise_names, load_exercise
-from autograder.grading import grade
-from autograder.submission import read_submission
+from autograder.engine.exercise import exercise_names, load_exercise
+from autograder.engine.grading import grade
+from autograder.engine.submission import read_submission
 
 EXERCISES = Path(__file__).resolve().parents[2] / "exercises"
 

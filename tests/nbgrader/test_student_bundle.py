@@ -83,7 +83,7 @@ for package in (autograder, course_cli, lab, robot_sim, ros_runtime):
     for module in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
         if not module.name.endswith("__main__"):
             importlib.import_module(module.name)
-from autograder.exercise import exercise_names, load_exercise
+from autograder.engine.exercise import exercise_names, load_exercise
 for name in exercise_names():
     exercise = load_exercise(name, hidden=True)
     assert not exercise.has_hidden_checks and exercise.checks

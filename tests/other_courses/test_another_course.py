@@ -21,7 +21,7 @@ def count(stage, to):
     stage.wait_for_end()
 """
 CHECKS = '''
-from autograder.checks import check, program
+from autograder.authoring.checks import check, program
 from .judging import require_numbers
 
 TO_THREE = program("count", {"to": 3}, timed=False)
@@ -33,7 +33,7 @@ def counts_to_three(run):
     require_numbers(run)
 '''
 HIDDEN = '''
-from autograder.checks import check, program
+from autograder.authoring.checks import check, program
 from .checks import counts_to_three
 from .judging import require_numbers
 
@@ -46,8 +46,8 @@ def counts_to_any_number(run):
     require_numbers(run)
 '''
 JUDGING = """
-from autograder.checks import expect
-from autograder.client_checks import require_end
+from autograder.authoring.checks import expect
+from autograder.authoring.client_checks import require_end
 
 
 def require_numbers(run):

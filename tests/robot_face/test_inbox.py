@@ -8,7 +8,7 @@ from geometry_msgs.msg import Twist
 from rclpy.serialization import serialize_message
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from autograder.events import RobotRefused, parse_event
+from autograder.authoring.events import RobotRefused, parse_event
 from robot_sim.arms.joint_trajectory import MOVABLE
 from robot_sim.ros.inbox import BYTES_A_SECOND, FLOOD, MESSAGES_A_SECOND, Inbox
 from robot_sim.ros.trajectory_size import MOST_BYTES, MOST_POINTS, count_joints_and_points, why_too_large

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from autograder.checks import Scenario
+from autograder.authoring.checks import Scenario
 from ros_runtime.clock.scaled_clock import library_path
 
 USUAL = 5.0

@@ -9,16 +9,16 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from autograder import events as ev
 from autograder.arena.scenario_spec import ScenarioSpec
-from autograder.checks import Scenario
-from autograder.clock_scale import USUAL
-from autograder.exercise import Exercise
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Scenario
+from autograder.authoring.transcript import Transcript
+from autograder.engine.clock_scale import USUAL
+from autograder.engine.exercise import Exercise
+from autograder.engine.submission_arena import ArenaEnded, student_paths
+from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.bubblewrap import SandboxError
-from autograder.submission_arena import ArenaEnded, student_paths
-from autograder.submission_arenas import SubmissionArenas
-from autograder.transcript import Transcript
 
 STARTUP_ALLOWANCE = 60.0  # s of wall time for the processes of an arena to start on a loaded machine
 LONGEST_SCENARIO = 150.0  # s on the arena's clock

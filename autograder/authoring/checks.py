@@ -17,8 +17,8 @@ from dataclasses import dataclass, field
 from types import ModuleType
 from typing import Any, Literal
 
-from autograder.failure import CannotBeJudged, Failure, expect
-from autograder.transcript import Transcript
+from autograder.authoring.failure import CannotBeJudged, Failure, expect
+from autograder.authoring.transcript import Transcript
 
 __all__ = [
     "MAY_REST",

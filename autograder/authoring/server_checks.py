@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TypeVar
 
-from autograder import events as ev
-from autograder.checks import Failure, expect
-from autograder.missing import Missing, unseen
-from autograder.readiness import require_within_limits
-from autograder.transcript import CallHistory, Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Failure, expect
+from autograder.authoring.missing import Missing, unseen
+from autograder.authoring.readiness import require_within_limits
+from autograder.authoring.transcript import CallHistory, Transcript
 
 # s a message may be on its way: 0.2 s of wall time at scale 5, 0.1 s at scale 10. Scenarios wait a little longer.
 DELIVERY = 1.0

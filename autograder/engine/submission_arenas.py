@@ -10,10 +10,10 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
 
+from autograder.engine.submission_arena import SubmissionArena
 from autograder.isolation.arena_spec import ISOLATION_VARIABLE, Kind
 from autograder.isolation.availability import available_isolation
 from autograder.isolation.bubblewrap import SandboxError
-from autograder.submission_arena import SubmissionArena
 
 
 class SubmissionArenas:

@@ -10,18 +10,18 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
-from autograder.arena_run import ArenaRun, NotGraded, run_in_arena
-from autograder.blame import why_the_robot_was_held_up
-from autograder.checks import Check, Scenario
-from autograder.clock_scale import ClockScale
-from autograder.exercise import Exercise
+from autograder.authoring.blame import why_the_robot_was_held_up
+from autograder.authoring.checks import Check, Scenario
+from autograder.authoring.transcript import Transcript
+from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
+from autograder.engine.clock_scale import ClockScale
+from autograder.engine.exercise import Exercise
+from autograder.engine.judging import judge, verdict_on
+from autograder.engine.lateness import OVERLOADED, lateness
+from autograder.engine.submission import Submission
+from autograder.engine.submission_arenas import SubmissionArenas
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.availability import Isolation, available_isolation
-from autograder.judging import judge, verdict_on
-from autograder.lateness import OVERLOADED, lateness
-from autograder.submission import Submission
-from autograder.submission_arenas import SubmissionArenas
-from autograder.transcript import Transcript
-from autograder.verdict import CheckVerdict, Grade
 
 STRAINED = 0.15  # s the simulator may be late in the second look at a failure
 

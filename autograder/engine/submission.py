@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from autograder.exercise import file_names
+from autograder.engine.exercise import file_names
 
 MAX_BYTES = 1_000_000  # of a file a student writes
 MAX_NOTEBOOK_BYTES = 50_000_000  # a notebook also holds pictures of the robot

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from autograder import events as ev
-from autograder.transcript import Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.transcript import Transcript
 
 OVERLOADED = 0.5  # s the simulator may be late before a run is not judged at all
 STARVED = 1.0  # s a student's program may wait for a processor before a run without a robot is not judged

@@ -22,10 +22,11 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from autograder.checks import Check
+from autograder.project import PROJECT
 
-PROJECT = Path(__file__).resolve().parents[1]
+if TYPE_CHECKING:
+    from autograder.authoring.checks import Check
+
 FOLDER_VARIABLE = "COURSE_EXERCISES"  # inherited by the processes that a command starts
 SCENARIOS, CHECKS, HIDDEN = "scenarios", "checks", "hidden"
 
@@ -106,7 +107,7 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
 
     Raises :class:`UnusableExercise` for what its author has to mend.
     """
-    from autograder.checks import (
+    from autograder.authoring.checks import (
         checks_in,  # which takes time to import, and the names of exercises do not need it
     )
 

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from autograder import events as ev
-from autograder.checks import Failure, Scenario
-from autograder.missing import held_up
-from autograder.transcript import Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Failure, Scenario
+from autograder.authoring.missing import held_up
+from autograder.authoring.transcript import Transcript
 
 # What stands in a record, in the words of a report.
 PLURALS: Mapping[str, str] = {

@@ -1,7 +1,7 @@
 """Everything one arena saw, on one time axis, with the questions checks ask of it.
 
-What a check asks for and is not there is a failure with a reason (:class:`~autograder.missing.Missing`), or, where
-the arena did not do its part, no grade (:class:`~autograder.failure.CannotBeJudged`).
+What a check asks for and is not there is a failure with a reason (:class:`~.missing.Missing`), or, where the arena did
+not do its part, no grade (:class:`~.failure.CannotBeJudged`).
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, TypeVar
 
-from autograder import events as ev
-from autograder.missing import Missing, ordinal, unseen
+from autograder.authoring import events as ev
+from autograder.authoring.missing import Missing, ordinal, unseen
 
 E = TypeVar("E")
 A = TypeVar("A", ev.GoalAnswered, ev.ResultReceived, ev.CancelAnswered, ev.ServiceAnswered)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from autograder import events as ev
-from autograder.checks import Failure, expect
-from autograder.missing import Missing, ordinal, unseen
-from autograder.readiness import require_within_limits
-from autograder.transcript import RequestHistory, Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Failure, expect
+from autograder.authoring.missing import Missing, ordinal, unseen
+from autograder.authoring.readiness import require_within_limits
+from autograder.authoring.transcript import RequestHistory, Transcript
 
 SLACK = 2.0  # s on the arena's clock for start and shutdown: 0.4 s of wall time at scale 5, on a busy machine
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from autograder import events as ev
-from autograder.failure import Failure
-from autograder.missing import unseen
-from autograder.transcript import Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.failure import Failure
+from autograder.authoring.missing import unseen
+from autograder.authoring.transcript import Transcript
 
 
 def require_ready(run: Transcript) -> None:

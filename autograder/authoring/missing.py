@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from autograder.blame import Cause, why_it_went_no_further, why_the_robot_was_held_up
-from autograder.failure import CannotBeJudged, Failure
+from autograder.authoring.blame import Cause, why_it_went_no_further, why_the_robot_was_held_up
+from autograder.authoring.failure import CannotBeJudged, Failure
 
 if TYPE_CHECKING:  # a transcript asks here itself
-    from autograder.transcript import Transcript
+    from autograder.authoring.transcript import Transcript
 
 _FIRST_OF_ALL = "Find out what your node did just before: the log below shows what it printed, with times."
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from autograder import events as ev
-from autograder.blame import why_the_robot_was_held_up
-from autograder.checks import Scenario
-from autograder.lateness import OVERLOADED, lateness
-from autograder.missing import held_up
-from autograder.transcript import Transcript
+from autograder.authoring import events as ev
+from autograder.authoring.blame import why_the_robot_was_held_up
+from autograder.authoring.checks import Scenario
+from autograder.authoring.missing import held_up
+from autograder.authoring.transcript import Transcript
+from autograder.engine.lateness import OVERLOADED, lateness
 
 LONGEST_SILENCE = 1.5  # s on the arena's clock without a word from the simulator
 LATEST_COMMAND = 1.5  # s on it until a command of the scenario takes effect
@@ -18,8 +18,8 @@ LATEST_COMMAND = 1.5  # s on it until a command of the scenario takes effect
 def require_whole(run: Transcript, scenario: Scenario) -> None:
     """The scenario came to its end, the robot did as it was told and its time went on.
 
-    A :class:`~autograder.failure.Failure` where the submission is the reason why not, else
-    :class:`~autograder.failure.CannotBeJudged`.
+    A :class:`~autograder.authoring.failure.Failure` where the submission is the reason why not, else
+    :class:`~autograder.authoring.failure.CannotBeJudged`.
     """
     if run.first(ev.ScenarioEnded) is None:
         raise held_up(run, f"the record breaks off at {run.end:.1f} s")

@@ -5,15 +5,15 @@ from __future__ import annotations
 import traceback
 from collections.abc import Sequence
 
-from autograder import events as ev
-from autograder import lesson
-from autograder.bounds import require_bounded
-from autograder.checks import Check
-from autograder.failure import CannotBeJudged, Failure
-from autograder.readiness import require_ready, require_started
-from autograder.transcript import Transcript
-from autograder.verdict import CheckStatus, CheckVerdict
-from autograder.wholeness import require_whole
+from autograder.authoring import events as ev
+from autograder.authoring import lesson
+from autograder.authoring.checks import Check
+from autograder.authoring.failure import CannotBeJudged, Failure
+from autograder.authoring.readiness import require_ready, require_started
+from autograder.authoring.transcript import Transcript
+from autograder.engine.bounds import require_bounded
+from autograder.engine.verdict import CheckStatus, CheckVerdict
+from autograder.engine.wholeness import require_whole
 
 LOG_LINES = 40
 

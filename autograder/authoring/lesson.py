@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 from functools import cache
-from pathlib import Path
 
-CHAPTERS = Path(__file__).resolve().parents[1] / "chapters"
+from autograder.project import PROJECT
+
+CHAPTERS = PROJECT / "chapters"
 
 
 def in_words(see: str) -> str:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from autograder import events as ev
+from autograder.authoring import events as ev
 
 if TYPE_CHECKING:  # a transcript asks here itself
-    from autograder.transcript import Transcript
+    from autograder.authoring.transcript import Transcript
 
 HOG = 0.8  # processors a submission may keep busy before what comes late is its own doing
 

@@ -1,0 +1,49 @@
+"""Checks that every server owes, whatever it serves: one line each in an exercise's checks.
+
+server_appears = standard.server_appears("get_battery_status", points=1, on=INTERRUPT)
+ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from autograder.authoring.checks import Check, Scenario, check
+from autograder.authoring.readiness import require_ready
+from autograder.authoring.server_checks import require_clean_exit
+from autograder.authoring.transcript import Transcript
+
+Needs = Check | Sequence[Check]
+
+
+def server_appears(what: str, *, points: int, on: Scenario, see: str = "") -> Check:
+    """The node offers `what`, in words; `on` is best the shortest scenario, as this verdict is waited for."""
+    return named_check(
+        "server_appears", f"The node offers {what}", require_ready, points=points, on=on, see=see
+    )
+
+
+def ends_cleanly(*, points: int, on: Scenario, needs: Needs, see: str = "") -> Check:
+    """Ctrl-C ends the node with exit status 0; the scenario presses it."""
+    title = "Ctrl-C ends the node with exit status 0"
+    return named_check("ends_cleanly", title, require_clean_exit, points=points, on=on, needs=needs, see=see)
+
+
+def named_check(
+    id: str,
+    title: str,
+    require: Callable[[Transcript], Any],
+    *,
+    points: int,
+    on: Scenario,
+    needs: Needs = (),
+    see: str = "",
+) -> Check:
+    """Make a check of a function that asks something of a run."""
+
+    def judge(run: Transcript) -> None:
+        require(run)
+
+    judge.__name__, judge.__doc__ = id, title
+    return check(points=points, on=on, needs=needs, see=see)(judge)

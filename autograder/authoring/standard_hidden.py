@@ -1,0 +1,39 @@
+"""Checks that every server owes and that students do not see: one line each in an exercise's hidden checks.
+
+The students' copy of the engine is without this module.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from autograder.authoring.checks import Check, Scenario, expect
+from autograder.authoring.server_checks import require_calls
+from autograder.authoring.standard import Needs, named_check
+from autograder.authoring.transcript import Transcript
+
+
+def answers_every_request(
+    title: str, *, requests: int, within: float, help: str, points: int, on: Scenario, needs: Needs
+) -> Check:
+    """All `requests` of the scenario are answered, each `within` so many s."""
+
+    def judge(run: Transcript) -> None:
+        latencies = [call.latency for call in require_calls(run, requests)]
+        expect(
+            max(latencies) <= within,
+            expected=f"every answer within {within:g} s",
+            observed=f"the slowest of {len(latencies)} took {max(latencies):.1f} s",
+            help=help,
+        )
+
+    return named_check("answers_every_request", title, judge, points=points, on=on, needs=needs)
+
+
+def works_in_any_namespace(
+    does: str, require: Callable[[Transcript], Any], *, points: int, on: Scenario, needs: Needs
+) -> Check:
+    """Started in another namespace it does the same, which `require` asks of the run, and `does` says in words."""
+    title = f"Started in another namespace, it {does} there"
+    return named_check("works_in_any_namespace", title, require, points=points, on=on, needs=needs)
