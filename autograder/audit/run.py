@@ -32,8 +32,15 @@ class AuditedRun:
         return [check.id for check in self.grade.checks if check.status == "failed"]
 
     def missed(self) -> list[str]:
-        """Return the checks that had to fail and did not."""
-        return [check_id for check_id in self.known.caught_by if self.status(check_id) != "failed"]
+        """Return the checks that had to fail and did not.
+
+        An attack that already fails what a check needs, as its header allows, is caught sooner: when a flood shows first
+        depends on the machine.
+        """
+        failed = ["failed"]
+        if self.known.kind == "hostile" and set(self.failed()) & set(self.known.also_fails):
+            failed.append("not run")
+        return [check_id for check_id in self.known.caught_by if self.status(check_id) not in failed]
 
     def unexpected(self) -> list[str]:
         """Return the checks that failed and are not named; for a correct submission, false failures."""

@@ -130,6 +130,15 @@ def test_failure_of_an_unrelated_check_is_a_surprise(folder):
     assert run.unexpected() == ["appears"]
 
 
+SOONER = '"""Attack: floods\nOutcome: is told\nCaught by: answers\nAlso fails: appears\n"""\n'
+
+
+@pytest.mark.parametrize(("first", "surprises"), [("failed", 0), ("passed", 1)])
+def test_an_attack_may_be_caught_before_the_check_that_names_it(folder, first, surprises):
+    run = run_of(read(folder(hostile=SOONER), "hostile"), appears=first, answers="not_run", ends="not_run")
+    assert len(run.surprises()) == surprises
+
+
 def test_hostile_submission_must_get_a_grade(folder):
     run = run_of(read(folder(hostile=HOSTILE), "hostile"), appears="error", answers="not_run", ends="not_run")
     assert any("the machine slept" in surprise for surprise in run.surprises())

@@ -2,7 +2,7 @@
 stays its last.
 Outcome: the robot looks at the length of a message before it unpacks it, goes on, and tells; the flood is the failure.
 Caught by: finds_the_joints
-Also fails: says_when_it_knows_nothing, ends_cleanly
+Also fails: server_appears, says_when_it_knows_nothing, ends_cleanly
 """
 
 import rclpy
