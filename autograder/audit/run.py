@@ -34,7 +34,7 @@ class AuditedRun:
     def missed(self) -> list[str]:
         """Return the checks that had to fail and did not.
 
-        An attack that already fails what a check needs, as its header allows, is caught sooner: when a flood shows first
+        An attack that already fails what a check needs, as its header allows, is caught sooner: when a flood shows
         depends on the machine.
         """
         failed = ["failed"]
