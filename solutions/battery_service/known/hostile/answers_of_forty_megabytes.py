@@ -1,6 +1,7 @@
 """Attack: right answers with a message of forty million characters, more than an arena's report may have.
 Outcome: an answer is measured before it is unpacked; this one is not read, and its size is the failure.
-Caught by: server_appears
+Caught by: answers_with_the_last_message
+Also fails: server_appears, says_when_it_knows_nothing, ends_cleanly
 """
 
 import rclpy
