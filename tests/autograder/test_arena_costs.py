@@ -7,11 +7,13 @@ import json
 import pytest
 from rich.console import Console
 
+from autograder.audit.known_submission import known_submission
 from autograder.bench.arena_costs import ArenaCost, BenchFailed, Cost, Costs, SubmissionCost, measure
 from autograder.bench.other_version import version_of
 from autograder.bench.processor_time import CannotBeMeasured, metered_group
 from course_cli import arena_bench
 from course_cli.arena_bench import bench_arenas
+from course_cli.commands import bench
 
 PHASES = {"interpreter", "imports", "discovery", "settling", "scenario", "end"}
 
@@ -80,3 +82,7 @@ def test_two_versions_stand_side_by_side_as_ratios(tmp_path, monkeypatch):
 def test_what_is_neither_a_file_nor_a_commit_is_named():
     with pytest.raises(BenchFailed, match="'no_such_thing' is neither a file that --json wrote nor a commit"):
         version_of("no_such_thing")
+
+
+def test_the_sound_server_of_the_fairness_rows_is_there():
+    assert known_submission(bench.EXERCISE, bench.THREADED).kind == "correct"
