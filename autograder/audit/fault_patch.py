@@ -22,7 +22,7 @@ from whatthepatch.exceptions import WhatThePatchException
 SUFFIX = ".patch"
 LARGEST_SHARE = 0.6  # of a program; where more differs, nothing much is shared and the whole file is clearer
 _CONTEXT = 2  # lines around a change
-_DOCSTRING = re.compile(r'\A(?:#.*\n|\s)*"""(.*?)"""\n?', re.DOTALL)  # also where the file does not parse
+DOCSTRING = re.compile(r'\A(?:#.*\n|\s)*"""(.*?)"""\n?', re.DOTALL)  # also where the file does not parse
 _BEGINNING = re.compile(r"^--- (\S+)", re.MULTILINE)
 
 
@@ -61,7 +61,7 @@ def whole_program(path: Path) -> str:
 
 def as_patch(program: Path, sound: Sequence[Path]) -> str | None:
     """Return the patch that makes a program of the nearest of some sound ones; None where too little is shared."""
-    docstring = _DOCSTRING.match(program.read_text(encoding="utf-8"))
+    docstring = DOCSTRING.match(program.read_text(encoding="utf-8"))
     if docstring is None or not sound:
         return None
     body = _below_the_docstring(program).splitlines()
@@ -79,5 +79,5 @@ def as_patch(program: Path, sound: Sequence[Path]) -> str | None:
 
 def _below_the_docstring(program: Path) -> str:
     text = program.read_text(encoding="utf-8")
-    found = _DOCSTRING.match(text)
+    found = DOCSTRING.match(text)
     return text[found.end() :] if found else text

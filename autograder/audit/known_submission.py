@@ -21,7 +21,7 @@ from fnmatch import fnmatch
 from pathlib import Path
 from typing import Literal, get_args
 
-from autograder.audit.fault_patch import SUFFIX, header_of, whole_program
+from autograder.audit.fault_patch import DOCSTRING, SUFFIX, header_of, whole_program
 from autograder.engine.exercise import exercises_folder, file_names
 from autograder.engine.submission import Submission, read_submission
 
@@ -30,7 +30,6 @@ ABOUT = "about.md"
 
 Kind = Literal["correct", "faulty", "hostile"]
 
-_FIRST_DOCSTRING = re.compile(r'\A(?:#.*\n|\s)*"""(.*?)"""', re.DOTALL)  # also where the file does not parse
 _KEY = re.compile(r"(Style|Fault|Attack|Outcome|Caught by|Also fails|Passes): *(.*)")
 _HEADLINE: Mapping[Kind, str] = {"correct": "Style", "faulty": "Fault", "hostile": "Attack"}
 
@@ -121,7 +120,7 @@ def _header_text(path: Path) -> str:
     text = path.read_text(encoding="utf-8")
     if path.suffix == SUFFIX:
         return header_of(text)
-    found = _FIRST_DOCSTRING.match(text)
+    found = DOCSTRING.match(text)
     return found[1] if found else ""
 
 

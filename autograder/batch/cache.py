@@ -16,7 +16,14 @@ from autograder.project import PROJECT
 
 # What a verdict depends on besides the submission: the checks and the engine, the robot, the clock.
 JUDGING = ("autograder", "robot_sim", "ros_runtime", "humanoid_interfaces")
-WITHOUT_INFLUENCE = ("batch", "nbgrader_bridge", "report", "audit", "bench")  # folders of autograder/
+WITHOUT_INFLUENCE = (
+    "batch",
+    "nbgrader_bridge",
+    "report",
+    "audit",
+    "bench",
+    "new_exercise",
+)  # folders of autograder/
 
 
 class GradeCache:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from autograder.authoring.checks import Check
 
 FOLDER_VARIABLE = "COURSE_EXERCISES"  # inherited by the processes that a command starts
-SCENARIOS, CHECKS, HIDDEN = "scenarios", "checks", "hidden"
+SCENARIO_FILE, CHECKS, HIDDEN = "scenarios.py", "checks", "hidden"
 
 
 class UnknownExercise(Exception):
@@ -56,7 +56,7 @@ class Exercise:
     @property
     def scenario_file(self) -> Path:
         """The module an arena takes the scenarios from, and all of the exercise that it sees."""
-        return self.folder / f"{SCENARIOS}.py"
+        return self.folder / SCENARIO_FILE
 
     def max_score(self) -> int:
         """The points of all its checks."""
@@ -99,7 +99,7 @@ def file_names(exercise: str) -> tuple[str, ...]:
 
 def scenario_file(exercise: str) -> Path:
     """Return where an exercise's scenarios are, if there is such an exercise."""
-    return exercises_folder() / exercise / f"{SCENARIOS}.py"
+    return exercises_folder() / exercise / SCENARIO_FILE
 
 
 def load_exercise(name: str, *, hidden: bool) -> Exercise:
@@ -107,9 +107,8 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
 
     Raises :class:`UnusableExercise` for what its author has to mend.
     """
-    from autograder.authoring.checks import (
-        checks_in,  # which takes time to import, and the names of exercises do not need it
-    )
+    # It takes time to import, and whoever asks for names only does not need it.
+    from autograder.authoring.checks import checks_in
 
     folder = exercises_folder() / name
     checks = visible = checks_in(exercise_module(name, CHECKS))

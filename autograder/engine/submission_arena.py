@@ -50,10 +50,10 @@ class SubmissionArena:
 
     def __init__(self, scenario_file: Path, kind: Kind) -> None:
         self._orders, theirs = socket.socketpair()
+        for_ros = {**ros_environment(), **preload_variables()}
         environment = {
-            **ros_environment(),
+            **for_ros,
             **loopback_variables(),
-            **preload_variables(),
             "PYTHONPATH": str(PROJECT),
             "PYTHONDONTWRITEBYTECODE": "1",
             "MUJOCO_GL": "disable",  # nothing is drawn here, and looking for a screen takes 0.13 s
@@ -64,7 +64,7 @@ class SubmissionArena:
                 read_only_paths=[*ros_paths(), *_trusted_paths(), scenario_file],
                 pass_fds=[theirs.fileno()],
                 env=environment,
-                waiting_env=waiting_environment({**ros_environment(), **preload_variables()}),
+                waiting_env=waiting_environment(for_ros),
                 limits=LIMITS,
             )
             try:

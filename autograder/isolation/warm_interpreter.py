@@ -17,7 +17,6 @@ from autograder.isolation.bubblewrap import STUDENT_FILTER, SandboxError, Starte
 from autograder.isolation.running_program import EnteredProgram
 
 _FIRST_PROCESS = Path(ros_runtime.warm_start.__file__).with_name("first_process.py")
-_WAITING = "COURSE_WAITING_INTERPRETER"  # set by the first process: "SOCKET PROCESS"
 
 
 @contextmanager
@@ -46,7 +45,7 @@ class WarmInterpreter:
     @classmethod
     def in_this_arena(cls) -> WarmInterpreter | None:
         """Return the one that the first process of this arena, which is this process, has forked, if it has."""
-        waiting = os.environ.get(_WAITING)
+        waiting = os.environ.get(ros_runtime.warm_start.WAITING)
         if waiting is None:
             return None
         descriptor, pid = map(int, waiting.split())

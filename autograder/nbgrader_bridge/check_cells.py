@@ -30,7 +30,7 @@ def with_check_cells(notebook: NotebookNode, exercise: Exercise) -> NotebookNode
 
 def check_cells(exercise: Exercise) -> list[NotebookNode]:
     """Return a heading, then one locked cell a check, in order, with its points."""
-    heading = new_markdown_cell(HEADING, id=HEADING_ID, metadata=_metadata("verdicts", points=None))
+    heading = new_markdown_cell(HEADING, id=HEADING_ID, metadata=cell_metadata("verdicts"))
     names = cell_names(exercise.checks)
     return [heading, *(_check_cell(check, names[check.id]) for check in exercise.checks)]
 
@@ -42,16 +42,17 @@ def _check_cell(check: Check, name: str) -> NotebookNode:
         source = f"# Hidden check {number} ({points})\nchecked.hidden({number})"
     else:
         source = f'# {check.title} ({points})\nchecked.show("{check.id}")'
-    return new_code_cell(source, id=name, metadata=_metadata(name, points=check.points))
+    return new_code_cell(source, id=name, metadata=cell_metadata(name, points=check.points))
 
 
-def _metadata(name: str, points: int | None) -> dict[str, Any]:
+def cell_metadata(name: str, *, points: int | None = None, solution: bool = False) -> dict[str, Any]:
+    """Return nbgrader's metadata of a cell: locked, with or without points, or the place of a solution."""
     nbgrader: dict[str, Any] = {
         "grade": points is not None,
         "grade_id": name,
-        "locked": True,
+        "locked": not solution,
         "schema_version": 3,
-        "solution": False,
+        "solution": solution,
         "task": False,
     }
     if points is not None:

@@ -11,6 +11,8 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
+from autograder.nbgrader_bridge.check_cells import cell_metadata
+
 KINDS_FOLDER = Path(__file__).with_name("kinds")
 KINDS = tuple(sorted(folder.name for folder in KINDS_FOLDER.iterdir()))
 _TEMPLATE = ".j2"
@@ -64,9 +66,7 @@ def _notebook(words: dict[str, str], task: str, solution: str) -> NotebookNode:
     name = words["name"]
     cells = [
         new_markdown_cell(f"# {words['title']}", id="title"),
-        new_markdown_cell(
-            f"## The task\n\n{task.strip()}", id="task", metadata=_grading("task", locked=True)
-        ),
+        new_markdown_cell(f"## The task\n\n{task.strip()}", id="task", metadata=cell_metadata("task")),
         new_markdown_cell(
             f"## Your solution\n\nRun the cell: it writes `{name}.py`. Then check it below.",
             id="solution-intro",
@@ -74,7 +74,7 @@ def _notebook(words: dict[str, str], task: str, solution: str) -> NotebookNode:
         new_code_cell(
             f"%%writefile {name}.py\n{solution.strip()}",
             id="solution",
-            metadata=_grading("solution", solution=True),
+            metadata=cell_metadata("solution", solution=True),
         ),
         new_markdown_cell(
             "## Check it\n\nThe checks that you can see, each with what to do next.", id="self-check-intro"
@@ -85,16 +85,3 @@ def _notebook(words: dict[str, str], task: str, solution: str) -> NotebookNode:
     ]
     kernel = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
     return new_notebook(cells=cells, metadata={"kernelspec": kernel})
-
-
-def _grading(grade_id: str, *, locked: bool = False, solution: bool = False) -> dict:
-    return {
-        "nbgrader": {
-            "grade": False,
-            "grade_id": grade_id,
-            "locked": locked,
-            "schema_version": 3,
-            "solution": solution,
-            "task": False,
-        }
-    }

@@ -25,6 +25,7 @@ from autograder.engine.grading import grade
 from autograder.engine.submission import Submission, read_submission
 from autograder.engine.verdict import CheckVerdict
 from autograder.isolation.availability import available_isolation
+from autograder.project import PROJECT
 from course_cli.arena_bench import bench_arenas
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from lab.view_cost import view_cost
@@ -32,7 +33,6 @@ from robot_sim.trials import run_trials
 from robot_sim.trials.__main__ import table_of
 from robot_sim.views.gl_backend import NoOpenGLError
 
-PROJECT = Path(__file__).resolve().parents[2]
 EXERCISE = "cancellable_walk"
 THREADED = "correct/threads_and_sleep"  # the sound server that every machine must treat fairly
 

@@ -22,6 +22,7 @@ from autograder.engine.exercise import load_exercise
 from autograder.engine.grading import grade
 from autograder.engine.submission import read_submission
 from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.project import PROJECT
 from autograder.report.page import Section, write_page
 from autograder.report.sequence import transcript_svg
 from autograder.report.table import MARKS, summary
@@ -29,7 +30,6 @@ from course_cli.ending import COULD_NOT, ended
 from humanoid_interfaces.action import WalkTo
 
 EXERCISE = "cancellable_walk"
-PROJECT = Path(__file__).resolve().parents[2]
 SOLUTION = PROJECT / "solutions" / EXERCISE / f"{EXERCISE}.ipynb"
 FAULTY = {"ignores cancel": "faulty/ignores_cancel", "crashes": "faulty/crashes_in_execute"}
 

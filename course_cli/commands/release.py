@@ -8,11 +8,10 @@ from rich.console import Console
 
 from autograder.engine.exercise import UnusableExercise, exercises_folder
 from autograder.nbgrader_bridge.release import bring_in_step, out_of_step
+from autograder.project import PROJECT
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 from course_cli.student_bundle import Leak, write_bundle
-
-ROOT = Path(__file__).resolve().parents[2]
 
 
 def release(
@@ -49,7 +48,7 @@ def _release(console: Console, out: Path, exercises: bool, check: bool) -> None:
             console.print(f"{path.relative_to(solutions.parent)} renewed", markup=False)
         return
     try:
-        count = write_bundle(ROOT, out)
+        count = write_bundle(PROJECT, out)
     except Leak as error:
         raise ended(console, error, COULD_NOT) from error
     console.print(f"{out}: {count} files, {out.stat().st_size / 1e6:.1f} MB", markup=False)

@@ -21,12 +21,11 @@ with Recording() as recording:
     import runpy
     import socket
 
+    from ros_runtime.warm_start import WAITING
     from ros_runtime.warm_start.lttng import ForkGuard
     from ros_runtime.warm_start.preload import preload
     from ros_runtime.warm_start.program import run_program
     from ros_runtime.warm_start.starter import wait_for_order
-
-WAITING = "COURSE_WAITING_INTERPRETER"  # in the leading program's environment: "SOCKET PROCESS"
 
 
 def wait(orders: socket.socket, guard: ForkGuard) -> int:

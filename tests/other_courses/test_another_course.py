@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
 import nbformat
 import pytest
+from course_command import course
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
-
-COURSE = Path(sys.executable).with_name("course")
 
 SCENARIOS = """
 def count(stage, to):
@@ -80,15 +76,7 @@ Caught by: counts_to_three
 
 def run(*arguments: str | Path, cwd: Path, status: int = 0) -> str:
     """Run `course`; return what it printed."""
-    ran = subprocess.run(
-        [COURSE, *map(str, arguments)],
-        cwd=cwd,
-        env={**os.environ, "COLUMNS": "300"},
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=300,
-    )
+    ran = course(*arguments, cwd=cwd)
     said = ran.stdout + ran.stderr
     assert ran.returncode == status, said
     return said

@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
 import pytest
+from course_command import COURSE, course
 from page import carry_out, steps
 
 from autograder.new_exercise.make import KINDS
 
 ROOT = Path(__file__).resolve().parents[2]
-COURSE = Path(sys.executable).with_name("course")
-
-
-def course(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [COURSE, *map(str, arguments)], capture_output=True, text=True, check=False, timeout=300
-    )
 
 
 def test_there_is_a_kind_for_whatever_students_write():
