@@ -13,6 +13,7 @@ from robot_sim.arms.reach import HandTarget, Reach
 from robot_sim.arms.upper_body import UpperBody
 from robot_sim.battery import Battery
 from robot_sim.model.build import build_model
+from robot_sim.model.dimensions import dimensions_of
 from robot_sim.model.floor import Floor
 from robot_sim.model.joint_names import ACTUATED_JOINTS, SIDES
 from robot_sim.model.posture import take_stance
@@ -74,7 +75,7 @@ class Humanoid:
         self.timestep = timestep
         self.seed = seed
         self._estimates_state = estimates_state
-        self._parameters = WalkerParameters()
+        self._parameters = WalkerParameters(dimensions_of(self.model))
         self._trunk = trunk_of(self.model)
         self._limits = WalkingLimits()
         self._fall = FallThresholds()

@@ -2,30 +2,9 @@
 
 from dataclasses import dataclass, field
 
+from robot_sim.model.dimensions import Dimensions
+
 GRAVITY = 9.81  # m/s²
-
-
-@dataclass(frozen=True, slots=True)
-class Dimensions:
-    """Lengths of the body, all in metres."""
-
-    thigh: float = 0.31  # hip to knee
-    shank: float = 0.31  # knee to ankle
-    ankle_height: float = 0.05  # ankle axes above the sole
-    hip_half_width: float = 0.09  # hip to the middle of the pelvis
-    sole_back: float = -0.08  # heel, from the ankle
-    sole_front: float = 0.14  # toe, from the ankle
-    sole_half_width: float = 0.055
-    stance_height: float = 0.60  # pelvis above the floor
-    stance_lean: float = 0.014  # hips ahead of the ankles; brings the centre of mass over the soles' centres
-
-    @property
-    def sole_half_length(self) -> float:
-        return (self.sole_front - self.sole_back) / 2
-
-    @property
-    def sole_centre(self) -> float:
-        return (self.sole_front + self.sole_back) / 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -240,7 +219,7 @@ class UpperBodyParameters:
 class WalkerParameters:
     """What the walking controller needs."""
 
-    dimensions: Dimensions = field(default_factory=Dimensions)
+    dimensions: Dimensions
     steps: StepLimits = field(default_factory=StepLimits)
     gait: GaitParameters = field(default_factory=GaitParameters)
     balance: BalanceParameters = field(default_factory=BalanceParameters)

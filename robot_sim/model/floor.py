@@ -1,7 +1,11 @@
 """What the robot walks on: a plane, level unless told otherwise, with or without bumps."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
+
+import mujoco
 
 BUMP_HALF_SIZE = 0.04  # m
 
@@ -20,14 +24,17 @@ class Floor:
     uphill: float = 0.0
     bumps: tuple[tuple[float, float, float], ...] = ()
 
-    def mjcf(self) -> str:
-        """The geoms of the world that the feet meet."""
-        across = f"{math.degrees(-self.slope)}"
-        plane = (
-            '<geom name="floor" type="plane" size="0 0 0.05" material="floor" contype="1" conaffinity="1" '
-            f'axisangle="{-math.sin(self.uphill)} {math.cos(self.uphill)} 0 {across}"/>'
-        )
-        return plane + "".join(
-            f'<geom class="furniture" type="box" pos="{x} {y} 0" size="{BUMP_HALF_SIZE} {BUMP_HALF_SIZE} {height}"/>'
-            for x, y, height in self.bumps
-        )
+    def shape(self, spec: mujoco.MjSpec) -> None:
+        """Tilt the plane "floor" of a model that is still to be compiled, and put the bumps on it."""
+        orientation = spec.geom("floor").alt
+        orientation.type = mujoco.mjtOrientation.mjORIENTATION_AXISANGLE
+        across = (-math.sin(self.uphill), math.cos(self.uphill), 0.0)
+        orientation.axisangle = (*across, math.degrees(-self.slope))
+        furniture = spec.find_default("furniture")
+        for x, y, height in self.bumps:
+            spec.worldbody.add_geom(
+                furniture,
+                type=mujoco.mjtGeom.mjGEOM_BOX,
+                pos=(x, y, 0.0),
+                size=(BUMP_HALF_SIZE, BUMP_HALF_SIZE, height),
+            )

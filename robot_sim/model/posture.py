@@ -4,9 +4,10 @@ import math
 
 import mujoco
 
+from robot_sim.model.dimensions import Dimensions
 from robot_sim.model.joint_names import SIDES, UPPER_BODY_JOINTS
-from robot_sim.parameters import Dimensions
 
+HIPS_AHEAD = 0.014  # m, of the ankles; brings the centre of mass over the soles' centres
 ARMS_AT_REST = {  # rad, left arm; mirrored joints change sign on the right
     "shoulder_pitch": 0.2,
     "shoulder_roll": 0.15,
@@ -23,8 +24,8 @@ def natural_posture(size: Dimensions) -> dict[str, float]:
     """Every joint's position (rad, fingers m) in stance: knees bent, arms hanging, looking ahead."""
     posture = dict.fromkeys(UPPER_BODY_JOINTS, 0.0)
     hip_height = size.stance_height - size.ankle_height
-    knee = 2 * math.acos(math.hypot(hip_height, size.stance_lean) / (size.thigh + size.shank))
-    lean = math.atan2(size.stance_lean, hip_height)
+    knee = 2 * math.acos(math.hypot(hip_height, HIPS_AHEAD) / (size.thigh + size.shank))
+    lean = math.atan2(HIPS_AHEAD, hip_height)
     for side in SIDES:
         for joint, angle in ARMS_AT_REST.items():
             posture[f"{side}_{joint}"] = -angle if side == "r" and joint in MIRRORED else angle

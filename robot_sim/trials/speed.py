@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import mujoco
 
 from robot_sim.humanoid import Humanoid
+from robot_sim.model.dimensions import dimensions_of
 from robot_sim.model.posture import take_stance
-from robot_sim.parameters import Dimensions
 from robot_sim.trials.trial import Clock, Run, Summary, Trial, simulate, summary
 
 REQUIRED = 30.0  # simulated seconds per processor second
@@ -39,9 +39,10 @@ def run(case: tuple[str, float]) -> Run:
 def _time_bare_physics(humanoid: Humanoid, length: float) -> float:
     """Processor seconds for mj_step alone, stood up again every 0.25 s because nothing keeps it standing."""
     steps = round(0.25 / humanoid.timestep)
+    size = dimensions_of(humanoid.model)
     cpu = 0.0
     for _ in range(round(length / 0.25)):
-        take_stance(humanoid.model, humanoid.data, Dimensions(), 0.0, 0.0, 0.0)
+        take_stance(humanoid.model, humanoid.data, size, 0.0, 0.0, 0.0)
         clock = Clock()
         mujoco.mj_step(humanoid.model, humanoid.data, steps)
         cpu += clock.read()

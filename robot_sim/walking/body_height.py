@@ -2,7 +2,8 @@
 
 import math
 
-from robot_sim.parameters import Dimensions, HeightLimits
+from robot_sim.model.dimensions import Dimensions
+from robot_sim.parameters import HeightLimits
 from robot_sim.walking.height_change import HeightChange
 from robot_sim.walking.planar import clamp
 from robot_sim.walking.walker import Walker

@@ -4,8 +4,9 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from robot_sim.model.dimensions import Dimensions
 from robot_sim.model.joint_names import LEFT
-from robot_sim.parameters import GRAVITY, BalanceParameters, Dimensions
+from robot_sim.parameters import GRAVITY, BalanceParameters
 from robot_sim.walking.attitude import to_world
 from robot_sim.walking.dcm_plan import Point
 from robot_sim.walking.planar import Frame, clamp

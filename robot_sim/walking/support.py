@@ -5,8 +5,9 @@ body controller and is set aside first, so that the body stays upright even wher
 whole sole.
 """
 
+from robot_sim.model.dimensions import Dimensions
 from robot_sim.model.joint_names import LEFT, RIGHT
-from robot_sim.parameters import BalanceParameters, Dimensions
+from robot_sim.parameters import BalanceParameters
 from robot_sim.walking.dcm_plan import Point
 from robot_sim.walking.planar import Frame, clamp
 from robot_sim.walking.sensing import Sensing

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from robot_sim.humanoid import Humanoid
+from robot_sim.model.dimensions import dimensions_of
 from robot_sim.model.floor import Floor
-from robot_sim.parameters import Dimensions
 from robot_sim.state import Mode
 from robot_sim.trials.trial import base_speed, feet_midpoint, simulate
 from robot_sim.walking.planar import wrap
@@ -153,7 +153,7 @@ def test_it_walks_on_a_slope_of_three_degrees(uphill):
     humanoid.walk_to(1.0, 0.0, 0.0)
     assert simulate(humanoid, 15.0, until=lambda: humanoid.arrived)
     simulate(humanoid, 1.0)
-    rise = humanoid.base_pose().position[2] - Dimensions().stance_height
+    rise = humanoid.base_pose().position[2] - dimensions_of(humanoid.model).stance_height
     assert rise == pytest.approx(math.tan(math.radians(3.0)) * math.cos(uphill), abs=0.02)
     assert humanoid.mode is Mode.STANDING
 
