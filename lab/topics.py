@@ -18,6 +18,7 @@ from lab.connection import NAMESPACE, connection
 from lab.errors import NoRobotError
 from lab.waiting import comes_true
 from lab.wording import fixed
+from ros_runtime.angles import yaw_of
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 TOPICS: dict[str, tuple[Any, Any]] = {
@@ -60,7 +61,7 @@ def pose() -> Pose:
     """x and y (m) and heading (rad) out of the last message on odom."""
     where = odometry().pose.pose
     q = where.orientation
-    yaw = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
+    yaw = yaw_of(q.x, q.y, q.z, q.w)
     return Pose(where.position.x, where.position.y, yaw)
 
 

@@ -8,6 +8,8 @@ from typing import Any
 from builtin_interfaces.msg import Duration, Time
 from geometry_msgs.msg import Pose, PoseStamped
 
+from ros_runtime.angles import yaw_of
+
 
 def describe(message: Any) -> str:
     """The fields of a message in one line: three digits of a number, no headers, poses as x, y and heading."""
@@ -58,7 +60,7 @@ def _nested(message: Any) -> str:
     if _is_pose(message):
         pose = getattr(message, "pose", message)
         p, q = pose.position, pose.orientation
-        yaw = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
+        yaw = yaw_of(q.x, q.y, q.z, q.w)
         return f"({fixed(p.x, 2)} m, {fixed(p.y, 2)} m, {fixed(math.degrees(yaw), 0)}°)"
     if isinstance(message, Duration | Time):
         return f"{message.sec + message.nanosec * 1e-9:.1f} s"

@@ -15,9 +15,10 @@ from robot_sim.battery import Battery
 from robot_sim.model.build import build_model
 from robot_sim.model.dimensions import dimensions_of
 from robot_sim.model.floor import Floor
-from robot_sim.model.joint_names import ACTUATED_JOINTS, SIDES
+from robot_sim.model.joint_names import ACTUATED_JOINTS
 from robot_sim.model.posture import take_stance
 from robot_sim.model.scenes import OBJECTS
+from robot_sim.model.side import SIDES, Side
 from robot_sim.parameters import FallThresholds, HeightLimits, WalkerParameters, WalkingLimits
 from robot_sim.push import Pusher
 from robot_sim.rest import Rest
@@ -32,6 +33,7 @@ from robot_sim.walking.height_change import HeightChange, HeightPhase
 from robot_sim.walking.planar import clamp
 from robot_sim.walking.walkable_velocity import walkable_velocity
 from robot_sim.walking.walker import Walker
+from ros_runtime.angles import yaw_of
 
 
 class Humanoid:
@@ -54,7 +56,7 @@ class Humanoid:
         seed: of the sensors' errors; a new one holds from the next ``reset()`` on.
         model, data: of MuJoCo; the pelvis is base_link, the world is odom.
         battery: charge, voltage, current.
-        hands: the grippers by side, "l" and "r".
+        hands: the grippers by side.
         may_rest: once it stands still and nothing is asked of its body it is left as it is instead of being integrated:
             time and battery go on, and a step costs a fiftieth.
         motors_enabled: torque is on. False after ``set_motor_power(False)``, after a fall and at zero charge.
@@ -282,8 +284,8 @@ class Humanoid:
             self._upper_body.follow(trajectory)
             self._rest.stir()
 
-    def open_hand(self, side: str, opening: float) -> None:
-        """Bring the fingers of a side ("l" or "r") ``opening`` (m, 0 to 0.09) apart; ignored without motors.
+    def open_hand(self, side: Side, opening: float) -> None:
+        """Bring the fingers of a side ``opening`` (m, 0 to 0.09) apart; ignored without motors.
 
         Raises:
             ValueError: the opening is not finite.
@@ -292,11 +294,11 @@ class Humanoid:
             self.hands[side].open_to(opening)
             self._rest.stir()
 
-    def reach(self, side: str, target: HandTarget) -> Reach:
-        """Bring the hand of a side ("l" or "r") to a target in the odom frame; ``error()`` tells how far it is.
+    def reach(self, side: Side, target: HandTarget) -> Reach:
+        """Bring the hand of a side to a target in the odom frame; ``error()`` tells how far it is.
 
         Raises:
-            ValueError: the side is not known, or the target is not finite.
+            ValueError: the target is not finite.
         """
         self._rest.stir()
         return self._upper_body.reach(side, target)
@@ -330,8 +332,7 @@ class Humanoid:
     def base_pose(self) -> BasePose:
         """Pose of base_link in the odom frame."""
         w, x, y, z = self.data.qpos[3:7].tolist()
-        yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
-        return BasePose(self.data.qpos[:3].copy(), np.array([x, y, z, w]), yaw)
+        return BasePose(self.data.qpos[:3].copy(), np.array([x, y, z, w]), yaw_of(x, y, z, w))
 
     def base_velocity(self) -> BaseVelocity:
         """Velocity of base_link, in base_link."""

@@ -5,14 +5,15 @@ import math
 import mujoco
 
 from robot_sim.model.joint_names import finger_joints
+from robot_sim.model.side import Side
 
 WIDEST = 0.09  # m between the pads
 
 
 class Hand:
-    """The gripper of a side ("l" or "r"); both fingers move alike."""
+    """The gripper of a side; both fingers move alike."""
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, side: str) -> None:
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, side: Side) -> None:
         joints = finger_joints(side)
         self._data = data
         self._motors = [model.actuator(name).id for name in joints]

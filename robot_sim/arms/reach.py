@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from robot_sim.model.joint_names import SIDES, WAIST, arm_joints
-from robot_sim.model.posture import MIRRORED
+from robot_sim.model.joint_names import ARM, WAIST, arm_joints
+from robot_sim.model.posture import on_side
+from robot_sim.model.side import Side
 from robot_sim.parameters import ReachParameters
 
 HARDLY = 1e-3  # damping that only keeps a matrix invertible
@@ -52,19 +53,18 @@ class Reach:
         self,
         model: mujoco.MjModel,
         data: mujoco.MjData,
-        side: str,
+        side: Side,
         target: HandTarget,
         parameters: ReachParameters,
     ) -> None:
-        if side not in SIDES:
-            raise ValueError(f"side {side!r} is not known; expected 'l' or 'r'")
         if not all(map(math.isfinite, target.position)):
             raise ValueError(f"the target is {target.position}; expected three finite numbers in m")
-        self.joints = [*(WAIST[:1] if target.with_waist else ()), *arm_joints(side)]
+        waist = WAIST[:1] if target.with_waist else ()
+        self.joints = [*waist, *arm_joints(side)]
         self._model, self._data, self._target, self._parameters = model, data, target, parameters
-        self._grip = model.site(f"{side}_grip").id
+        self._grip = model.site(f"{side.letter}_grip").id
         self._dofs = np.array([model.joint(name).dofadr[0] for name in self.joints])
-        self._relaxed = np.array([_relaxed(name) for name in self.joints])
+        self._relaxed = np.array([0.0] * len(waist) + _relaxed_arm(side))
         self._reference = data.site_xpos[self._grip].copy()
         self._jacobian = np.zeros((6, model.nv))
 
@@ -139,7 +139,5 @@ def _shortened(vector: np.ndarray, longest: float) -> np.ndarray:
     return vector * (longest / length) if length > longest else vector
 
 
-def _relaxed(joint: str) -> float:
-    side, _, name = joint.partition("_")
-    angle = RELAXED_ARM.get(name, 0.0)
-    return -angle if side == "r" and name in MIRRORED else angle
+def _relaxed_arm(side: Side) -> list[float]:
+    return [on_side(side, joint, RELAXED_ARM.get(joint, 0.0)) for joint in ARM]

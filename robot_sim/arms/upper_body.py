@@ -8,6 +8,7 @@ import numpy as np
 from robot_sim.arms.joint_trajectory import MOVABLE, JointPath, JointTrajectory
 from robot_sim.arms.reach import HandTarget, Reach
 from robot_sim.arms.servos import Servos
+from robot_sim.model.side import Side
 from robot_sim.parameters import UpperBodyParameters
 
 
@@ -32,7 +33,7 @@ class UpperBody:
         self._path: JointPath | None = None
         self._path_joints: list[int] = []
         self._path_time = 0.0
-        self._reaches: dict[str, Reach] = {}
+        self._reaches: dict[Side, Reach] = {}
 
     def follow(self, trajectory: JointTrajectory) -> None:
         """Follow a trajectory from where the joints are; it replaces whatever was followed. Empty: hold.
@@ -52,8 +53,8 @@ class UpperBody:
             )
             self._path_time = 0.0
 
-    def reach(self, side: str, target: HandTarget) -> Reach:
-        """Bring the hand of a side ("l" or "r") to a target in a straight line; ends a trajectory."""
+    def reach(self, side: Side, target: HandTarget) -> Reach:
+        """Bring the hand of a side to a target in a straight line; ends a trajectory."""
         self._begin()
         self._path = None
         self._goal[:] = self._position

@@ -1,10 +1,11 @@
 """The names of the humanoid's joints, in the order of its actuators.
 
-Every list here is in actuator order, which is also the order of ``Humanoid.joint_state()``.
+Every list here is in actuator order, which is also the order of `Humanoid.joint_state()`.
 """
 
-LEFT, RIGHT = 0, 1
-SIDES = ("l", "r")
+from __future__ import annotations
+
+from robot_sim.model.side import SIDES, Side
 
 LEG = ("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll")
 ARM = ("shoulder_pitch", "shoulder_roll", "shoulder_yaw", "elbow", "wrist_yaw", "wrist_pitch", "wrist_roll")
@@ -14,22 +15,22 @@ WAIST = ("waist_yaw", "waist_pitch")
 HEAD = ("head_pan", "head_tilt")
 
 
-def leg_joints(side: str) -> list[str]:
-    """The six leg joints of a side ("l" or "r"), hip to ankle."""
-    return [f"{side}_{joint}" for joint in LEG]
+def leg_joints(side: Side) -> list[str]:
+    """The six leg joints of a side, hip to ankle."""
+    return [f"{side.letter}_{joint}" for joint in LEG]
 
 
-def arm_joints(side: str) -> list[str]:
-    """The seven arm joints of a side ("l" or "r"), shoulder to wrist."""
-    return [f"{side}_{joint}" for joint in ARM]
+def arm_joints(side: Side) -> list[str]:
+    """The seven arm joints of a side, shoulder to wrist."""
+    return [f"{side.letter}_{joint}" for joint in ARM]
 
 
-def finger_joints(side: str) -> list[str]:
-    """The two sliding fingers of a hand ("l" or "r")."""
-    return [f"{side}_{joint}" for joint in FINGERS]
+def finger_joints(side: Side) -> list[str]:
+    """The two sliding fingers of a hand."""
+    return [f"{side.letter}_{joint}" for joint in FINGERS]
 
 
-LEG_JOINTS = leg_joints("l") + leg_joints("r")
+LEG_JOINTS = leg_joints(Side.LEFT) + leg_joints(Side.RIGHT)
 UPPER_BODY_JOINTS = [
     *WAIST,
     *HEAD,

@@ -5,7 +5,8 @@ import math
 import mujoco
 
 from robot_sim.model.dimensions import Dimensions
-from robot_sim.model.joint_names import SIDES, UPPER_BODY_JOINTS
+from robot_sim.model.joint_names import UPPER_BODY_JOINTS
+from robot_sim.model.side import SIDES, Side
 
 HIPS_AHEAD = 0.014  # m, of the ankles; brings the centre of mass over the soles' centres
 ARMS_AT_REST = {  # rad, left arm; mirrored joints change sign on the right
@@ -28,11 +29,16 @@ def natural_posture(size: Dimensions) -> dict[str, float]:
     lean = math.atan2(HIPS_AHEAD, hip_height)
     for side in SIDES:
         for joint, angle in ARMS_AT_REST.items():
-            posture[f"{side}_{joint}"] = -angle if side == "r" and joint in MIRRORED else angle
-        posture[f"{side}_hip_pitch"] = lean - knee / 2
-        posture[f"{side}_ankle_pitch"] = -lean - knee / 2
-        posture[f"{side}_knee"] = knee
+            posture[f"{side.letter}_{joint}"] = on_side(side, joint, angle)
+        posture[f"{side.letter}_hip_pitch"] = lean - knee / 2
+        posture[f"{side.letter}_ankle_pitch"] = -lean - knee / 2
+        posture[f"{side.letter}_knee"] = knee
     return posture
+
+
+def on_side(side: Side, joint: str, angle: float) -> float:
+    """The angle (rad) of an arm's joint that mirrors `angle` of the left arm's."""
+    return -angle if side is Side.RIGHT and joint in MIRRORED else angle
 
 
 def take_stance(

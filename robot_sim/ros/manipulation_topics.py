@@ -12,7 +12,7 @@ from trajectory_msgs.msg import JointTrajectory as JointTrajectoryMessage
 
 from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.humanoid import Humanoid
-from robot_sim.model.joint_names import SIDES
+from robot_sim.model.side import SIDES, Side
 from robot_sim.ros.messages import is_heard, set_fields
 
 WRENCH_RATE = 20.0  # Hz, as all rates below, in simulated time
@@ -29,11 +29,11 @@ class ManipulationTopics:
             JointTrajectoryMessage, "joint_trajectory", self._on_trajectory, 10
         )
         self.grippers: list[Subscription] = [
-            node.create_subscription(Float64, f"{side}_gripper/command", partial(self._on_opening, side), 10)
+            node.create_subscription(Float64, f"{side.letter}_gripper/command", partial(self._on_opening, side), 10)
             for side in SIDES
         ]
         self._wrenches = {
-            side: node.create_publisher(WrenchStamped, f"{side}_gripper/wrench", 10) for side in SIDES
+            side: node.create_publisher(WrenchStamped, f"{side.letter}_gripper/wrench", 10) for side in SIDES
         }
         self._objects = {
             name: node.create_publisher(PoseStamped, f"objects/{name}/pose", 10)
@@ -47,18 +47,18 @@ class ManipulationTopics:
         except ValueError as error:
             self._node.get_logger().error(f"joint_trajectory ignored: {error}")
 
-    def _on_opening(self, side: str, message: Float64) -> None:
+    def _on_opening(self, side: Side, message: Float64) -> None:
         try:
             self._humanoid.open_hand(side, message.data)
         except ValueError as error:
-            self._node.get_logger().error(f"{side}_gripper/command ignored: {error}")
+            self._node.get_logger().error(f"{side.letter}_gripper/command ignored: {error}")
 
     def _publish_wrenches(self) -> None:
         for side, publisher in self._wrenches.items():
             if is_heard(publisher):
                 message = WrenchStamped()
                 message.header.stamp = self._node.get_clock().now().to_msg()
-                message.header.frame_id = f"{side}_hand"
+                message.header.frame_id = f"{side.letter}_hand"
                 message.wrench.force.y = self._humanoid.hands[side].grip_force
                 publisher.publish(message)
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.humanoid import Humanoid
+from robot_sim.model.side import Side
 from robot_sim.ros.node import HumanoidNode
 from robot_sim.ros.truth import TruthWriter
 
@@ -56,7 +57,7 @@ def obey(command: dict, humanoid: Humanoid, node: HumanoidNode, truth: TruthWrit
             goal = Waypoint(duration, tuple(positions.values()))
             humanoid.move_joints(JointTrajectory(tuple(positions), (goal,)))
         case {"do": "report_arm", "side": side} if truth:
-            truth.arm(humanoid, side)
+            truth.arm(humanoid, Side.of_letter(side))
         case {"do": "robot_state", "published": published}:
             node.robot_state_published = published
         case {"do": "motor_power", "on": on}:

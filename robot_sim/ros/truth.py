@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
 from robot_sim.humanoid import Humanoid
+from robot_sim.model.side import Side
 
 TRUTH_RATE = 50.0  # Hz, simulated
 
@@ -67,14 +68,14 @@ class TruthWriter:
         """Write what goes out on joint_states: a position for each name, rad (fingers: m)."""
         self._write({"kind": "joints", "names": list(names), "positions": list(positions)})
 
-    def arm(self, humanoid: Humanoid, side: str) -> None:
-        """Write where elbow and hand of an arm ("l" or "r") are: m from its shoulder, along the torso's x, y and z."""
+    def arm(self, humanoid: Humanoid, side: Side) -> None:
+        """Write where elbow and hand of an arm are: m from its shoulder, along the torso's x, y and z."""
         data = humanoid.data
-        shoulder = data.body(f"{side}_shoulder_pitch_link").xpos
+        shoulder = data.body(f"{side.letter}_shoulder_pitch_link").xpos
         axes = data.body("torso").xmat.reshape(3, 3)
-        elbow = (data.body(f"{side}_forearm").xpos - shoulder) @ axes
-        hand = (data.site(f"{side}_grip").xpos - shoulder) @ axes
-        self._write({"kind": "arm", "side": side, "elbow": elbow.tolist(), "hand": hand.tolist()})
+        elbow = (data.body(f"{side.letter}_forearm").xpos - shoulder) @ axes
+        hand = (data.site(f"{side.letter}_grip").xpos - shoulder) @ axes
+        self._write({"kind": "arm", "side": side.letter, "elbow": elbow.tolist(), "hand": hand.tolist()})
 
     def peers(self, subscribers: dict[str, int], publishers: dict[str, int]) -> None:
         """Write how many subscribers and publishers of other nodes the robot is connected to, by topic."""

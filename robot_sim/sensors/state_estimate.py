@@ -3,7 +3,7 @@
 import mujoco
 import numpy as np
 
-from robot_sim.model.joint_names import SIDES
+from robot_sim.model.side import SIDES
 from robot_sim.parameters import GRAVITY, EstimateParameters
 from robot_sim.sensors.imu import Imu
 
@@ -38,8 +38,8 @@ class StateEstimate:
         self._model, self._measured, self._imu = model, data, imu
         self._parameters = parameters or EstimateParameters()
         self._pelvis = model.body("pelvis").id
-        self._soles = [model.site(f"{side}_sole").id for side in SIDES]
-        self._touches = [model.sensor(f"{side}_foot_touch").adr[0] for side in SIDES]
+        self._soles = [model.site(f"{side.letter}_sole").id for side in SIDES]
+        self._touches = [model.sensor(f"{side.letter}_foot_touch").adr[0] for side in SIDES]
         self._anchors: list[np.ndarray | None] = [None, None]
         self._gyro_bias = np.zeros(3)
         self._jacobian = np.zeros((3, model.nv))
@@ -79,7 +79,7 @@ class StateEstimate:
         """Correct velocity (m/s) and position of the base by the feet that stand, each by its share of the load."""
         believed, gains = self.data, self._parameters
         moved = np.zeros(3)
-        for side, sole in enumerate(self._soles):
+        for side, sole in zip(SIDES, self._soles, strict=True):
             if not loads[side]:
                 self._anchors[side] = None
                 continue

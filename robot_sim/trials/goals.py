@@ -5,6 +5,7 @@ import random
 from collections.abc import Sequence
 
 from robot_sim.humanoid import Humanoid
+from robot_sim.model.side import SIDES
 from robot_sim.trials.trial import (
     Clock,
     Run,
@@ -18,7 +19,7 @@ from robot_sim.trials.trial import (
     summary,
     values_of,
 )
-from robot_sim.walking.planar import wrap
+from ros_runtime.angles import wrap
 
 SEED = 20260
 TIME_LIMIT = 30.0  # s
@@ -44,7 +45,7 @@ def run(goal: tuple[float, float, float]) -> Run:
     duration = humanoid.time - start
     simulate(humanoid, 1.5)
     note = "fell" if has_fallen(humanoid) else "" if arrived else f"not there after {TIME_LIMIT:g} s"
-    left, right = (humanoid.data.site(f"{side}_sole") for side in "lr")
+    left, right = (humanoid.data.site(f"{side.letter}_sole") for side in SIDES)
     facing = (left.xmat + right.xmat).tolist()
     return Run(
         case=tuple(round(number, 2) for number in goal),

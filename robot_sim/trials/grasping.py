@@ -9,9 +9,10 @@ from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.arms.reach import HandTarget
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.joint_names import arm_joints
+from robot_sim.model.side import Side
 from robot_sim.trials.trial import simulate
 
-SIDE = "r"
+SIDE = Side.RIGHT
 READY = (0.7, -0.15, 0.0, -2.1, 0.0, 0.0, 0.0)  # rad, the hand beside the body and above the table
 READY_TIME = 1.0  # s
 FINGERS_FORWARD = np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])  # the hand's axes, x ahead
@@ -128,16 +129,16 @@ class Grasp:
 
     def grip_point(self) -> np.ndarray:
         """Where the fingers meet, (3,) m."""
-        return self.robot.data.site(f"{SIDE}_grip").xpos.copy()
+        return self.robot.data.site(f"{SIDE.letter}_grip").xpos.copy()
 
     def _heading_for(self, x: float, y: float) -> float:
         """Half of the bearing from the shoulder: the wrist turns less than for a hand that points straight away."""
-        shoulder = self.robot.data.body(f"{SIDE}_shoulder_pitch_link").xpos
+        shoulder = self.robot.data.body(f"{SIDE.letter}_shoulder_pitch_link").xpos
         return 0.5 * math.atan2(y - shoulder[1], x - shoulder[0])
 
     def _ahead(self) -> np.ndarray:
         return np.array([math.cos(self.heading), math.sin(self.heading), 0.0])
 
     def _cup_in_hand(self) -> np.ndarray:
-        rotation = self.robot.data.site(f"{SIDE}_grip").xmat.reshape(3, 3)
+        rotation = self.robot.data.site(f"{SIDE.letter}_grip").xmat.reshape(3, 3)
         return rotation.T @ (self.cup() - self.grip_point())

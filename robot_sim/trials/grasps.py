@@ -5,7 +5,7 @@ import random
 from collections.abc import Sequence
 
 from robot_sim.humanoid import Humanoid
-from robot_sim.trials.grasping import LIFT, Grasp
+from robot_sim.trials.grasping import LIFT, SIDE, Grasp
 from robot_sim.trials.trial import (
     Clock,
     Run,
@@ -63,7 +63,7 @@ def _carry_out(grasp: Grasp, to_x: float, to_y: float, height: float) -> tuple[s
     for _ in range(20):
         simulate(robot, HOLD / 20)
         lowest = min(lowest, float(grasp.cup()[2]))
-        force = max(force, *robot.hands["r"].forces)
+        force = max(force, *robot.hands[SIDE].forces)
     values = {"slip_m": slip(), "force_N": force}
     if lowest < height + LIFT - 0.03:
         return f"dropped: the cup sank to {lowest - height:.3f} m above the table", values

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from robot_sim.humanoid import Humanoid
 from robot_sim.parameters import WalkingLimits
 from robot_sim.trials.trial import Clock, Run, Summary, Trial, base_speed, run_of, simulate, summary
-from robot_sim.walking.planar import wrap
+from ros_runtime.angles import wrap
 
 LIMITS = WalkingLimits()
 REFERENCE = {  # the command (m/s, m/s, rad/s) and what is advertised for it, by name

@@ -17,7 +17,8 @@ from robot_sim.trials.trial import (
     summary,
     values_of,
 )
-from robot_sim.walking.planar import clamp, wrap
+from robot_sim.walking.planar import clamp
+from ros_runtime.angles import wrap
 
 SEED = 4100
 RATES = (10, 20)  # Hz

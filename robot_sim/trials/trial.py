@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from robot_sim.humanoid import Humanoid
+from robot_sim.model.side import SIDES
 from robot_sim.state import Mode
 
 
@@ -109,7 +110,7 @@ def base_speed(humanoid: Humanoid) -> float:
 
 def feet_midpoint(humanoid: Humanoid) -> tuple[float, float]:
     """Midway between the soles, where ``walk_to`` brings the robot: (x, y) m, odom frame."""
-    left, right = (humanoid.data.site(f"{side}_sole").xpos.tolist() for side in "lr")
+    left, right = (humanoid.data.site(f"{side.letter}_sole").xpos.tolist() for side in SIDES)
     return (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 import mujoco
 import numpy as np
 
-from robot_sim.model.joint_names import SIDES
+from robot_sim.model.side import SIDES
 from robot_sim.parameters import GRAVITY, BalanceParameters
 from robot_sim.walking.planar import clamp
 
@@ -86,7 +86,7 @@ def trunk_of(model: mujoco.MjModel) -> Trunk:
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
     pelvis = model.body("pelvis").id
-    legs = {model.body(f"{side}_hip_yaw_link").id for side in SIDES}
+    legs = {model.body(f"{side.letter}_hip_yaw_link").id for side in SIDES}
     inertia, moment = np.zeros((3, 3)), 0.0
     for body in range(model.nbody):
         if model.body_rootid[body] != pelvis or legs & set(_ancestors(model, body)):

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from robot_sim.model.dimensions import Dimensions
-from robot_sim.model.joint_names import LEFT
+from robot_sim.model.side import Side
 from robot_sim.parameters import GRAVITY, BalanceParameters
 from robot_sim.walking.attitude import to_world
 from robot_sim.walking.dcm_plan import Point
@@ -64,14 +64,14 @@ class LoadSplit:
         self._yaw_lever = limits.yaw_moment_per_load
 
     def foot_wrench(
-        self, side: int, wrench: ContactWrench, left_share: float, sensed: Sensing, shift: Point
+        self, side: Side, wrench: ContactWrench, left_share: float, sensed: Sensing, shift: Point
     ) -> tuple[float, ...] | None:
         """Force (N) and moment (N·m) about the sole's centre, world frame; None for a foot without load.
 
         Both CoPs have the same offset from their soles' centres: the one of the total CoP from the load-
         weighted mean of the centres, and ``shift`` (m) of this foot.
         """
-        share = left_share if side == LEFT else 1 - left_share
+        share = left_share if side is Side.LEFT else 1 - left_share
         if share < 1e-3:
             return None
         left, right = sensed.soles

@@ -3,9 +3,10 @@
 import math
 from typing import NamedTuple
 
-from robot_sim.model.joint_names import LEFT
+from robot_sim.model.side import Side
 from robot_sim.parameters import GaitParameters, StepLimits
-from robot_sim.walking.planar import clamp, wrap
+from robot_sim.walking.planar import clamp
+from ros_runtime.angles import wrap
 
 
 class Footstep(NamedTuple):
@@ -36,7 +37,7 @@ Command = Goal | Velocity | None  # None: stand
 
 
 def plan_footsteps(
-    command: Command, stance: Footstep, stance_side: int, gait: GaitParameters, limits: StepLimits
+    command: Command, stance: Footstep, stance_side: Side, gait: GaitParameters, limits: StepLimits
 ) -> list[Footstep]:
     """The next ``gait.planned_steps`` footsteps, the first one by the foot that is not ``stance_side``.
 
@@ -44,7 +45,7 @@ def plan_footsteps(
     far as the limits of a step allow; the swing foot lands half the width outward of the centre.
     """
     footsteps = []
-    outward = -1.0 if stance_side == LEFT else 1.0  # +1: the left foot swings
+    outward = stance_side.other.sign  # the swing foot's
     x, y, yaw = stance
     half = gait.feet_width / 2
     for _ in range(gait.planned_steps):

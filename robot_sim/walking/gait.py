@@ -3,15 +3,16 @@
 import math
 from enum import Enum
 
-from robot_sim.model.joint_names import LEFT, RIGHT
+from robot_sim.model.side import SIDES, Side
 from robot_sim.parameters import WalkerParameters
 from robot_sim.walking.balance_task import BalanceTask
 from robot_sim.walking.dcm_plan import dcm_at_touchdown, dcm_before
 from robot_sim.walking.footsteps import Command, Footstep, Goal, Velocity, plan_footsteps
-from robot_sim.walking.planar import Frame, wrap
+from robot_sim.walking.planar import Frame
 from robot_sim.walking.sensing import Sensing
 from robot_sim.walking.step_in_progress import Step
 from robot_sim.walking.support import Support
+from ros_runtime.angles import wrap
 
 
 class Phase(Enum):
@@ -39,7 +40,7 @@ class Gait:
         self._command: Command = None
         self._replan = False
         self._step: Step | None = None
-        self._stance_side = LEFT
+        self._stance_side = Side.LEFT
         self._shift_time = 0.0
 
     def follow(self, command: Command) -> None:
@@ -50,7 +51,7 @@ class Gait:
             self.goal_reached = False
 
     @property
-    def swing_side(self) -> int | None:
+    def swing_side(self) -> Side | None:
         """The foot in the air, if any."""
         return self._step.swing_side if self._step is not None and self._step.in_swing else None
 
@@ -116,20 +117,20 @@ class Gait:
         lifted = self._lifted_foot(sensed)
         forward, left = Frame(*sensed.feet_centre).local(*sensed.dcm)
         if lifted is not None:
-            self._stance_side = 1 - lifted
+            self._stance_side = lifted.other
             self._begin_step(gait.capture_duration, 0.0, sensed, capture=True)
         elif abs(forward) > gait.capture_forward or abs(left) > gait.capture_sideways:
-            self._stance_side = RIGHT if left <= -0.04 else LEFT
+            self._stance_side = Side.RIGHT if left <= -0.04 else Side.LEFT
             self._begin_step(gait.capture_duration, gait.capture_double_support, sensed, capture=True)
 
-    def _lifted_foot(self, sensed: Sensing) -> int | None:
-        for side in (LEFT, RIGHT):
-            height = sensed.soles[side][2] - sensed.soles[1 - side][2]
+    def _lifted_foot(self, sensed: Sensing) -> Side | None:
+        for side in SIDES:
+            height = sensed.soles[side][2] - sensed.soles[side.other][2]
             if height > self._gait.lifted_height and sensed.foot_loads[side] < self._gait.touchdown_force:
                 return side
         return None
 
-    def _first_stance(self, sensed: Sensing) -> int:
+    def _first_stance(self, sensed: Sensing) -> Side:
         """The foot to stand on first: the one away from where the body goes."""
         left = turn = 0.0
         if isinstance(self._command, Velocity):
@@ -138,7 +139,7 @@ class Gait:
             _, left = Frame(*sensed.feet_centre).local(self._command.x, self._command.y)
             left = left if abs(left) > 0.02 else 0.0
             turn = wrap(self._command.yaw - sensed.feet_centre[2])
-        return RIGHT if left > 0 or (left == 0 and turn > 0) else LEFT
+        return Side.RIGHT if left > 0 or (left == 0 and turn > 0) else Side.LEFT
 
     def _shift(self, sensed: Sensing, cop_shift: tuple[float, float], dt: float) -> BalanceTask:
         """Bring the DCM to where a step with the CoP at the stance foot begins; then lift the other foot."""
@@ -162,7 +163,7 @@ class Gait:
         self._plan(sensed)
         return self._step
 
-    def _touch_down(self, side: int, sensed: Sensing) -> None:
+    def _touch_down(self, side: Side, sensed: Sensing) -> None:
         """The foot of ``side`` stands: end the walk if nothing is left to do, else step on."""
         self.steps += 1
         self._stance_side = side
@@ -178,7 +179,7 @@ class Gait:
         gait = self._gait
         centre = Frame(*sensed.feet_centre)
         forward, left = centre.local(*sensed.dcm)
-        left_foot = centre.local(*sensed.soles[LEFT][:2])
+        left_foot = centre.local(*sensed.soles[Side.LEFT][:2])
         return (
             abs(forward) < gait.stand_dcm_forward
             and abs(left) < gait.stand_dcm_sideways

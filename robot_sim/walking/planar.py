@@ -1,11 +1,6 @@
-"""Angles and frames in the plane of the floor, in plain floats because they are used 200 times a second."""
+"""Frames in the plane of the floor, in plain floats because they are used 200 times a second."""
 
 import math
-
-
-def wrap(angle: float) -> float:
-    """An angle (rad) brought into [-π, π)."""
-    return (angle + math.pi) % (2 * math.pi) - math.pi
 
 
 def clamp(value: float, low: float, high: float) -> float:

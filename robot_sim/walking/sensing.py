@@ -8,10 +8,10 @@ import math
 
 import mujoco
 
-from robot_sim.model.joint_names import LEFT, RIGHT, SIDES
+from robot_sim.model.side import SIDES, Side
 from robot_sim.parameters import GRAVITY
 from robot_sim.walking.floor_slope import FloorSlope
-from robot_sim.walking.planar import wrap
+from ros_runtime.angles import wrap
 
 
 class Sensing:
@@ -39,11 +39,11 @@ class Sensing:
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, measured: mujoco.MjData) -> None:
         pelvis = model.body("pelvis").id
-        soles = [model.site(f"{side}_sole").id for side in SIDES]
+        soles = [model.site(f"{side.letter}_sole").id for side in SIDES]
         root = model.joint("root").dofadr[0]
         self._com = data.subtree_com[pelvis]
         self._com_velocity = data.subtree_linvel[pelvis]
-        self._loads = [_sensor(model, measured, f"{side}_foot_touch") for side in SIDES]
+        self._loads = [_sensor(model, measured, f"{side.letter}_foot_touch") for side in SIDES]
         self._soles = [data.site_xpos[sole] for sole in soles]
         self._sole_rotations = [data.site_xmat[sole] for sole in soles]
         self._pelvis = data.xpos[pelvis]
@@ -52,7 +52,7 @@ class Sensing:
         self._slope = FloorSlope(model.opt.timestep)
         self.read(swing_side=None)
 
-    def read(self, swing_side: int | None) -> None:
+    def read(self, swing_side: Side | None) -> None:
         """Take in the present state; ``swing_side`` is the foot in the air, if any."""
         self.com = self._com.tolist()
         self.com_velocity = self._com_velocity.tolist()
@@ -65,20 +65,22 @@ class Sensing:
         self.base_velocity = self._base_velocity.tolist()
 
         left, right = self.soles
+        self.ground = min(left[2], right[2])
         if swing_side is not None:
-            self._slope.feel(self.sole_rotations[1 - swing_side])
+            stance_side = swing_side.other
+            self.ground = self.soles[stance_side][2]
+            self._slope.feel(self.sole_rotations[stance_side])
         self.slope = self._slope.estimate()
-        self.ground = min(left[2], right[2]) if swing_side is None else self.soles[1 - swing_side][2]
         self.omega = math.sqrt(GRAVITY / max(0.3, self.com[2] - self.ground))
         self.dcm = (
             self.com[0] + self.com_velocity[0] / self.omega,
             self.com[1] + self.com_velocity[1] / self.omega,
         )
-        turn = wrap(self.foot_yaws[RIGHT] - self.foot_yaws[LEFT])
+        turn = wrap(self.foot_yaws[Side.RIGHT] - self.foot_yaws[Side.LEFT])
         self.feet_centre = (
             (left[0] + right[0]) / 2,
             (left[1] + right[1]) / 2,
-            self.foot_yaws[LEFT] + turn / 2,
+            self.foot_yaws[Side.LEFT] + turn / 2,
         )
 
 

@@ -2,15 +2,16 @@
 
 from collections.abc import Sequence
 
-from robot_sim.model.joint_names import LEFT
+from robot_sim.model.side import Side
 from robot_sim.parameters import WalkerParameters
 from robot_sim.walking.balance_task import BalanceTask
 from robot_sim.walking.dcm_plan import Point, cop_to_reach, dcm_after, time_to_reach
 from robot_sim.walking.footsteps import Footstep
-from robot_sim.walking.planar import Frame, clamp, wrap
+from robot_sim.walking.planar import Frame, clamp
 from robot_sim.walking.sensing import Sensing
 from robot_sim.walking.support import Support
 from robot_sim.walking.swing import SwingReference, swing_reference
+from ros_runtime.angles import wrap
 
 SHORTEST_REMAINDER = 0.06  # s; a CoP that had to act faster would jump
 LAST_MOMENT = 0.05  # s; touchdown cannot be moved closer than this
@@ -24,7 +25,7 @@ class Step:
     """A step from the shift of the load to the landing of the swing foot.
 
     Args:
-        stance_side: the foot that stands, LEFT or RIGHT.
+        stance_side: the foot that stands.
         duration: until touchdown, s; adapted on the way.
         double_support: at the beginning, s, while the load moves to the stance foot.
         capture: the step catches a push, so it must not be prolonged.
@@ -32,14 +33,14 @@ class Step:
 
     def __init__(
         self,
-        stance_side: int,
+        stance_side: Side,
         duration: float,
         double_support: float,
         parameters: WalkerParameters,
         capture: bool = False,
     ) -> None:
         self.stance_side = stance_side
-        self.swing_side = 1 - stance_side
+        self.swing_side = stance_side.other
         self.duration = duration
         self.double_support = double_support
         self.time = 0.0
@@ -49,7 +50,7 @@ class Step:
         self._parameters = parameters
         self._support = Support(parameters.dimensions, parameters.balance)
         self._half_width = parameters.dimensions.sole_half_width
-        self._outward = 1.0 if self.swing_side == LEFT else -1.0
+        self._outward = self.swing_side.sign
         self._cop_side = 0.0  # m, last lateral CoP, outward
         self._lift_off = Footstep(0.0, 0.0, 0.0)
         self._lift_off_height = 0.0
@@ -89,11 +90,11 @@ class Step:
         yaw = stance.yaw + wrap(self.target.yaw - stance.yaw) / 2
         if self.time < self.double_support:
             share = self.time / self.double_support
-            left_share = share if self.stance_side == LEFT else 1 - share
+            left_share = share if self.stance_side is Side.LEFT else 1 - share
             cop = self._support.in_transfer(cop, sensed, stance.yaw, left_share)
             return BalanceTask(cop, yaw, left_share)
         cop = self._support.on_stance_foot(cop, stance, cop_shift)
-        left_share = 1.0 if self.stance_side == LEFT else 0.0
+        left_share = 1.0 if self.stance_side is Side.LEFT else 0.0
         return BalanceTask(cop, yaw, left_share, self._swing(sensed, dt))
 
     def _adapt_duration(self, sensed: Sensing, stance: Frame, dt: float) -> None:

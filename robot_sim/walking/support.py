@@ -6,7 +6,6 @@ whole sole.
 """
 
 from robot_sim.model.dimensions import Dimensions
-from robot_sim.model.joint_names import LEFT, RIGHT
 from robot_sim.parameters import BalanceParameters
 from robot_sim.walking.dcm_plan import Point
 from robot_sim.walking.planar import Frame, clamp
@@ -37,14 +36,14 @@ class Support:
 
     def in_transfer(self, cop: Point, sensed: Sensing, yaw: float, left_share: float) -> Point:
         """The CoP within a sole's size around the point where a given split of the load puts it."""
-        left, right = sensed.soles[LEFT], sensed.soles[RIGHT]
+        left, right = sensed.soles
         x = left_share * left[0] + (1 - left_share) * right[0]
         y = left_share * left[1] + (1 - left_share) * right[1]
         return self.on_sole(cop, Frame(x, y, yaw))
 
     def between_feet(self, cop: Point, sensed: Sensing, cop_shift: Point) -> Point:
         """The CoP within a sole's size around the line between the feet, less the fore-aft shift."""
-        left, right = sensed.soles[LEFT], sensed.soles[RIGHT]
+        left, right = sensed.soles
         line_x, line_y = left[0] - right[0], left[1] - right[1]
         share = left_share_of(cop, sensed)
         axis = Frame(right[0] + share * line_x, right[1] + share * line_y, sensed.feet_centre[2])
@@ -58,7 +57,7 @@ class Support:
 
 def left_share_of(cop: Point, sensed: Sensing) -> float:
     """The load (0 to 1) of the left foot for a CoP, by its projection on the line between the feet."""
-    left, right = sensed.soles[LEFT], sensed.soles[RIGHT]
+    left, right = sensed.soles
     line_x, line_y = left[0] - right[0], left[1] - right[1]
     along = (cop[0] - right[0]) * line_x + (cop[1] - right[1]) * line_y
     return clamp(along / (line_x * line_x + line_y * line_y), 0.0, 1.0)

@@ -2,8 +2,9 @@
 
 from typing import NamedTuple
 
+from robot_sim.model.side import Side
 from robot_sim.walking.footsteps import Footstep
-from robot_sim.walking.planar import wrap
+from ros_runtime.angles import wrap
 
 Vector = tuple[float, float, float]
 
@@ -11,7 +12,7 @@ Vector = tuple[float, float, float]
 class SwingReference(NamedTuple):
     """Where the swing sole should be now; world frame."""
 
-    side: int  # LEFT or RIGHT
+    side: Side
     position: Vector  # m
     velocity: Vector  # m/s
     acceleration: Vector  # m/s²
@@ -25,7 +26,7 @@ PUSH_DOWN_SPEED = 0.3  # m/s, when the floor is later than expected
 
 
 def swing_reference(
-    side: int,
+    side: Side,
     start: Footstep,
     start_height: float,
     landing: Footstep,

@@ -13,18 +13,20 @@ import math
 import mujoco
 import numpy as np
 
-from robot_sim.model.joint_names import SIDES, leg_joints
+from robot_sim.model.joint_names import leg_joints
+from robot_sim.model.side import SIDES
 from robot_sim.parameters import GRAVITY, WalkerParameters
 from robot_sim.walking.attitude import to_body, upright_error
 from robot_sim.walking.balance_gains import Trunk, default_gains
 from robot_sim.walking.balance_task import BalanceTask
 from robot_sim.walking.contact_wrench import LoadSplit, contact_wrench
 from robot_sim.walking.dcm_plan import Point
-from robot_sim.walking.planar import clamp, wrap
+from robot_sim.walking.planar import clamp
 from robot_sim.walking.sensing import Sensing
 from robot_sim.walking.support import left_share_of
 from robot_sim.walking.swing import SwingReference
 from robot_sim.walking.tipping import cop_against_tipping
+from ros_runtime.angles import wrap
 
 UPWARD_GRAVITY = np.array([0.0, 0.0, GRAVITY])
 REGULARIZATION = 1e-4  # keeps a leg's Jacobian invertible when the knee is straight
@@ -61,7 +63,7 @@ class WholeBody:
         root = model.joint("root").dofadr[0]
         self._base = slice(root, root + 6)
         self._base_force = slice(root, root + 3)
-        self._soles = [model.site(f"{side}_sole").id for side in SIDES]
+        self._soles = [model.site(f"{side.letter}_sole").id for side in SIDES]
         legs = [leg_joints(side) for side in SIDES]
         self._legs = [_consecutive([model.joint(name).dofadr[0] for name in leg]) for leg in legs]
         self._motors = [_consecutive([model.actuator(name).id for name in leg]) for leg in legs]
@@ -91,7 +93,7 @@ class WholeBody:
         left_share = task.left_share
         if left_share is None:
             left_share = left_share_of(wrench.cop, sensed)
-        for side, leg in enumerate(self._legs):
+        for side, leg in zip(SIDES, self._legs, strict=True):
             torque = forces[leg] + self._friction[side] * self._velocity[leg]
             shift = cop_against_tipping(
                 sensed.sole_rotations[side], sensed.slope, self._sole_spin[side], self._tipping

@@ -45,3 +45,9 @@ def test_an_arm_is_reported_from_its_shoulder_with_x_ahead_and_z_up(side, pitch,
     # The elbow stops 0.02 rad before its end at 0, which is 6 mm at the hand.
     assert arm["elbow"] == pytest.approx(elbow, abs=0.007)
     assert arm["hand"] == pytest.approx(hand, abs=0.007)
+
+
+def test_an_arm_that_the_robot_does_not_have_is_refused():
+    command = {"do": "report_arm", "side": "x"}
+    with pytest.raises(ValueError, match="side 'x' is not known; expected 'l' or 'r'"):
+        obey(command, Humanoid(), None, TruthWriter(0))

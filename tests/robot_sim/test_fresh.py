@@ -6,6 +6,7 @@ import os
 import pytest
 
 from robot_sim.humanoid import Humanoid
+from robot_sim.model.side import Side
 from robot_sim.ros.options import RobotOptions
 from robot_sim.ros.serve import build_humanoid
 
@@ -20,7 +21,7 @@ def trace(humanoid: Humanoid) -> str:
             humanoid.walk_velocity(0.3, 0.05, 0.2)
         elif tick == 450:
             humanoid.stop()
-            humanoid.open_hand("l", 0.05)
+            humanoid.open_hand(Side.LEFT, 0.05)
         humanoid.step()
         battery, imu = humanoid.battery, humanoid.imu()
         seen.update(humanoid.data.qpos.tobytes() + humanoid.data.qvel.tobytes())

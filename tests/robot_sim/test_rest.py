@@ -7,6 +7,7 @@ import pytest
 
 from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.humanoid import Humanoid
+from robot_sim.model.side import Side
 from robot_sim.trials.trial import simulate
 
 SETTLED = 4.0  # s, more than it takes to come to rest after a reset
@@ -101,7 +102,7 @@ COMMANDS = {
     "crouch_to": lambda h: h.crouch_to(0.5),
     "balance_gains": lambda h: setattr(h, "balance_gains", h.balance_gains),
     "move_joints": lambda h: h.move_joints(JointTrajectory(("l_elbow",), (Waypoint(1.0, (-1.0,)),))),
-    "open_hand": lambda h: h.open_hand("l", 0.05),
+    "open_hand": lambda h: h.open_hand(Side.LEFT, 0.05),
     "empty battery": lambda h: h.battery.set_percentage(0.0),
     "reset": lambda h: h.reset(),
 }

@@ -10,7 +10,7 @@ from robot_sim.model.dimensions import dimensions_of
 from robot_sim.model.floor import Floor
 from robot_sim.state import Mode
 from robot_sim.trials.trial import base_speed, feet_midpoint, simulate
-from robot_sim.walking.planar import wrap
+from ros_runtime.angles import wrap
 
 
 @pytest.fixture

@@ -1,0 +1,15 @@
+"""Headings: the angle about the vertical, in rad, counted from x towards y (REP 103)."""
+
+from __future__ import annotations
+
+import math
+
+
+def yaw_of(x: float, y: float, z: float, w: float) -> float:
+    """The heading (rad, -π to π) of a unit quaternion in ROS' order."""
+    return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
+def wrap(angle: float) -> float:
+    """An angle (rad) brought into [-π, π)."""
+    return (angle + math.pi) % (2 * math.pi) - math.pi
