@@ -1,12 +1,24 @@
 """The battery: charge, voltage and current from the work of motors and electronics."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
-from robot_sim.parameters import BatteryParameters
 
 CURRENT_TIME_CONSTANT = 0.5  # s, of the low-pass in the current sensor
+
+
+@dataclass(frozen=True, slots=True)
+class BatteryParameters:
+    """A pack of eight lithium cells and what the robot asks of it."""
+
+    capacity: float = 120.0  # W·h
+    full_voltage: float = 33.6  # V, open circuit
+    empty_voltage: float = 25.6  # V, open circuit
+    resistance: float = 0.05  # Ω
+    idle_power: float = 18.0  # W, computers and sensors
+    motor_loss: float = 0.025  # W/(N·m)², heat in a windings' resistance
 
 
 class Battery:

@@ -19,19 +19,20 @@ from robot_sim.model.joint_names import ACTUATED_JOINTS
 from robot_sim.model.posture import take_stance
 from robot_sim.model.scenes import OBJECTS
 from robot_sim.model.side import SIDES, Side
-from robot_sim.parameters import FallThresholds, HeightLimits, WalkerParameters, WalkingLimits
+from robot_sim.falling import FallThresholds, has_fallen
 from robot_sim.push import Pusher
 from robot_sim.rest import Rest
 from robot_sim.sensors.imu import Imu
 from robot_sim.sensors.state_estimate import StateEstimate
 from robot_sim.state import BasePose, BaseVelocity, ImuSample, JointState, Mode, ObjectPose
 from robot_sim.walking.balance_gains import BalanceGains, trunk_of
-from robot_sim.walking.body_height import BodyHeight
+from robot_sim.walking.body_height import BodyHeight, HeightLimits
 from robot_sim.walking.footsteps import Command, Goal
 from robot_sim.walking.gait import Phase
 from robot_sim.walking.height_change import HeightChange, HeightPhase
 from robot_sim.walking.planar import clamp
-from robot_sim.walking.walkable_velocity import walkable_velocity
+from robot_sim.walking.walker_parameters import WalkerParameters
+from robot_sim.walking.walking_limits import WalkingLimits, walkable_velocity
 from robot_sim.walking.walker import Walker
 from ros_runtime.angles import yaw_of
 
@@ -80,7 +81,7 @@ class Humanoid:
         self._parameters = WalkerParameters(dimensions_of(self.model))
         self._trunk = trunk_of(self.model)
         self._limits = WalkingLimits()
-        self._fall = FallThresholds()
+        self._fall_thresholds = FallThresholds()
         joints = [self.model.joint(name) for name in ACTUATED_JOINTS]
         self._joint_positions = np.array([joint.qposadr[0] for joint in joints])
         self._joint_velocities = np.array([joint.dofadr[0] for joint in joints])
@@ -134,7 +135,7 @@ class Humanoid:
         self._pusher.apply()
         mujoco.mj_step2(self.model, self.data)
         self.battery.drain(self.data.actuator_force, self.data.actuator_velocity, self.timestep)
-        if not self._fallen and self._is_down():
+        if not self._fallen and self._is_down:
             self._fallen = True
             self._set_actuation(False)
         elif self.motors_enabled and self.battery.is_empty:
@@ -383,8 +384,9 @@ class Humanoid:
             self._pending = command
             self._height.rise()
 
+    @property
     def _is_down(self) -> bool:
-        return self.data.qpos[2] < self._fall.base_height or self._torso_rotation[8] < self._fall.up
+        return has_fallen(self.data.qpos[2], self._torso_rotation[8], self._fall_thresholds)
 
     def _set_actuation(self, on: bool) -> None:
         self._rest.stir()

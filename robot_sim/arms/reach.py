@@ -11,7 +11,6 @@ import numpy as np
 from robot_sim.model.joint_names import ARM, WAIST, arm_joints
 from robot_sim.model.posture import on_side
 from robot_sim.model.side import Side
-from robot_sim.parameters import ReachParameters
 
 HARDLY = 1e-3  # damping that only keeps a matrix invertible
 RELAXED_ARM = {
@@ -19,6 +18,19 @@ RELAXED_ARM = {
     "shoulder_roll": 0.7,
     "elbow": -1.4,
 }  # rad, left; where a free arm drifts to: the elbow away from the body
+
+
+@dataclass(frozen=True, slots=True)
+class ReachParameters:
+    """How a hand is brought to a place."""
+
+    gain: float = 6.0  # 1/s, of the measured error
+    damping: float = 0.05  # m, of the least squares
+    rotation_weight: float = 0.3  # m/rad
+    relaxation: float = 0.8  # 1/s, towards the relaxed posture
+    joint_speed: float = 2.5  # rad/s
+    turn_speed: float = 2.0  # rad/s, of the hand
+    windup: float = 0.25  # rad, reference ahead of the measured joint
 
 
 @dataclass(frozen=True)

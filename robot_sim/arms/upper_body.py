@@ -2,14 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import mujoco
 import numpy as np
 
 from robot_sim.arms.joint_trajectory import MOVABLE, JointPath, JointTrajectory
-from robot_sim.arms.reach import HandTarget, Reach
+from robot_sim.arms.reach import HandTarget, Reach, ReachParameters
 from robot_sim.arms.servos import Servos
 from robot_sim.model.side import Side
-from robot_sim.parameters import UpperBodyParameters
+
+
+@dataclass(frozen=True, slots=True)
+class UpperBodyParameters:
+    """Limits of waist, head and arms."""
+
+    waist_speed: float = 1.0  # rad/s; faster throws the robot off balance
+    arm_speed: float = 3.0  # rad/s
+    head_speed: float = 4.0  # rad/s
+    reach: ReachParameters = field(default_factory=ReachParameters)
+
+    def speed_limit(self, joint: str) -> float:
+        """The fastest a joint may move, rad/s."""
+        part = joint.partition("_")[0]
+        return {"waist": self.waist_speed, "head": self.head_speed}.get(part, self.arm_speed)
 
 
 class UpperBody:

@@ -20,7 +20,7 @@ from robot_sim.model.joint_names import ACTUATED_JOINTS
 from robot_sim.ros.inbox import Inbox
 from robot_sim.ros.manipulation_topics import ManipulationTopics
 from robot_sim.ros.messages import floats, is_heard, set_fields
-from robot_sim.ros.periodic_jobs import Schedule
+from robot_sim.ros.periodic_jobs import PeriodicJobs
 from robot_sim.ros.trajectory_size import MOST_BYTES, why_too_large
 from robot_sim.ros.truth import BatterySample, TruthWriter
 from robot_sim.walking.balance_gains import BalanceGains
@@ -79,7 +79,7 @@ class HumanoidNode(Node):
         self._peers: tuple[dict[str, int], dict[str, int]] = ({}, {})
         self._make_messages()
 
-        self._schedule = Schedule(
+        self._periodic_jobs = PeriodicJobs(
             (PEERS_RATE, self._report_peers),
             (JOINT_STATE_RATE, self._publish_joint_states),
             (IMU_RATE, self._publish_imu),
@@ -123,14 +123,14 @@ class HumanoidNode(Node):
     @property
     def next_due(self) -> float:
         """Simulated time (s) at which the next message is due."""
-        return self._schedule.next_due
+        return self._periodic_jobs.next_due
 
     def publish_due(self) -> None:
         """Publish whatever is due at the simulated time, and the robot's state as soon as it changes."""
         self._stop_on_stale_command()
         if self._announcement() != self._last_announced:
             self._publish_robot_state()
-        self._schedule.run(self.humanoid.time)
+        self._periodic_jobs.run(self.humanoid.time)
 
     def hear(self) -> None:
         """Obey the commands that have arrived, without the 0.3 ms that an executor's wait set costs each time."""
@@ -146,7 +146,7 @@ class HumanoidNode(Node):
         """Forget commands and deadlines of before; call it after the humanoid was reset."""
         self._velocity_command_time = None
         self._last_announced = None
-        self._schedule.restart()
+        self._periodic_jobs.restart()
 
     # -- commands -----------------------------------------------------------------------------------------------------
 

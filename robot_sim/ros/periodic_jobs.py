@@ -7,7 +7,7 @@ from collections.abc import Callable
 TOLERANCE = 1e-6  # s: sums of timesteps and of periods that mean the same time differ in their last digits
 
 
-class Schedule:
+class PeriodicJobs:
     """Calls each job at its own rate (Hz) of simulated time; a late call is made once, not caught up on.
 
     When time has gone back, as at a reset, every job is due at once.

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from robot_sim.humanoid import Humanoid
 from robot_sim.ros.node import HumanoidNode
 from robot_sim.ros.pacing import Pacing
-from robot_sim.ros.periodic_jobs import TOLERANCE, Schedule
+from robot_sim.ros.periodic_jobs import TOLERANCE, PeriodicJobs
 from robot_sim.ros.scenario_control import ScenarioControl, obey
 from robot_sim.ros.services import Services
 from robot_sim.ros.truth import TRUTH_RATE, TruthWriter
@@ -49,7 +49,7 @@ def run(
     jobs = [(SERVICE_RATE, services.look), (REST_RATE, services.look_at_the_rest)]
     if truth:
         jobs.insert(0, (TRUTH_RATE, lambda: truth.robot(humanoid, pacing.take_worst_lag())))
-    chores = Schedule(*jobs)
+    chores = PeriodicJobs(*jobs)
     gc.freeze()  # what exists by now stays; looking through it again and again costs milliseconds each time
     cycles_since_wait = 0
     if truth:

@@ -1,10 +1,21 @@
 """The inertial measurement unit in the pelvis."""
 
+from dataclasses import dataclass
+
 import mujoco
 import numpy as np
 
-from robot_sim.parameters import ImuParameters
 from robot_sim.state import ImuSample
+
+
+@dataclass(frozen=True, slots=True)
+class ImuParameters:
+    """Imperfection of the inertial sensor (standard deviations)."""
+
+    gyro_bias: float = 0.002  # rad/s, drawn once for each seed
+    gyro_noise: float = 0.001  # rad/s
+    accelerometer_bias: float = 0.05  # m/s², likewise
+    accelerometer_noise: float = 0.02  # m/s²
 
 
 class Imu:

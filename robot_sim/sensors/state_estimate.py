@@ -1,13 +1,27 @@
 """Where the robot believes it is: the floating base from inertial sensor, joint encoders and foot contacts."""
 
+from dataclasses import dataclass
+
 import mujoco
 import numpy as np
 
 from robot_sim.model.side import SIDES
-from robot_sim.parameters import GRAVITY, EstimateParameters
+from robot_sim.model.gravity import GRAVITY
 from robot_sim.sensors.imu import Imu
 
 UP = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True, slots=True)
+class EstimateParameters:
+    """How sensors are blended into the state the robot believes to be in."""
+
+    contact_force: float = 30.0  # N; a foot that bears more stands still
+    tilt_gain: float = 0.3  # 1/s, of the accelerometer's correction
+    odometry_gain: float = 0.2  # of the velocity's error, each timestep
+    anchor_gain: float = 0.1  # of the position's error, each timestep
+    still: float = 0.03  # rad/s; a slower gyro shows its bias
+    bias_time: float = 0.5  # s, to learn it
 
 
 class StateEstimate:

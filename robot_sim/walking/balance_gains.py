@@ -7,7 +7,8 @@ import mujoco
 import numpy as np
 
 from robot_sim.model.side import SIDES
-from robot_sim.parameters import GRAVITY, BalanceParameters
+from robot_sim.model.gravity import GRAVITY
+from robot_sim.walking.balance_parameters import BalanceParameters
 from robot_sim.walking.planar import clamp
 
 UNLIMITED = 1e4  # N·m, more than any motion asks for

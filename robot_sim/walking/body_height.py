@@ -1,12 +1,21 @@
 """Crouching and standing up: the height of the pelvis that the whole-body controller holds."""
 
 import math
+from dataclasses import dataclass
 
 from robot_sim.model.dimensions import Dimensions
-from robot_sim.parameters import HeightLimits
 from robot_sim.walking.height_change import HeightChange
 from robot_sim.walking.planar import clamp
 from robot_sim.walking.walker import Walker
+
+
+@dataclass(frozen=True, slots=True)
+class HeightLimits:
+    """How low the robot can crouch, and how fast it goes down and up."""
+
+    lowest: float = 0.45  # m, pelvis above the floor; lower, the ankles reach their stops
+    speed: float = 0.15  # m/s
+    risen: float = 0.015  # m below the stance from which it may walk
 
 
 class BodyHeight:
@@ -59,7 +68,7 @@ class BodyHeight:
         if not math.isfinite(height):
             raise ValueError(f"the height is {height}; expected a finite number in m")
         self.move(0.0)
-        self.change = HeightChange(self._walker, self._within_limits(height), self._limits)
+        self.change = HeightChange(self._walker, self._within_limits(height), self._limits.speed)
         return self.change
 
     def interrupt(self, problem: str) -> None:

@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 from robot_sim.model.dimensions import Dimensions
 from robot_sim.model.side import Side
-from robot_sim.parameters import GRAVITY, BalanceParameters
+from robot_sim.model.gravity import GRAVITY
+from robot_sim.walking.balance_parameters import BalanceParameters
 from robot_sim.walking.attitude import to_world
 from robot_sim.walking.dcm_plan import Point
 from robot_sim.walking.planar import Frame, clamp

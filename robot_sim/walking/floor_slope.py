@@ -2,8 +2,17 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from robot_sim.parameters import SlopeParameters
+
+
+@dataclass(frozen=True, slots=True)
+class SlopeParameters:
+    """How the slope of the floor is felt, and what is believed of it."""
+
+    filter_time: float = 0.2  # s
+    level: float = 0.0175  # m/m; less is level
+    steepest: float = 0.09  # m/m; more is a foot on its edge
 
 
 class FloorSlope:

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from robot_sim.model.side import Side
-from robot_sim.parameters import GaitParameters, StepLimits
+from robot_sim.walking.gait_parameters import GaitParameters, StepLimits
 from robot_sim.walking.planar import clamp
 from ros_runtime.angles import wrap
 

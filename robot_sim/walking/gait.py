@@ -4,13 +4,13 @@ import math
 from enum import Enum
 
 from robot_sim.model.side import SIDES, Side
-from robot_sim.parameters import WalkerParameters
+from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.balance_task import BalanceTask
 from robot_sim.walking.dcm_plan import dcm_at_touchdown, dcm_before
 from robot_sim.walking.footsteps import Command, Footstep, Goal, Velocity, plan_footsteps
 from robot_sim.walking.planar import Frame
 from robot_sim.walking.sensing import Sensing
-from robot_sim.walking.step_in_progress import Step
+from robot_sim.walking.step_in_progress import StepInProgress
 from robot_sim.walking.support import Support
 from ros_runtime.angles import wrap
 
@@ -39,7 +39,7 @@ class Gait:
         self._support = Support(parameters.dimensions, parameters.balance)
         self._command: Command = None
         self._replan = False
-        self._step: Step | None = None
+        self._step: StepInProgress | None = None
         self._stance_side = Side.LEFT
         self._shift_time = 0.0
 
@@ -157,9 +157,9 @@ class Gait:
 
     def _begin_step(
         self, duration: float, double_support: float, sensed: Sensing, capture: bool = False
-    ) -> Step:
+    ) -> StepInProgress:
         self.phase = Phase.STEP
-        self._step = Step(self._stance_side, duration, double_support, self._parameters, capture)
+        self._step = StepInProgress(self._stance_side, duration, double_support, self._parameters, capture)
         self._plan(sensed)
         return self._step
 

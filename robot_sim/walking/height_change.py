@@ -2,12 +2,27 @@
 
 import math
 from enum import Enum
+from dataclasses import dataclass
 
-from robot_sim.parameters import HeightChangeParameters, HeightLimits
 from robot_sim.walking.planar import clamp
 from robot_sim.walking.walker import Walker
 
 PEAK_OVER_MEAN = 15 / 8  # speed of a minimum-jerk motion
+
+
+@dataclass(frozen=True, slots=True)
+class HeightChangeParameters:
+    """When a phase of crouching or standing up has ended."""
+
+    balanced: float = 0.02  # m, DCM from the middle of the feet, to set out
+    least_load_share: float = 0.4  # of what both feet bear, on either, to set out
+    thrown: float = 0.05  # m, DCM from the middle of the feet; the weight has to be shifted again
+    near: float = 0.01  # m, from the height wanted, to settle
+    settled: float = 0.005  # m, from the height wanted
+    upright: float = 0.998  # z component of the pelvis' up-vector
+    still: float = 0.02  # m/s
+    hold: float = 0.2  # s, that a condition has to last
+    patience: float = 12.0  # s, for all phases; the longest way takes 2 s
 
 
 class HeightPhase(Enum):
@@ -27,7 +42,7 @@ class HeightPhase(Enum):
 
 
 class HeightChange:
-    """One way of the pelvis to a height, along a minimum-jerk profile under the speed limit.
+    """One way of the pelvis to a height, along a minimum-jerk profile.
 
     T. Flash, N. Hogan, "The coordination of arm movements", Journal of Neuroscience 5(7), 1985. A push that carries the
     weight away from the middle of the feet, or makes the robot step, takes it back to shifting; from there it goes on.
@@ -35,7 +50,7 @@ class HeightChange:
     Args:
         walker: whose state is measured.
         target: height (m) of the pelvis above the floor.
-        limits: of the speed.
+        speed: of the profile at most, m/s.
 
     Attributes:
         phase: where it is now.
@@ -47,7 +62,7 @@ class HeightChange:
         self,
         walker: Walker,
         target: float,
-        limits: HeightLimits,
+        speed: float,
         parameters: HeightChangeParameters | None = None,
     ) -> None:
         self.phase = HeightPhase.SHIFTING
@@ -55,7 +70,7 @@ class HeightChange:
         self.height = walker.height
         self._walker, self._sensed = walker, walker.sensed
         self._target = target
-        self._speed = limits.speed
+        self._speed = speed
         self._parameters = parameters or HeightChangeParameters()
         self._first_height = self._measured_height()
         self._start, self._progress, self._duration = self.height, 0.0, 0.0

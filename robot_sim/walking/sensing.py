@@ -9,7 +9,7 @@ import math
 import mujoco
 
 from robot_sim.model.side import SIDES, Side
-from robot_sim.parameters import GRAVITY
+from robot_sim.model.gravity import GRAVITY
 from robot_sim.walking.floor_slope import FloorSlope
 from ros_runtime.angles import wrap
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from robot_sim.model.side import Side
-from robot_sim.parameters import WalkerParameters
+from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.balance_task import BalanceTask
 from robot_sim.walking.dcm_plan import Point, cop_to_reach, dcm_after, time_to_reach
 from robot_sim.walking.footsteps import Footstep
@@ -21,7 +21,7 @@ SAFE_LEVER = 0.005  # m, between DCM and CoP, for a meaningful time
 BEYOND_EDGE = -0.75  # of the sole's half-width
 
 
-class Step:
+class StepInProgress:
     """A step from the shift of the load to the landing of the swing foot.
 
     Args:
@@ -160,7 +160,7 @@ class Step:
             self._lift_off_height,
             self._landing,
             self._floor_at(self._landing, sensed),
-            self._parameters.gait.lift,
+            self._parameters.gait.step_height,
             self.progress,
             rate,
             overdue=self.time - self.duration,

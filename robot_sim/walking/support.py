@@ -6,7 +6,7 @@ whole sole.
 """
 
 from robot_sim.model.dimensions import Dimensions
-from robot_sim.parameters import BalanceParameters
+from robot_sim.walking.balance_parameters import BalanceParameters
 from robot_sim.walking.dcm_plan import Point
 from robot_sim.walking.planar import Frame, clamp
 from robot_sim.walking.sensing import Sensing

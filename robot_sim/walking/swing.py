@@ -31,7 +31,7 @@ def swing_reference(
     start_height: float,
     landing: Footstep,
     landing_height: float,
-    lift: float,
+    step_height: float,
     progress: float,
     rate: float,
     overdue: float,
@@ -39,7 +39,7 @@ def swing_reference(
 ) -> SwingReference:
     """The reference of a foot at ``progress`` (0 to 1) of its swing, which passes at ``rate`` (1/s).
 
-    Horizontally a quintic with zero speed and acceleration at both ends; vertically a bump of height ``lift``
+    Horizontally a quintic with zero speed and acceleration at both ends; vertically a bump of ``step_height``
     (m). A landing that moves while the foot is in the air bends the rest of the path. When touchdown is
     ``overdue`` (s) the foot is pushed down until it meets the floor.
     """
@@ -47,9 +47,9 @@ def swing_reference(
     blend = q * q * q * (10 + q * (6 * q - 15))
     blend_rate = 30 * q * q * (1 - q) ** 2 * rate
     blend_acceleration = (60 * q - 180 * q * q + 120 * q**3) * rate * rate
-    bump = 16 * q * q * (1 - q) ** 2 * lift
-    bump_rate = 16 * (2 * q - 6 * q * q + 4 * q**3) * lift * rate
-    bump_acceleration = 16 * (2 - 12 * q + 12 * q * q) * lift * rate * rate
+    bump = 16 * q * q * (1 - q) ** 2 * step_height
+    bump_rate = 16 * (2 * q - 6 * q * q + 4 * q**3) * step_height * rate
+    bump_acceleration = 16 * (2 - 12 * q + 12 * q * q) * step_height * rate * rate
     if overdue > 0:
         bump, bump_rate, bump_acceleration = bump - PUSH_DOWN_SPEED * overdue, -PUSH_DOWN_SPEED, 0.0
 

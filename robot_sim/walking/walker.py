@@ -2,7 +2,7 @@
 
 import mujoco
 
-from robot_sim.parameters import WalkerParameters
+from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.balance_gains import BalanceGains, Trunk
 from robot_sim.walking.footsteps import Command
 from robot_sim.walking.gait import Gait, Phase

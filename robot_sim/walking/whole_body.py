@@ -15,7 +15,8 @@ import numpy as np
 
 from robot_sim.model.joint_names import leg_joints
 from robot_sim.model.side import SIDES
-from robot_sim.parameters import GRAVITY, WalkerParameters
+from robot_sim.model.gravity import GRAVITY
+from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.attitude import to_body, upright_error
 from robot_sim.walking.balance_gains import Trunk, default_gains
 from robot_sim.walking.balance_task import BalanceTask
@@ -25,7 +26,7 @@ from robot_sim.walking.planar import clamp
 from robot_sim.walking.sensing import Sensing
 from robot_sim.walking.support import left_share_of
 from robot_sim.walking.swing import SwingReference
-from robot_sim.walking.tipping import cop_against_tipping
+from robot_sim.walking.foot_tipping import cop_against_tipping
 from ros_runtime.angles import wrap
 
 UPWARD_GRAVITY = np.array([0.0, 0.0, GRAVITY])

@@ -10,7 +10,7 @@ from robot_sim.arms.reach import HandTarget
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.joint_names import arm_joints
 from robot_sim.model.side import Side
-from robot_sim.parameters import UpperBodyParameters
+from robot_sim.arms.upper_body import UpperBodyParameters
 from robot_sim.state import Mode
 from robot_sim.trials import grasps
 from robot_sim.trials.trial import simulate

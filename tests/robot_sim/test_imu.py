@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from robot_sim.humanoid import Humanoid
-from robot_sim.parameters import GRAVITY
+from robot_sim.model.gravity import GRAVITY
 from robot_sim.trials.trial import simulate
 
 RATE = 50  # Hz, as on the topic imu

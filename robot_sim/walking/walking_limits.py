@@ -1,10 +1,22 @@
 """From the velocity someone asks for to one the robot can walk."""
 
 import math
+from dataclasses import dataclass
 
-from robot_sim.parameters import WalkingLimits
 from robot_sim.walking.footsteps import Velocity
 from robot_sim.walking.planar import clamp
+
+
+@dataclass(frozen=True, slots=True)
+class WalkingLimits:
+    """What ``walk_velocity`` accepts; a faster command is walked at the limit."""
+
+    forward: float = 0.40  # m/s
+    backward: float = 0.20  # m/s
+    sideways: float = 0.12  # m/s
+    turn: float = 0.45  # rad/s
+    linear_deadband: float = 0.004  # m/s; slower than this is standing
+    turn_deadband: float = 0.008  # rad/s
 
 
 def walkable_velocity(vx: float, vy: float, wz: float, limits: WalkingLimits) -> Velocity | None:

@@ -4,9 +4,8 @@ import math
 
 import pytest
 
-from robot_sim.parameters import TippingParameters
 from robot_sim.walking.floor_slope import FloorSlope
-from robot_sim.walking.tipping import cop_against_tipping
+from robot_sim.walking.foot_tipping import TippingParameters, cop_against_tipping
 
 LEVEL = (0.0, 0.0)
 STILL = (0.0, 0.0, 0.0)

@@ -2,11 +2,20 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from robot_sim.parameters import TippingParameters
 from robot_sim.walking.dcm_plan import Point
 
 NOWHERE = (0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class TippingParameters:
+    """How the centre of pressure answers a foot that tips."""
+
+    tolerated: float = 0.05  # rad, lean of the sole against the floor
+    stiffness: float = 1.0  # m/rad
+    damping: float = 0.03  # m·s/rad
 
 
 def cop_against_tipping(

@@ -1,0 +1,3 @@
+"""What everything weighs by."""
+
+GRAVITY = 9.81  # m/s², MuJoCo's default
