@@ -1,5 +1,7 @@
 """`python -m robot_sim`: the robot node alone."""
 
+from __future__ import annotations
+
 from robot_sim.ros.serve import parse_options, serve_robot
 
 

@@ -1,17 +1,18 @@
 """The battery: charge, voltage and current from the work of motors and electronics."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 
 import numpy as np
-
 
 CURRENT_TIME_CONSTANT = 0.5  # s, of the low-pass in the current sensor
 
 
 @dataclass(frozen=True, slots=True)
 class BatteryParameters:
-    """A pack of eight lithium cells and what the robot asks of it."""
+    """A pack of eight lithium cells and the robot's consumption."""
 
     capacity: float = 120.0  # W·h
     full_voltage: float = 33.6  # V, open circuit
@@ -37,7 +38,7 @@ class Battery:
 
     @property
     def current(self) -> float:
-        """A, negative because the pack only discharges (sign as in sensor_msgs/BatteryState).
+        """Current in A, negative because the pack only discharges (sign as in sensor_msgs/BatteryState).
 
         The current at which open-circuit voltage less the drop in the pack's resistance gives the power
         drawn.
@@ -47,7 +48,7 @@ class Battery:
 
     @property
     def voltage(self) -> float:
-        """V, at the terminals."""
+        """Voltage at the terminals, V."""
         return self._open_circuit_voltage() + self.parameters.resistance * self.current
 
     @property
@@ -65,25 +66,26 @@ class Battery:
         self.percentage = float(percentage)
 
     def drain(self, torque: np.ndarray, velocity: np.ndarray, dt: float) -> None:
-        """Take the energy of ``dt`` (s) out.
+        """Discharge by what motors and electronics draw in one timestep.
+
+        A motor draws its mechanical power while it drives (what it brakes is not recovered) and the heat of
+        its windings, I²R, which is proportional to the torque squared.
 
         Args:
             torque: of every motor, N·m.
             velocity: of every motor, rad/s.
-
-        A motor draws its mechanical power while it drives (what it brakes is not recovered) and the heat of
-        its windings, I²R, which is proportional to the torque squared.
+            dt: the timestep, s.
         """
         work = torque * velocity
         power = float(work @ (work > 0.0) + self.parameters.motor_loss * (torque @ torque))
         self.discharge(power + self.parameters.idle_power, dt)
 
     def drain_as_before(self, dt: float) -> None:
-        """Draw what was drawn last, for ``dt`` (s)."""
+        """Draw the power of the last timestep for `dt` (s)."""
         self.discharge(self._latest_power, dt)
 
     def discharge(self, power: float, dt: float) -> None:
-        """Draw ``power`` (W) for ``dt`` (s)."""
+        """Draw `power` (W) for `dt` (s)."""
         self._latest_power = power
         energy = power * dt
         self.energy_used += energy

@@ -14,5 +14,5 @@ class FallThresholds:
 
 
 def has_fallen(height: float, up: float, thresholds: FallThresholds) -> bool:
-    """Decide by the height (m) of the pelvis and by the z component of the torso's up-vector."""
+    """Whether a robot lies, given the height (m) of its pelvis and `up`, the z component of its torso's up-vector."""
     return height < thresholds.base_height or up < thresholds.up

@@ -1,5 +1,7 @@
 """The whole robot without ROS."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -12,6 +14,7 @@ from robot_sim.arms.joint_trajectory import HOLD, JointTrajectory
 from robot_sim.arms.reach import HandTarget, Reach
 from robot_sim.arms.upper_body import UpperBody
 from robot_sim.battery import Battery
+from robot_sim.falling import FallThresholds, has_fallen
 from robot_sim.model.build import build_model
 from robot_sim.model.dimensions import dimensions_of
 from robot_sim.model.floor import Floor
@@ -19,7 +22,6 @@ from robot_sim.model.joint_names import ACTUATED_JOINTS
 from robot_sim.model.posture import take_stance
 from robot_sim.model.scenes import OBJECTS
 from robot_sim.model.side import SIDES, Side
-from robot_sim.falling import FallThresholds, has_fallen
 from robot_sim.push import Pusher
 from robot_sim.rest import Rest
 from robot_sim.sensors.imu import Imu
@@ -31,14 +33,14 @@ from robot_sim.walking.footsteps import Command, Goal
 from robot_sim.walking.gait import Phase
 from robot_sim.walking.height_change import HeightChange, HeightPhase
 from robot_sim.walking.planar import clamp
+from robot_sim.walking.walker import Walker
 from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.walking_limits import WalkingLimits, walkable_velocity
-from robot_sim.walking.walker import Walker
 from ros_runtime.angles import yaw_of
 
 
 class Humanoid:
-    """A humanoid that balances and walks in simulation, one timestep a ``step()``.
+    """A humanoid that balances and walks in simulation; each `step()` is one timestep.
 
     The same seed and the same commands give the same motion, bit by bit.
 
@@ -47,20 +49,20 @@ class Humanoid:
         seed: of the sensors' errors.
         timestep: of physics and controller, s.
         floor: what it walks on; a level plane unless given.
-        estimates_state: it acts on what its sensors tell instead of the simulator's truth.
+        estimates_state: the controller acts on a state estimated from its sensors instead of the simulator's.
 
     Raises:
         ValueError: the scene is not known.
 
     Attributes:
         scene: its name.
-        seed: of the sensors' errors; a new one holds from the next ``reset()`` on.
+        seed: of the sensors' errors; a new one holds from the next `reset()` on.
         model, data: of MuJoCo; the pelvis is base_link, the world is odom.
         battery: charge, voltage, current.
         hands: the grippers by side.
-        may_rest: once it stands still and nothing is asked of its body it is left as it is instead of being integrated:
-            time and battery go on, and a step costs a fiftieth.
-        motors_enabled: torque is on. False after ``set_motor_power(False)``, after a fall and at zero charge.
+        may_rest: while it stands still without a command, physics is not integrated: only time and battery go on, and
+            a step costs a fiftieth.
+        motors_enabled: torque is on. False after `set_motor_power(False)`, after a fall and at zero charge.
     """
 
     def __init__(
@@ -90,9 +92,9 @@ class Humanoid:
         self.reset()
 
     def reset(self, x: float = 0.0, y: float = 0.0, yaw: float = 0.0, *, height: float | None = None) -> None:
-        """Stand at rest at (x, y) m, heading ``yaw`` rad, odom frame: time 0, battery full, motors on.
+        """Stand at rest at (x, y) m, heading `yaw` rad, odom frame: time 0, battery full, motors on.
 
-        ``height`` (m, of the pelvis, 0.45 to 0.60) less than the stance's puts it into a crouch.
+        `height` (m, of the pelvis, 0.45 to 0.60) less than the stance's puts it into a crouch.
         """
         self._set_actuation(True)
         size = self._parameters.dimensions
@@ -111,8 +113,8 @@ class Humanoid:
     def _take_control(self) -> None:
         """Begin to balance from the state the robot is in."""
         self._estimate = StateEstimate(self.model, self.data, self._imu) if self._estimates_state else None
-        believed = self._estimate.data if self._estimate else self.data
-        self._walker = Walker(self.model, self.data, believed, self._trunk, self._parameters)
+        state = self._estimate.data if self._estimate else self.data
+        self._walker = Walker(self.model, self.data, state, self._trunk, self._parameters)
         self._height = BodyHeight(self._walker, self._parameters.dimensions, HeightLimits())
         self._pending: Command = None
         self._upper_body = UpperBody(self.model, self.data)
@@ -154,7 +156,7 @@ class Humanoid:
 
     @property
     def is_resting(self) -> bool:
-        """Whether it is left as it is at present, instead of being integrated."""
+        """Whether its physics is not integrated at present."""
         return self._rest.has_come
 
     def _pass_time(self) -> None:
@@ -165,7 +167,7 @@ class Humanoid:
             self._set_actuation(False)
 
     def _is_idle(self) -> bool:
-        """Whether it stands, and nothing is asked of its body."""
+        """Whether it stands without a command."""
         return (
             self.motors_enabled
             and self._estimate is None
@@ -179,7 +181,7 @@ class Humanoid:
     # Commands
 
     def walk_velocity(self, vx: float, vy: float, wz: float) -> None:
-        """Walk at (m/s, m/s, rad/s) in base_link until told otherwise; (0, 0, 0) is ``stop()``.
+        """Walk at (m/s, m/s, rad/s) in base_link until told otherwise; (0, 0, 0) is `stop()`.
 
         Each component is clamped to the walking limits. Ignored while the motors are off.
 
@@ -189,7 +191,7 @@ class Humanoid:
         self._follow(walkable_velocity(vx, vy, wz, self._limits))
 
     def walk_to(self, x: float, y: float, yaw: float) -> None:
-        """Walk until the midpoint of the feet is at (x, y) m with heading ``yaw`` rad, odom frame.
+        """Walk until the midpoint of the feet is at (x, y) m with heading `yaw` rad, odom frame.
 
         Ignored while the motors are off.
 
@@ -208,7 +210,7 @@ class Humanoid:
         """Switch the torque of all motors; without it the robot goes limp and falls.
 
         Switched on again before it has fallen it tries to stand. A fallen robot's motors stay off until
-        ``reset()``, and so do those of a robot with an empty battery until that is charged.
+        `reset()`, and so do those of a robot with an empty battery until that is charged.
         """
         if on == self.motors_enabled or (on and (self._fallen or self.battery.is_empty)):
             return
@@ -221,7 +223,7 @@ class Humanoid:
         self._set_actuation(on)
 
     def push(self, impulse: Sequence[float], duration: float = 0.1) -> None:
-        """Push the torso with ``impulse`` (3,) N·s in the world frame over ``duration`` (s).
+        """Push the torso with `impulse` (3,) N·s in the world frame over `duration` (s).
 
         Raises:
             ValueError: the impulse is not three finite numbers, or the duration is not positive.
@@ -230,7 +232,7 @@ class Humanoid:
         self._rest.stir()
 
     def move_body(self, rate: float) -> None:
-        """Crouch or rise at ``rate`` (m/s, upwards) until told otherwise; ignored while the motors are off.
+        """Crouch or rise at `rate` (m/s, upwards) until told otherwise; ignored while the motors are off.
 
         The pelvis stays between 0.45 m and the 0.60 m of the stance. Told to walk, a crouching robot rises first.
 
@@ -243,10 +245,10 @@ class Humanoid:
                 self._rest.stir()
 
     def crouch_to(self, height: float) -> HeightChange:
-        """Bring the pelvis to ``height`` (m, 0.45 to 0.60 above the floor) in phases that end by what is measured.
+        """Bring the pelvis to `height` (m, 0.45 to 0.60 above the floor) in phases, each until measurements confirm it.
 
-        What comes back tells the phase, how far it is, and why it failed: a fall, motors off, another command to walk
-        or to move the body, a body that does not get there.
+        The result tells the phase, the progress, and the reason of a failure: a fall, motors off, another command to
+        walk or to move the body, or no progress in time.
 
         Raises:
             ValueError: the height is not finite.
@@ -258,12 +260,12 @@ class Humanoid:
         return change
 
     def stand_up(self) -> HeightChange:
-        """Rise from any crouch to the stance; as ``crouch_to`` otherwise."""
+        """Rise from any crouch to the stance; as `crouch_to` otherwise."""
         return self.crouch_to(self._parameters.dimensions.stance_height)
 
     @property
     def body_phase(self) -> HeightPhase | None:
-        """Where the last ``crouch_to`` or ``stand_up`` since reset is, if there was one."""
+        """The phase of the last `crouch_to` or `stand_up` since reset; None without one."""
         return self._height.change.phase if self._height.change else None
 
     @property
@@ -286,7 +288,7 @@ class Humanoid:
             self._rest.stir()
 
     def open_hand(self, side: Side, opening: float) -> None:
-        """Bring the fingers of a side ``opening`` (m, 0 to 0.09) apart; ignored without motors.
+        """Bring the fingers of a side `opening` (m, 0 to 0.09) apart; ignored without motors.
 
         Raises:
             ValueError: the opening is not finite.
@@ -296,7 +298,7 @@ class Humanoid:
             self._rest.stir()
 
     def reach(self, side: Side, target: HandTarget) -> Reach:
-        """Bring the hand of a side to a target in the odom frame; ``error()`` tells how far it is.
+        """Bring the hand of a side to a target in the odom frame; `error()` tells how far it is.
 
         Raises:
             ValueError: the target is not finite.
@@ -327,7 +329,7 @@ class Humanoid:
 
     @property
     def arrived(self) -> bool:
-        """The pose of the last ``walk_to`` is reached and both feet stand."""
+        """Whether the pose of the last `walk_to` is reached and both feet stand."""
         return self.mode is Mode.STANDING and self._walker.gait.goal_reached
 
     def base_pose(self) -> BasePose:

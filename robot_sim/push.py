@@ -1,5 +1,7 @@
 """Pushes: a force on a body for a while."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import mujoco
@@ -7,7 +9,7 @@ import numpy as np
 
 
 class Pusher:
-    """Applies impulses to one body; several at once add up."""
+    """A source of pushes on one body; simultaneous ones add up."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, body: str) -> None:
         self._force = data.xfrc_applied[model.body(body).id, :3]
@@ -15,7 +17,7 @@ class Pusher:
         self._pushes: list[tuple[np.ndarray, int]] = []
 
     def push(self, impulse: Sequence[float], duration: float) -> None:
-        """Give ``impulse`` (3,) N·s in the world frame, evenly over ``duration`` (s, at least one step).
+        """Give `impulse` (3,) N·s in the world frame, evenly over `duration` (s, at least one step).
 
         Raises:
             ValueError: the impulse is not three finite numbers, or the duration is not positive.
@@ -30,7 +32,7 @@ class Pusher:
 
     @property
     def is_idle(self) -> bool:
-        """No push acts or is to come."""
+        """Whether no push acts or is about to."""
         return not self._pushes and not self._force.any()
 
     def apply(self) -> None:

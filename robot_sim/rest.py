@@ -1,4 +1,6 @@
-"""When a robot that stands still may be left as it is, because integrating it would change nothing to be seen."""
+"""Detection of rest: integrating a robot that stands still would change nothing visible."""
+
+from __future__ import annotations
 
 import mujoco
 import numpy as np
@@ -10,10 +12,10 @@ HOLD = 0.1  # s
 
 
 class Rest:
-    """Notices that the robot has come to rest, and that it was stirred.
+    """A detector of rest.
 
     Attributes:
-        allowed: it may rest at all.
+        allowed: whether the robot may rest at all.
     """
 
     def __init__(self, data: mujoco.MjData, timestep: float) -> None:
@@ -23,15 +25,15 @@ class Rest:
         self._still_ticks = 0
 
     def stir(self) -> None:
-        """Something was asked of the body: it is to be integrated until it stands still again."""
+        """Note a command to the body: it is integrated until it stands still again."""
         self._still_ticks = 0
 
     @property
     def has_come(self) -> bool:
-        """The body stood still long enough, and nothing was asked of it since."""
+        """Whether the body stood still long enough, and no command came since."""
         return self._still_ticks >= self._ticks_needed
 
     def watch(self, is_idle: bool) -> None:
-        """Take in one integrated timestep; ``is_idle``: the robot stands, and nothing is asked of its body."""
+        """Take in one integrated timestep; `is_idle` tells whether the robot stands without a command."""
         still = is_idle and np.abs(self._velocity).max() < STILL
         self._still_ticks = self._still_ticks + 1 if still else 0

@@ -1,4 +1,6 @@
-"""What a humanoid tells about itself."""
+"""The state of a humanoid, as its methods return it."""
+
+from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
@@ -42,7 +44,7 @@ class BaseVelocity:
 
 @dataclass(frozen=True)
 class JointState:
-    """The actuated joints, in the order of ``joint_names.ACTUATED_JOINTS``; fingers in m, m/s and N."""
+    """The actuated joints, in the order of `joint_names.ACTUATED_JOINTS`; fingers in m, m/s and N."""
 
     names: tuple[str, ...]
     position: np.ndarray  # (34,) rad

@@ -1,5 +1,7 @@
 """A hand of two fingers that slide apart."""
 
+from __future__ import annotations
+
 import math
 
 import mujoco
@@ -21,10 +23,9 @@ class Hand:
         self._touches = [model.sensor(f"{name}_touch").adr[0] for name in joints]
 
     def open_to(self, opening: float) -> None:
-        """Bring the pads ``opening`` (m) apart; beyond 0 to 0.09 m it goes to the nearer end.
+        """Bring the pads `opening` (m) apart; values beyond 0 to 0.09 m are clamped.
 
-        Around an object the fingers press with their stiffness, 800 N/m, times half of what is missing, at most
-        25 N each.
+        Around an object each finger presses with 800 N/m times its distance from where it should be, at most 25 N.
 
         Raises:
             ValueError: the opening is not finite.
@@ -46,5 +47,5 @@ class Hand:
 
     @property
     def grip_force(self) -> float:
-        """Force with which an object is held, N: the weaker pad's, as what the other has more is no grip."""
+        """Force with which an object is held, N: that of the pad that presses less."""
         return min(self.forces)

@@ -1,5 +1,7 @@
 """A motion of some joints through waypoints."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,12 +13,12 @@ MOVABLE = tuple(name for name in UPPER_BODY_JOINTS if not name.endswith(FINGERS)
 
 @dataclass(frozen=True)
 class Waypoint:
-    """Where the joints are ``time`` (s) after the start of a trajectory.
+    """The positions of the joints at one moment of a trajectory.
 
     Attributes:
         time: s, after the start.
-        positions: rad, one a joint.
-        velocities: rad/s, one a joint, in passing; empty for none asked.
+        positions: rad, one for each joint.
+        velocities: rad/s, one for each joint, at that moment; empty: not given.
     """
 
     time: float
@@ -26,7 +28,7 @@ class Waypoint:
 
 @dataclass(frozen=True)
 class JointTrajectory:
-    """Joints by name and the waypoints they pass, in the order of their times.
+    """Names of joints and the waypoints they pass, in the order of their times.
 
     Raises:
         ValueError: a joint cannot be moved, a list has a wrong length, a number is not finite, or times do not
@@ -71,10 +73,10 @@ def _check_waypoint(number: int, waypoint: Waypoint, joints: int) -> None:
 
 
 class JointPath:
-    """The way along a trajectory from where the joints are.
+    """The motion along a trajectory that starts where the joints are.
 
-    Between waypoints that give velocities it is a cubic with these as its ends' slopes (Hermite interpolation);
-    where they are missing it is straight, as ros2_controllers' joint trajectory controller does.
+    Between waypoints with velocities it is the cubic with these velocities at its ends (Hermite interpolation), else
+    a straight line, as ros2_controllers' joint trajectory controller does.
 
     Args:
         trajectory: the waypoints, at least one.
@@ -94,7 +96,7 @@ class JointPath:
         return self._waypoints[-1].time
 
     def at(self, time: float) -> list[float]:
-        """Positions (n,) rad at ``time`` (s), which must not go back; after the end, those of the end."""
+        """Positions (n,) rad at `time` (s), which must not go back; after the end, those of the end."""
         while self._segment < len(self._waypoints) - 2 and time > self._waypoints[self._segment + 1].time:
             self._segment += 1
         before, after = self._waypoints[self._segment : self._segment + 2]
@@ -118,7 +120,7 @@ class JointPath:
 
 
 def _hermite(s: float, span: float, q0: float, q1: float, v0: float, v1: float) -> float:
-    """The cubic of length ``span`` (s) at its share ``s``."""
+    """The cubic of length `span` (s) at its share `s`."""
     a = 2 * (q0 - q1) + span * (v0 + v1)
     b = 3 * (q1 - q0) - span * (2 * v0 + v1)
     return q0 + s * (span * v0 + s * (b + s * a))

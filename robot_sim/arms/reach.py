@@ -1,4 +1,4 @@
-"""Bringing a hand to a place: resolved-rate control of an arm with damped least squares."""
+"""Bring a hand to a place: resolved-rate control of an arm with damped least squares."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from robot_sim.model.joint_names import ARM, WAIST, arm_joints
 from robot_sim.model.posture import on_side
 from robot_sim.model.side import Side
 
-HARDLY = 1e-3  # damping that only keeps a matrix invertible
+LEAST_DAMPING = 1e-3  # m, that only keeps a matrix invertible
 RELAXED_ARM = {
     "shoulder_pitch": 0.3,
     "shoulder_roll": 0.7,
     "elbow": -1.4,
-}  # rad, left; where a free arm drifts to: the elbow away from the body
+}  # rad, left arm; the other joints 0. The null space drifts there: the elbow away from the body
 
 
 @dataclass(frozen=True, slots=True)
 class ReachParameters:
-    """How a hand is brought to a place."""
+    """Gains and limits of a reach."""
 
     gain: float = 6.0  # 1/s, of the measured error
     damping: float = 0.05  # m, of the least squares
@@ -35,11 +35,11 @@ class ReachParameters:
 
 @dataclass(frozen=True)
 class HandTarget:
-    """Where the grip point of a hand shall be, in the world frame.
+    """A pose for the grip point of a hand, in the world frame.
 
     Attributes:
         position: (x, y, z), m.
-        rotation: (3, 3) of the hand, whose fingers point along -z and open along y; None: as it comes.
+        rotation: (3, 3) of the hand, whose fingers point along -z and open along y; None: any.
         speed: m/s, along the straight line there.
         with_waist: the waist may turn to help.
     """
@@ -51,11 +51,11 @@ class HandTarget:
 
 
 class Reach:
-    """Moves one hand along a straight line to a target and keeps it there.
+    """A motion of one hand along a straight line to a target, where it then stays.
 
     Joint velocities follow from the hand's velocity by damped least squares, q̇ = Jᵀ(JJᵀ + λ²I)⁻¹ v (C. W. Wampler,
     "Manipulator inverse kinematic solutions based on vector formulations and damped least-squares methods", IEEE
-    SMC-16, 1986); what the task leaves free brings the arm to a relaxed posture through the null space.
+    SMC-16, 1986); the null space of the task takes the arm to a relaxed posture.
 
     Attributes:
         joints: names of the joints it moves.
@@ -91,7 +91,7 @@ class Reach:
         return float(np.linalg.norm(rotation_vector(self._rotation(), self._target.rotation)))
 
     def joint_velocities(self, reference: np.ndarray) -> np.ndarray:
-        """Velocities (n,) rad/s of the joints, which are at ``reference`` (n,) rad, for the next tick."""
+        """Velocities (n,) rad/s of the joints, which are at `reference` (n,) rad, for the next tick."""
         mujoco.mj_jacSite(self._model, self._data, self._jacobian[:3], self._jacobian[3:], self._grip)
         jacobian, velocity = self._task()
         relax = self._parameters.relaxation * (self._relaxed - reference)
@@ -99,13 +99,13 @@ class Reach:
         velocities = (
             _damped_inverse(jacobian, self._parameters.damping) @ velocity
             + relax
-            - _damped_inverse(jacobian, HARDLY) @ (jacobian @ relax)
+            - _damped_inverse(jacobian, LEAST_DAMPING) @ (jacobian @ relax)
         )
         fastest = np.abs(velocities).max() / self._parameters.joint_speed
         return velocities / fastest if fastest > 1 else velocities
 
     def _task(self) -> tuple[np.ndarray, np.ndarray]:
-        """The Jacobian of what is wanted of the hand, and its velocity: position, and rotation if one is given."""
+        """The Jacobian and the wanted velocity of the task: position, and rotation if one is given."""
         weight = self._parameters.rotation_weight
         linear = self._linear_velocity()
         if self._target.rotation is None:
@@ -133,7 +133,7 @@ class Reach:
 
 
 def rotation_vector(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """The rotation (3,) rad, world frame, that turns rotation matrix ``start`` (3, 3) into ``end`` (3, 3)."""
+    """The rotation (3,) rad, world frame, that turns rotation matrix `start` (3, 3) into `end` (3, 3)."""
     quaternion, vector = np.empty(4), np.empty(3)
     mujoco.mju_mat2Quat(quaternion, (end @ start.T).ravel())
     mujoco.mju_quat2Vel(vector, quaternion, 1.0)

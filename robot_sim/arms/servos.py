@@ -1,4 +1,6 @@
-"""The position servos of some joints, driven without lag: they are told the torque they will need."""
+"""Position servos driven without lag, by feed-forward of the torque that the motion needs."""
+
+from __future__ import annotations
 
 from collections.abc import Sequence
 
@@ -9,10 +11,10 @@ RANGE_MARGIN = 0.02  # rad, kept from the joints' stops
 
 
 class Servos:
-    """Position servos of ``joints``, in that order.
+    """Position servos of `joints`, in that order.
 
     A servo alone sags under gravity and trails a motion, because its torque is kp·(ctrl - q) - kv·q̇. The command
-    therefore carries the forces of the rigid body (``qfrc_bias``) and the damping of the wanted motion along:
+    therefore adds the forces of the rigid body (`qfrc_bias`) and the damping of the wanted motion:
     ctrl = q_ref + (bias + kv·q̇_ref) / kp (computed-torque feed-forward; B. Siciliano et al., "Robotics: Modelling,
     Planning and Control", 2009, section 8.5).
 
@@ -38,6 +40,6 @@ class Servos:
         return self._data.qpos[self._positions]
 
     def command(self, position: np.ndarray, velocity: np.ndarray) -> None:
-        """Ask for positions (n,), rad, on the way at velocities (n,), rad/s."""
+        """Command positions (n,), rad, that change at velocities (n,), rad/s."""
         support = self._data.qfrc_bias[self.dofs] + self._damping * velocity
         self._data.ctrl[self._motors] = position + support / self._stiffness

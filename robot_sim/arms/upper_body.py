@@ -1,4 +1,4 @@
-"""Waist, head and arms: they hold, follow a trajectory, or bring a hand to a place."""
+"""The control of waist, head and arms: hold, follow a trajectory, or bring a hand to a place."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class UpperBodyParameters:
 
 
 class UpperBody:
-    """Moves the 18 joints above the hips, the fingers excepted. What is not told to move holds its place.
+    """The controller of the 18 joints above the hips without fingers. A joint without a command holds its place.
 
     Until the first command the servos hold the posture of the stance by themselves.
     """
@@ -52,7 +52,7 @@ class UpperBody:
         self._reaches: dict[Side, Reach] = {}
 
     def follow(self, trajectory: JointTrajectory) -> None:
-        """Follow a trajectory from where the joints are; it replaces whatever was followed. Empty: hold.
+        """Follow a trajectory from where the joints are; it replaces an earlier one. Empty: hold.
 
         Positions beyond a joint's range are brought to its end, and no joint moves faster than its limit.
         """
@@ -79,7 +79,7 @@ class UpperBody:
         return reach
 
     def tick(self, dt: float) -> None:
-        """Command the servos for the next ``dt`` (s); call it between ``mj_step1`` and ``mj_step2``."""
+        """Command the servos for the next `dt` (s); call it between `mj_step1` and `mj_step2`."""
         if not self._commanded:
             return
         if self._path is not None:
@@ -101,7 +101,7 @@ class UpperBody:
 
     @property
     def is_idle(self) -> bool:
-        """Nothing moves, and nothing is to."""
+        """Whether nothing moves or is about to."""
         return self._path is None and not self._reaches and not self._velocity.any()
 
     def _begin(self) -> None:

@@ -1,1 +1,1 @@
-"""What the robot is made of: bodies, joints, motors, the scenes it stands in."""
+"""The robot's bodies, joints and motors (humanoid.xml), and the scenes it stands in."""

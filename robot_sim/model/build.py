@@ -23,6 +23,5 @@ def build_model(
     """
     spec = mujoco.MjSpec.from_file(str(scene_file(scene)))
     spec.option.timestep = timestep
-    if floor is not None:
-        floor.shape(spec)
+    (floor or Floor()).shape(spec)
     return spec.compile()

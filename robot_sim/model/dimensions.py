@@ -1,4 +1,4 @@
-"""The lengths of the body that the controller reckons with."""
+"""The lengths of the body that the controller needs."""
 
 from __future__ import annotations
 

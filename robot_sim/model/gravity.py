@@ -1,3 +1,3 @@
-"""What everything weighs by."""
+"""The acceleration of gravity."""
 
 GRAVITY = 9.81  # m/s², MuJoCo's default

@@ -1,4 +1,6 @@
-"""The pose in which the robot stands up, and the position servos that hold its upper body."""
+"""The posture of a standing robot."""
+
+from __future__ import annotations
 
 import math
 
@@ -44,7 +46,7 @@ def on_side(side: Side, joint: str, angle: float) -> float:
 def take_stance(
     model: mujoco.MjModel, data: mujoco.MjData, size: Dimensions, x: float, y: float, yaw: float
 ) -> None:
-    """Reset the state to standing with the pelvis at (x, y) m, heading ``yaw`` rad, servos holding."""
+    """Reset the state to standing with the pelvis at (x, y) m, heading `yaw` rad, servos holding."""
     mujoco.mj_resetData(model, data)
     half = yaw / 2
     data.joint("root").qpos = [x, y, size.stance_height, math.cos(half), 0, 0, math.sin(half)]

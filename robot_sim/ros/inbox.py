@@ -1,7 +1,7 @@
-"""One topic that the robot listens to, which anybody may write anything to.
+"""The messages of one subscription, to whose topic anybody may publish anything.
 
-Bytes are looked at before they become objects, and only so many messages and bytes a second do: whoever writes more or
-larger ones than any sane node would is not heard, and cannot hold the robot up.
+Bytes are checked before they become objects, and only so many messages and bytes a second are: a node that publishes
+more or larger ones than any sane node would is refused, and cannot hold the robot up.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any
 from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 
-FIXED_SIZE = 64  # bytes, more than any message of fixed length that the robot listens to
+FIXED_SIZE = 64  # bytes, more than any message of fixed length that the robot subscribes to
 MESSAGES_A_SECOND = 200  # simulated; at first, and after a silence, that many at once
 BYTES_A_SECOND = (
     400_000  # simulated: a little more than the largest trajectory, 10 ms of the processor's time
@@ -22,18 +22,18 @@ REPORT_PERIOD = 0.25  # s, simulated, between two reports of a topic
 FLOOD = f"more than {MESSAGES_A_SECOND} messages or {BYTES_A_SECOND} bytes a second"
 
 Report = Callable[[str, int, int, str], None]
-"""Told of a topic: how many messages so far, bytes of the largest of them, and why."""
+"""Takes a topic, how many of its messages were refused so far, the bytes of the largest of them, and why."""
 
 
 class Inbox:
-    """Takes the messages of one subscription and passes on those that may be meant for the robot.
+    """A filter between a subscription and its callback that refuses malformed, too large and too many messages.
 
     Args:
         subscription: whose callback is called with each message.
-        report: is told what was refused, and of floods, at most every ``REPORT_PERIOD``. Of a flood it is told how
-            often the messages that followed had to wait.
+        report: is called for what was refused and for floods, at most every `REPORT_PERIOD`; its count for a flood is
+            how often the messages that followed had to wait.
         most_bytes: a longer message is refused.
-        why_not: says of a message's bytes why it is refused, or ""; a ValueError means that they are malformed.
+        why_not: returns why a message with these bytes is refused, or ""; a ValueError means that they are malformed.
     """
 
     def __init__(
@@ -57,8 +57,8 @@ class Inbox:
         self._latest = 0.0
         self._next_report = 0.0
 
-    def look(self, now: float) -> None:
-        """Take what has arrived by simulated time ``now`` (s), as much as is due; of the rest the newest ones wait."""
+    def process_arrived(self, now: float) -> None:
+        """Process what has arrived by simulated time `now` (s), as much as is due; of the rest the newest ones wait."""
         if now < self._latest:  # as at a reset
             self._latest = self._next_report = now
         passed, self._latest = now - self._latest, now
@@ -66,13 +66,13 @@ class Inbox:
         self._bytes = min(BYTES_A_SECOND, self._bytes + passed * BYTES_A_SECOND)
         handle, kind = self._subscription.handle, self._subscription.msg_type
         while self._may_take() and (taken := handle.take_message(kind, True)):
-            self.take(taken[0])
+            self.process(taken[0])
         if self._tally and now >= self._next_report:
-            self.tell()
+            self.report()
             self._next_report = now + REPORT_PERIOD
 
-    def take(self, data: bytes) -> None:
-        """Pass one message on, given its bytes, unless it is refused."""
+    def process(self, data: bytes) -> None:
+        """Pass one message on to the callback, given its bytes, unless it is refused."""
         self._messages -= 1
         self._bytes = max(-BYTES_A_SECOND, self._bytes - len(data))
         reason, message = self._open(data)
@@ -82,7 +82,7 @@ class Inbox:
         if reason:
             self._count(reason, len(data))
 
-    def tell(self) -> None:
+    def report(self) -> None:
         """Report what has not been reported yet."""
         for reason, tally in self._tally.items():
             if tally.is_news and self._report:

@@ -13,14 +13,14 @@ from trajectory_msgs.msg import JointTrajectory as JointTrajectoryMessage
 from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.side import SIDES, Side
-from robot_sim.ros.messages import is_heard, set_fields
+from robot_sim.ros.messages import has_subscribers, set_fields
 
 WRENCH_RATE = 20.0  # Hz, as all rates below, in simulated time
 OBJECTS_RATE = 10.0
 
 
 class ManipulationTopics:
-    """Adds joint_trajectory, the grippers and the objects' poses to the humanoid's node."""
+    """The topic joint_trajectory, the grippers' and the objects' poses, on the humanoid's node."""
 
     def __init__(self, node: Node, humanoid: Humanoid) -> None:
         self._node = node
@@ -29,7 +29,9 @@ class ManipulationTopics:
             JointTrajectoryMessage, "joint_trajectory", self._on_trajectory, 10
         )
         self.grippers: list[Subscription] = [
-            node.create_subscription(Float64, f"{side.letter}_gripper/command", partial(self._on_opening, side), 10)
+            node.create_subscription(
+                Float64, f"{side.letter}_gripper/command", partial(self._on_opening, side), 10
+            )
             for side in SIDES
         ]
         self._wrenches = {
@@ -55,7 +57,7 @@ class ManipulationTopics:
 
     def _publish_wrenches(self) -> None:
         for side, publisher in self._wrenches.items():
-            if is_heard(publisher):
+            if has_subscribers(publisher):
                 message = WrenchStamped()
                 message.header.stamp = self._node.get_clock().now().to_msg()
                 message.header.frame_id = f"{side.letter}_hand"
@@ -63,7 +65,7 @@ class ManipulationTopics:
                 publisher.publish(message)
 
     def _publish_objects(self) -> None:
-        if not any(map(is_heard, self._objects.values())):
+        if not any(map(has_subscribers, self._objects.values())):
             return
         for name, pose in self._humanoid.object_poses().items():
             message = PoseStamped()
@@ -75,7 +77,11 @@ class ManipulationTopics:
 
 
 def _trajectory(message: JointTrajectoryMessage) -> JointTrajectory:
-    """The trajectory of a message; a ValueError says what is wrong with it. It starts when it arrives."""
+    """Convert a message to the trajectory it describes, which starts on arrival.
+
+    Raises:
+        ValueError: the trajectory is not valid; the message says why.
+    """
     waypoints = tuple(
         Waypoint(
             point.time_from_start.sec + point.time_from_start.nanosec * 1e-9,

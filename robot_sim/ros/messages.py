@@ -11,12 +11,12 @@ from rclpy.publisher import Publisher
 
 
 def floats(values: np.ndarray) -> array[float]:
-    """Numbers as a message takes them without looking at each."""
+    """Numbers in the type that a message takes without checking each."""
     return array("d", values.tobytes())
 
 
-def is_heard(publisher: Publisher) -> bool:
-    """Whether anybody subscribes; messages that nobody hears are not made."""
+def has_subscribers(publisher: Publisher) -> bool:
+    """Whether anybody subscribes; without subscribers no message is made."""
     return publisher.get_subscription_count() > 0
 
 

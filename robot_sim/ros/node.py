@@ -17,12 +17,12 @@ from humanoid_interfaces.msg import BalanceGains as BalanceGainsMessage
 from humanoid_interfaces.msg import RobotState
 from robot_sim.humanoid import Humanoid, Mode
 from robot_sim.model.joint_names import ACTUATED_JOINTS
+from robot_sim.ros.ground_truth import BatterySample, GroundTruthWriter
 from robot_sim.ros.inbox import Inbox
 from robot_sim.ros.manipulation_topics import ManipulationTopics
-from robot_sim.ros.messages import floats, is_heard, set_fields
+from robot_sim.ros.messages import floats, has_subscribers, set_fields
 from robot_sim.ros.periodic_jobs import PeriodicJobs
 from robot_sim.ros.trajectory_size import MOST_BYTES, why_too_large
-from robot_sim.ros.truth import BatterySample, TruthWriter
 from robot_sim.walking.balance_gains import BalanceGains
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -38,14 +38,17 @@ PEERS_RATE = 10.0
 
 
 class HumanoidNode(Node):
-    """Publishes the humanoid's state and passes commands on to it.
+    """The node that publishes the humanoid's state and passes commands on to it.
 
-    The node neither spins nor steps: :func:`robot_sim.ros.run.run` calls :meth:`publish_due` after each step and
-    :meth:`hear` in between, so one thread owns the simulation. `heard` are the topics it listens to.
+    The node neither spins nor steps: `robot_sim.ros.run` calls `publish_due` after each step and `process_commands` in
+    between, so one thread owns the simulation.
+
+    Attributes:
+        inboxes: of the topics that it subscribes to.
     """
 
     def __init__(
-        self, humanoid: Humanoid, namespace: str = "/robot", truth: TruthWriter | None = None
+        self, humanoid: Humanoid, namespace: str = "/robot", ground_truth: GroundTruthWriter | None = None
     ) -> None:
         super().__init__("humanoid", namespace=namespace)
         self.humanoid = humanoid
@@ -53,7 +56,7 @@ class HumanoidNode(Node):
         self.joint_sensors_connected = True
         self.joint_states_reversed = False
         self.robot_state_published = True
-        self._truth = truth
+        self._ground_truth = ground_truth
         self._velocity_command_time: float | None = None
         self._last_announced: tuple[int, bool, int] | None = None
 
@@ -64,18 +67,18 @@ class HumanoidNode(Node):
         self._robot_state = self.create_publisher(RobotState, "robot_state", LATCHED)
         self._clock_topic = self.create_publisher(Clock, "/clock", 10)
         manipulation = ManipulationTopics(self, humanoid)
-        report = truth.refused if truth else None
+        report = ground_truth.refused if ground_truth else None
         subscriptions = (
             self.create_subscription(Twist, "cmd_vel", self._on_velocity, 10),
             self.create_subscription(Bool, "motor_power", self._on_motor_power, 10),
             self.create_subscription(BalanceGainsMessage, "balance_gains", self._on_balance_gains, 10),
             *manipulation.grippers,
         )
-        self.heard = [Inbox(subscription, report) for subscription in subscriptions]
-        self.heard.append(
+        self.inboxes = [Inbox(subscription, report) for subscription in subscriptions]
+        self.inboxes.append(
             Inbox(manipulation.trajectory, report, most_bytes=MOST_BYTES, why_not=why_too_large)
         )
-        self._heard_topics = [heard.topic for heard in self.heard]
+        self._command_topics = [inbox.topic for inbox in self.inboxes]
         self._peers: tuple[dict[str, int], dict[str, int]] = ({}, {})
         self._make_messages()
 
@@ -91,7 +94,7 @@ class HumanoidNode(Node):
         )
 
     def _make_messages(self) -> None:
-        """Messages that are published again and again, filled anew each time: making one costs more than sending it.
+        """Make the messages that are filled anew for each publication: making one costs more than sending it.
 
         They share one stamp.
         """
@@ -132,15 +135,15 @@ class HumanoidNode(Node):
             self._publish_robot_state()
         self._periodic_jobs.run(self.humanoid.time)
 
-    def hear(self) -> None:
-        """Obey the commands that have arrived, without the 0.3 ms that an executor's wait set costs each time."""
-        for heard in self.heard:
-            heard.look(self.humanoid.time)
+    def process_commands(self) -> None:
+        """Process the commands that have arrived, without the 0.3 ms that an executor's wait set costs each time."""
+        for inbox in self.inboxes:
+            inbox.process_arrived(self.humanoid.time)
 
-    def tell_refused(self) -> None:
-        """Report what was not heard since the last report; call it at the end."""
-        for heard in self.heard:
-            heard.tell()
+    def report_refused(self) -> None:
+        """Report the messages refused since the last report; call it at the end."""
+        for inbox in self.inboxes:
+            inbox.report()
 
     def restart(self) -> None:
         """Forget commands and deadlines of before; call it after the humanoid was reset."""
@@ -182,7 +185,7 @@ class HumanoidNode(Node):
     # -- state --------------------------------------------------------------------------------------------------------
 
     def _publish_joint_states(self) -> None:
-        if not self.joint_sensors_connected or not is_heard(self._joint_states):
+        if not self.joint_sensors_connected or not has_subscribers(self._joint_states):
             return
         joints = self.humanoid.joint_state()
         order = slice(None, None, -1 if self.joint_states_reversed else 1)
@@ -192,12 +195,12 @@ class HumanoidNode(Node):
         message.velocity = floats(joints.velocity[order])
         message.effort = floats(joints.effort[order])
         self._read_clock()
-        if self._truth:  # before others can answer with it
-            self._truth.joints_published(message.name, message.position)
+        if self._ground_truth:  # before others can answer with it
+            self._ground_truth.joints_published(message.name, message.position)
         self._joint_states.publish(message)
 
     def _publish_imu(self) -> None:
-        if not is_heard(self._imu):
+        if not has_subscribers(self._imu):
             return
         sample, message = self.humanoid.imu(), self._imu_message
         self._read_clock()
@@ -207,7 +210,7 @@ class HumanoidNode(Node):
         self._imu.publish(message)
 
     def _publish_odom(self) -> None:
-        if not is_heard(self._odom):
+        if not has_subscribers(self._odom):
             return
         pose, velocity = self.humanoid.base_pose(), self.humanoid.base_velocity()
         message = self._odom_message
@@ -228,8 +231,8 @@ class HumanoidNode(Node):
         message.percentage = sample.percentage
         self._read_clock()
         self._battery_state.publish(message)
-        if self._truth:
-            self._truth.battery_published(sample)
+        if self._ground_truth:
+            self._ground_truth.battery_published(sample)
 
     def _publish_robot_state(self) -> None:
         mode, motors_enabled, steps = self._last_announced = self._announcement()
@@ -245,25 +248,25 @@ class HumanoidNode(Node):
         return int(Mode(robot.mode)), bool(robot.motors_enabled), int(robot.steps)
 
     def _publish_clock(self) -> None:
-        if not is_heard(self._clock_topic):
+        if not has_subscribers(self._clock_topic):
             return
         clock = self._clock_message.clock
         clock.sec, clock.nanosec = divmod(round(self.humanoid.time * 1e9), 10**9)
         self._clock_topic.publish(self._clock_message)
 
     def _report_peers(self) -> None:
-        """Tell when connections change, so that a scenario need not guess how long discovery takes."""
-        if self._truth is None:
+        """Write when connections change, so that a scenario need not guess how long discovery takes."""
+        if self._ground_truth is None:
             return
-        said = (self._joint_states, self._imu, self._odom, self._battery_state, self._robot_state)
+        publishers = (self._joint_states, self._imu, self._odom, self._battery_state, self._robot_state)
         peers = (
-            {publisher.topic_name: publisher.get_subscription_count() for publisher in said},
+            {publisher.topic_name: publisher.get_subscription_count() for publisher in publishers},
             # Node.count_publishers would take names apart and check them each time.
-            {topic: self.handle.get_count_publishers(topic) for topic in self._heard_topics},
+            {topic: self.handle.get_count_publishers(topic) for topic in self._command_topics},
         )
         if peers != self._peers:
             self._peers = peers
-            self._truth.peers(*peers)
+            self._ground_truth.peers(*peers)
 
     def _read_clock(self) -> None:
         """Stamp the messages: system clock."""

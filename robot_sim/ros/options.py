@@ -16,7 +16,7 @@ class RobotOptions:
     Attributes:
         rtf: simulated seconds a second; 0: as fast as it can.
         namespace: of the node.
-        view: show it in a browser, served at ``port`` (0: the first free from 8080 on).
+        view: show it in a browser, served at `port` (0: the first free from 8080 on).
         robot: name of a real robot to look at instead.
         scene, crouch, seed: which humanoid stands where, how, and with which noise.
         truth_fd, control_fd: descriptors of the arena's pipes; with the latter the robot is graded and /sim absent.
@@ -41,7 +41,7 @@ class RobotOptions:
 
 
 def parse_options(arguments: Sequence[str] | None = None) -> RobotOptions:
-    """The options of a command line, this process's unless given; a wrong one ends the process and says why."""
+    """The options of a command line, this process's unless given; a wrong option ends the process with a message."""
     return RobotOptions(**vars(_parser().parse_args(arguments)))
 
 

@@ -1,4 +1,4 @@
-"""Keeps simulated time in step with the system clock."""
+"""The pace of simulated time against the system clock."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import time
 
 
 class Pacing:
-    """Tells how much simulated time is due.
+    """A comparison of simulated time with the system clock.
 
     `real_time_factor` is simulated seconds per second of `time.monotonic()`; 0 means as fast as it can. A
-    simulation that has fallen behind by more than `MAX_LAG` s lets go of the rest, so that a machine which slept
-    does not make the robot race.
+    simulation that is behind by more than `MAX_LAG` s drops the lag, so that the robot does not race after the
+    machine was suspended.
 
     Attributes:
-        dropped: what it has let go of, s.
+        dropped: the lag it has dropped so far, s.
     """
 
     MAX_LAG = 1.0
@@ -44,7 +44,7 @@ class Pacing:
         return lag
 
     def take_worst_lag(self) -> float:
-        """Return the greatest lag (simulated s, at least 0) since the last call, also one that was let go of."""
+        """Return the greatest lag (simulated s, at least 0) since the last call, dropped ones included."""
         worst, self._worst_lag = self._worst_lag, 0.0
         return worst
 

@@ -8,7 +8,7 @@ TOLERANCE = 1e-6  # s: sums of timesteps and of periods that mean the same time 
 
 
 class PeriodicJobs:
-    """Calls each job at its own rate (Hz) of simulated time; a late call is made once, not caught up on.
+    """Jobs that are called at a rate (Hz) of simulated time each; a late call is made once, not caught up on.
 
     When time has gone back, as at a reset, every job is due at once.
 

@@ -1,4 +1,4 @@
-"""Runs the robot node: step, wait, publish, hear, in one thread."""
+"""Run the robot node in one thread: step, wait, publish, process commands."""
 
 from __future__ import annotations
 
@@ -9,24 +9,22 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from robot_sim.humanoid import Humanoid
+from robot_sim.ros.ground_truth import GROUND_TRUTH_RATE, GroundTruthWriter
 from robot_sim.ros.node import HumanoidNode
 from robot_sim.ros.pacing import Pacing
 from robot_sim.ros.periodic_jobs import TOLERANCE, PeriodicJobs
-from robot_sim.ros.scenario_control import ScenarioControl, obey
+from robot_sim.ros.scenario_control import ScenarioControl, apply_command
 from robot_sim.ros.services import Services
-from robot_sim.ros.truth import TRUTH_RATE, TruthWriter
 
 if TYPE_CHECKING:  # no arena needs them
     from robot_sim.ros.sim_controls import SimControls
     from robot_sim.views.web_view import WebView
 
-LONGEST_CYCLE = (
-    0.02  # s of physics between two looks at the commands, unless something is to be published before
-)
-CATCH_UP_CYCLES = 6  # after this many cycles without a wait, commands are heard all the same
-PAUSE_PERIOD = 0.02  # s between two looks while the simulation stands still
-SERVICE_RATE = 20.0  # Hz, simulated: looks at the node's services
-REST_RATE = 1.0  # Hz, simulated: looks at whatever else the middleware tells, which cost forty times as much
+LONGEST_CYCLE = 0.02  # s of physics between two looks at the commands, or less if a message is due
+CATCH_UP_CYCLES = 6  # after this many cycles without a wait, commands are processed all the same
+PAUSE_PERIOD = 0.02  # s between two looks at the commands while the simulation stands still
+SERVICE_RATE = 20.0  # Hz, simulated: answers to requests
+REST_RATE = 1.0  # Hz, simulated: turns of the executor, which cost forty times as much
 
 
 def run(
@@ -35,44 +33,51 @@ def run(
     pacing: Pacing,
     is_running: Callable[[], bool],
     *,
-    truth: TruthWriter | None = None,
+    ground_truth: GroundTruthWriter | None = None,
     control: ScenarioControl | None = None,
     controls: SimControls | None = None,
     view: WebView | None = None,
 ) -> None:
     """Drive the simulation until `is_running` says no.
 
-    Truth is written at 50 Hz of simulated time; `control` is the scenario's hand on a graded robot, `controls` are
-    everybody's on one that is not, and `view` shows it.
+    Args:
+        humanoid: what is simulated.
+        node: its ROS face.
+        pacing: of simulated time against the system clock.
+        is_running: asked in every cycle.
+        ground_truth: where it is written, at 50 Hz of simulated time.
+        control: commands of a scenario, for a graded robot.
+        controls: the services under /sim, for one that is not graded.
+        view: shows the robot.
     """
     services = Services(node)
-    jobs = [(SERVICE_RATE, services.look), (REST_RATE, services.look_at_the_rest)]
-    if truth:
-        jobs.insert(0, (TRUTH_RATE, lambda: truth.robot(humanoid, pacing.take_worst_lag())))
+    jobs = [(SERVICE_RATE, services.answer_requests), (REST_RATE, services.spin_executor)]
+    if ground_truth:
+        jobs.insert(0, (GROUND_TRUTH_RATE, lambda: ground_truth.robot(humanoid, pacing.take_worst_lag())))
     chores = PeriodicJobs(*jobs)
     gc.freeze()  # what exists by now stays; looking through it again and again costs milliseconds each time
     cycles_since_wait = 0
-    if truth:
-        truth.ready()
+    if ground_truth:
+        ground_truth.ready()
     pacing.restart(humanoid.time)
     while is_running():
         if control:
             for command in control.commands():
                 pacing.lag(humanoid.time)  # noted before it is let go of
-                obey(command, humanoid, node, truth)
+                apply_command(command, humanoid, node, ground_truth)
                 pacing.restart(humanoid.time)
-                if truth:
-                    truth.commanded(command)
+                if ground_truth:
+                    ground_truth.commanded(command)
         if controls and controls.take_reset():
-            obey({"do": "reset"}, humanoid, node)
+            apply_command({"do": "reset"}, humanoid, node)
             pacing.restart(humanoid.time)
         steps = _steps_until(min(node.next_due, chores.next_due), humanoid)
         if controls:
             steps = controls.steps_due(steps)
         if steps == 0:
             time.sleep(PAUSE_PERIOD)
-            services.look()
-            node.hear()
+            services.answer_requests()
+            node.process_commands()
             continue
         for _ in range(steps):
             humanoid.step()
@@ -86,11 +91,11 @@ def run(
         cycles_since_wait += 1
         if wait > 0 or cycles_since_wait >= CATCH_UP_CYCLES:
             cycles_since_wait = 0
-            node.hear()
-    node.tell_refused()
+            node.process_commands()
+    node.report_refused()
 
 
 def _steps_until(due: float, humanoid: Humanoid) -> int:
-    """How many steps to make before something is due, at simulated time ``due`` (s), or commands are to be heard."""
+    """How many steps to make until simulated time `due` (s), or until commands are to be processed."""
     seconds = min(due - humanoid.time, LONGEST_CYCLE)
     return max(1, math.ceil((seconds - TOLERANCE) / humanoid.timestep))

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.side import Side
+from robot_sim.ros.ground_truth import GroundTruthWriter
 from robot_sim.ros.node import HumanoidNode
-from robot_sim.ros.truth import TruthWriter
 
 COMMANDS = (
     *("push", "walk", "set_battery", "battery_sensor", "robot_state", "motor_power"),
@@ -19,7 +19,7 @@ COMMANDS = (
 
 
 class ScenarioControl:
-    """Reads JSON lines such as {"do": "push", "impulse": [0, 60, 0]} without ever blocking the simulation."""
+    """A non-blocking reader of JSON lines such as {"do": "push", "impulse": [0, 60, 0]}."""
 
     def __init__(self, fd: int) -> None:
         os.set_blocking(fd, False)
@@ -38,8 +38,14 @@ class ScenarioControl:
             yield json.loads(line)
 
 
-def obey(command: dict, humanoid: Humanoid, node: HumanoidNode, truth: TruthWriter | None = None) -> None:
-    """Carry out one command; what it asks about goes to `truth`. A ValueError names the commands there are."""
+def apply_command(
+    command: dict, humanoid: Humanoid, node: HumanoidNode, ground_truth: GroundTruthWriter | None = None
+) -> None:
+    """Carry out one command; what it asks about goes to `ground_truth`.
+
+    Raises:
+        ValueError: the command is not known; the message lists the known ones.
+    """
     match command:
         case {"do": "push", "impulse": impulse, **rest}:
             humanoid.push(impulse, rest.get("duration", 0.1))
@@ -56,8 +62,8 @@ def obey(command: dict, humanoid: Humanoid, node: HumanoidNode, truth: TruthWrit
         case {"do": "move_joints", "positions": positions, "duration": duration}:
             goal = Waypoint(duration, tuple(positions.values()))
             humanoid.move_joints(JointTrajectory(tuple(positions), (goal,)))
-        case {"do": "report_arm", "side": side} if truth:
-            truth.arm(humanoid, Side.of_letter(side))
+        case {"do": "report_arm", "side": side} if ground_truth:
+            ground_truth.arm(humanoid, Side.of_letter(side))
         case {"do": "robot_state", "published": published}:
             node.robot_state_published = published
         case {"do": "motor_power", "on": on}:

@@ -11,12 +11,12 @@ import rclpy
 from rclpy.signals import SignalHandlerOptions
 
 from robot_sim.humanoid import Humanoid
+from robot_sim.ros.ground_truth import GroundTruthWriter
 from robot_sim.ros.node import HumanoidNode
 from robot_sim.ros.options import RobotOptions, parse_options
 from robot_sim.ros.pacing import Pacing
 from robot_sim.ros.run import run
 from robot_sim.ros.scenario_control import ScenarioControl
-from robot_sim.ros.truth import TruthWriter
 
 if TYPE_CHECKING:
     from robot_sim.views.web_view import WebView
@@ -28,10 +28,10 @@ LONGEST_SETTLING = 10.0  # s, simulated, until a robot that may rest does, if ev
 
 
 def build_humanoid(options: RobotOptions, built: Humanoid | None = None) -> Humanoid:
-    """The humanoid that the options ask for: ``built``, reset, if it is in their scene, else another.
+    """Reset `built` for these options if it stands in their scene, else build another humanoid.
 
-    A humanoid that is reset does to the bit what one that is made does, and a reset takes a tenth of the time. One that
-    may rest has stood until it rests.
+    After a reset a humanoid behaves bit for bit like a new one, and a reset takes a tenth of the time. A humanoid that
+    may rest is simulated until it does.
     """
     if built is None or built.scene != options.scene:
         built = Humanoid(options.scene, seed=options.seed)
@@ -48,13 +48,15 @@ def serve_robot(
     humanoid: Humanoid | None = None,
     is_running: Callable[[], bool] = lambda: True,
 ) -> None:
-    """Run the robot until SIGINT, SIGTERM, or until ``is_running`` says no; call it in the main thread.
-
-    Args:
-        humanoid: what ``build_humanoid`` has made for these options, to be used as it is; made here unless given.
+    """Run the robot until SIGINT, SIGTERM, or until `is_running` says no; call it in the main thread.
 
     Nothing of ROS may have been set up in this process or in one that it was forked from: the middleware's threads
     do not survive a fork.
+
+    Args:
+        options: how to run it.
+        humanoid: what `build_humanoid` has made for these options, to be used as it is; made here unless given.
+        is_running: asked again and again.
     """
     signalled = False
 
@@ -70,11 +72,11 @@ def serve_robot(
 
     if options.robot:
         return _show_other_robot(options.robot, options.port, goes_on)
-    truth = TruthWriter(options.truth_fd) if options.truth_fd is not None else None
+    ground_truth = GroundTruthWriter(options.truth_fd) if options.truth_fd is not None else None
     control = ScenarioControl(options.control_fd) if options.control_fd is not None else None
     humanoid = humanoid or build_humanoid(options)
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-    node = HumanoidNode(humanoid, options.namespace, truth)
+    node = HumanoidNode(humanoid, options.namespace, ground_truth)
     node.battery_sensor_connected = not options.battery_sensor_unplugged
     node.joint_sensors_connected = not options.joint_sensors_unplugged
     node.robot_state_published = not options.robot_state_unpublished
@@ -84,14 +86,23 @@ def serve_robot(
         from robot_sim.ros.sim_controls import SimControls
 
         controls = SimControls(node, humanoid, pacing)
-        node.heard += controls.heard
+        node.inboxes += controls.inboxes
         view = _open_view(humanoid, options.port) if options.view else None
         print(
             f"humanoid stands in {options.namespace} at {options.rtf:g} times real time; Ctrl-C ends it",
             flush=True,
         )
     try:
-        run(humanoid, node, pacing, goes_on, truth=truth, control=control, controls=controls, view=view)
+        run(
+            humanoid,
+            node,
+            pacing,
+            goes_on,
+            ground_truth=ground_truth,
+            control=control,
+            controls=controls,
+            view=view,
+        )
     finally:
         if view:
             view.close()

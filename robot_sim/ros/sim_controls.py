@@ -19,11 +19,11 @@ LONGEST_STEP = 60.0  # s
 
 
 class SimControls:
-    """Offers the controls under /sim, on the node of the humanoid.
+    """The controls under /sim, on the node of the humanoid.
 
     Attributes:
         paused: the simulation stands still.
-        heard: topics to listen to.
+        inboxes: of the topics it subscribes to.
     """
 
     def __init__(self, node: Node, humanoid: Humanoid, pacing: Pacing) -> None:
@@ -40,10 +40,10 @@ class SimControls:
         ]
         for service_type, name, answer in services:
             node.create_service(service_type, f"/sim/{name}", answer)
-        self.heard = [Inbox(node.create_subscription(Vector3, "/sim/push", self._push, 10))]
+        self.inboxes = [Inbox(node.create_subscription(Vector3, "/sim/push", self._push, 10))]
 
     def steps_due(self, most: int) -> int:
-        """How many steps to make now: `most`, or while paused as many of these as were asked for."""
+        """How many steps to make now: `most`; while paused, as many of them as were requested."""
         if not self.paused:
             return most
         steps = min(most, self._steps_left)
@@ -51,7 +51,7 @@ class SimControls:
         return steps
 
     def take_reset(self) -> bool:
-        """Whether a reset was asked for since the last call."""
+        """Whether a reset was requested since the last call."""
         wanted, self._reset_wanted = self._reset_wanted, False
         return wanted
 

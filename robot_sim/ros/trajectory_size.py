@@ -1,4 +1,4 @@
-"""How much a trajectory_msgs/JointTrajectory holds, read from its bytes without making a message of them."""
+"""The size of a trajectory_msgs/JointTrajectory, read from its bytes without deserializing them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ MOST_BYTES = _HEAD + MOST_POINTS * _POINT
 
 
 def why_too_large(message: bytes) -> str:
-    """Why no trajectory for this robot is like that, in words; "" for one that may be.
+    """Why a trajectory is too large for this robot, in words; "" if it is not.
 
     Raises:
         ValueError: the bytes end too soon.
@@ -28,9 +28,9 @@ def why_too_large(message: bytes) -> str:
 
 
 def count_joints_and_points(message: bytes) -> tuple[int, int]:
-    """The lengths of ``joint_names`` and ``points`` in a serialized message (CDR: OMG formal/02-06-51, 15.3).
+    """The lengths of `joint_names` and `points` in a serialized message (CDR: OMG formal/02-06-51, 15.3).
 
-    More names than a sane message has are not passed over, and their points count as none.
+    Beyond `MOST_JOINTS` names it stops reading and counts no points.
 
     Raises:
         ValueError: the bytes end too soon.

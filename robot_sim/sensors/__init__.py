@@ -1,1 +1,1 @@
-"""What the robot feels, and where it believes it is."""
+"""The inertial sensor, and the state estimated from all sensors."""

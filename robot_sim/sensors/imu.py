@@ -1,5 +1,7 @@
 """The inertial measurement unit in the pelvis."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import mujoco

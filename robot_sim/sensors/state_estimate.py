@@ -1,12 +1,14 @@
-"""Where the robot believes it is: the floating base from inertial sensor, joint encoders and foot contacts."""
+"""The estimated pose and velocity of the floating base, from inertial sensor, joint encoders and foot contacts."""
+
+from __future__ import annotations
 
 from dataclasses import dataclass
 
 import mujoco
 import numpy as np
 
-from robot_sim.model.side import SIDES
 from robot_sim.model.gravity import GRAVITY
+from robot_sim.model.side import SIDES
 from robot_sim.sensors.imu import Imu
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -14,7 +16,7 @@ UP = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True, slots=True)
 class EstimateParameters:
-    """How sensors are blended into the state the robot believes to be in."""
+    """How much each sensor weighs in the estimate."""
 
     contact_force: float = 30.0  # N; a foot that bears more stands still
     tilt_gain: float = 0.3  # 1/s, of the accelerometer's correction
@@ -25,20 +27,20 @@ class EstimateParameters:
 
 
 class StateEstimate:
-    """A second MjData whose base is estimated while its joints are measured; the controller can read it like the first.
+    """An MjData with an estimated base and measured joints, for the controller to read instead of the true one.
 
     Attitude: the gyro, less its bias, integrated; the accelerometer slowly corrects the tilt (R. Mahony, T. Hamel,
     J.-M. Pflimlin, "Nonlinear complementary filters on the special orthogonal group", IEEE TAC 53, 2008). Nothing
     corrects the heading, which drifts. Velocity: the accelerometer integrated, corrected by leg odometry: a foot that
-    bears load stands still. Position: the velocity integrated, held to where the loaded feet came down, and to a level
-    floor in height.
+    bears load does not move. Position: the velocity integrated, corrected towards the places where the loaded feet
+    landed and, in height, towards a level floor.
 
     Args:
         model, data: the simulation, of which only encoders, touch sensors and IMU are read.
         imu: its inertial sensor.
 
     Attributes:
-        data: the believed state.
+        data: the estimated state.
     """
 
     def __init__(
@@ -57,11 +59,11 @@ class StateEstimate:
         self._anchors: list[np.ndarray | None] = [None, None]
         self._gyro_bias = np.zeros(3)
         self._jacobian = np.zeros((3, model.nv))
-        self.data.qpos[:], self.data.qvel[:] = data.qpos, data.qvel  # it is told where it is set up
+        self.data.qpos[:], self.data.qvel[:] = data.qpos, data.qvel  # the first pose is given
         self._compute()
 
     def tick(self, dt: float) -> None:
-        """Take in the sensors and move on by ``dt`` (s)."""
+        """Read the sensors and predict the state `dt` (s) later."""
         sample = self._imu.read()
         loads = self._loads()
         self._learn_gyro_bias(sample.angular_velocity, all(loads), dt)
@@ -76,49 +78,53 @@ class StateEstimate:
         return [load if load > self._parameters.contact_force else 0.0 for load in loads]
 
     def _predict(self, force: np.ndarray, rate: np.ndarray, dt: float) -> np.ndarray:
-        """Move the base on by accelerometer (m/s²) and gyro (rad/s), both in base_link; returns its velocity, m/s."""
-        believed, measured = self.data, self._measured
-        rotation = believed.xmat[self._pelvis].reshape(3, 3)
+        """Integrate accelerometer (m/s²) and gyro (rad/s), both in base_link.
+
+        Returns:
+            The velocity of the base, m/s, world frame.
+        """
+        estimated, measured = self.data, self._measured
+        rotation = estimated.xmat[self._pelvis].reshape(3, 3)
         tilt = np.cross(force / np.linalg.norm(force), rotation.T @ UP)
-        velocity = believed.qvel[:3] + (rotation @ force - GRAVITY * UP) * dt
-        mujoco.mju_quatIntegrate(believed.qpos[3:7], rate + self._parameters.tilt_gain * tilt, dt)
-        believed.qpos[:3] += velocity * dt
-        believed.qpos[7:], believed.qvel[6:] = measured.qpos[7:], measured.qvel[6:]
-        believed.qvel[:3], believed.qvel[3:6] = 0.0, rate
-        mujoco.mj_kinematics(self._model, believed)
-        mujoco.mj_comPos(self._model, believed)
+        velocity = estimated.qvel[:3] + (rotation @ force - GRAVITY * UP) * dt
+        mujoco.mju_quatIntegrate(estimated.qpos[3:7], rate + self._parameters.tilt_gain * tilt, dt)
+        estimated.qpos[:3] += velocity * dt
+        estimated.qpos[7:], estimated.qvel[6:] = measured.qpos[7:], measured.qvel[6:]
+        estimated.qvel[:3], estimated.qvel[3:6] = 0.0, rate
+        mujoco.mj_kinematics(self._model, estimated)
+        mujoco.mj_comPos(self._model, estimated)
         return velocity
 
     def _correct(self, velocity: np.ndarray, loads: list[float]) -> None:
-        """Correct velocity (m/s) and position of the base by the feet that stand, each by its share of the load."""
-        believed, gains = self.data, self._parameters
+        """Correct velocity (m/s) and position of the base by the feet that stand, weighted by their load."""
+        estimated, gains = self.data, self._parameters
         moved = np.zeros(3)
         for side, sole in zip(SIDES, self._soles, strict=True):
             if not loads[side]:
                 self._anchors[side] = None
                 continue
-            share, place = loads[side] / sum(loads), believed.site_xpos[sole]
+            share, place = loads[side] / sum(loads), estimated.site_xpos[sole]
             if self._anchors[side] is None:
                 self._anchors[side] = np.array([place[0], place[1], 0.0])
-            mujoco.mj_jacSite(self._model, believed, self._jacobian, None, sole)
-            # The base's own velocity is 0 in the believed state as yet: this is the foot's, seen from the base.
-            velocity += gains.odometry_gain * share * (-self._jacobian @ believed.qvel - velocity)
+            mujoco.mj_jacSite(self._model, estimated, self._jacobian, None, sole)
+            # The estimated base still has velocity 0 here, so this is the foot's velocity relative to the base.
+            velocity += gains.odometry_gain * share * (-self._jacobian @ estimated.qvel - velocity)
             moved += gains.anchor_gain * share * (self._anchors[side] - place)
-        believed.qpos[:3] += moved
-        believed.qvel[:3] = velocity
+        estimated.qpos[:3] += moved
+        estimated.qvel[:3] = velocity
 
     def _learn_gyro_bias(self, rate: np.ndarray, stands: bool, dt: float) -> None:
-        """A robot that stands still turns at no rate."""
+        """Learn the bias while the robot stands still, when the true rate is 0."""
         gains = self._parameters
         if stands and np.abs(rate).max() < gains.still:
             self._gyro_bias += dt / gains.bias_time * (rate - self._gyro_bias)
 
     def _compute(self) -> None:
-        """Everything that the controller reads of a state; kinematics (3 µs) again, as the feet have moved the base."""
-        model, believed = self._model, self.data
-        mujoco.mj_kinematics(model, believed)
-        mujoco.mj_comPos(model, believed)
-        mujoco.mj_makeM(model, believed)
-        mujoco.mj_comVel(model, believed)
-        mujoco.mj_subtreeVel(model, believed)
-        mujoco.mj_rne(model, believed, 0, believed.qfrc_bias)
+        """Compute all that the controller reads; kinematics (3 µs) again, because the correction moved the base."""
+        model, estimated = self._model, self.data
+        mujoco.mj_kinematics(model, estimated)
+        mujoco.mj_comPos(model, estimated)
+        mujoco.mj_makeM(model, estimated)
+        mujoco.mj_comVel(model, estimated)
+        mujoco.mj_subtreeVel(model, estimated)
+        mujoco.mj_rne(model, estimated, 0, estimated.qfrc_bias)

@@ -4,8 +4,8 @@ import math
 from collections.abc import Sequence
 
 from robot_sim.humanoid import Humanoid
-from robot_sim.walking.walking_limits import WalkingLimits
 from robot_sim.trials.trial import Clock, Run, Summary, Trial, base_speed, run_of, simulate, summary
+from robot_sim.walking.walking_limits import WalkingLimits
 from ros_runtime.angles import wrap
 
 LIMITS = WalkingLimits()

@@ -1,5 +1,7 @@
 """Moving pictures of the robot, as a file that browsers, notebooks and slides play: animated WebP."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from pathlib import Path
@@ -22,7 +24,7 @@ def film(
     camera: str = "track",
     each_step: Callable[[], object] = lambda: None,
 ) -> None:
-    """Simulate for ``seconds`` and write what is seen to ``file``; ``each_step`` is called before every timestep.
+    """Simulate for `seconds` and write what is seen to `file`; `each_step` is called before every timestep.
 
     Raises:
         ValueError: the duration is not positive, or the model has no such camera.
@@ -44,10 +46,10 @@ def film(
 
 
 class Reel:
-    """Frames of one robot; ``close()`` it, because it holds an OpenGL context.
+    """Frames of one robot; `close()` it, because it holds an OpenGL context.
 
     Args:
-        humanoid: whom to film.
+        humanoid: the robot to film.
         width, height: px.
         camera: "track", "side", "front" or "head_camera".
         rate: frames a second at which it is played.

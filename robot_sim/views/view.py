@@ -1,5 +1,7 @@
 """Pictures of the robot, drawn off-screen."""
 
+from __future__ import annotations
+
 import copy
 
 import mujoco
@@ -13,7 +15,7 @@ def snapshot(humanoid: Humanoid, width: int = 640, height: int = 480, *, camera:
     """One RGB picture (height, width, 3), uint8, of the robot where it is.
 
     Args:
-        humanoid: whom to draw.
+        humanoid: the robot to draw.
         width, height: px.
         camera: "track" (from the front right, follows the robot), "side", "front" or "head_camera".
 
@@ -29,7 +31,7 @@ def snapshot(humanoid: Humanoid, width: int = 640, height: int = 480, *, camera:
 
 
 class View:
-    """Draws one robot again and again; ``close()`` it, because an open OpenGL context outlives its object.
+    """A renderer of one robot; `close()` it, because an open OpenGL context outlives its object.
 
     Args:
         humanoid: whom to draw.

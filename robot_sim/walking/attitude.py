@@ -1,12 +1,14 @@
 """Attitude errors in plain floats. Rotation matrices are nine numbers, row by row."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 Vector = tuple[float, float, float]
 
 
 def upright_error(rotation: Sequence[float], cos_yaw: float, sin_yaw: float) -> Vector:
-    """The rotation vector (rad, world frame, small angles) from ``rotation`` to upright with the given yaw.
+    """The rotation vector (rad, world frame, small angles) from `rotation` to upright with the given yaw.
 
     ½ vee(E - Eᵀ) of E = R_wanted Rᵀ: its length is the sine of the angle.
     """

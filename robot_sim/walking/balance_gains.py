@@ -1,13 +1,15 @@
 """How stiffly the trunk is held upright: the gains of humanoid_interfaces/BalanceGains."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, fields
 
 import mujoco
 import numpy as np
 
-from robot_sim.model.side import SIDES
 from robot_sim.model.gravity import GRAVITY
+from robot_sim.model.side import SIDES
 from robot_sim.walking.balance_parameters import BalanceParameters
 from robot_sim.walking.planar import clamp
 
@@ -16,9 +18,9 @@ UNLIMITED = 1e4  # N·m, more than any motion asks for
 
 @dataclass(frozen=True)
 class BalanceGains:
-    """Torques about the hips that hold the trunk upright: kp·angle - kd·rate, at most ``max_torque``.
+    """Torques about the hips that hold the trunk upright: kp·angle - kd·rate, at most `max_torque`.
 
-    They have gravity against them, which topples a trunk that leans by ``Trunk.topple`` (N·m/rad): kp below it lets
+    They have gravity against them, which topples a trunk that leans by `Trunk.topple` (N·m/rad): kp below it lets
     the robot fall over, and a kd that is too large for the controller's 200 Hz makes it shake itself over.
 
     Attributes:
@@ -27,7 +29,7 @@ class BalanceGains:
         max_torque: N·m.
 
     Raises:
-        ValueError: a number is negative or not finite, or ``max_torque`` is 0.
+        ValueError: a number is negative or not finite, or `max_torque` is 0.
     """
 
     kp_pitch: float
@@ -45,17 +47,17 @@ class BalanceGains:
             raise ValueError("max_torque is 0; expected more, or nothing holds the robot upright")
 
     def roll_torque(self, error: float, rate: float) -> float:
-        """N·m about the roll axis for a tilt ``error`` (rad) that is to go and a ``rate`` (rad/s)."""
+        """N·m about the roll axis for a tilt `error` (rad) that is to go and a `rate` (rad/s)."""
         return clamp(self.kp_roll * error - self.kd_roll * rate, -self.max_torque, self.max_torque)
 
     def pitch_torque(self, error: float, rate: float) -> float:
-        """N·m about the pitch axis for a tilt ``error`` (rad) that is to go and a ``rate`` (rad/s)."""
+        """N·m about the pitch axis for a tilt `error` (rad) that is to go and a `rate` (rad/s)."""
         return clamp(self.kp_pitch * error - self.kd_pitch * rate, -self.max_torque, self.max_torque)
 
 
 @dataclass(frozen=True)
 class Trunk:
-    """All that is above the hips, legs excepted, as one inverted pendulum on them.
+    """Everything except the legs, as one inverted pendulum on the hips.
 
     Attributes:
         roll_inertia, pitch_inertia: about the hips, kg·m².

@@ -1,4 +1,6 @@
-"""What the gait asks of the body in one tick."""
+"""The interface between gait and whole-body controller."""
+
+from __future__ import annotations
 
 from typing import NamedTuple
 
@@ -7,7 +9,7 @@ from robot_sim.walking.swing import SwingReference
 
 
 class BalanceTask(NamedTuple):
-    """The gait's wish for the next tick; world frame."""
+    """What the gait asks of the body for the next tick; world frame."""
 
     cop: Point  # m, centre of pressure that moves the DCM as planned
     yaw: float  # rad, heading of the body

@@ -1,5 +1,7 @@
 """Crouching and standing up: the height of the pelvis that the whole-body controller holds."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 
@@ -19,7 +21,7 @@ class HeightLimits:
 
 
 class BodyHeight:
-    """Lowers and raises a standing robot; a robot that is to walk is raised first.
+    """The controller of the pelvis' height; before walking it raises a crouching robot.
 
     Attributes:
         rate: m/s, upwards, that the body is asked to move at.
@@ -35,17 +37,17 @@ class BodyHeight:
 
     @property
     def is_risen(self) -> bool:
-        """High enough to walk."""
+        """Whether the pelvis is high enough to walk."""
         return self._walker.height > self._stance - self._limits.risen
 
     @property
     def is_idle(self) -> bool:
-        """It is not told to go anywhere, or is where it was told to go."""
+        """Whether no motion is commanded, or it is done."""
         goes = self.rate < 0 or (self.rate > 0 and self._walker.height < self._stance)
         return not goes and (self.change is None or self.change.phase.is_last)
 
     def move(self, rate: float) -> None:
-        """Go up at ``rate`` (m/s; negative: down) until told otherwise, within the limits of height and speed.
+        """Go up at `rate` (m/s; negative: down) until told otherwise, within the limits of height and speed.
 
         Raises:
             ValueError: the rate is not finite.
@@ -72,16 +74,16 @@ class BodyHeight:
         return self.change
 
     def interrupt(self, problem: str) -> None:
-        """Let a change that goes on fail, and say why; the height that is reached stays."""
+        """Make a running change fail for this reason; the height stays as it is."""
         if self.change is not None:
             self.change.fail(problem)
 
     def set(self, height: float) -> None:
-        """Take a height (m) at once, as a robot that is put there does."""
+        """Set the height (m) at once."""
         self._walker.height = self._within_limits(height)
 
     def tick(self, dt: float) -> None:
-        """Move the reference for the next ``dt`` (s); the body goes down only while both feet stand."""
+        """Move the reference for the next `dt` (s); the body goes down only while both feet stand."""
         if self.rate > 0 or (self.rate < 0 and self._walker.stands):
             self.set(self._walker.height + self.rate * dt)
         elif self.change is not None and not self.change.phase.is_last:

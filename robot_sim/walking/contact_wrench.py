@@ -1,14 +1,16 @@
-"""From the force the motion needs to what each foot does: total wrench, its centre of pressure, the split."""
+"""The contact wrench that a motion needs, its centre of pressure, and its split between the feet."""
+
+from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
 from robot_sim.model.dimensions import Dimensions
-from robot_sim.model.side import Side
 from robot_sim.model.gravity import GRAVITY
-from robot_sim.walking.balance_parameters import BalanceParameters
+from robot_sim.model.side import Side
 from robot_sim.walking.attitude import to_world
+from robot_sim.walking.balance_parameters import BalanceParameters
 from robot_sim.walking.dcm_plan import Point
 from robot_sim.walking.planar import Frame, clamp
 from robot_sim.walking.sensing import Sensing
@@ -29,16 +31,16 @@ def contact_wrench(
 ) -> ContactWrench:
     """The wrench that makes the base move as wanted.
 
+    The CoP is the point of the floor about which the moment has no horizontal part: P. Sardain, G. Bessonnet,
+    "Forces acting on a biped robot. Center of pressure - zero moment point", IEEE Transactions on Systems,
+    Man, and Cybernetics A 34(5), 2004.
+
     Args:
         base_rows: the six generalized forces of the free joint that inverse dynamics leaves over: force (N)
             in the world, moment (N·m) in and about base_link. Nothing but the floor can supply them.
         sensed: the robot now.
         mass: of the robot, kg.
         limits: load and friction; the force is brought within them.
-
-    The CoP is the point of the floor about which the moment has no horizontal part: P. Sardain, G. Bessonnet,
-    "Forces acting on a biped robot. Center of pressure - zero moment point", IEEE Transactions on Systems,
-    Man, and Cybernetics A 34(5), 2004.
     """
     fx, fy, fz = base_rows[:3]
     weight = mass * GRAVITY
@@ -57,7 +59,7 @@ def contact_wrench(
 
 
 class LoadSplit:
-    """Shares a contact wrench between the feet, each CoP kept on its sole."""
+    """The split of a contact wrench between the feet, with each CoP on its sole."""
 
     def __init__(self, size: Dimensions, limits: BalanceParameters) -> None:
         self._length = size.sole_half_length * limits.sole_edge_share
@@ -67,10 +69,10 @@ class LoadSplit:
     def foot_wrench(
         self, side: Side, wrench: ContactWrench, left_share: float, sensed: Sensing, shift: Point
     ) -> tuple[float, ...] | None:
-        """Force (N) and moment (N·m) about the sole's centre, world frame; None for a foot without load.
+        """The force (N) and moment (N·m) about the sole's centre, world frame; None for a foot without load.
 
         Both CoPs have the same offset from their soles' centres: the one of the total CoP from the load-
-        weighted mean of the centres, and ``shift`` (m) of this foot.
+        weighted mean of the centres, and `shift` (m) of this foot.
         """
         share = left_share if side is Side.LEFT else 1 - left_share
         if share < 1e-3:

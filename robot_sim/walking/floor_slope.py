@@ -1,14 +1,15 @@
-"""How the floor slopes, felt with the sole of the foot that stands."""
+"""The slope of the floor, measured by the tilt of the stance foot's sole."""
+
+from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 
-
 @dataclass(frozen=True, slots=True)
 class SlopeParameters:
-    """How the slope of the floor is felt, and what is believed of it."""
+    """How the felt slope is filtered and bounded."""
 
     filter_time: float = 0.2  # s
     level: float = 0.0175  # m/m; less is level
@@ -18,8 +19,8 @@ class SlopeParameters:
 class FloorSlope:
     """A low-pass filter of the sole's tilt.
 
-    A foot that rolls over its edge tilts too: what is too little for a slope counts as level, and what is too much as
-    the steepest one.
+    A foot that rolls over its edge tilts too, so the estimate is bounded: small tilts count as level, large ones as the
+    steepest slope.
     """
 
     def __init__(self, timestep: float, parameters: SlopeParameters | None = None) -> None:

@@ -1,4 +1,6 @@
-"""What to do about a foot that tips over the edge of something it stands on, such as a bump."""
+"""The reaction to a foot that tips over the edge of something it stands on, such as a bump."""
+
+from __future__ import annotations
 
 import math
 from collections.abc import Sequence
@@ -6,12 +8,12 @@ from dataclasses import dataclass
 
 from robot_sim.walking.dcm_plan import Point
 
-NOWHERE = (0.0, 0.0)
+NO_SHIFT = (0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
 class TippingParameters:
-    """How the centre of pressure answers a foot that tips."""
+    """Gains of the reaction to a foot that tips."""
 
     tolerated: float = 0.05  # rad, lean of the sole against the floor
     stiffness: float = 1.0  # m/rad
@@ -35,7 +37,7 @@ def cop_against_tipping(
     lean_x, lean_y = sole[2] + slope[0], sole[5] + slope[1]
     lean = math.hypot(lean_x, lean_y)
     if lean < parameters.tolerated:
-        return NOWHERE
+        return NO_SHIFT
     share = parameters.stiffness * (1 - parameters.tolerated / lean)
     # The rate of the normal, ω × n with n close to z.
     return (

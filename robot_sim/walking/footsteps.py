@@ -1,4 +1,6 @@
-"""Where the next feet go: from a walking command to a short sequence of footsteps."""
+"""Footstep planning: from a walking command to a short sequence of footsteps."""
+
+from __future__ import annotations
 
 import math
 from typing import NamedTuple
@@ -18,7 +20,7 @@ class Footstep(NamedTuple):
 
 
 class Goal(NamedTuple):
-    """Walk until the midpoint of the feet has this pose (m, m, rad), odom frame."""
+    """A command to walk until the midpoint of the feet has this pose (m, m, rad), odom frame."""
 
     x: float
     y: float
@@ -26,7 +28,7 @@ class Goal(NamedTuple):
 
 
 class Velocity(NamedTuple):
-    """Walk on at this velocity (m/s, m/s, rad/s) in the frame of the body."""
+    """A command to walk at this velocity (m/s, m/s, rad/s) in the frame of the body."""
 
     vx: float
     vy: float
@@ -39,7 +41,7 @@ Command = Goal | Velocity | None  # None: stand
 def plan_footsteps(
     command: Command, stance: Footstep, stance_side: Side, gait: GaitParameters, limits: StepLimits
 ) -> list[Footstep]:
-    """The next ``gait.planned_steps`` footsteps, the first one by the foot that is not ``stance_side``.
+    """The next `gait.planned_steps` footsteps, the first one by the foot that is not `stance_side`.
 
     The centre of the body (half the feet's width inward of the stance foot) is moved as the command wants, as
     far as the limits of a step allow; the swing foot lands half the width outward of the centre.

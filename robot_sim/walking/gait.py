@@ -1,10 +1,11 @@
 """The gait: standing, shifting the weight before the first step, and stepping."""
 
+from __future__ import annotations
+
 import math
 from enum import Enum
 
 from robot_sim.model.side import SIDES, Side
-from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.balance_task import BalanceTask
 from robot_sim.walking.dcm_plan import dcm_at_touchdown, dcm_before
 from robot_sim.walking.footsteps import Command, Footstep, Goal, Velocity, plan_footsteps
@@ -12,6 +13,7 @@ from robot_sim.walking.planar import Frame
 from robot_sim.walking.sensing import Sensing
 from robot_sim.walking.step_in_progress import StepInProgress
 from robot_sim.walking.support import Support
+from robot_sim.walking.walker_parameters import WalkerParameters
 from ros_runtime.angles import wrap
 
 
@@ -22,7 +24,7 @@ class Phase(Enum):
 
 
 class Gait:
-    """Decides, tick by tick, which foot stands and where the centre of pressure should be.
+    """The state machine that decides, tick by tick, which foot stands and where the CoP should be.
 
     Attributes:
         phase: what the feet are doing.
@@ -44,7 +46,7 @@ class Gait:
         self._shift_time = 0.0
 
     def follow(self, command: Command) -> None:
-        """Walk as ``command`` says from the next footstep on; None ends with the feet side by side."""
+        """Walk as `command` says from the next footstep on; None ends with the feet side by side."""
         if type(command) is not type(self._command) or command != self._command:
             self._command = command
             self._replan = True
@@ -57,11 +59,11 @@ class Gait:
 
     @property
     def is_idle(self) -> bool:
-        """It was told nothing that is not done."""
+        """Whether no command is left to do."""
         return self._command is None and self._step is None
 
     def update(self, sensed: Sensing, cop_shift: tuple[float, float], dt: float) -> BalanceTask:
-        """One tick of ``dt`` (s).
+        """Advance by one tick of `dt` (s).
 
         Args:
             sensed: the robot now.
@@ -164,7 +166,7 @@ class Gait:
         return self._step
 
     def _touch_down(self, side: Side, sensed: Sensing) -> None:
-        """The foot of ``side`` stands: end the walk if nothing is left to do, else step on."""
+        """Take the foot of `side` as landed: end the walk if nothing is left to do, else take another step."""
         self.steps += 1
         self._stance_side = side
         arrived = self._arrived(sensed)
@@ -175,7 +177,7 @@ class Gait:
         self._begin_step(self._gait.duration, self._gait.double_support, sensed)
 
     def _can_stand(self, sensed: Sensing) -> bool:
-        """True when the feet are side by side and the DCM is near enough to their middle to be held there."""
+        """Whether the feet are side by side and the DCM is near enough to their middle to be held there."""
         gait = self._gait
         centre = Frame(*sensed.feet_centre)
         forward, left = centre.local(*sensed.dcm)

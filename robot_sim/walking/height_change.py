@@ -1,8 +1,10 @@
-"""Crouching and standing up in phases, each of which ends when the robot is seen to be so far."""
+"""Crouching and standing up in phases, each of which ends when measurements confirm it."""
+
+from __future__ import annotations
 
 import math
-from enum import Enum
 from dataclasses import dataclass
+from enum import Enum
 
 from robot_sim.walking.planar import clamp
 from robot_sim.walking.walker import Walker
@@ -12,7 +14,7 @@ PEAK_OVER_MEAN = 15 / 8  # speed of a minimum-jerk motion
 
 @dataclass(frozen=True, slots=True)
 class HeightChangeParameters:
-    """When a phase of crouching or standing up has ended."""
+    """Conditions that end the phases of crouching and standing up."""
 
     balanced: float = 0.02  # m, DCM from the middle of the feet, to set out
     least_load_share: float = 0.4  # of what both feet bear, on either, to set out
@@ -26,7 +28,7 @@ class HeightChangeParameters:
 
 
 class HeightPhase(Enum):
-    """Where a change of height is; the values are words for a student's feedback."""
+    """The phase of a change of height; the values are words for a student's feedback."""
 
     SHIFTING = "shifting"  # the weight comes to rest over the middle of both feet
     LOWERING = "lowering"
@@ -37,12 +39,12 @@ class HeightPhase(Enum):
 
     @property
     def is_last(self) -> bool:
-        """Nothing follows it."""
+        """Whether no phase follows."""
         return self in (HeightPhase.DONE, HeightPhase.FAILED)
 
 
 class HeightChange:
-    """One way of the pelvis to a height, along a minimum-jerk profile.
+    """A motion of the pelvis to a height along a minimum-jerk profile.
 
     T. Flash, N. Hogan, "The coordination of arm movements", Journal of Neuroscience 5(7), 1985. A push that carries the
     weight away from the middle of the feet, or makes the robot step, takes it back to shifting; from there it goes on.
@@ -53,8 +55,8 @@ class HeightChange:
         speed: of the profile at most, m/s.
 
     Attributes:
-        phase: where it is now.
-        problem: why it failed, in words; "" as long as it has not.
+        phase: the present one.
+        problem: why it failed, in words, else "".
         height: that the pelvis should have now, m.
     """
 
@@ -78,7 +80,7 @@ class HeightChange:
 
     @property
     def percent_complete(self) -> float:
-        """Share of the way that the pelvis has really gone, 0 to 100; 100 only when it is done."""
+        """Share of the way that the pelvis has gone, 0 to 100, as measured; 100 only when it is done."""
         if self.phase is HeightPhase.DONE:
             return 100.0
         way = self._target - self._first_height
@@ -87,13 +89,13 @@ class HeightChange:
         return clamp(100 * (self._measured_height() - self._first_height) / way, 0.0, 99.0)
 
     def fail(self, problem: str) -> None:
-        """End it for a reason from outside, such as a fall, unless it has ended."""
+        """End an unfinished change for an outside reason, such as a fall."""
         if not self.phase.is_last:
             self.problem = f"{problem} while {self.phase.value}"
             self.phase = HeightPhase.FAILED
 
     def tick(self, dt: float) -> None:
-        """Take in the state and move ``height`` for the next ``dt`` (s); not to be called once it has ended."""
+        """Take in the state and move `height` for the next `dt` (s); not to be called once it has ended."""
         self._time += dt
         if self._time > self._parameters.patience:
             self.fail(f"not done within {self._parameters.patience:g} s ({self._state()})")
@@ -129,7 +131,7 @@ class HeightChange:
         self.phase, self._fulfilled = phase, 0.0
 
     def _lasts(self, condition: bool, dt: float) -> bool:
-        """Whether a condition has been true without a break for as long as counts."""
+        """Whether a condition has been true for long enough without a break."""
         self._fulfilled = self._fulfilled + dt if condition else 0.0
         return self._fulfilled >= self._parameters.hold
 
@@ -151,7 +153,7 @@ class HeightChange:
         return math.hypot(*self._sensed.base_velocity[:3])
 
     def _is_balanced(self) -> bool:
-        """Both feet stand, bear about the same, and the weight rests between them."""
+        """Whether both feet stand, bear about the same, and the weight rests between them."""
         loads = self._sensed.foot_loads
         even = min(loads) >= self._parameters.least_load_share * sum(loads) > 0
         return self._walker.stands and even and self._offset() < self._parameters.balanced

@@ -1,15 +1,17 @@
 """Frames in the plane of the floor, in plain floats because they are used 200 times a second."""
 
+from __future__ import annotations
+
 import math
 
 
 def clamp(value: float, low: float, high: float) -> float:
-    """The nearest number to ``value`` in [low, high]."""
+    """The nearest number to `value` in [low, high]."""
     return low if value < low else high if value > high else value
 
 
 class Frame:
-    """A pose (x, y, yaw) in the plane; with ``mirror`` -1 its y axis points right instead of left.
+    """A pose (x, y, yaw) in the plane; with `mirror` -1 its y axis points right instead of left.
 
     The mirror lets one equation serve both legs: in the frame of a stance foot that is mirrored for the right
     swing foot, +y is always outward, towards the swing foot.

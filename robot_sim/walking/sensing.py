@@ -4,12 +4,14 @@ Views of MuJoCo's arrays are made once and turned into lists in bulk: indexing N
 costs more than the arithmetic done with the numbers.
 """
 
+from __future__ import annotations
+
 import math
 
 import mujoco
 
-from robot_sim.model.side import SIDES, Side
 from robot_sim.model.gravity import GRAVITY
+from robot_sim.model.side import SIDES, Side
 from robot_sim.walking.floor_slope import FloorSlope
 from ros_runtime.angles import wrap
 
@@ -18,7 +20,7 @@ class Sensing:
     """The robot as its controller sees it, in the world frame.
 
     Args:
-        data: the state it is in, or believes to be in.
+        data: the state it is in, true or estimated.
         measured: has the touch sensors.
 
     Attributes:
@@ -53,7 +55,7 @@ class Sensing:
         self.read(swing_side=None)
 
     def read(self, swing_side: Side | None) -> None:
-        """Take in the present state; ``swing_side`` is the foot in the air, if any."""
+        """Take in the present state; `swing_side` is the foot in the air, if any."""
         self.com = self._com.tolist()
         self.com_velocity = self._com_velocity.tolist()
         self.soles = [sole.tolist() for sole in self._soles]

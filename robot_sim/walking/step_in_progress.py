@@ -1,9 +1,10 @@
 """One step in progress: when the swing foot lands, where, and the centre of pressure until then."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 from robot_sim.model.side import Side
-from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.balance_task import BalanceTask
 from robot_sim.walking.dcm_plan import Point, cop_to_reach, dcm_after, time_to_reach
 from robot_sim.walking.footsteps import Footstep
@@ -11,6 +12,7 @@ from robot_sim.walking.planar import Frame, clamp
 from robot_sim.walking.sensing import Sensing
 from robot_sim.walking.support import Support
 from robot_sim.walking.swing import SwingReference, swing_reference
+from robot_sim.walking.walker_parameters import WalkerParameters
 from ros_runtime.angles import wrap
 
 SHORTEST_REMAINDER = 0.06  # s; a CoP that had to act faster would jump
@@ -56,14 +58,14 @@ class StepInProgress:
         self._lift_off_height = 0.0
 
     def aim(self, footsteps: Sequence[Footstep], dcm_at_touchdown: Point) -> None:
-        """Head for the first of ``footsteps`` with that DCM (m) at touchdown."""
+        """Head for the first of `footsteps` with that DCM (m) at touchdown."""
         self.target = footsteps[0]
         if self.time == 0.0:
             self._landing = self.target
         self.dcm_at_touchdown = dcm_at_touchdown
 
     def has_landed(self, sensed: Sensing) -> bool:
-        """True once the swing foot bears load (or should have, long ago)."""
+        """Whether the swing foot bears load, or is long overdue."""
         if not self.in_swing:
             return False
         gait = self._parameters.gait
@@ -72,7 +74,7 @@ class StepInProgress:
         return overdue or (touches and self.progress > gait.touchdown_progress)
 
     def advance(self, sensed: Sensing, cop_shift: Point, dt: float) -> BalanceTask:
-        """One tick of ``dt`` (s); the task until the next one."""
+        """Advance by one tick of `dt` (s) and return the task until the next one."""
         self.time += dt
         x, y, _ = sensed.soles[self.stance_side]
         stance = Frame(x, y, sensed.foot_yaws[self.stance_side], self._outward)

@@ -1,9 +1,10 @@
-"""Keeping a wanted centre of pressure (CoP) where the feet can produce it.
+"""The limits within which the feet can produce a centre of pressure (CoP).
 
-Turning the body and swinging a leg also shift the CoP. This share, ``cop_shift``, comes back from the whole-
-body controller and is set aside first, so that the body stays upright even where the balance would like the
-whole sole.
+Turning the body and swinging a leg also shift the CoP. The whole-body controller reports this `cop_shift`, and room
+for it is reserved first, so that the body stays upright even where balancing alone would use the whole sole.
 """
+
+from __future__ import annotations
 
 from robot_sim.model.dimensions import Dimensions
 from robot_sim.walking.balance_parameters import BalanceParameters

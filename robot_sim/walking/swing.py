@@ -1,5 +1,7 @@
 """The path of a foot through the air."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 from robot_sim.model.side import Side
@@ -10,7 +12,7 @@ Vector = tuple[float, float, float]
 
 
 class SwingReference(NamedTuple):
-    """Where the swing sole should be now; world frame."""
+    """The wanted state of the swing sole; world frame."""
 
     side: Side
     position: Vector  # m
@@ -37,11 +39,11 @@ def swing_reference(
     overdue: float,
     slope: tuple[float, float],
 ) -> SwingReference:
-    """The reference of a foot at ``progress`` (0 to 1) of its swing, which passes at ``rate`` (1/s).
+    """The reference of a foot at `progress` (0 to 1) of its swing, which passes at `rate` (1/s).
 
-    Horizontally a quintic with zero speed and acceleration at both ends; vertically a bump of ``step_height``
+    Horizontally a quintic with zero speed and acceleration at both ends; vertically a bump of `step_height`
     (m). A landing that moves while the foot is in the air bends the rest of the path. When touchdown is
-    ``overdue`` (s) the foot is pushed down until it meets the floor.
+    `overdue` (s) the foot is pushed down until it meets the floor.
     """
     q = progress
     blend = q * q * q * (10 + q * (6 * q - 15))

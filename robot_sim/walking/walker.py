@@ -1,48 +1,50 @@
 """The walking controller: sense, decide the gait, command the whole body."""
 
+from __future__ import annotations
+
 import mujoco
 
-from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.balance_gains import BalanceGains, Trunk
 from robot_sim.walking.footsteps import Command
 from robot_sim.walking.gait import Gait, Phase
 from robot_sim.walking.sensing import Sensing
+from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.whole_body import WholeBody
 
 
 class Walker:
-    """Keeps a humanoid on its feet and walks it; make a fresh one whenever the data's state was replaced.
+    """The controller that balances and walks a humanoid; make a new one whenever the data's state was replaced.
 
     Args:
         data: whose motors and touch sensors are used.
-        believed: the state to act on; ``data`` itself unless the state is estimated.
+        state: what to act on; `data` itself unless the state is estimated.
     """
 
     def __init__(
         self,
         model: mujoco.MjModel,
         data: mujoco.MjData,
-        believed: mujoco.MjData,
+        state: mujoco.MjData,
         trunk: Trunk,
         parameters: WalkerParameters,
     ) -> None:
         self.gait = Gait(parameters)
-        self.sensed = Sensing(model, believed, data)
-        self._whole_body = WholeBody(model, believed, data.ctrl, trunk, parameters)
+        self.sensed = Sensing(model, state, data)
+        self._whole_body = WholeBody(model, state, data.ctrl, trunk, parameters)
 
     @property
     def stands(self) -> bool:
-        """Both feet stand and no step is asked for."""
+        """Whether both feet stand and no step is planned."""
         return self.gait.phase is Phase.STAND
 
     @property
     def is_idle(self) -> bool:
-        """Both feet stand, and it is not told to walk."""
+        """Whether both feet stand without a command to walk."""
         return self.stands and self.gait.is_idle
 
     @property
     def height(self) -> float:
-        """Of the pelvis above the floor (m) that is held."""
+        """Height of the pelvis above the floor that is held, m."""
         return self._whole_body.height
 
     @height.setter
@@ -63,7 +65,7 @@ class Walker:
         self.gait.follow(command)
 
     def tick(self, dt: float) -> None:
-        """Set the leg motors for the next ``dt`` (s); call it between ``mj_step1`` and ``mj_step2``."""
+        """Set the leg motors for the next `dt` (s); call it between `mj_step1` and `mj_step2`."""
         self.sensed.read(self.gait.swing_side)
         task = self.gait.update(self.sensed, self._whole_body.cop_shift, dt)
         self._whole_body.command(task, self.sensed, dt)

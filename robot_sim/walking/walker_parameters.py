@@ -1,4 +1,4 @@
-"""All that the walking controller is tuned by."""
+"""The parameters of the walking controller."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from robot_sim.walking.gait_parameters import GaitParameters, StepLimits
 
 @dataclass(frozen=True, slots=True)
 class WalkerParameters:
-    """What the walking controller needs."""
+    """The body's dimensions and the parameters of each part of the controller."""
 
     dimensions: Dimensions
     steps: StepLimits = field(default_factory=StepLimits)

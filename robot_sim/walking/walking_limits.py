@@ -1,4 +1,6 @@
-"""From the velocity someone asks for to one the robot can walk."""
+"""The velocities that the robot can walk at."""
+
+from __future__ import annotations
 
 import math
 from dataclasses import dataclass
@@ -9,7 +11,7 @@ from robot_sim.walking.planar import clamp
 
 @dataclass(frozen=True, slots=True)
 class WalkingLimits:
-    """What ``walk_velocity`` accepts; a faster command is walked at the limit."""
+    """Limits of a commanded velocity; faster commands are clamped, slower ones than the deadband mean standing."""
 
     forward: float = 0.40  # m/s
     backward: float = 0.20  # m/s
@@ -20,7 +22,7 @@ class WalkingLimits:
 
 
 def walkable_velocity(vx: float, vy: float, wz: float, limits: WalkingLimits) -> Velocity | None:
-    """The velocity (m/s, m/s, rad/s) within the limits, each by itself; None when it means standing.
+    """Clamp each component (m/s, m/s, rad/s) to the limits; None means standing.
 
     Raises:
         ValueError: a component is not a finite number.

@@ -8,25 +8,27 @@ changes as the inverted pendulum asks (linear momentum rate = contact force + we
 S.-H. Lee, "Centroidal dynamics of a humanoid robot", Autonomous Robots 35, 2013).
 """
 
+from __future__ import annotations
+
 import math
 
 import mujoco
 import numpy as np
 
+from robot_sim.model.gravity import GRAVITY
 from robot_sim.model.joint_names import leg_joints
 from robot_sim.model.side import SIDES
-from robot_sim.model.gravity import GRAVITY
-from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.attitude import to_body, upright_error
 from robot_sim.walking.balance_gains import Trunk, default_gains
 from robot_sim.walking.balance_task import BalanceTask
 from robot_sim.walking.contact_wrench import LoadSplit, contact_wrench
 from robot_sim.walking.dcm_plan import Point
+from robot_sim.walking.foot_tipping import cop_against_tipping
 from robot_sim.walking.planar import clamp
 from robot_sim.walking.sensing import Sensing
 from robot_sim.walking.support import left_share_of
 from robot_sim.walking.swing import SwingReference
-from robot_sim.walking.foot_tipping import cop_against_tipping
+from robot_sim.walking.walker_parameters import WalkerParameters
 from ros_runtime.angles import wrap
 
 UPWARD_GRAVITY = np.array([0.0, 0.0, GRAVITY])
@@ -34,7 +36,7 @@ REGULARIZATION = 1e-4  # keeps a leg's Jacobian invertible when the knee is stra
 
 
 class WholeBody:
-    """Turns balance tasks into the torques of the twelve leg motors.
+    """The controller that turns balance tasks into the torques of the twelve leg motors.
 
     Attributes:
         cop_shift: low-pass filtered offset (m) of the CoP that was produced from the one asked for.
@@ -87,7 +89,7 @@ class WholeBody:
         self._regularization = REGULARIZATION * np.eye(6)
 
     def command(self, task: BalanceTask, sensed: Sensing, dt: float) -> None:
-        """Write the leg torques (N·m) of the next ``dt`` (s) into the motors."""
+        """Write the leg torques (N·m) of the next `dt` (s) into the motors."""
         forces = self._inverse_dynamics(task, sensed, dt)
         wrench = contact_wrench(forces[self._base].tolist(), sensed, self._mass, self._balance)
         self._filter_cop_shift(wrench.cop, task.cop, dt)
@@ -164,7 +166,7 @@ class WholeBody:
         ]
 
     def _slew_yaw(self, yaw: float, dt: float) -> float:
-        """The heading reference, led to ``yaw`` (rad) at a limited rate because it jumps at touchdown."""
+        """The heading reference, led to `yaw` (rad) at a limited rate because it jumps at touchdown."""
         if self._yaw is None:
             self._yaw = yaw
         most = self._balance.yaw_rate * dt

@@ -10,9 +10,9 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from autograder.authoring.events import RobotRefused, parse_event
 from robot_sim.arms.joint_trajectory import MOVABLE
+from robot_sim.ros.ground_truth import GroundTruthWriter
 from robot_sim.ros.inbox import BYTES_A_SECOND, FLOOD, MESSAGES_A_SECOND, Inbox
 from robot_sim.ros.trajectory_size import MOST_BYTES, MOST_POINTS, count_joints_and_points, why_too_large
-from robot_sim.ros.truth import TruthWriter
 
 
 class Topic:
@@ -45,25 +45,25 @@ def test_a_sound_message_is_heard():
     topic = Topic(Twist)
     command = Twist()
     command.linear.x = 0.2
-    topic.inbox.take(serialize_message(command))
+    topic.inbox.process(serialize_message(command))
     assert topic.heard == [command]
-    topic.inbox.tell()
+    topic.inbox.report()
     assert topic.reports == []
 
 
 @pytest.mark.parametrize("size", [0, 1, 4, 20, 51])
 def test_a_message_that_ends_too_soon_is_refused(size):
     topic = Topic(Twist)
-    topic.inbox.take(serialize_message(Twist())[:size])
-    topic.inbox.tell()
+    topic.inbox.process(serialize_message(Twist())[:size])
+    topic.inbox.report()
     assert topic.heard == []
     assert topic.reports == [("/robot/topic", 1, size, "malformed")]
 
 
 def test_a_message_of_fixed_length_that_is_longer_is_refused():
     topic = Topic(Twist)
-    topic.inbox.take(serialize_message(Twist()) + bytes(1000))
-    topic.inbox.tell()
+    topic.inbox.process(serialize_message(Twist()) + bytes(1000))
+    topic.inbox.report()
     assert topic.heard == []
     assert topic.reports == [("/robot/topic", 1, 1052, "more than 64 bytes")]
 
@@ -71,15 +71,15 @@ def test_a_message_of_fixed_length_that_is_longer_is_refused():
 @pytest.mark.parametrize("points", [0, 1, MOST_POINTS])
 def test_every_trajectory_with_as_many_points_as_it_may_have_is_heard(points):
     topic = trajectories()
-    topic.inbox.take(trajectory(points, full=True))
+    topic.inbox.process(trajectory(points, full=True))
     assert [len(message.points) for message in topic.heard] == [points]
 
 
 def test_a_trajectory_with_more_points_is_refused_however_short_they_are():
     topic = trajectories()
-    topic.inbox.take(trajectory(MOST_POINTS + 1, joints=()))
-    topic.inbox.take(trajectory(30_000))
-    topic.inbox.tell()
+    topic.inbox.process(trajectory(MOST_POINTS + 1, joints=()))
+    topic.inbox.process(trajectory(30_000))
+    topic.inbox.report()
     assert topic.heard == []
     assert [(count, reason) for _, count, _, reason in topic.reports] == [
         (1, "more than 500 points"),
@@ -89,8 +89,8 @@ def test_a_trajectory_with_more_points_is_refused_however_short_they_are():
 
 def test_a_trajectory_with_thousands_of_joints_is_refused():
     topic = trajectories()
-    topic.inbox.take(trajectory(0, joints=[""] * 20_000))
-    topic.inbox.tell()
+    topic.inbox.process(trajectory(0, joints=[""] * 20_000))
+    topic.inbox.report()
     assert topic.heard == []
     assert topic.reports[0][3] == "more than 64 joints"
 
@@ -112,9 +112,9 @@ def test_of_a_flood_so_many_a_second_are_heard_and_the_newest_wait():
     for tick in range(100):  # 2 s in looks of 20 ms
         topic.waiting += [serialize_message(Twist())] * 30
         topic.waiting = topic.waiting[-10:]  # as a history of depth 10 does
-        topic.inbox.look(0.02 * tick)
+        topic.inbox.process_arrived(0.02 * tick)
     assert len(topic.heard) == pytest.approx(3 * MESSAGES_A_SECOND, abs=5)  # 1 s worth at first, then 2 s
-    topic.inbox.tell()
+    topic.inbox.report()
     assert topic.reports[-1][1] > 50
     assert {reason for *_, reason in topic.reports} == {FLOOD}
     assert len(topic.reports) < 12, "a few reports a second"
@@ -124,7 +124,7 @@ def test_a_fast_node_is_no_flood():
     topic = Topic(Twist)
     for tick in range(500):
         topic.waiting += [serialize_message(Twist())] * 2  # 100 Hz
-        topic.inbox.look(0.02 * tick)
+        topic.inbox.process_arrived(0.02 * tick)
     assert len(topic.heard) == 1000
     assert topic.reports == []
 
@@ -133,27 +133,27 @@ def test_of_refused_giants_few_a_second_are_even_taken():
     topic, giant = trajectories(), bytes(5_000_000)
     for tick in range(500):  # 10 s
         topic.waiting = [giant] * 10
-        topic.inbox.look(0.02 * tick)
-    topic.inbox.tell()
+        topic.inbox.process_arrived(0.02 * tick)
+    topic.inbox.report()
     taken = topic.reports[-1][1]
     assert 10 * 1.0 <= taken <= 10 * 5_000_000 / BYTES_A_SECOND
     assert taken <= 12
     topic.waiting = [trajectory(5)]
-    topic.inbox.look(12.0)
+    topic.inbox.process_arrived(12.0)
     assert len(topic.heard) == 1, "a sound one is heard after it"
 
 
 def test_hearing_goes_on_when_time_goes_back():
     topic = Topic(Twist)
-    topic.inbox.look(100.0)
+    topic.inbox.process_arrived(100.0)
     topic.waiting = [serialize_message(Twist())]
-    topic.inbox.look(0.0)
+    topic.inbox.process_arrived(0.0)
     assert len(topic.heard) == 1
 
 
 def test_what_is_refused_is_an_event_of_the_truth(tmp_path):
     with open(tmp_path / "truth", "w+b") as file:
-        TruthWriter(file.fileno()).refused("/robot/cmd_vel", 7, 4000, "malformed")
+        GroundTruthWriter(file.fileno()).refused("/robot/cmd_vel", 7, 4000, "malformed")
         file.seek(0)
         event = parse_event(file.readline())
     assert isinstance(event, RobotRefused)

@@ -7,8 +7,8 @@ import os
 import pytest
 
 from robot_sim.humanoid import Humanoid
-from robot_sim.ros.scenario_control import obey
-from robot_sim.ros.truth import TruthWriter
+from robot_sim.ros.ground_truth import GroundTruthWriter
+from robot_sim.ros.scenario_control import apply_command
 
 UPPER_ARM, FOREARM = 0.22, 0.30  # m: shoulder to elbow, elbow to between the fingers
 STRAIGHT = ("shoulder_roll", "shoulder_yaw", "wrist_yaw", "wrist_pitch", "wrist_roll")
@@ -17,11 +17,11 @@ STRAIGHT = ("shoulder_roll", "shoulder_yaw", "wrist_yaw", "wrist_pitch", "wrist_
 def arm_after(command, side):
     """What is reported of an arm once the robot has obeyed a command and come to rest."""
     read_end, write_end = os.pipe()
-    humanoid, truth = Humanoid(), TruthWriter(write_end)
-    obey(command, humanoid, None, truth)
+    humanoid, truth = Humanoid(), GroundTruthWriter(write_end)
+    apply_command(command, humanoid, None, truth)
     while humanoid.time < command["duration"] + 0.5:
         humanoid.step()
-    obey({"do": "report_arm", "side": side}, humanoid, None, truth)
+    apply_command({"do": "report_arm", "side": side}, humanoid, None, truth)
     os.close(write_end)
     with os.fdopen(read_end) as pipe:
         return json.loads(pipe.readline())
@@ -50,4 +50,4 @@ def test_an_arm_is_reported_from_its_shoulder_with_x_ahead_and_z_up(side, pitch,
 def test_an_arm_that_the_robot_does_not_have_is_refused():
     command = {"do": "report_arm", "side": "x"}
     with pytest.raises(ValueError, match="side 'x' is not known; expected 'l' or 'r'"):
-        obey(command, Humanoid(), None, TruthWriter(0))
+        apply_command(command, Humanoid(), None, GroundTruthWriter(0))

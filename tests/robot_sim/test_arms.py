@@ -1,5 +1,7 @@
 """Trajectories of the upper body, reaching, and the hands."""
 
+from __future__ import annotations
+
 import math
 
 import numpy as np
@@ -7,10 +9,10 @@ import pytest
 
 from robot_sim.arms.joint_trajectory import HOLD, JointPath, JointTrajectory, Waypoint
 from robot_sim.arms.reach import HandTarget
+from robot_sim.arms.upper_body import UpperBodyParameters
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.joint_names import arm_joints
 from robot_sim.model.side import Side
-from robot_sim.arms.upper_body import UpperBodyParameters
 from robot_sim.state import Mode
 from robot_sim.trials import grasps
 from robot_sim.trials.trial import simulate

@@ -1,4 +1,4 @@
-"""Walking by IMU, encoders and contacts, without the simulator's truth."""
+"""Walking by IMU, encoders and contacts, without the simulator's ground truth."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What really happened, written to a pipe: student code cannot reach it, so it cannot forge it."""
+"""The ground truth of a graded robot, written to a pipe that student code cannot reach and so cannot forge."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.side import Side
 
-TRUTH_RATE = 50.0  # Hz, simulated
+GROUND_TRUTH_RATE = 50.0  # Hz, simulated
 
 
 @dataclass(frozen=True)
@@ -24,14 +24,14 @@ class BatterySample:
     current: float
 
 
-class TruthWriter:
-    """Writes one JSON object a line; `t` is `time.monotonic()` of the writing process, in seconds."""
+class GroundTruthWriter:
+    """A writer of JSON objects, one on each line; `t` is `time.monotonic()` of the writing process, s."""
 
     def __init__(self, fd: int) -> None:
         self._fd = fd
 
     def ready(self) -> None:
-        """Say that the robot stands and its topics exist."""
+        """Write that the robot stands and its topics exist."""
         self._write({"kind": "ready"})
 
     def robot(
@@ -82,7 +82,7 @@ class TruthWriter:
         self._write({"kind": "peers", "subscribers": subscribers, "publishers": publishers})
 
     def refused(self, topic: str, count: int, largest: int, reason: str) -> None:
-        """Write how many messages (the largest of so many bytes) of a topic were not heard so far, and why."""
+        """Write how many messages of a topic were refused so far, the largest one's bytes, and why."""
         self._write({"kind": "refused", "topic": topic, "count": count, "bytes": largest, "reason": reason})
 
     def commanded(self, command: dict) -> None:
