@@ -83,6 +83,10 @@ for package in (autograder, course_cli, lab, robot_sim, ros_runtime):
     for module in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
         if not module.name.endswith("__main__"):
             importlib.import_module(module.name)
+from robot_sim.model.build import build_model
+from robot_sim.model.scenes import SCENES
+for scene in SCENES:
+    build_model(scene)
 from autograder.engine.exercise import exercise_names, load_exercise
 for name in exercise_names():
     exercise = load_exercise(name, hidden=True)
