@@ -5,9 +5,8 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-STILL = (
-    2e-6  # rad/s or m/s; standing, what is left dies away within 0.26 s, so 0.5 µm or µrad are still to come
-)
+# Standing, the motion that is left dies away within 0.26 s, so 0.5 µm or µrad are still to come.
+STILL = 2e-6  # rad/s or m/s
 HOLD = 0.1  # s
 
 

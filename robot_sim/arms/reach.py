@@ -13,11 +13,8 @@ from robot_sim.model.posture import on_side
 from robot_sim.model.side import Side
 
 LEAST_DAMPING = 1e-3  # m, that only keeps a matrix invertible
-RELAXED_ARM = {
-    "shoulder_pitch": 0.3,
-    "shoulder_roll": 0.7,
-    "elbow": -1.4,
-}  # rad, left arm; the other joints 0. The null space drifts there: the elbow away from the body
+# Where the null space drifts to, with the elbow away from the body: rad, left arm; the other joints 0.
+RELAXED_ARM = {"shoulder_pitch": 0.3, "shoulder_roll": 0.7, "elbow": -1.4}
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,9 +14,8 @@ from rclpy.subscription import Subscription
 
 FIXED_SIZE = 64  # bytes, more than any message of fixed length that the robot subscribes to
 MESSAGES_A_SECOND = 200  # simulated; at first, and after a silence, that many at once
-BYTES_A_SECOND = (
-    400_000  # simulated: a little more than the largest trajectory, 10 ms of the processor's time
-)
+# Simulated: a little more than the largest trajectory, 10 ms of the processor's time.
+BYTES_A_SECOND = 400_000
 REPORT_PERIOD = 0.25  # s, simulated, between two reports of a topic
 
 FLOOD = f"more than {MESSAGES_A_SECOND} messages or {BYTES_A_SECOND} bytes a second"
@@ -50,10 +49,8 @@ class Inbox:
         self._most_bytes = most_bytes
         self._why_not = why_not
         self._tally: dict[str, _Tally] = {}
-        self._messages, self._bytes = (
-            float(MESSAGES_A_SECOND),
-            float(BYTES_A_SECOND),
-        )  # that may still be taken
+        self._messages = float(MESSAGES_A_SECOND)  # that may still be taken
+        self._bytes = float(BYTES_A_SECOND)  # likewise
         self._latest = 0.0
         self._next_report = 0.0
 

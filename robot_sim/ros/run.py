@@ -63,7 +63,7 @@ def run(
     while is_running():
         if control:
             for command in control.commands():
-                pacing.lag(humanoid.time)  # noted before it is let go of
+                pacing.lag(humanoid.time)  # noted before it is dropped
                 apply_command(command, humanoid, node, ground_truth)
                 pacing.restart(humanoid.time)
                 if ground_truth:
