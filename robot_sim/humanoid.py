@@ -121,7 +121,7 @@ class Humanoid:
 
     def step(self) -> None:
         """Simulate one timestep."""
-        if self._rest.has_come:
+        if self._rest.is_reached:
             self._pass_time()
             return
         mujoco.mj_step1(self.model, self.data)
@@ -152,12 +152,12 @@ class Humanoid:
     @may_rest.setter
     def may_rest(self, allowed: bool) -> None:
         self._rest.allowed = allowed
-        self._rest.stir()
+        self._rest.wake()
 
     @property
     def is_resting(self) -> bool:
         """Whether its physics is not integrated at present."""
-        return self._rest.has_come
+        return self._rest.is_reached
 
     def _pass_time(self) -> None:
         """Simulate one timestep of a robot at rest."""
@@ -229,7 +229,7 @@ class Humanoid:
             ValueError: the impulse is not three finite numbers, or the duration is not positive.
         """
         self._pusher.push(impulse, duration)
-        self._rest.stir()
+        self._rest.wake()
 
     def move_body(self, rate: float) -> None:
         """Crouch or rise at `rate` (m/s, upwards) until told otherwise; ignored while the motors are off.
@@ -242,7 +242,7 @@ class Humanoid:
         if self.motors_enabled:
             self._height.move(rate)
             if rate:
-                self._rest.stir()
+                self._rest.wake()
 
     def crouch_to(self, height: float) -> HeightChange:
         """Bring the pelvis to `height` (m, 0.45 to 0.60 above the floor) in phases, each until measurements confirm it.
@@ -254,7 +254,7 @@ class Humanoid:
             ValueError: the height is not finite.
         """
         change = self._height.change_to(height)
-        self._rest.stir()
+        self._rest.wake()
         if not self.motors_enabled:
             change.fail("the motors are off")
         return change
@@ -276,7 +276,7 @@ class Humanoid:
     @balance_gains.setter
     def balance_gains(self, gains: BalanceGains) -> None:
         self._walker.gains = gains
-        self._rest.stir()
+        self._rest.wake()
 
     def move_joints(self, trajectory: JointTrajectory) -> None:
         """Move joints of waist, head and arms along a trajectory; it replaces an earlier one. Empty: hold.
@@ -285,7 +285,7 @@ class Humanoid:
         """
         if self.motors_enabled:
             self._upper_body.follow(trajectory)
-            self._rest.stir()
+            self._rest.wake()
 
     def open_hand(self, side: Side, opening: float) -> None:
         """Bring the fingers of a side `opening` (m, 0 to 0.09) apart; ignored without motors.
@@ -295,7 +295,7 @@ class Humanoid:
         """
         if self.motors_enabled:
             self.hands[side].open_to(opening)
-            self._rest.stir()
+            self._rest.wake()
 
     def reach(self, side: Side, target: HandTarget) -> Reach:
         """Bring the hand of a side to a target in the odom frame; `error()` tells how far it is.
@@ -303,7 +303,7 @@ class Humanoid:
         Raises:
             ValueError: the target is not finite.
         """
-        self._rest.stir()
+        self._rest.wake()
         return self._upper_body.reach(side, target)
 
     # State
@@ -377,7 +377,7 @@ class Humanoid:
         if not self.motors_enabled:
             return
         if command is not None:
-            self._rest.stir()
+            self._rest.wake()
             self._height.interrupt("it was told to walk")
         if command is None or self._height.is_risen:
             self._pending = None
@@ -391,7 +391,7 @@ class Humanoid:
         return has_fallen(self.data.qpos[2], self._torso_rotation[8], self._fall_thresholds)
 
     def _set_actuation(self, on: bool) -> None:
-        self._rest.stir()
+        self._rest.wake()
         disabled = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
         if on:
             self.model.opt.disableflags &= ~disabled

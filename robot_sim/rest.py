@@ -23,12 +23,12 @@ class Rest:
         self._ticks_needed = round(HOLD / timestep)
         self._still_ticks = 0
 
-    def stir(self) -> None:
+    def wake(self) -> None:
         """Note a command to the body: it is integrated until it stands still again."""
         self._still_ticks = 0
 
     @property
-    def has_come(self) -> bool:
+    def is_reached(self) -> bool:
         """Whether the body stood still long enough, and no command came since."""
         return self._still_ticks >= self._ticks_needed
 
