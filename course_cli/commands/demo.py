@@ -22,12 +22,12 @@ from autograder.engine.exercise import load_exercise
 from autograder.engine.grading import grade
 from autograder.engine.submission import read_submission
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.project import PROJECT
 from autograder.report.page import Section, write_page
 from autograder.report.sequence import transcript_svg
 from autograder.report.table import MARKS, summary
 from course_cli.ending import COULD_NOT, ended
 from humanoid_interfaces.action import WalkTo
+from ros_runtime.project import PROJECT
 
 EXERCISE = "cancellable_walk"
 SOLUTION = PROJECT / "solutions" / EXERCISE / f"{EXERCISE}.ipynb"

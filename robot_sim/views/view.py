@@ -1,12 +1,14 @@
 """Pictures of the robot, drawn off-screen."""
 
+from __future__ import annotations
+
 import copy
 
 import mujoco
 import numpy as np
 
 from robot_sim.humanoid import Humanoid
-from robot_sim.views.gl_backend import open_context
+from ros_runtime.workarounds.gl_backend import open_context
 
 
 def snapshot(humanoid: Humanoid, width: int = 640, height: int = 480, *, camera: str = "track") -> np.ndarray:
@@ -29,7 +31,7 @@ def snapshot(humanoid: Humanoid, width: int = 640, height: int = 480, *, camera:
 
 
 class View:
-    """Draws one robot again and again; ``close()`` it, because an open OpenGL context outlives its object.
+    """Draws one robot again and again; `close()` it, because an open OpenGL context outlives its object.
 
     Args:
         humanoid: whom to draw.

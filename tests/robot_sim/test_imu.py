@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from bench.robot.trial import simulate
 from robot_sim.humanoid import Humanoid
 from robot_sim.parameters import GRAVITY
-from robot_sim.trials.trial import simulate
 
 RATE = 50  # Hz, as on the topic imu
 

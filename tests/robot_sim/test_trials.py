@@ -1,9 +1,9 @@
-"""The trials, a few runs of each: the long ones are for ``python -m robot_sim.trials``."""
+"""The trials, a few runs of each: the long ones are for `./course bench --trial all`."""
 
 import pytest
 
-from robot_sim.trials import run_trials, servo
-from robot_sim.trials.table import table_of
+from bench.robot import run_trials, servo
+from bench.robot.table import table_of
 
 
 def test_quick_stops_and_reaches_meet_their_references():
