@@ -10,7 +10,7 @@ from ros_runtime.drawing.sequence_diagram import Arrow, sequence_svg
 from ros_runtime.message_constants import GoalStatus, RobotMode, name_of
 
 CLIENT, SERVER, ROBOT = "client", "server", "robot"
-MODES = {
+MODES: dict[int, str] = {
     RobotMode.OFF: "motors off",
     RobotMode.STANDING: "stands",
     RobotMode.WALKING: "walks",
