@@ -43,12 +43,12 @@ class Load:
 
     @property
     def simulator_share(self) -> float:
-        """Of a core."""
+        """How much of one core it used, 0 to 1."""
         return self.simulator / self.wall
 
     @property
     def notebook_share(self) -> float:
-        """Of a core."""
+        """How much of one core it used, 0 to 1."""
         return self.notebook / self.wall
 
     def __add__(self, other: Load) -> Load:

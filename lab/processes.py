@@ -11,8 +11,9 @@ from collections import deque
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from pathlib import Path
 from typing import IO
+
+import psutil
 
 from ros_runtime.workarounds import die_with_parent
 
@@ -47,9 +48,8 @@ class Process:
 
     def cpu_time(self) -> float:
         """Seconds of a processor that it has used so far, 0.01 s exact; it must be running."""
-        stat = Path(f"/proc/{self._popen.pid}/stat").read_text()
-        user, system = stat.rpartition(")")[2].split()[11:13]  # a program's name may have spaces
-        return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
+        used = psutil.Process(self._popen.pid).cpu_times()
+        return used.user + used.system
 
     def output(self) -> str:
         """What it printed, stdout and stderr as they came; the last 2000 lines."""

@@ -43,7 +43,7 @@ def bench(
     scale: Annotated[
         list[float] | None, typer.Option(help="scales for the fairness rows (repeat it)")
     ] = None,
-    jobs: Annotated[int, typer.Option(min=1, help="how many arenas run at a time")] = 2,
+    jobs: Annotated[int, typer.Option(min=1, help="how many arenas run at a time, one for each core")] = 2,
     robot: Annotated[bool, typer.Option(help="also run the robot's quick trials")] = True,
     checks_of: Annotated[
         list[str] | None,

@@ -1,5 +1,7 @@
 """`course demo`: the whole idea in a minute, on a machine without a screen."""
 
+from __future__ import annotations
+
 import contextlib
 import io
 import json
@@ -40,7 +42,7 @@ class DemoFailed(Exception):
 
 def demo(
     out: Annotated[Path, typer.Option(help="where the report goes")] = PROJECT / "demo",
-    jobs: Annotated[int, typer.Option(min=1, help="arenas at a time; one a core")] = 2,
+    jobs: Annotated[int, typer.Option(min=1, help="how many arenas run at a time, one for each core")] = 2,
 ) -> None:
     """See it all work: a walk, a cancel, three graded submissions."""
     # this very stream: below, the lab's words are kept off whatever sys.stdout is then

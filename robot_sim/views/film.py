@@ -22,7 +22,7 @@ def film(
     camera: str = "track",
     each_step: Callable[[], object] = lambda: None,
 ) -> None:
-    """Simulate for ``seconds`` and write what is seen to ``file``; ``each_step`` is called before every timestep.
+    """Simulate for `seconds` and write what is seen to `file`; `each_step` is called before every timestep.
 
     Raises:
         ValueError: the duration is not positive, or the model has no such camera.
@@ -44,7 +44,7 @@ def film(
 
 
 class Reel:
-    """Frames of one robot; ``close()`` it, because it holds an OpenGL context.
+    """Frames of one robot; `close()` it, because it holds an OpenGL context.
 
     Args:
         humanoid: whom to film.

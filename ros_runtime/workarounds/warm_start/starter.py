@@ -23,7 +23,7 @@ DESCRIPTORS = 5
 
 def wait_for_order(orders: socket.socket, guard: ForkGuard) -> dict:
     """Serve orders; returns, with the order, in the process that is to become the program and in no other."""
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the kernel shall bury them
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the kernel buries them
     while True:
         text, descriptors, _, _ = socket.recv_fds(orders, LONGEST_ORDER, DESCRIPTORS)
         if not text:
