@@ -8,7 +8,7 @@
  * also read a time before it. Hence the scaled time depends on the real time alone: it is the same in all
  * processes, continuous and monotonic, without locks, and a writer that dies half-way harms nobody.
  *
- * scaled_clock.py packs the same layout; a change here is a new CLOCK_PAGE_VERSION there as well.
+ * clock.py packs the same layout; a change here is a new CLOCK_PAGE_VERSION there as well.
  */
 #ifndef CLOCK_PAGE_H
 #define CLOCK_PAGE_H
