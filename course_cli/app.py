@@ -4,6 +4,8 @@ Exit status of every command: 0 it did its job, 1 it could not, 2 unusable argum
 To add a command, write course_cli/commands/<name>.py and a line in COMMANDS.
 """
 
+from __future__ import annotations
+
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -38,7 +40,7 @@ class Command:
 
     @property
     def settings(self) -> dict[str, Any]:
-        """What Typer shall do with its arguments."""
+        """The settings of its context in Typer."""
         if not self.forwards_arguments:
             return {}
         return FORWARDING | ({"help_option_names": []} if self.forwards_help else {})

@@ -14,7 +14,7 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node, NodeNameNonExistentError
 from rclpy.signals import SignalHandlerOptions
 
-from lab.network import join_own_network
+from lab.network import join_ros_domain
 from lab.waiting import comes_true
 
 NAMESPACE = "/robot"
@@ -59,7 +59,7 @@ class Connection:
     """A node in the robot's namespace, and what was made on it."""
 
     def __init__(self) -> None:
-        self.domain_id = join_own_network().domain_id
+        self.domain_id = join_ros_domain().domain_id
         self._context = Context()
         rclpy.init(
             args=[],

@@ -10,7 +10,7 @@ from IPython.display import HTML
 from lab import story
 from lab.errors import LabError
 from lab.story import Said
-from ros_runtime.sequence_diagram import Arrow, sequence_svg
+from ros_runtime.drawing.sequence_diagram import Arrow, sequence_svg
 
 LABEL_LENGTH = 38  # characters that fit between two lifelines
 

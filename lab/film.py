@@ -13,7 +13,7 @@ from lab import topics
 from lab.picture import HEIGHT, WIDTH, figure, take_posture
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.film import Reel
-from robot_sim.views.gl_backend import NoOpenGLError
+from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 RATE = 12.5  # frames a second
 LONGEST = 60.0  # s, which are about 5 MB in the notebook

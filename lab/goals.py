@@ -7,7 +7,6 @@ import uuid
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
 from unique_identifier_msgs.msg import UUID
 
@@ -19,12 +18,7 @@ from lab.exchange import Exchange, require_server
 from lab.student_nodes import last_words
 from lab.waiting import comes_true
 from lab.wording import describe, describe_briefly
-
-STATUS_NAMES = {
-    getattr(GoalStatus, name): name.removeprefix("STATUS_")
-    for name in dir(GoalStatus)
-    if name.startswith("STATUS_")
-}
+from ros_runtime.message_constants import GoalStatus, name_of
 
 
 class Outcome(NamedTuple):
@@ -82,7 +76,7 @@ class Goal:
         self._endpoints = endpoints
         self.id = uuid.uuid4().bytes
         self.feedback: list[Any] = []
-        self._status = GoalStatus.STATUS_UNKNOWN
+        self._status: int = GoalStatus.UNKNOWN
         self._listeners: list[Callable[[Goal], object]] = []
         self._getting_result: Exchange | None = None
         self._sent_at = time.monotonic()
@@ -106,7 +100,7 @@ class Goal:
     @property
     def status(self) -> str:
         """The name of its status, as last published on the status topic or told with the result."""
-        return STATUS_NAMES[self._status]
+        return name_of(GoalStatus, self._status)
 
     @property
     def is_over(self) -> bool:
@@ -133,7 +127,7 @@ class Goal:
                 print(f"{time.monotonic() - self._sent_at:5.1f} s  feedback: {describe(self.feedback[-1])}")
         assert self._getting_result
         response = self._getting_result.answer
-        return Outcome(STATUS_NAMES[response.status], response.result)
+        return Outcome(name_of(GoalStatus, response.status), response.result)
 
     def cancel(self, timeout: float = 5.0) -> CancelAnswer:
         """Ask the server to cancel this goal; returns what it said, which is not yet the end of the goal.
@@ -176,13 +170,13 @@ class Goal:
 
     def _on_goal_answer(self, answer: Any) -> None:
         if answer.accepted:
-            self._status = max(self._status, GoalStatus.STATUS_ACCEPTED)  # the topic may have been faster
+            self._status = max(self._status, GoalStatus.ACCEPTED)  # the topic may have been faster
             request = self._endpoints.types.GetResultService.Request(goal_id=UUID(uuid=list(self.id)))
             self._getting_result = self._endpoints.ask(
                 "get_result",
                 request,
                 "get_result",
-                lambda answer: f"{STATUS_NAMES[answer.status]}, {describe_briefly(answer.result)}",
+                lambda answer: f"{name_of(GoalStatus, answer.status)}, {describe_briefly(answer.result)}",
                 lambda answer: self.note_status(answer.status, told=False),
             )
 
@@ -197,7 +191,7 @@ class Goal:
         if status != self._status:
             self._status = status
             if told:
-                self._endpoints.tell(f"status: {STATUS_NAMES[status]}")
+                self._endpoints.tell(f"status: {name_of(GoalStatus, status)}")
             self._tell_listeners()
 
     def _tell_listeners(self) -> None:

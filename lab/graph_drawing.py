@@ -9,7 +9,7 @@ from IPython.display import HTML
 
 from lab.errors import LabError
 from lab.graph import Endpoint, Topic, topics_in_graph
-from ros_runtime.svg import svg
+from ros_runtime.drawing.svg import svg
 
 NODE_WIDTH, TOPIC_WIDTH, GAP = 180, 420, 80  # px, as all below
 ROW_HEIGHT, BOX_HEIGHT = 34, 26

@@ -13,8 +13,8 @@ from lab import topics
 from lab.errors import NoRobotError
 from lab.picture import HEIGHT, WIDTH, take_posture
 from robot_sim.humanoid import Humanoid
-from robot_sim.views.gl_backend import NoOpenGLError
 from robot_sim.views.view import View
+from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 FRAMES = 12.0  # a second, at most
 SHARE = 0.4  # of the time, at most, that is spent drawing: the rest belongs to the notebook

@@ -1,4 +1,4 @@
-"""Puts this kernel and its children into a ROS network of their own."""
+"""Puts this kernel and its children into a ROS domain of their own."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from functools import cache
 
 from lab.errors import LabError
 from ros_runtime.environment import ros_environment
-from ros_runtime.own_network import NoDomainLeft, ReservedDomain, loopback_variables
+from ros_runtime.ros_domain import NoDomainLeft, ReservedDomain, loopback_variables
 
 
 @cache
-def join_own_network() -> ReservedDomain:
+def join_ros_domain() -> ReservedDomain:
     """Reserve a domain until this process ends and put the network's settings into its environment.
 
     Raises LabError when every domain is taken.

@@ -13,8 +13,8 @@ from PIL import Image
 
 from lab import topics
 from robot_sim.humanoid import Humanoid
-from robot_sim.views.gl_backend import NoOpenGLError
 from robot_sim.views.view import snapshot
+from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 WIDTH, HEIGHT = 480, 360  # px
 

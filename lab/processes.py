@@ -11,21 +11,23 @@ from collections import deque
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from pathlib import Path
 from typing import IO
 
-LEASH = Path(__file__).with_name("leash.py")
+import psutil
+
+from ros_runtime.workarounds import die_with_parent
+
 KEPT_LINES = 2000
 LAST_WORDS = 1.0  # s for what an ended process still has in its pipe
 
-# The signal that the leash asks for comes when the *thread* that started the child ends: this one never does.
+# The signal that `die_with_parent` asks for comes when the *thread* that started the child ends: this one never does.
 _spawner = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lab spawner")
 
 
 class Process:
     """A running Python program in a session of its own, with its last output.
 
-    The session keeps the SIGINT of Jupyter's stop button away from it; the leash ends it with the kernel.
+    The session keeps the SIGINT of Jupyter's stop button away from it; the kernel's end is its end, too.
     What it writes to stderr is part of its output, unless `own_stderr` keeps the two apart.
     """
 
@@ -46,9 +48,8 @@ class Process:
 
     def cpu_time(self) -> float:
         """Seconds of a processor that it has used so far, 0.01 s exact; it must be running."""
-        stat = Path(f"/proc/{self._popen.pid}/stat").read_text()
-        user, system = stat.rpartition(")")[2].split()[11:13]  # a program's name may have spaces
-        return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
+        used = psutil.Process(self._popen.pid).cpu_times()
+        return used.user + used.system
 
     def output(self) -> str:
         """What it printed, stdout and stderr as they came; the last 2000 lines."""
@@ -108,10 +109,10 @@ class _LastLines:
 
 
 def _start(arguments: Sequence[str], own_stderr: bool) -> subprocess.Popen[str]:
-    # -I and -S: the leash needs no site-packages, whose start-up files would only cost time.
-    leash = [sys.executable, "-I", "-S", str(LEASH), str(os.getpid()), sys.executable]
+    # -I and -S: it needs no site-packages, whose start-up files would only cost time.
+    with_us = [sys.executable, "-I", "-S", die_with_parent.__file__, str(os.getpid()), sys.executable]
     return subprocess.Popen(
-        [*leash, *arguments],
+        [*with_us, *arguments],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE if own_stderr else subprocess.STDOUT,

@@ -10,7 +10,7 @@ import threading
 import time
 from dataclasses import dataclass
 
-from ros_runtime.sequence_diagram import Kind
+from ros_runtime.drawing.sequence_diagram import Kind
 
 NOTEBOOK = "notebook"
 

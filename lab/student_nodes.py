@@ -11,7 +11,7 @@ from lab.connection import NAMESPACE, connection
 from lab.errors import LabError, NodeEndedError
 from lab.processes import Process
 from lab.waiting import comes_true
-from ros_runtime.greeting import greet
+from ros_runtime.reachability import wait_until_reachable
 
 START_TIMEOUT = 10.0  # s
 NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node whose own account of itself has not arrived
@@ -41,7 +41,9 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
         deadline = time.monotonic() + START_TIMEOUT
         for mark, name in _nodes_seen().items():
             if mark not in known:
-                greet(connection().node, name, lambda: not node.is_running or time.monotonic() > deadline)
+                wait_until_reachable(
+                    connection().node, name, lambda: not node.is_running or time.monotonic() > deadline
+                )
     if not node.is_running and node.exit_status != 0:
         raise NodeEndedError(
             f"{path.name} ended at once with exit status {node.exit_status}; it printed:\n{node.log()}"

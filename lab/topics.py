@@ -19,6 +19,7 @@ from lab.errors import NoRobotError
 from lab.waiting import comes_true
 from lab.wording import fixed
 from ros_runtime.angles import yaw_of
+from ros_runtime.message_constants import RobotMode, name_of
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 TOPICS: dict[str, tuple[Any, Any]] = {
@@ -27,7 +28,6 @@ TOPICS: dict[str, tuple[Any, Any]] = {
     "odom": (Odometry, 10),
     "joint_states": (JointState, qos_profile_sensor_data),
 }
-MODES = {getattr(RobotState, name): name for name in ("OFF", "STANDING", "WALKING", "FALLEN")}
 FRESH = 1.0  # s; every one of these topics comes at least twice as often
 
 
@@ -67,7 +67,7 @@ def pose() -> Pose:
 
 def mode() -> str:
     """What the robot does, by its name in RobotState: "OFF", "STANDING", "WALKING" or "FALLEN"."""
-    return MODES[robot_state().mode]
+    return name_of(RobotMode, robot_state().mode)
 
 
 def latest(topic: str, timeout: float = 5.0) -> Any:
@@ -114,4 +114,4 @@ class _Memory:
         before = self.messages.get(topic)
         self.messages[topic] = (message, time.monotonic())
         if topic == "robot_state" and before and before[0].mode != message.mode:
-            story.tell("robot", "robot", MODES[message.mode])
+            story.tell("robot", "robot", name_of(RobotMode, message.mode))

@@ -1,1 +1,1 @@
-"""What lab and arena share: the environment of a ROS process, the repairs of rclpy, the scaled clock."""
+"""What every ROS process of the course shares: its environment, its domain, messages, built interfaces, drawings."""

@@ -2,10 +2,12 @@
 
 - humanoid_interfaces, built with CMake: modules to site-packages, libraries and share/ to the prefix;
 - lib/libscaled_clock.so, the arena's clock, where there is a C compiler;
-- the .pth files of ros_runtime, which Python reads when it starts.
+- the .pth file that lets every Python process repair rclpy (ros_runtime/workarounds/README.md).
 
 Editable and normal wheels carry the same additions.
 """
+
+from __future__ import annotations
 
 import os
 import subprocess
@@ -40,8 +42,12 @@ class CourseBuildHook(BuildHookInterface):
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Fill `build_data`; `version` is "editable" or "standard"."""
         modules, prefix_files = _split(build(self._interfaces, self._builds, os.environ, TOOLS))
-        modules |= {str(path): path.name for path in sorted((ROOT / "ros_runtime/pth").glob("*.pth"))}
-        clock = _build_scaled_clock(ROOT / "ros_runtime/clock/compile_library.py", self._builds)
+        modules |= {
+            str(path): path.name for path in sorted((ROOT / "ros_runtime/workarounds").rglob("*.pth"))
+        }
+        clock = _build_scaled_clock(
+            ROOT / "ros_runtime/workarounds/scaled_clock/compile_library.py", self._builds
+        )
         if clock is not None:
             prefix_files[str(clock)] = "lib/libscaled_clock.so"
         build_data["force_include_editable" if version == "editable" else "force_include"].update(modules)

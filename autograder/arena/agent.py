@@ -25,7 +25,7 @@ from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
 from autograder.isolation.warm_interpreter import WarmInterpreter
-from ros_runtime.clock.scaled_clock import ScaledClock, follow, library_path
+from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, follow, library_path
 
 if TYPE_CHECKING:
     from rclpy.node import Node

@@ -1,7 +1,8 @@
 """The first process of an arena: it imports everything and builds the robot once, and forks an agent for each scenario.
 
 Run as `python -m autograder.arena.host SOCKET`; where programs may start warm,
-:mod:`ros_runtime.warm_start.first_process` goes on as that, which has loaded rclpy and forked the waiting interpreter.
+`ros_runtime/workarounds/warm_start/first_process.py` goes on as that, which has loaded rclpy and forked the waiting
+interpreter.
 Every order is the specification of a scenario and the pipe its events go to; it is answered when no process of the
 scenario is left. The clock's library is preloaded into this process, but only its forks follow a clock, each the one of
 its scenario.
@@ -32,7 +33,7 @@ from autograder.arena.robots import Robots
 from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.isolation.process_tree import descendants
 from autograder.isolation.warm_interpreter import WarmInterpreter
-from ros_runtime.warm_start.preload import preload
+from ros_runtime.workarounds.warm_start.preload import preload
 
 _PR_SET_CHILD_SUBREAPER = 36
 _FIRST_DOMAIN, _DOMAINS = 1, 100  # ROS domains whose ports are safe; the network is this arena's own

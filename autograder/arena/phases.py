@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from ros_runtime.clock.scaled_clock import real_monotonic_ns
+from ros_runtime.workarounds.scaled_clock.clock import real_monotonic_ns
 
 if TYPE_CHECKING:  # the arena's first process measures before it imports
     from autograder.arena.recorder import Recorder

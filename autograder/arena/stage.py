@@ -22,7 +22,7 @@ from autograder.arena.service_probe import ServiceProbe
 from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
 from autograder.arena.waiting import POLLING, Waiting
-from ros_runtime.greeting import greet_all
+from ros_runtime.reachability import wait_until_all_reachable
 
 # s, on a clock that still runs at scale 1:
 READY_TIMEOUT = 20.0  # for the node to offer what is asked for
@@ -283,7 +283,7 @@ class Stage(Waiting):
         services = [*self._services, *(f"{action}/_action/send_goal" for action in self._actions)]
         owners = dict.fromkeys(owner for service in services for owner in self._graph.owners_of(service))
         deadline = time.monotonic() + GREETING_TIMEOUT
-        greet_all(self._node, list(owners)[:MOST_GREETED], lambda: time.monotonic() > deadline)
+        wait_until_all_reachable(self._node, list(owners)[:MOST_GREETED], lambda: time.monotonic() > deadline)
 
     def _wait_for_reply(self, what: str, name: str, has_come: Callable[[], bool], timeout: float) -> bool:
         """Wait for a reply; record that it is missing when the time is over or the student's process has ended."""

@@ -12,8 +12,8 @@ from autograder.arena.student_watch import StudentWatch
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.student_process import StudentProcess, start_student
 from autograder.isolation.warm_interpreter import WarmInterpreter
-from ros_runtime.clock.scaled_clock import ScaledClock
 from ros_runtime.environment import ros_environment
+from ros_runtime.workarounds.scaled_clock.clock import ScaledClock
 
 
 class Student:

@@ -9,7 +9,7 @@ from autograder.arena.recorder import Recorder
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.process_tree import cpu_seconds, resident_mib, seconds_without_a_processor
 from autograder.isolation.student_process import StudentProcess
-from ros_runtime.clock.scaled_clock import ScaledClock, real_monotonic_ns
+from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, real_monotonic_ns
 
 PERIOD = 0.1  # s of real time between two looks, each of which reads some files for every process
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from functools import cache
 
-from autograder.project import PROJECT
+from ros_runtime.project import PROJECT
 
 CHAPTERS = PROJECT / "chapters"
 

@@ -12,7 +12,7 @@ from autograder.engine.exercise import Exercise
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation
-from autograder.project import PROJECT
+from ros_runtime.project import PROJECT
 
 # What a verdict depends on besides the submission: the checks and the engine, the robot, the clock.
 JUDGING = ("autograder", "robot_sim", "ros_runtime", "humanoid_interfaces")
@@ -21,7 +21,6 @@ WITHOUT_INFLUENCE = (
     "nbgrader_bridge",
     "report",
     "audit",
-    "bench",
     "new_exercise",
 )  # folders of autograder/
 

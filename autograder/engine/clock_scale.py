@@ -10,7 +10,7 @@ import os
 from collections.abc import Sequence
 
 from autograder.authoring.checks import Scenario
-from ros_runtime.clock.scaled_clock import library_path
+from ros_runtime.workarounds.scaled_clock.clock import library_path
 
 USUAL = 5.0
 FAST = 10.0

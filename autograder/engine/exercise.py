@@ -22,7 +22,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from autograder.project import PROJECT
+from ros_runtime.project import PROJECT
 
 if TYPE_CHECKING:
     from autograder.authoring.checks import Check

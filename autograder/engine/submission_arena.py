@@ -22,10 +22,10 @@ from autograder.isolation.arena_process import ArenaReport, ArenaSpec, Kind, sta
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.python_paths import python_read_only_paths
 from autograder.isolation.student_sandbox import waiting_environment
-from autograder.project import PROJECT
-from ros_runtime.clock.scaled_clock import preload_variables
 from ros_runtime.environment import ros_environment
-from ros_runtime.own_network import loopback_variables
+from ros_runtime.project import PROJECT
+from ros_runtime.ros_domain import loopback_variables
+from ros_runtime.workarounds.scaled_clock.clock import preload_variables
 
 REPORT_LIMIT = 64 * 2**20  # bytes of events of one scenario
 LIMITS = ArenaLimits(deadline_s=120.0)  # for the arena to begin; each scenario has a deadline of its own

@@ -26,8 +26,8 @@ class ArenaSpec:
     `read_only_paths` are host files and folders, visible at the same place inside; files keep their identity,
     so a mapped page can be shared. `pass_fds` are descriptors inherited under the same number: the caller
     closes its own copies of them once the arena has started. `stdin` is all that the command can read there.
-    `waiting_env`, if given, is the environment of an interpreter that shall wait in the arena to become students'
-    programs (:mod:`.warm_interpreter`); the command is then `python -m MODULE …`. Without namespaces none waits.
+    `waiting_env`, if given, is the environment of an interpreter that waits in the arena to become students'
+    programs (`warm_interpreter`); the command is then `python -m MODULE …`. Without namespaces none waits.
     """
 
     command: Sequence[str]

@@ -19,7 +19,8 @@ from autograder.isolation.bubblewrap import STUDENT_FILTER, Sandbox, SandboxErro
 from autograder.isolation.process_tree import ended_within
 from autograder.isolation.seccomp_filter import student_filter
 from autograder.isolation.warm_interpreter import first_process
-from ros_runtime.own_network import NoDomainLeft, ReservedDomain
+from ros_runtime.project import PROJECT
+from ros_runtime.ros_domain import NoDomainLeft, ReservedDomain
 
 _END_TIMEOUT = 10.0  # s for the kernel, or the warden, to end every process
 
@@ -89,7 +90,7 @@ def start_without_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
             stderr=subprocess.PIPE,
             pass_fds=(*spec.pass_fds, tell),
             env=_environment(spec, Kind.NONE, str(folder), network),
-            cwd=Path(__file__).parents[2],
+            cwd=PROJECT,
         )
     finally:
         os.close(tell)

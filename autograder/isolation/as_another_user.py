@@ -21,6 +21,9 @@ import signal
 import struct
 import sys
 
+sys.path.append(os.path.abspath(f"{__file__}/../../.."))  # the project, which -I leaves out
+from ros_runtime.workarounds.die_with_parent import die_with_parent
+
 _CLONE_NEWNS = 0x00020000
 _CLONE_NEWUSER = 0x10000000
 _MS_NOSUID, _MS_NODEV, _MS_BIND, _MS_REC, _MS_PRIVATE = 2, 4, 4096, 16384, 1 << 18
@@ -29,7 +32,7 @@ _AT_FDCWD, _AT_EMPTY_PATH, _AT_RECURSIVE = -100, 0x1000, 0x8000
 _OPEN_TREE_CLONE = 1
 _MOVE_MOUNT_F_EMPTY_PATH = 4
 _MOUNT_ATTR_RDONLY, _MOUNT_ATTR_IDMAP = 0x1, 0x00100000
-_PR_SET_PDEATHSIG, _PR_SET_NO_NEW_PRIVS = 1, 38
+_PR_SET_NO_NEW_PRIVS = 38
 _COPY_LIMIT = 64 * 2**20  # bytes
 
 _libc = ctypes.CDLL(None, use_errno=True)
@@ -42,8 +45,7 @@ def main() -> None:
         _step_down(plan["paths"], plan["staging"])
     except OSError as error:
         sys.exit(f"root could not step down: {error}")
-    _check(_libc.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0), "prctl")
-    if os.getppid() != plan["parent"]:
+    if not die_with_parent(plan["parent"]):
         sys.exit("the process that asked for this sandbox has gone")
     os.execv(sys.argv[2], sys.argv[2:])
 

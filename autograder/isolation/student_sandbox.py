@@ -18,7 +18,7 @@ from autograder.isolation.bubblewrap import STUDENT_FILTER, Sandbox, SandboxErro
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.running_program import ChildProgram, EnteredProgram, RunningProgram
 from autograder.isolation.warm_interpreter import WarmInterpreter
-from ros_runtime.clock.scaled_clock import PAGE_VARIABLE
+from ros_runtime.workarounds.scaled_clock.clock import PAGE_VARIABLE
 
 _WORKDIR = "/tmp/work"  # the program's working directory in its sandbox
 _NETWORK_VARIABLES = ("ROS_DOMAIN_ID", "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_BUILTIN_TRANSPORTS")
@@ -26,7 +26,7 @@ _NETWORK_VARIABLES = ("ROS_DOMAIN_ID", "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDD
 
 @dataclass(frozen=True)
 class Program:
-    """What to run: a Python file or `-m MODULE`, and its arguments. See :func:`.student_process.start_student`."""
+    """What to run: a Python file or `-m MODULE`, and its arguments. See `start_student`."""
 
     arguments: Sequence[str]
     workdir_files: Mapping[str, bytes]

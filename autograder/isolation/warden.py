@@ -18,8 +18,9 @@ import time
 from contextlib import suppress
 
 from autograder.isolation.process_tree import descendants
+from ros_runtime.workarounds.die_with_parent import die_with_parent
 
-_PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER = 1, 36
+_PR_SET_CHILD_SUBREAPER = 36
 
 
 class _ToldToStopError(Exception):
@@ -28,15 +29,14 @@ class _ToldToStopError(Exception):
 
 def main() -> None:
     """Adopt orphans, run the command, sweep."""
-    libc = ctypes.CDLL(None)
-    libc.prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+    ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
     signal.signal(signal.SIGTERM, _stop)
-    libc.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
+    parent_lives = die_with_parent(int(sys.argv[1]), signal.SIGTERM)
     status = 128 + signal.SIGKILL
     with suppress(_ToldToStopError):
         os.write(int(sys.argv[2]), b"x")
         os.close(int(sys.argv[2]))
-        if os.getppid() == int(sys.argv[1]):
+        if parent_lives:
             status = _run(sys.argv[3], sys.argv[4:])
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     _sweep()

@@ -1,4 +1,4 @@
-"""The arena's side of `ros_runtime/warm_start`: an interpreter that waits to become students' programs.
+"""The arena's side of `ros_runtime/workarounds/warm_start`: an interpreter that waits to become students' programs.
 
 The arena's first process forks it before it loads anything of the grader: nothing of that is in its memory.
 """
@@ -12,11 +12,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-import ros_runtime.warm_start
+import ros_runtime.workarounds.warm_start
 from autograder.isolation.bubblewrap import STUDENT_FILTER, SandboxError, StartedSandbox
 from autograder.isolation.running_program import EnteredProgram
 
-_FIRST_PROCESS = Path(ros_runtime.warm_start.__file__).with_name("first_process.py")
+_FIRST_PROCESS = Path(ros_runtime.workarounds.warm_start.__file__).with_name("first_process.py")
 
 
 @contextmanager
@@ -45,7 +45,7 @@ class WarmInterpreter:
     @classmethod
     def in_this_arena(cls) -> WarmInterpreter | None:
         """Return the one that the first process of this arena, which is this process, has forked, if it has."""
-        waiting = os.environ.get(ros_runtime.warm_start.WAITING)
+        waiting = os.environ.get(ros_runtime.workarounds.warm_start.WAITING)
         if waiting is None:
             return None
         descriptor, pid = map(int, waiting.split())
@@ -62,7 +62,7 @@ class WarmInterpreter:
     ) -> EnteredProgram:
         """Run the Python file `arguments[0]` in `folder` of an empty sandbox, following the clock's page.
 
-        Raises :class:`.bubblewrap.SandboxError` when it cannot enter.
+        Raises `SandboxError` when it cannot enter.
         """
         order = {
             "sandbox": sandbox.init_pid,

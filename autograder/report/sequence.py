@@ -6,11 +6,16 @@ from collections.abc import Iterator, Sequence
 
 from autograder.authoring import events as ev
 from autograder.authoring.transcript import Transcript
-from ros_runtime.sequence_diagram import Arrow, sequence_svg
+from ros_runtime.drawing.sequence_diagram import Arrow, sequence_svg
+from ros_runtime.message_constants import GoalStatus, RobotMode, name_of
 
 CLIENT, SERVER, ROBOT = "client", "server", "robot"
-STATUS = {1: "ACCEPTED", 2: "EXECUTING", 3: "CANCELING", 4: "SUCCEEDED", 5: "CANCELED", 6: "ABORTED"}
-MODES = {0: "motors off", 1: "stands", 2: "walks", 3: "has fallen"}
+MODES: dict[int, str] = {
+    RobotMode.OFF: "motors off",
+    RobotMode.STANDING: "stands",
+    RobotMode.WALKING: "walks",
+    RobotMode.FALLEN: "has fallen",
+}
 MOST_ARROWS = 60
 
 
@@ -72,7 +77,7 @@ def _arrow(event: object) -> Arrow | None:
                 t, SERVER, CLIENT, "canceling" if canceling else f"cancel refused (code {code})", "answer"
             )
         case ev.ResultReceived(t=t, goal=goal, status=status):
-            return Arrow(t, SERVER, CLIENT, f"result “{goal}”: {STATUS.get(status, status)}", "answer")
+            return Arrow(t, SERVER, CLIENT, f"result “{goal}”: {name_of(GoalStatus, status)}", "answer")
         case ev.Unanswered(t=t, what=what, waited=waited):
             return Arrow(t, CLIENT, CLIENT, f"no answer to the {what} after {waited:.1f} s")
         case ev.RobotCommanded(t=t, command=command):

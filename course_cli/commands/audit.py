@@ -1,5 +1,7 @@
 """`course audit`: does every check catch what it should, and does no sound submission fail?"""
 
+from __future__ import annotations
+
 import json
 from pathlib import Path
 from typing import Annotated
@@ -27,7 +29,7 @@ MATRIX_WIDTH = 140
 
 def audit(
     exercise: Annotated[str | None, typer.Argument(help="the exercise (default: all of them)")] = None,
-    jobs: Annotated[int, typer.Option(min=1, help="arenas at a time; one a core")] = 2,
+    jobs: Annotated[int, typer.Option(min=1, help="how many arenas run at a time, one for each core")] = 2,
     repeat: Annotated[int, typer.Option(min=1, help="times, each with other inputs for the scenarios")] = 1,
     only: Annotated[str, typer.Option(help="only submissions whose name matches, such as 'faulty/*'")] = "*",
     scale: Annotated[float | None, typer.Option(help="how much faster the arenas' clock runs")] = None,

@@ -1,5 +1,7 @@
 """`course check`: a student's own check, with the visible checks and the engine that grades."""
 
+from __future__ import annotations
+
 import json
 from pathlib import Path
 from typing import Annotated
@@ -29,7 +31,7 @@ def check(
         ),
     ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", help="write the verdicts to this file")] = None,
-    jobs: Annotated[int, typer.Option(min=1, help="arenas at a time; one a core")] = 2,
+    jobs: Annotated[int, typer.Option(min=1, help="how many arenas run at a time, one for each core")] = 2,
     course: CourseOption = None,
 ) -> None:
     """Check your own solution of an exercise."""

@@ -1,5 +1,7 @@
 """`course demo`: the whole idea in a minute, on a machine without a screen."""
 
+from __future__ import annotations
+
 import contextlib
 import io
 import json
@@ -22,12 +24,12 @@ from autograder.engine.exercise import load_exercise
 from autograder.engine.grading import grade
 from autograder.engine.submission import read_submission
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.project import PROJECT
 from autograder.report.page import Section, write_page
 from autograder.report.sequence import transcript_svg
 from autograder.report.table import MARKS, summary
 from course_cli.ending import COULD_NOT, ended
 from humanoid_interfaces.action import WalkTo
+from ros_runtime.project import PROJECT
 
 EXERCISE = "cancellable_walk"
 SOLUTION = PROJECT / "solutions" / EXERCISE / f"{EXERCISE}.ipynb"
@@ -40,7 +42,7 @@ class DemoFailed(Exception):
 
 def demo(
     out: Annotated[Path, typer.Option(help="where the report goes")] = PROJECT / "demo",
-    jobs: Annotated[int, typer.Option(min=1, help="arenas at a time; one a core")] = 2,
+    jobs: Annotated[int, typer.Option(min=1, help="how many arenas run at a time, one for each core")] = 2,
 ) -> None:
     """See it all work: a walk, a cancel, three graded submissions."""
     # this very stream: below, the lab's words are kept off whatever sys.stdout is then

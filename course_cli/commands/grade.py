@@ -1,5 +1,7 @@
 """`course grade`: an instructor's batch, from submissions to gradebook and feedback pages."""
 
+from __future__ import annotations
+
 import os
 import sys
 from collections.abc import Sequence
@@ -35,7 +37,9 @@ def grade(
     out: Annotated[Path, typer.Option(help="folder for grades.json, gradebook.db and feedback/")] = Path(
         "graded"
     ),
-    jobs: Annotated[int, typer.Option(min=1, help="arenas at a time; one a core")] = os.cpu_count() or 1,
+    jobs: Annotated[
+        int, typer.Option(min=1, help="how many arenas run at a time, one for each core")
+    ] = os.cpu_count() or 1,
     resume: Annotated[
         bool, typer.Option("--resume", help="keep the grades an earlier run has found")
     ] = False,

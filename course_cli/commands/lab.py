@@ -1,16 +1,17 @@
 """`course lab`: JupyterLab on the clone."""
 
+from __future__ import annotations
+
 import os
 import sys
-from pathlib import Path
 
 import typer
 
 from ros_runtime.environment import ros_environment
+from ros_runtime.project import PROJECT
 
-ROOT = Path(__file__).resolve().parents[2]
 # Only what a student needs: nbgrader's "Validate" would run the notebook and call its own time limit a failed check.
-CONFIGURATION = ROOT / "course_cli" / "jupyter"
+CONFIGURATION = PROJECT / "course_cli" / "jupyter"
 
 
 def lab(context: typer.Context) -> None:
@@ -20,7 +21,7 @@ def lab(context: typer.Context) -> None:
     """
     command = [
         *(sys.executable, "-m", "jupyterlab"),
-        f"--ServerApp.root_dir={ROOT}",
+        f"--ServerApp.root_dir={PROJECT}",
         "--LabApp.default_url=/lab/tree/chapters/README.md",
         *context.args,
     ]

@@ -1,5 +1,7 @@
 """`course release`: what students get, the archive or the notebooks alone."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Annotated
 
@@ -8,10 +10,10 @@ from rich.console import Console
 
 from autograder.engine.exercise import UnusableExercise, exercises_folder
 from autograder.nbgrader_bridge.release import bring_in_step, out_of_step
-from autograder.project import PROJECT
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 from course_cli.student_bundle import Leak, write_bundle
+from ros_runtime.project import PROJECT
 
 
 def release(

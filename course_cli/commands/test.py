@@ -1,12 +1,13 @@
 """`course test`: the whole test suite."""
 
+from __future__ import annotations
+
 import subprocess
 import sys
-from pathlib import Path
 
 import typer
 
-ROOT = Path(__file__).resolve().parents[2]
+from ros_runtime.project import PROJECT
 
 
 def test(context: typer.Context) -> None:
@@ -14,5 +15,5 @@ def test(context: typer.Context) -> None:
     # In a child, because pytest's plugins and the ROS libraries both hold on to a process's state. Two files at a
     # time: robots and notebooks of the tests wait for the clock more than for the processors.
     command = [sys.executable, "-m", "pytest", "-n", "2", "--dist", "loadfile", *context.args]
-    status = subprocess.run(command, cwd=ROOT).returncode
+    status = subprocess.run(command, cwd=PROJECT).returncode
     raise typer.Exit(0 if status == 0 else 1)

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from robot_sim.humanoid import Humanoid
-from robot_sim.views.gl_backend import open_context
+from ros_runtime.workarounds.gl_backend import open_context
 
 
 def snapshot(humanoid: Humanoid, width: int = 640, height: int = 480, *, camera: str = "track") -> np.ndarray:

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import copy
 import time
-from concurrent.futures import Future
-from socket import create_connection, socket
+from socket import create_connection
 from typing import Protocol
 
 import mujoco
 
+from ros_runtime.workarounds.mujoco_web_viewer import LOOPBACK, STARTED_WITHIN, launch_web_viewer
+
 FRAMES = 25.0  # a second, real
-LOOPBACK = "127.0.0.1"
-STARTED_WITHIN = 30.0  # s
 
 
 class Viewed(Protocol):
@@ -23,10 +22,10 @@ class Viewed(Protocol):
 
 
 class WebView:
-    """Shows a robot at ``url`` while ``show()`` is called; ``close()`` ends it.
+    """Shows a robot at `url` while `show()` is called; `close()` ends it.
 
-    The browser draws; what leaves this process is the state, a few KB a frame. MuJoCo's viewer has no password and
-    would listen on every interface, so it is bound to the loopback interface here.
+    The browser draws; what leaves this process is the state, a few KB a frame. There is no password, so the view
+    can be reached from this machine only.
 
     Args:
         robot: whom to show.
@@ -38,37 +37,7 @@ class WebView:
     """
 
     def __init__(self, robot: Viewed, port: int = 0) -> None:
-        # Only now: these imports take half a second, and a robot that nobody looks at does not need them.
-        from mujoco.studio import launch_thread, viewer_protocol, web_viewer
-        from mujoco.studio.web import web_server
-
-        bind = web_server.bind_public_socket
-        bound: Future[int] = Future()
-
-        def bind_to_loopback(_host: str, wanted: int = 0) -> socket:
-            try:
-                listening = bind(LOOPBACK, wanted)
-            except RuntimeError as error:
-                bound.set_exception(OSError(str(error)))
-                raise
-            bound.set_result(listening.getsockname()[1])
-            return listening
-
-        web_server.bind_public_socket = bind_to_loopback
-        web_viewer._print_url_banner = lambda host, port: (
-            None
-        )  # it names a network that this one is not bound to
-        try:
-            config = viewer_protocol.ViewerConfig(title="robot", gfx="web", http_port=port)
-            camera = _following_camera(robot.model)
-            self._viewer = launch_thread.launch_thread(
-                lambda endpoint: viewer_protocol.run_viewer_loop(
-                    web_viewer.WebViewer(config, endpoint, camera=camera)
-                )
-            )
-            port = bound.result(STARTED_WITHIN)
-        finally:
-            web_server.bind_public_socket = bind
+        self._viewer, port = launch_web_viewer(port, _following_camera(robot.model))
         self._robot = robot
         # Copies, because the viewer lets its user drag, reset and load whatever it was given.
         self._model = copy.copy(robot.model)

@@ -3,6 +3,8 @@
 ROS 2 Jazzy from apt is used where it is sourced, the ROS wheels from PyPI everywhere else.
 """
 
+from __future__ import annotations
+
 import os
 import sys
 from collections.abc import Mapping

@@ -1,5 +1,7 @@
 """Build a ROS 2 interface package with CMake into a prefix, once per state of its sources."""
 
+from __future__ import annotations
+
 import hashlib
 import os
 import shlex

@@ -17,8 +17,8 @@ from ros_runtime.interface_build import cmake_package
 from ros_runtime.interface_build.build_environment import PYTHON_LIB, ros_build
 from ros_runtime.interface_build.definitions import Definition, InvalidDefinitions, Problem, read_definitions
 from ros_runtime.interface_build.known_types import KnownTypes
-from ros_runtime.interface_build.late_libraries import load_on_import
 from ros_runtime.interface_build.stock_package import write_package
+from ros_runtime.workarounds.late_libraries import load_on_import
 
 
 @dataclass(frozen=True)

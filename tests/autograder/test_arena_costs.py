@@ -8,12 +8,12 @@ import pytest
 from rich.console import Console
 
 from autograder.audit.known_submission import known_submission
-from autograder.bench.arena_costs import ArenaCost, BenchFailed, Cost, Costs, SubmissionCost, measure
-from autograder.bench.other_version import version_of
-from autograder.bench.processor_time import CannotBeMeasured, metered_group
-from course_cli import arena_bench
-from course_cli.arena_bench import bench_arenas
-from course_cli.commands import bench
+from bench import overview
+from bench.arena import tables
+from bench.arena.arena_costs import ArenaCost, BenchFailed, Cost, Costs, SubmissionCost, measure
+from bench.arena.other_version import version_of
+from bench.arena.processor_time import CannotBeMeasured, metered_group
+from bench.arena.tables import bench_arenas
 
 PHASES = {"interpreter", "imports", "discovery", "settling", "scenario", "end"}
 
@@ -29,7 +29,7 @@ def is_metered():
 @pytest.mark.skipif(not is_metered(), reason="processor time needs control groups, which only root can make")
 def test_an_arena_and_a_grading_are_measured():
     (costs,) = measure(
-        [arena_bench.Version()], arenas=[("robot_controller", "good")], submissions=["patterns"], runs=1
+        [tables.Version()], arenas=[("robot_controller", "good")], submissions=["patterns"], runs=1
     )
     (arena,), (graded,) = costs.arenas, costs.submissions
     assert (arena.exercise, arena.scenario, graded.exercise) == ("robot_controller", "good", "patterns")
@@ -57,7 +57,7 @@ def test_two_versions_stand_side_by_side_as_ratios(tmp_path, monkeypatch):
         Costs(submissions=[SubmissionCost("walk", cpu, wall, 2.0)]) for cpu, wall in ((3, 5), (6, 20))
     )
     (tmp_path / "before.json").write_text(json.dumps(before.to_json()))
-    monkeypatch.setattr(arena_bench, "measure", lambda versions, **options: [now])
+    monkeypatch.setattr(tables, "measure", lambda versions, **options: [now])
     console = Console(record=True, width=80)
     bench_arenas(
         console,
@@ -85,4 +85,4 @@ def test_what_is_neither_a_file_nor_a_commit_is_named():
 
 
 def test_the_sound_server_of_the_fairness_rows_is_there():
-    assert known_submission(bench.EXERCISE, bench.THREADED).kind == "correct"
+    assert known_submission(overview.EXERCISE, overview.THREADED).kind == "correct"

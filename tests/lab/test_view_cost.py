@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from kernels import CellError, Kernel
 
-MEASURE = "from lab.view_cost import view_cost; cost = view_cost(seconds=1.5, rounds=1)"
+MEASURE = "from bench.view_cost import view_cost; cost = view_cost(seconds=1.5, rounds=1)"
 
 
 def test_different_pictures_are_counted_and_the_simulation_keeps_its_pace(own_kernel: Kernel) -> None:

@@ -63,6 +63,19 @@ def test_it_listens_on_this_machine_alone(url):
         socket.create_connection(("127.0.0.2", port_of(url)), timeout=5).close()
 
 
+def test_what_was_replaced_in_mujoco_is_put_back():
+    program = (
+        "from robot_sim.humanoid import Humanoid; from robot_sim.views.web_view import WebView;"
+        "view = WebView(Humanoid());"
+        "from mujoco.studio import web_viewer; from mujoco.studio.web import web_server;"
+        "print(web_server.bind_public_socket.__module__, web_viewer._print_url_banner.__module__)"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert ran.stdout.split() == ["mujoco.studio.web.web_server", "mujoco.studio.web_viewer"], ran.stderr
+
+
 def test_a_taken_port_is_said(url):
     with viewed_robot("--port", str(port_of(url))) as (process, _):
         assert f"Port {port_of(url)} is already in use" in process.stderr.read()

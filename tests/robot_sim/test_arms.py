@@ -7,6 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from bench.robot import grasps
+from bench.robot.trial import simulate
 from robot_sim.arms.joint_trajectory import HOLD, JointPath, JointTrajectory, Waypoint
 from robot_sim.arms.reach import HandTarget
 from robot_sim.arms.upper_body import UpperBodyParameters
@@ -14,8 +16,6 @@ from robot_sim.humanoid import Humanoid
 from robot_sim.model.joint_names import arm_joints
 from robot_sim.model.side import Side
 from robot_sim.state import Mode
-from robot_sim.trials import grasps
-from robot_sim.trials.trial import simulate
 
 ELBOW = "r_elbow"
 

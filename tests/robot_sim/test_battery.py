@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from bench.robot.trial import simulate
 from robot_sim.battery import Battery
 from robot_sim.humanoid import Humanoid
 from robot_sim.state import Mode
-from robot_sim.trials.trial import simulate
 
 
 def energy_used(humanoid: Humanoid, seconds: float) -> float:

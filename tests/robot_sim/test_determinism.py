@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from bench.robot.trial import simulate
 from robot_sim.humanoid import Humanoid
-from robot_sim.trials.trial import simulate
 
 
 def eventful_run(humanoid: Humanoid, read_sensors: bool = False) -> tuple:

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
+from bench.robot.trial import simulate
 from robot_sim.humanoid import Humanoid
 from robot_sim.state import Mode
-from robot_sim.trials.trial import simulate
 
 
 @pytest.fixture

@@ -7,9 +7,9 @@ from itertools import pairwise
 
 import pytest
 
+from bench.robot.trial import simulate
 from robot_sim.humanoid import Humanoid
 from robot_sim.state import Mode
-from robot_sim.trials.trial import simulate
 from robot_sim.walking.height_change import HeightChange
 
 CROUCH, STANCE = 0.45, 0.60  # m

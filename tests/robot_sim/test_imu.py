@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from bench.robot.trial import simulate
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.gravity import GRAVITY
-from robot_sim.trials.trial import simulate
 
 RATE = 50  # Hz, as on the topic imu
 

@@ -6,10 +6,10 @@ import mujoco
 import numpy as np
 import pytest
 
+from bench.robot.trial import simulate
 from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.humanoid import Humanoid
 from robot_sim.state import Mode
-from robot_sim.trials.trial import simulate
 
 SOFT = 0.006  # m, contacts give way this far
 

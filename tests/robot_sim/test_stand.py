@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from bench.robot.trial import simulate
 from robot_sim.humanoid import Humanoid
 from robot_sim.state import Mode
-from robot_sim.trials.trial import simulate
 
 
 @pytest.fixture

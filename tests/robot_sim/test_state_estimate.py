@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from bench.robot.trial import feet_midpoint, simulate
 from robot_sim.humanoid import Humanoid
 from robot_sim.sensors.imu import Imu
 from robot_sim.sensors.state_estimate import StateEstimate
 from robot_sim.state import Mode
-from robot_sim.trials.trial import feet_midpoint, simulate
 
 
 def test_it_walks_to_a_goal_by_its_own_sensors():

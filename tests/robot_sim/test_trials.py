@@ -1,9 +1,10 @@
-"""The trials, a few runs of each: the long ones are for `python -m robot_sim.trials`."""
+"""The trials, a few runs of each: the long ones are for `./course bench --trial all`."""
 
 import pytest
+from rich.console import Console
 
-from robot_sim.trials import run_trials, servo
-from robot_sim.trials.table import table_of
+from bench.robot import run_trials, servo, soak
+from bench.robot.table import bench_robot, table_of
 
 
 def test_quick_stops_and_reaches_meet_their_references():
@@ -28,3 +29,21 @@ def test_a_students_controller_reaches_its_goal(style):
 def test_an_unknown_trial_is_refused_with_the_known_ones():
     with pytest.raises(ValueError, match=r"'dance' is not known.*goals, limits, stops"):
         run_trials(["dance"])
+
+
+def test_a_soak_names_the_command_at_its_last_fall(monkeypatch):
+    commands, falls = iter(["goal", "velocity", "stop"]), iter([False, True, False])
+    monkeypatch.setattr(soak, "_command_at_random", lambda humanoid, chance: next(commands))
+    monkeypatch.setattr(soak, "has_fallen", lambda humanoid: next(falls))
+    monkeypatch.setattr(soak, "simulate", lambda humanoid, seconds: [humanoid.step() for _ in range(200)])
+    outcome = soak.run((300, 2.5))
+    assert outcome.note == "1 falls, the last at velocity"
+
+
+def test_the_table_is_followed_by_the_runs_that_failed(monkeypatch):
+    monkeypatch.setattr(servo, "TIME_LIMIT", 0.1)
+    console = Console(record=True, width=200)
+    bench_robot(console, ["servo"], quick=True, jobs=1)
+    printed = console.export_text()
+    assert "The humanoid's trials" in printed
+    assert "not there after 0.1 s" in printed

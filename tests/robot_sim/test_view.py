@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from robot_sim.humanoid import Humanoid
-from robot_sim.views.gl_backend import NoOpenGLError, open_context
 from robot_sim.views.view import View, snapshot
+from ros_runtime.workarounds.gl_backend import NoOpenGLError, open_context
 
 ACCENT = (0.15, 0.45, 0.75)  # the blue plate on the chest, RGB
 

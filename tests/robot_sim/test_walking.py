@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
+from bench.robot.trial import base_speed, feet_midpoint, simulate
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.dimensions import dimensions_of
 from robot_sim.model.floor import Floor
 from robot_sim.state import Mode
-from robot_sim.trials.trial import base_speed, feet_midpoint, simulate
 from ros_runtime.angles import wrap
 
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from ros_runtime.clock import ScaledClock
-from ros_runtime.clock.compile_library import compile_library
+from ros_runtime.workarounds.scaled_clock import ScaledClock
+from ros_runtime.workarounds.scaled_clock.compile_library import compile_library
 
 
 @pytest.fixture(scope="session")

@@ -8,10 +8,11 @@ import pytest
 from rclpy_process import run_python, run_scenario
 
 import ros_runtime
-from ros_runtime.rclpy_repairs.busy_executor import needs_repair
-from ros_runtime.rclpy_repairs.version import installed_version
+from ros_runtime.workarounds import rclpy_repairs
+from ros_runtime.workarounds.rclpy_repairs.busy_executor import needs_repair
+from ros_runtime.workarounds.rclpy_repairs.version import installed_version
 
-PTH = Path(ros_runtime.__file__).parent / "pth" / "humanoid_course_rclpy_repairs.pth"
+PTH = Path(rclpy_repairs.__file__).with_name("humanoid_course_rclpy_repairs.pth")
 IS_REPAIRED = "import rclpy.executors as e; print(hasattr(e.MultiThreadedExecutor(), '_takeovers'))"
 
 affected = pytest.mark.skipif(
@@ -48,7 +49,7 @@ def test_every_process_of_the_environment_has_the_repair():
 
 def test_a_newer_rclpy_is_not_touched():
     code = (
-        "import ros_runtime.rclpy_repairs.version as v; v.installed_version = lambda: '7.1.13'\n"
+        "import ros_runtime.workarounds.rclpy_repairs.version as v; v.installed_version = lambda: '7.1.13'\n"
         f"import rclpy; rclpy.init(); {IS_REPAIRED}"
     )
     assert python("-c", code)[0] == "False"
@@ -73,8 +74,9 @@ def test_starting_python_imports_nothing_heavy(tmp_path):
     imported = set(python("-I", "-S", "-c", code, tmp_path)[0].split())
     assert {name for name in imported if "ros" in name} == {
         "ros_runtime",
-        "ros_runtime.rclpy_repairs",
-        "ros_runtime.rclpy_repairs.hook",
+        "ros_runtime.workarounds",
+        "ros_runtime.workarounds.rclpy_repairs",
+        "ros_runtime.workarounds.rclpy_repairs.hook",
     }
     assert len(imported) < 20, imported
 

@@ -3,8 +3,8 @@
 import pytest
 from rclpy_process import run_scenario
 
-from ros_runtime.rclpy_repairs.interrupt import needs_repair
-from ros_runtime.rclpy_repairs.version import installed_version
+from ros_runtime.workarounds.rclpy_repairs.interrupt import needs_repair
+from ros_runtime.workarounds.rclpy_repairs.version import installed_version
 
 SCENARIOS = "interrupt_scenarios.py"
 # What rclpy makes of it without the repair. A daemon thread crashes only about every second time.

@@ -10,9 +10,9 @@ import time
 import pytest
 from waits import KERNEL_TIMERS, WAITS
 
-from ros_runtime.clock import ScaledClock
-from ros_runtime.clock.scaled_clock import follow, real_monotonic_ns
 from ros_runtime.environment import ros_environment
+from ros_runtime.workarounds.scaled_clock import ScaledClock
+from ros_runtime.workarounds.scaled_clock.clock import follow, real_monotonic_ns
 
 # Asks for both clocks of a process as fast as it can, the real time before and after.
 READ_CLOCKS = """
@@ -157,7 +157,7 @@ def test_a_forked_child_follows_the_same_clock(clock, start):
 def test_a_fork_of_a_process_without_a_clock_can_follow_one(clock, clock_library, start):
     code = """
 import os, sys, time
-from ros_runtime.clock.scaled_clock import follow, real_monotonic_ns
+from ros_runtime.workarounds.scaled_clock.clock import follow, real_monotonic_ns
 if os.fork() == 0:
     follow(sys.argv[1])
     began, inside = real_monotonic_ns(), time.monotonic()
@@ -270,7 +270,7 @@ def test_a_sandboxed_process_follows_a_page_it_cannot_write(clock, start):
 
 def test_another_process_can_switch_the_clock_even_while_it_follows_it(clock, clock_library, start):
     code = (
-        "import sys; from ros_runtime.clock import ScaledClock; from pathlib import Path\n"
+        "import sys; from ros_runtime.workarounds.scaled_clock import ScaledClock; from pathlib import Path\n"
         "clock = ScaledClock.open(sys.argv[1], library=Path(sys.argv[2]))\n"
         "clock.run_at(2.0, final=False); clock.run_at(5.0); print(clock.scale)"
     )
@@ -293,7 +293,7 @@ def test_an_impossible_scale_is_refused(clock, scale):
 
 
 def test_where_the_library_is_missing_only_scale_1_is_possible(tmp_path, monkeypatch):
-    monkeypatch.setattr("ros_runtime.clock.scaled_clock.library_path", lambda: None)
+    monkeypatch.setattr("ros_runtime.workarounds.scaled_clock.clock.library_path", lambda: None)
     clock = ScaledClock.create(tmp_path / "page")
     assert clock.environment() == {}
     with pytest.raises(RuntimeError, match="C compiler"):

@@ -2,7 +2,7 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-from ros_runtime.sequence_diagram import Arrow, sequence_svg
+from ros_runtime.drawing.sequence_diagram import Arrow, sequence_svg
 
 SVG = "{http://www.w3.org/2000/svg}"
 

@@ -65,7 +65,7 @@ def state(clone: Path, **environment: str) -> str:
         "setup/hatch_build.py",
         "humanoid_interfaces/package.xml",
         "humanoid_interfaces/msg/RobotState.msg",
-        "ros_runtime/clock/scaled_clock.c",
+        "ros_runtime/workarounds/scaled_clock/scaled_clock.c",
     ],
 )
 def test_a_changed_source_makes_it_stale(clone: Path, changed: str) -> None:

@@ -1,1 +1,0 @@
-"""What the toolkit costs and whether it stays fair: measured, printed, never a test."""

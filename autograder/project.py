@@ -1,5 +1,0 @@
-"""Where the clone, or the students' copy, lies."""
-
-from pathlib import Path
-
-PROJECT = Path(__file__).resolve().parents[1]

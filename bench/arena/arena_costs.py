@@ -1,0 +1,164 @@
+"""What arenas and whole gradings cost, of this version and of another, measured in turn in one run."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from bench.arena.processor_time import metered_group
+from ros_runtime.project import PROJECT
+
+ARENAS = (
+    ("battery_service", "ask_once"),  # the robot rests
+    ("robot_controller", "good"),  # no robot
+    ("joint_query", "ask"),  # it stands and moves its arms
+    ("cancellable_walk", "walk"),
+)
+
+
+class BenchFailed(Exception):
+    """A measured run did not come to its end."""
+
+
+@dataclass(frozen=True)
+class Version:
+    """A checkout with its environment; the code that measures is ours in each."""
+
+    project: Path = PROJECT
+    python: Path = Path(sys.executable)
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Processor and wall time, s."""
+
+    cpu_s: float
+    wall_s: float
+
+
+@dataclass(frozen=True)
+class ArenaCost:
+    """One scenario in an arena that is open; `opening` is what the submission's first one takes more, once.
+
+    `floor_s` is the scenario's own time over the scale of its clock, `robot_second_cpu_s` what the simulator uses for
+    one second of the robot's time, None without a robot.
+    """
+
+    exercise: str
+    scenario: str
+    cpu_s: float
+    wall_s: float
+    floor_s: float
+    opening: Cost = Cost(0.0, 0.0)
+    phases: dict[str, Cost] = field(default_factory=dict)
+    robot_second_cpu_s: float | None = None
+
+
+@dataclass(frozen=True)
+class SubmissionCost:
+    """A whole grading of the reference, hidden checks too."""
+
+    exercise: str
+    cpu_s: float
+    wall_s: float
+    floor_s: float
+
+
+@dataclass(frozen=True)
+class Costs:
+    """What was measured of one version."""
+
+    arenas: Sequence[ArenaCost] = ()
+    submissions: Sequence[SubmissionCost] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what `--json` writes."""
+        return asdict(self)
+
+    @classmethod
+    def from_json(cls, record: dict[str, Any]) -> Costs:
+        """Read back what `to_json` returned, of any version."""
+        arenas = [
+            ArenaCost(
+                **{key: arena[key] for key in ("exercise", "scenario", "cpu_s", "wall_s", "floor_s")},
+                opening=Cost(**arena.get("opening", {"cpu_s": 0.0, "wall_s": 0.0})),
+                phases={name: Cost(**cost) for name, cost in arena.get("phases", {}).items()},
+                robot_second_cpu_s=arena.get("robot_second_cpu_s"),
+            )
+            for arena in record.get("arenas", ())
+        ]
+        return cls(arenas, [SubmissionCost(**one) for one in record.get("submissions", ())])
+
+
+def measure(
+    versions: Sequence[Version],
+    *,
+    arenas: Sequence[tuple[str, str]] = (),
+    submissions: Sequence[str] = (),
+    runs: int = 5,
+    jobs: int = 2,
+    progress: Callable[[str], None] = lambda what: None,
+) -> list[Costs]:
+    """Measure each version; the best of several runs counts, because the noise of a machine only adds.
+
+    Raises `BenchFailed`, and `CannotBeMeasured`.
+    """
+    arena_costs: list[list[ArenaCost]] = [[] for _ in versions]
+    submission_costs: list[list[SubmissionCost]] = [[] for _ in versions]
+    for exercise, scenario in arenas:
+        for version, costs in zip(versions, arena_costs, strict=True):
+            progress(f"{exercise} {scenario}, {runs} times")
+            task = {"exercise": exercise, "scenario": scenario, "runs": runs, "jobs": 1}
+            costs.append(_arena_cost(exercise, scenario, list(_run(version, task))))
+    for exercise in submissions:
+        for version, graded in zip(versions, submission_costs, strict=True):
+            progress(f"{exercise} graded, {runs} times")
+            task = {"exercise": exercise, "scenario": "", "runs": runs, "jobs": jobs}
+            graded.append(_submission_cost(exercise, list(_run(version, task))))
+    return [Costs(*both) for both in zip(arena_costs, submission_costs, strict=True)]
+
+
+def _arena_cost(exercise: str, scenario: str, runs: Sequence[dict[str, Any]]) -> ArenaCost:
+    later = [run for run in runs if not run["opens"]]
+    best = min(later, key=lambda run: run["cpu_s"])
+    opening = next((run for run in runs if run["opens"]), None)
+    phases = {name: Cost(**cost) for name, cost in (opening or {"phases": {}})["phases"].items()}
+    phases |= {name: Cost(**cost) for name, cost in best["phases"].items()}
+    wall = min(run["wall_s"] for run in later)
+    extra = Cost(opening["cpu_s"] - best["cpu_s"], opening["wall_s"] - wall) if opening else Cost(0.0, 0.0)
+    seconds = [run["robot_second_cpu_s"] for run in later if run["robot_second_cpu_s"]]
+    robot = min(seconds, default=None)
+    return ArenaCost(exercise, scenario, best["cpu_s"], wall, best["floor_s"], extra, phases, robot)
+
+
+def _submission_cost(exercise: str, runs: Sequence[dict[str, Any]]) -> SubmissionCost:
+    if failed := sum(not run["passed"] for run in runs):
+        raise BenchFailed(
+            f"the reference of {exercise} did not pass every check in {failed} of {len(runs)} runs"
+        )
+    cpu, wall = (min(run[key] for run in runs) for key in ("cpu_s", "wall_s"))
+    return SubmissionCost(exercise, cpu, wall, min(run["floor_s"] for run in runs))
+
+
+def _run(version: Version, task: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    with metered_group() as (processes, meter):
+        task = {**task, "project": str(version.project), "meter": meter}
+        script = str(Path(__file__).with_name("measured_run.py"))
+        command = [str(version.python), script, json.dumps(task)]
+        process = subprocess.Popen(
+            ["/bin/sh", "-c", 'echo $$ > "$0" && exec "$@"', str(processes), *command],
+            env={**os.environ, "PYTHONPATH": str(version.project)},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        output, errors = process.communicate()
+    if process.returncode:
+        raise BenchFailed(f"a run of {task['exercise']} in {version.project} failed: {errors[-2000:]}")
+    yield from map(json.loads, output.splitlines())

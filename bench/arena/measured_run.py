@@ -1,0 +1,126 @@
+"""Runs one scenario, or grades one submission, again and again, and prints what each run cost as a JSON object a line.
+
+Run as `python measured_run.py TASK` in a process of its own, so that nothing else is counted, with any version of
+this package on the path: it uses what they have in common. TASK is JSON: the `project` whose reference solution is
+run, its `exercise`, the `scenario` (none: the whole grading), how many `runs`, with how many `jobs`, and the `meter`
+of `processor_time`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from robot_watch import RobotWatch  # beside this file, in whatever version is measured
+
+try:
+    from autograder.authoring import events as ev
+    from autograder.engine import arena_run
+    from autograder.engine.exercise import Exercise, load_exercise
+    from autograder.engine.grading import grade
+    from autograder.engine.submission import Submission, read_submission
+except ImportError:  # as it was before the rooms were made
+    from autograder.exercise import Exercise, load_exercise  # type: ignore
+    from autograder.grading import grade  # type: ignore
+    from autograder.submission import Submission, read_submission  # type: ignore
+
+    from autograder import arena_run  # type: ignore
+    from autograder import events as ev  # type: ignore
+
+
+def main() -> None:
+    """Carry out the task."""
+    task = json.loads(sys.argv[1])
+    name = task["exercise"]
+    reference = Path(task["project"], "solutions", name, f"{name}.ipynb")
+    exercise, submission = load_exercise(name, hidden=True), read_submission(reference, name)
+    for cost in (
+        _arenas(task, exercise, submission) if task["scenario"] else _gradings(task, exercise, submission)
+    ):
+        print(json.dumps(cost), flush=True)
+
+
+def _arenas(task: dict[str, Any], exercise: Exercise, submission: Submission) -> Iterator[dict[str, Any]]:
+    """Run a scenario; where an arena serves several, the first run opens it and is told apart."""
+    named = (s for check in exercise.checks for s in check.on if s.name == task["scenario"])
+    run = arena_run.ArenaRun(exercise, submission.files, next(named))
+    with _shared_arenas(exercise) as arenas:
+        is_shared = arenas is not None
+        for number in range(task["runs"] + is_shared):
+            opens = is_shared and number == 0
+            this = dataclasses.replace(run, cold=opens, measured=True) if is_shared else run
+            before = _used(task["meter"]), time.monotonic()
+            with RobotWatch() as watch:
+                transcript = arena_run.run_in_arena(this, *((None, arenas) if is_shared else ()))
+            after = _used(task["meter"]), time.monotonic()
+            phases = {
+                event.name: {"cpu_s": event.cpu, "wall_s": event.wall}
+                for event in transcript.events
+                if event.kind == "phase"
+            }
+            yield {
+                **_difference(before, after),
+                "floor_s": _floor(transcript),
+                "phases": phases,
+                "opens": opens,
+                "robot_second_cpu_s": (second := watch.cpu_per_second()) and second / transcript.scale,
+            }
+
+
+def _gradings(task: dict[str, Any], exercise: Exercise, submission: Submission) -> Iterator[dict[str, Any]]:
+    for _ in range(task["runs"]):
+        transcripts: dict[int, Any] = {}
+
+        def keep(_verdict: Any, seen: Sequence[Any], kept: dict[int, Any] = transcripts) -> None:
+            kept.update({id(one): one for one in seen})
+
+        before = _used(task["meter"]), time.monotonic()
+        result = grade(submission, exercise, jobs=task["jobs"], evidence=keep)
+        after = _used(task["meter"]), time.monotonic()
+        floor = sum(map(_floor, transcripts.values())) / task["jobs"]
+        yield {**_difference(before, after), "floor_s": floor, "passed": result.all_passed}
+
+
+@contextmanager
+def _shared_arenas(exercise: Exercise) -> Iterator[Any]:
+    """Yield what keeps an arena open between scenarios; None in versions whose arenas serve one."""
+    for module in ("autograder.engine.submission_arenas", "autograder.submission_arenas"):
+        with suppress(ImportError):
+            arenas_type = import_module(module).SubmissionArenas
+            break
+    else:
+        yield None
+        return
+    # by the exercise's name, before exercises were folders
+    with arenas_type(getattr(exercise, "scenario_file", exercise.name)) as arenas:
+        yield arenas
+
+
+def _floor(transcript: Any) -> float:
+    """Return what the scenario itself takes (wall s): its time on the arena's clock over the scale."""
+    began = transcript.first(ev.NodeReady) or transcript.first(ev.NodeStarted)
+    ended = transcript.first(ev.ScenarioEnded)
+    return max(0.0, (ended.t - began.t) / transcript.scale) if began and ended else 0.0
+
+
+def _difference(before: tuple[float, float], after: tuple[float, float]) -> dict[str, float]:
+    return {"cpu_s": after[0] - before[0], "wall_s": after[1] - before[1]}
+
+
+def _used(meter: str) -> float:
+    """Return the processor time (s) used so far by this process and everything it started."""
+    content = Path(meter).read_text()
+    if meter.endswith("cpu.stat"):
+        return int(content.split("usage_usec ", 1)[1].split()[0]) * 1e-6
+    return int(content) * 1e-9
+
+
+if __name__ == "__main__":
+    main()

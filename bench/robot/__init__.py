@@ -1,0 +1,67 @@
+"""Trials of the humanoid: walking, stopping, balance, reaching, grasping and carrying, and the simulation's speed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+
+from bench.robot import (
+    carries,
+    crouches,
+    estimates,
+    goals,
+    grasps,
+    limits,
+    pushes,
+    reaches,
+    servo,
+    soak,
+    speed,
+    stops,
+    terrain,
+)
+from bench.robot.trial import Summary, Trial
+
+TRIALS: dict[str, Trial] = {
+    "goals": goals.TRIAL,
+    "limits": limits.TRIAL,
+    "stops": stops.TRIAL,
+    "servo": servo.TRIAL,
+    "soak": soak.TRIAL,
+    "pushes": pushes.TRIAL,
+    "terrain": terrain.TRIAL,
+    "estimates": estimates.TRIAL,
+    "crouches": crouches.TRIAL,
+    "reaches": reaches.TRIAL,
+    "grasps": grasps.TRIAL,
+    "carries": carries.TRIAL,
+    "speed": speed.TRIAL,
+}
+
+
+def run_trials(names: Iterable[str] | None = None, *, quick: bool = False, jobs: int = 1) -> list[Summary]:
+    """Run trials and sum them up, in the order of the names.
+
+    Args:
+        names: keys of `TRIALS`; None for all.
+        quick: a few runs of each instead of the full number.
+        jobs: processes that share the runs; "speed" is timed in one.
+
+    Raises:
+        ValueError: a name is not known; the message lists the known ones.
+    """
+    names = list(TRIALS) if names is None else list(names)
+    for name in names:
+        if name not in TRIALS:
+            raise ValueError(f"trial {name!r} is not known; choose from {', '.join(TRIALS)}")
+    return [row for name in names for row in run_trial(TRIALS[name], quick, 1 if name == "speed" else jobs)]
+
+
+def run_trial(trial: Trial, quick: bool, jobs: int) -> list[Summary]:
+    """Run one trial and sum it up."""
+    cases = trial.cases(quick)
+    if jobs <= 1:
+        return trial.summarize([trial.run(case) for case in cases])
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as processes:
+        return trial.summarize(list(processes.map(trial.run, cases)))

@@ -1,0 +1,170 @@
+"""What a trial is: many independent runs of the robot, summed up in one row."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from robot_sim.humanoid import Humanoid
+from robot_sim.model.side import SIDES
+from robot_sim.state import Mode
+
+
+@dataclass(frozen=True)
+class Run:
+    """What came of one run.
+
+    Attributes:
+        case: what was tried, printable.
+        success: it did what it should.
+        note: why not, or "".
+        values: measured numbers by name, with the unit in the name.
+        simulated, cpu: seconds of simulation and of the processor.
+    """
+
+    case: Any
+    success: bool
+    note: str = ""
+    values: dict[str, float] = field(default_factory=dict)
+    simulated: float = 0.0
+    cpu: float = 0.0
+
+
+@dataclass(frozen=True)
+class Summary:
+    """One row of the table.
+
+    Attributes:
+        title: what was tried.
+        successes, runs: how often it worked.
+        measured: the figures, in words.
+        reference: the figures it is held to, in words.
+        met: the reference is reached.
+        real_time_factor: simulated per processor second; NaN where it means nothing.
+        failures: one line for each run that failed.
+    """
+
+    title: str
+    successes: int
+    runs: int
+    measured: str
+    reference: str
+    met: bool
+    real_time_factor: float = math.nan
+    failures: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A trial: its cases, how to run one (in any process), and how to sum up.
+
+    Attributes:
+        cases: arguments of the runs; told whether to be quick.
+        run: one run.
+        summarize: rows from the runs, in the order of the cases.
+    """
+
+    cases: Callable[[bool], Sequence[Any]]
+    run: Callable[[Any], Run]
+    summarize: Callable[[Sequence[Run]], list[Summary]]
+
+
+class Clock:
+    """Processor time of a run, from its making."""
+
+    def __init__(self) -> None:
+        self._start = time.process_time()
+
+    def read(self) -> float:
+        """Seconds since it was made."""
+        return time.process_time() - self._start
+
+
+def simulate(humanoid: Humanoid, seconds: float, until: Callable[[], bool] | None = None) -> bool:
+    """Step for `seconds` of simulated time, or `until` something is true (asked every 20 ms).
+
+    Returns whether it ended that way; a fall ends it as well.
+    """
+    every = max(1, round(0.02 / humanoid.timestep))
+    for tick in range(1, round(seconds / humanoid.timestep) + 1):
+        humanoid.step()
+        if tick % every == 0:
+            if until is not None and until():
+                return True
+            if humanoid.mode is Mode.FALLEN:
+                return False
+    return False
+
+
+def has_fallen(humanoid: Humanoid) -> bool:
+    """True when the robot lies on the floor."""
+    return humanoid.mode is Mode.FALLEN
+
+
+def base_speed(humanoid: Humanoid) -> float:
+    """Speed of base_link in space, m/s."""
+    x, y, z = humanoid.data.qvel[:3].tolist()
+    return math.sqrt(x * x + y * y + z * z)
+
+
+def feet_midpoint(humanoid: Humanoid) -> tuple[float, float]:
+    """Midway between the soles, where `walk_to` brings the robot: (x, y) m, odom frame."""
+    left, right = (humanoid.data.site(f"{side.letter}_sole").xpos.tolist() for side in SIDES)
+    return (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
+
+
+def run_of(
+    case: Sequence[float | str],
+    humanoid: Humanoid,
+    clock: Clock,
+    note: str,
+    values: dict[str, float] | None = None,
+) -> Run:
+    """The run of a case that has ended now; a fall is noted before anything else."""
+    note = "fell" if has_fallen(humanoid) else note
+    return Run(
+        case=tuple(part if isinstance(part, str) else round(part, 3) for part in case),
+        success=not note,
+        note=note,
+        values={"duration_s": humanoid.time, **(values or {})},
+        simulated=humanoid.time,
+        cpu=clock.read(),
+    )
+
+
+def summary(
+    title: str,
+    runs: Sequence[Run],
+    measured: str,
+    reference: str,
+    met: bool,
+) -> Summary:
+    """A row from runs; the counts, the factor and the failures are theirs."""
+    cpu = sum(run.cpu for run in runs)
+    return Summary(
+        title=title,
+        successes=sum(run.success for run in runs),
+        runs=len(runs),
+        measured=measured,
+        reference=reference,
+        met=met,
+        real_time_factor=sum(run.simulated for run in runs) / cpu if cpu else math.nan,
+        failures=tuple(f"{run.case}: {run.note}" for run in runs if not run.success),
+    )
+
+
+def values_of(runs: Sequence[Run], name: str) -> list[float]:
+    """A measured value of the successful runs; [NaN] when there are none."""
+    return [run.values[name] for run in runs if run.success] or [math.nan]
+
+
+def mean(values: Sequence[float]) -> float:
+    """Arithmetic mean."""
+    return sum(values) / len(values)
+
+
+def all_succeeded(runs: Sequence[Run]) -> bool:
+    return all(run.success for run in runs)

@@ -1,0 +1,132 @@
+"""What the robot's live picture gives and what it costs, measured as a notebook would meet it."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+import ipywidgets
+from rclpy.node import Node
+from rosgraph_msgs.msg import Clock
+
+from lab import topics
+from lab.commands import walking
+from lab.connection import connection
+from lab.live_view import stop_watching, watch_robot
+from lab.robot import robot_process, start_robot
+from lab.session import stop_everything
+from lab.waiting import wait_until
+from ros_runtime.workarounds.gl_backend import NoOpenGLError
+
+CIRCLE = {"forward": 0.2, "turn": 0.3}  # m/s, rad/s: every picture differs
+
+
+@dataclass(frozen=True)
+class Load:
+    """A stretch of time.
+
+    Attributes:
+        wall: its length, s.
+        simulated: how far the simulation went, s.
+        simulator, notebook: processor time of the two processes, s.
+    """
+
+    wall: float = 0.0
+    simulated: float = 0.0
+    simulator: float = 0.0
+    notebook: float = 0.0
+
+    @property
+    def pace(self) -> float:
+        """Simulated seconds a second."""
+        return self.simulated / self.wall
+
+    @property
+    def simulator_share(self) -> float:
+        """How much of one core it used, 0 to 1."""
+        return self.simulator / self.wall
+
+    @property
+    def notebook_share(self) -> float:
+        """How much of one core it used, 0 to 1."""
+        return self.notebook / self.wall
+
+    def __add__(self, other: Load) -> Load:
+        return Load(
+            self.wall + other.wall,
+            self.simulated + other.simulated,
+            self.simulator + other.simulator,
+            self.notebook + other.notebook,
+        )
+
+    def __sub__(self, earlier: Load) -> Load:
+        return self + Load(-earlier.wall, -earlier.simulated, -earlier.simulator, -earlier.notebook)
+
+
+@dataclass(frozen=True)
+class ViewCost:
+    """Different pictures a second, and the load of the two processes without and with the picture."""
+
+    frames: float
+    without: Load
+    watched: Load
+
+
+def view_cost(seconds: float = 5.0, rounds: int = 3) -> ViewCost:
+    """Start the robot, let it walk in a circle, and measure for `seconds` without and with the picture, in turns.
+
+    In turns, because whatever else the machine does then weighs on both alike. It ends the lab's session.
+
+    Raises:
+        NoOpenGLError: this machine cannot draw; the message says what to install.
+        NoRobotError: the robot does not come up.
+    """
+    pictures, without, watched = 0, Load(), Load()
+    try:
+        start_robot()
+        clock = connection().once("simulated time", _SimulatedTime)
+        wait_until(lambda: clock.seconds > 0, what="the robot's /clock")
+        with walking(**CIRCLE):
+            wait_until(lambda: topics.mode() == "WALKING", what="the robot walks")
+            for _ in range(rounds):
+                without += _measure(clock, seconds)
+                seen = _watch()
+                before = len(seen)
+                watched += _measure(clock, seconds)
+                pictures += len(seen) - before
+                stop_watching()
+    finally:
+        stop_everything()
+    return ViewCost(pictures / watched.wall, without, watched)
+
+
+def _watch() -> set[bytes]:
+    """Begin to watch; the pictures that come, each different one once."""
+    view = watch_robot()
+    if isinstance(view, ipywidgets.Label):
+        raise NoOpenGLError(view.value)
+    seen: set[bytes] = set()
+    view.observe(lambda change: seen.add(change["new"]), "value")
+    return seen
+
+
+def _measure(clock: _SimulatedTime, seconds: float) -> Load:
+    before = _now(clock)
+    time.sleep(seconds)
+    return _now(clock) - before
+
+
+def _now(clock: _SimulatedTime) -> Load:
+    """All that has been used until now."""
+    return Load(time.monotonic(), clock.seconds, robot_process().cpu_time(), time.process_time())
+
+
+class _SimulatedTime:
+    """The last message on /clock, s."""
+
+    def __init__(self, node: Node) -> None:
+        self.seconds = 0.0
+        node.create_subscription(Clock, "/clock", self._keep, 10)
+
+    def _keep(self, message: Clock) -> None:
+        self.seconds = message.clock.sec + message.clock.nanosec * 1e-9

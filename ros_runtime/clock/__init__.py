@@ -1,5 +1,0 @@
-"""A clock that a whole arena shares and that can run faster than the wall."""
-
-from ros_runtime.clock.scaled_clock import ScaledClock, library_path
-
-__all__ = ["ScaledClock", "library_path"]

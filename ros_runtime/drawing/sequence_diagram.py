@@ -1,0 +1,90 @@
+"""A UML sequence diagram as SVG: lifelines from left to right, time from top to bottom."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Literal
+
+from ros_runtime.drawing.svg import svg
+
+Kind = Literal["request", "answer", "message"]
+
+LANE_WIDTH = 250
+ROW_HEIGHT = 30
+LEFT = 100
+TOP = 74
+BOTTOM = 20
+COLOURS = {"request": "#1f5fa8", "answer": "#2c7a3f", "message": "#777777"}
+DASHES = {"request": "", "answer": ' stroke-dasharray="7 4"', "message": ' stroke-dasharray="2 3"'}
+
+
+@dataclass(frozen=True)
+class Arrow:
+    """One thing said: at `time` (s) `sender` says `label` to `receiver` (the same name: to itself, a note)."""
+
+    time: float
+    sender: str
+    receiver: str
+    label: str
+    kind: Kind = "message"
+
+
+def sequence_svg(arrows: Sequence[Arrow], *, title: str, participants: Sequence[str] | None = None) -> str:
+    """Draw arrows in order of time; `participants` fixes the order of the lifelines (default: as they appear).
+
+    Requests are solid, answers dashed, messages dotted. A text alternative stands in for the drawing where it
+    cannot be seen.
+    Raises ValueError when there is nothing to draw.
+    """
+    if not arrows:
+        raise ValueError("a sequence diagram needs at least one arrow; nothing has happened yet")
+    ordered = sorted(arrows, key=lambda arrow: arrow.time)
+    lanes = list(
+        dict.fromkeys([*(participants or ()), *(name for a in ordered for name in (a.sender, a.receiver))])
+    )
+    centre = {name: LEFT + LANE_WIDTH // 2 + index * LANE_WIDTH for index, name in enumerate(lanes)}
+    width = LEFT + LANE_WIDTH * len(lanes)
+    height = TOP + ROW_HEIGHT * (len(ordered) + 1) + BOTTOM
+    parts: list[str] = []
+    for name, x in centre.items():
+        parts += _lifeline(name, x, height)
+    for row, arrow in enumerate(ordered, start=1):
+        parts += _arrow(arrow, centre, TOP + row * ROW_HEIGHT)
+    return svg(parts, width=width, height=height, title=title, words=_in_words(ordered))
+
+
+def _lifeline(name: str, x: int, height: int) -> list[str]:
+    half = LANE_WIDTH // 2 - 20
+    return [
+        f'<line x1="{x}" y1="{TOP}" x2="{x}" y2="{height - BOTTOM}" stroke="#bbbbbb"/>',
+        f'<rect x="{x - half}" y="{TOP - 34}" width="{2 * half}" height="28" rx="5" fill="#eef3f9" stroke="#8aa4c0"/>',
+        f'<text x="{x}" y="{TOP - 15}" text-anchor="middle">{escape(name)}</text>',
+    ]
+
+
+def _arrow(arrow: Arrow, centre: dict[str, int], y: int) -> list[str]:
+    start, end, colour = centre[arrow.sender], centre[arrow.receiver], COLOURS[arrow.kind]
+    time = f'<text x="12" y="{y + 4}" fill="#777777" font-size="12">{arrow.time:.2f} s</text>'
+    if start == end:
+        return [
+            time,
+            f'<circle cx="{start}" cy="{y}" r="4" fill="{colour}"/>',
+            f'<text x="{start + 10}" y="{y + 4}" fill="{colour}">{escape(arrow.label)}</text>',
+        ]
+    back = -8 if end > start else 8
+    return [
+        time,
+        f'<line x1="{start}" y1="{y}" x2="{end}" y2="{y}" stroke="{colour}" stroke-width="1.5"{DASHES[arrow.kind]}/>',
+        f'<path d="M{end} {y} l{back} -4 v8 z" fill="{colour}"/>',
+        f'<text x="{(start + end) // 2}" y="{y - 5}" text-anchor="middle" fill="{colour}">{escape(arrow.label)}</text>',
+    ]
+
+
+def _in_words(arrows: Sequence[Arrow]) -> str:
+    def sentence(arrow: Arrow) -> str:
+        to = "" if arrow.sender == arrow.receiver else f" to {arrow.receiver}"
+        return f"{arrow.time:.2f} s: {arrow.sender}{to}: {arrow.label}."
+
+    return " ".join(sentence(arrow) for arrow in arrows)

@@ -1,0 +1,35 @@
+"""Constants of messages, for code that judges or draws what happened and need not load ROS.
+
+A test compares them with the messages themselves.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class GoalStatus(IntEnum):
+    """The states of a goal, as in action_msgs/GoalStatus."""
+
+    UNKNOWN = 0
+    ACCEPTED = 1
+    EXECUTING = 2
+    CANCELING = 3
+    SUCCEEDED = 4
+    CANCELED = 5
+    ABORTED = 6
+
+
+class RobotMode(IntEnum):
+    """What the robot does, as in humanoid_interfaces/RobotState."""
+
+    OFF = 0
+    STANDING = 1
+    WALKING = 2
+    FALLEN = 3
+
+
+def name_of(constants: type[IntEnum], value: int) -> str:
+    """Return the name of a constant; of a value that has none, which anybody may have sent, the value as text."""
+    names = {int(constant): constant.name for constant in constants}
+    return names.get(value, str(value))

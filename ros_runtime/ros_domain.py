@@ -1,0 +1,66 @@
+"""Reserve a ROS domain, and keep its nodes on the loopback interface.
+
+Two students on one machine would otherwise drive each other's robot, and two arenas grade each other's.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import random
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+
+# The ports of other domains lie in the range from which Linux takes ephemeral ports; 0 is what people use.
+DOMAIN_IDS = (*range(1, 102), *range(215, 233))
+LOOPBACK_ONLY = Path(__file__).with_name("loopback_only.xml")
+
+
+class NoDomainLeft(Exception):
+    """Every ROS domain that is safe to use is taken by another process on this machine."""
+
+
+class ReservedDomain:
+    """A ROS domain that is ours until it is released or this process ends. The locks are shared by all users.
+
+    Attributes:
+        domain_id: one of `DOMAIN_IDS`.
+
+    Raises:
+        NoDomainLeft: all are taken.
+    """
+
+    def __init__(self) -> None:
+        locks = Path(tempfile.gettempdir(), "ros-domain-locks")
+        with suppress(FileExistsError):
+            locks.mkdir()
+            locks.chmod(0o1777)
+        for domain_id in random.sample(DOMAIN_IDS, len(DOMAIN_IDS)):
+            if (descriptor := _lock(locks / str(domain_id))) is not None:
+                self.domain_id, self._descriptor = domain_id, descriptor
+                return
+        raise NoDomainLeft(f"all {len(DOMAIN_IDS)} ROS domains are in use on this machine")
+
+    def release(self) -> None:
+        """Let others have it."""
+        os.close(self._descriptor)
+
+
+def loopback_variables() -> dict[str, str]:
+    """The variables that keep a process's nodes on 127.0.0.1, and let them find each other on a busy machine."""
+    return {"FASTRTPS_DEFAULT_PROFILES_FILE": str(LOOPBACK_ONLY)}
+
+
+def _lock(path: Path) -> int | None:
+    """Return a descriptor that locks a file, or None when another process, of any user, has locked it."""
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
+    except FileNotFoundError:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_CREAT, 0o644)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        os.close(descriptor)
+        return None
+    return descriptor

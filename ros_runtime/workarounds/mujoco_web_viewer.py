@@ -1,0 +1,91 @@
+"""Start MuJoCo's web viewer on the loopback interface alone.
+
+The viewer has no password, listens on every interface, and has no option to change that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from concurrent.futures import Future
+from contextlib import contextmanager
+from socket import socket
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import mujoco
+    from mujoco.studio.viewer_handle import ViewerHandle
+
+LOOPBACK = "127.0.0.1"
+STARTED_WITHIN = 30.0  # s
+
+
+def launch_web_viewer(port: int, camera: mujoco.MjvCamera) -> tuple[ViewerHandle, int]:
+    """Start the viewer in a thread of this process.
+
+    Args:
+        port: where to listen; 0 takes the first free one from 8080 on.
+        camera: where the viewer looks from at first.
+
+    Returns:
+        The handle of the viewer, and the port it listens on.
+
+    Raises:
+        OSError: the port is taken.
+        ImportError: this MuJoCo is older than 4.0 and has no web viewer.
+    """
+    # Only now: these imports take half a second, and a robot that nobody looks at does not need them.
+    from mujoco.studio import launch_thread, viewer_protocol, web_viewer
+
+    config = viewer_protocol.ViewerConfig(title="robot", gfx="web", http_port=port)
+    started: Future[int] = Future()
+
+    def serve(endpoint: Any) -> None:
+        try:
+            with _bound_to_loopback() as ports:
+                viewer = web_viewer.WebViewer(config, endpoint, camera=camera)
+        except BaseException as error:
+            started.set_exception(error)
+            raise
+        started.set_result(ports[0])
+        viewer_protocol.run_viewer_loop(viewer)
+
+    return launch_thread.launch_thread(serve), started.result(STARTED_WITHIN)
+
+
+@contextmanager
+def _bound_to_loopback() -> Iterator[list[int]]:
+    """Let a viewer that is made meanwhile bind to loopback in silence; the list gets the port it has bound."""
+    from mujoco.studio import web_viewer
+    from mujoco.studio.web import web_server
+
+    bind = web_server.bind_public_socket
+    ports: list[int] = []
+
+    def bind_to_loopback(_host: str, wanted: int = 0) -> socket:
+        try:
+            bound = bind(LOOPBACK, wanted)
+        except RuntimeError as error:  # MuJoCo's word for a port that is taken
+            raise OSError(str(error)) from error
+        ports.append(bound.getsockname()[1])
+        return bound
+
+    def say_nothing(_host: str, _port: int) -> None:
+        """The banner names addresses that this viewer is not bound to."""
+
+    with (
+        _replaced(web_server, "bind_public_socket", bind_to_loopback),
+        _replaced(web_viewer, "_print_url_banner", say_nothing),
+    ):
+        yield ports
+
+
+@contextmanager
+def _replaced(module: ModuleType, name: str, replacement: object) -> Iterator[None]:
+    """Put something else in the place of a module's function, and the function back."""
+    original = getattr(module, name)
+    setattr(module, name, replacement)
+    try:
+        yield
+    finally:
+        setattr(module, name, original)
