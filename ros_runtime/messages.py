@@ -1,11 +1,45 @@
-"""ROS messages as plain nested dicts, field by field, and back."""
+"""ROS messages as plain nested dicts, field by field, and back; and the names of their types."""
 
 from __future__ import annotations
 
+import re
 from array import array
+from importlib import import_module
 from typing import Any
 
 import numpy as np
+
+_TYPE_NAME = re.compile(
+    r"([a-z][a-z0-9_]*)/(msg|srv|action)/([A-Z][A-Za-z0-9]*)(?:_(Request|Response|Goal|Result|Feedback))?"
+)
+
+
+def is_message(value: Any) -> bool:
+    """Whether this is a ROS message."""
+    return hasattr(value, "get_fields_and_field_types")
+
+
+def type_name(message: Any) -> str:
+    """Return the name of a message's type: 'sensor_msgs/msg/BatteryState', 'std_srvs/srv/Trigger_Response'."""
+    package, kind, _ = type(message).__module__.split(".")
+    return f"{package}/{kind}/{type(message).__name__}"
+
+
+def message_type(name: str) -> type:
+    """Return the type of that name.
+
+    Raises:
+        ValueError: there is no such type.
+    """
+    parts = _TYPE_NAME.fullmatch(name)
+    if parts is None:
+        raise ValueError(f"{name[:100]!r} is no name of a message type")
+    package, kind, interface, part = parts.groups()
+    try:
+        found = getattr(import_module(f"{package}.{kind}"), interface)
+        return getattr(found, part) if part else found
+    except (ImportError, AttributeError) as error:
+        raise ValueError(f"there is no message type {name!r}: {error}") from error
 
 
 def to_dict(message: Any) -> dict[str, Any]:
@@ -32,7 +66,7 @@ def fill(message: Any, values: dict[str, Any]) -> None:
                 f"{type(message).__name__} has no field {name!r}; it has {', '.join(fields)}"
             )
         current = getattr(message, name)
-        if hasattr(current, "get_fields_and_field_types"):
+        if is_message(current):
             fill(current, value)
         elif isinstance(current, float):
             setattr(message, name, float(value))
@@ -44,15 +78,13 @@ def fill(message: Any, values: dict[str, Any]) -> None:
 
 def _element_type(message: Any, name: str) -> type:
     """Return the Python type of a sequence field's elements ('sequence<geometry_msgs/Point>' → Point)."""
-    import importlib
-
     declared = message.get_fields_and_field_types()[name]
     package, type_name = declared.removeprefix("sequence<").split("[")[0].rstrip(">").split(",")[0].split("/")
-    return getattr(importlib.import_module(f"{package}.msg"), type_name)
+    return getattr(import_module(f"{package}.msg"), type_name)
 
 
 def _plain(value: Any) -> Any:
-    if hasattr(value, "get_fields_and_field_types"):
+    if is_message(value):
         return to_dict(value)
     if isinstance(value, np.generic):
         return value.item()

@@ -9,16 +9,16 @@ import importlib
 import os
 import tempfile
 import threading
-import time
 import traceback
 from collections.abc import Sequence
 from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
 from autograder.arena.phases import Phase, Phases
 from autograder.arena.punctuality import Punctuality
-from autograder.arena.recorder import Recorder
 from autograder.arena.robots import Robots
 from autograder.arena.scenario_file import scenarios_in
 from autograder.arena.scenario_spec import ScenarioSpec
@@ -48,8 +48,8 @@ def carry_out(
 ) -> None:
     """Carry out the scenario in this process, a new fork of the host, and end it."""
     status = 0
-    recorder = Recorder(events_fd)
-    phases = Phases(recorder, spec.measured, earlier_phases)
+    log = ArenaLog(events_fd)
+    phases = Phases(log, spec.measured, earlier_phases)
     try:
         with tempfile.TemporaryDirectory(prefix="scenario-") as folder:
             clock = ScaledClock.create(Path(folder, "clock"))
@@ -57,9 +57,9 @@ def carry_out(
                 follow(clock.path)
             if domain is not None:
                 os.environ["ROS_DOMAIN_ID"] = str(domain)
-            _carry_out(spec, recorder, phases, clock, robots, interpreter)
+            _carry_out(spec, log, phases, clock, robots, interpreter)
     except Exception as error:  # whatever it is, the controller must learn that this run cannot be judged
-        recorder.record("scenario_failed", reason=f"{type(error).__name__}: {error}")
+        log.append(ev.ScenarioFailed(reason=f"{type(error).__name__}: {error}"))
         traceback.print_exc()
         status = 1
     os._exit(status)  # rclpy's own shutdown would take longer than the scenario's last step
@@ -67,24 +67,23 @@ def carry_out(
 
 def _carry_out(
     spec: ScenarioSpec,
-    recorder: Recorder,
+    log: ArenaLog,
     phases: Phases,
     clock: ScaledClock,
     robots: Robots,
     interpreter: WarmInterpreter | None,
 ) -> None:
-    changed = threading.Condition()
     simulator = None
     if spec.robot_options is not None:  # forked while this process has one thread
-        simulator = Simulator(recorder, changed, robots, spec.namespace, spec.robot_options)
-    student = Student(spec, recorder, changed, clock, interpreter)
+        simulator = Simulator(log, robots, spec.namespace, spec.robot_options)
+    student = Student(spec, log, clock, interpreter)
     try:
         if simulator:
             simulator.listen()
         if spec.student == "node":
             student.start()
         phases.end("start")
-        _perform(spec, recorder, phases, changed, simulator, student, clock)
+        _perform(spec, log, phases, simulator, student, clock)
     finally:
         student.close()
         if simulator:
@@ -94,9 +93,8 @@ def _carry_out(
 
 def _perform(
     spec: ScenarioSpec,
-    recorder: Recorder,
+    log: ArenaLog,
     phases: Phases,
-    changed: threading.Condition,
     simulator: Simulator | None,
     student: Student,
     clock: ScaledClock,
@@ -109,7 +107,7 @@ def _perform(
     from autograder.arena.spinning import keep_spinning
     from autograder.arena.stage import NodeMissing, Stage
 
-    punctuality = Punctuality(recorder, student, spec.scale)
+    punctuality = Punctuality(log, student, spec.scale)
 
     def speed_up() -> None:
         punctuality.begin()
@@ -123,12 +121,12 @@ def _perform(
     executor.add_node(node)
     stage: Stage | ClientStage
     if spec.student == "program":
-        stage = ClientStage(node, recorder, changed, student, phases, speed_up)
+        stage = ClientStage(node, log, student, phases, speed_up)
     else:
         stranger = _bare_node("stranger", spec.namespace)
         executor.add_node(stranger)
-        stage = Stage(node, stranger, recorder, changed, simulator, student, phases, speed_up)
-    threading.Thread(target=keep_spinning, args=(executor, recorder), daemon=True).start()
+        stage = Stage(node, stranger, log, simulator, student, phases, speed_up)
+    threading.Thread(target=keep_spinning, args=(executor, log), daemon=True).start()
     # a robot says itself how late it is
     watch = punctuality.watch() if spec.timed and not simulator else nullcontext()
     with suppress(NodeMissing), watch:  # what is missing is recorded already
@@ -136,7 +134,7 @@ def _perform(
     stage.close()
     if simulator and not simulator.is_running():
         raise RuntimeError(f"the simulator ended with status {simulator.process.exitcode}")
-    recorder.record("scenario_ended", t=time.monotonic())
+    log.append(ev.ScenarioEnded())
     phases.end("scenario")
 
 

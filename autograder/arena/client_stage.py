@@ -1,11 +1,10 @@
-"""The verbs of a scenario for a client: the grader plays the servers, the student's program runs to its end.
+"""The verbs of a scenario for a client: the servers follow a script, the student's program runs to its end.
 
 As on the other stage nothing is judged here, and all durations are seconds on the arena's clock.
 """
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable, Sequence
 from itertools import count
@@ -13,10 +12,11 @@ from typing import Any
 
 from rclpy.node import Node
 
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
 from autograder.arena.graph import Graph
 from autograder.arena.phases import Phases
-from autograder.arena.played_service import PlayedService, Reply
-from autograder.arena.recorder import Recorder
+from autograder.arena.scripted_service import Reply, ScriptedService
 from autograder.arena.student import Student
 from autograder.arena.waiting import Waiting
 
@@ -30,45 +30,43 @@ END_TIMEOUT = 25.0
 
 
 class ClientStage(Waiting):
-    """Servers that the grader plays, and the student's program."""
+    """Servers that follow a script, and the student's program."""
 
     def __init__(
         self,
         node: Node,
-        recorder: Recorder,
-        changed: threading.Condition,
+        log: ArenaLog,
         student: Student,
         phases: Phases,
         speed_up: Callable[[], None],
     ) -> None:
-        super().__init__(Graph(node, recorder), recorder, changed)
+        super().__init__(Graph(node, log), log)
         self._node = node
         self._student = student
         self._phases = phases
         self._speed_up = speed_up
-        self._services: list[PlayedService] = []
+        self._services: list[ScriptedService] = []
         self._request_numbers = count(1)
         self._server_numbers = count(1)
 
     # -- the servers --------------------------------------------------------------------------------------------------
 
-    def play_service(self, name: str, service_type: Any, replies: Sequence[Reply | None]) -> PlayedService:
+    def offer_service(self, name: str, service_type: Any, *replies: Reply | None) -> ScriptedService:
         """Offer a service whose first request gets the first of `replies`, and so on; the last one is repeated."""
-        service = PlayedService(
+        service = ScriptedService(
             self._node,
             service_type,
             name,
             replies,
             f"server {next(self._server_numbers)}",
-            self._recorder,
-            self._changed,
+            self._log,
             lambda: f"request {next(self._request_numbers)}",
         )
         self._services.append(service)
         return service
 
-    def wait_for_requests(self, service: PlayedService, number: int, timeout: float) -> bool:
-        """Wait until a played service has had so many requests; False when the time or the program is over first."""
+    def wait_for_requests(self, service: ScriptedService, number: int, timeout: float) -> bool:
+        """Wait until a scripted service has had so many requests; False when time or program is over first."""
         self.wait_until(lambda: service.requests >= number or self._student.has_exited(), timeout)
         return service.requests >= number
 
@@ -83,7 +81,7 @@ class ClientStage(Waiting):
         self._student.start(arguments)
         appeared = self.poll_until(self._has_appeared, APPEARING_TIMEOUT)
         if appeared and not self._student.has_exited():
-            self._recorder.record("node_ready", waited=time.monotonic() - started)
+            self._log.append(ev.NodeReady(waited=time.monotonic() - started))
             self._phases.end("discovery")
         if appeared and self._services:
             self._wait_for_matching()
@@ -119,7 +117,8 @@ class ClientStage(Waiting):
     def _wait_for_end(self, timeout: float) -> None:
         started = time.monotonic()
         if not self.wait_until(self._student.has_exited, timeout):
-            self._recorder.record("unanswered", what="end", id="program", waited=time.monotonic() - started)
+            waited = time.monotonic() - started
+            self._log.append(ev.Unanswered(what="end", id="program", waited=waited))
 
     def _had_a_request(self) -> bool:
         return any(service.requests for service in self._services)

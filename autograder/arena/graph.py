@@ -18,7 +18,8 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
 
-from autograder.arena.recorder import Recorder
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
 
 MOST_NODES = 50  # a sound program has one or two
 MOST_ENDPOINTS = 100  # of one topic or service that are looked at one by one
@@ -36,9 +37,9 @@ T = TypeVar("T")
 class Graph:
     """The ROS graph as `node` sees it."""
 
-    def __init__(self, node: Node, recorder: Recorder) -> None:
+    def __init__(self, node: Node, log: ArenaLog) -> None:
         self._node = node
-        self._recorder = recorder
+        self._log = log
         self._failures: Counter[str] = Counter()
 
     def has_another_node(self) -> bool:
@@ -100,7 +101,7 @@ class Graph:
             first, times = next(iter(self._failures)), sum(self._failures.values())
             reason = f"the middleware could not say who is there, {times:,} times: {first}"
         if reason:
-            self._recorder.record("graph_flooded", nodes=len(nodes), reason=reason)
+            self._log.append(ev.GraphFlooded(nodes=len(nodes), reason=reason))
             self._failures.clear()
 
     def _count_matchable(self, topic: str) -> int:

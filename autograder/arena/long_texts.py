@@ -35,7 +35,7 @@ def _cut(value: Any, longest: Longest) -> Any:
     if isinstance(value, list | tuple):
         longest.length = max(longest.length, len(value))
         if len(value) > LONGEST:
-            return f"…[cut: {len(value):,} elements]"
+            return []  # what is left has to be a list still
         return [_cut(each, longest) for each in value]
     return value
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from ros_runtime.workarounds.scaled_clock.clock import real_monotonic_ns
 
 if TYPE_CHECKING:  # the arena's first process measures before it imports
-    from autograder.arena.recorder import Recorder
+    from autograder.arena.arena_log import ArenaLog
 
 _CPU_CLOCK = 2  # the kernel's CPUCLOCK_SCHED: exact, unlike the ticks in /proc/PID/stat
 
@@ -42,8 +42,8 @@ class Stopwatch:
 class Phases:
     """Records the phases of one scenario; does nothing unless they are wanted."""
 
-    def __init__(self, recorder: Recorder, wanted: bool, earlier: Sequence[Phase] = ()) -> None:
-        self._recorder = recorder
+    def __init__(self, log: ArenaLog, wanted: bool, earlier: Sequence[Phase] = ()) -> None:
+        self._log = log
         self._stopwatch = Stopwatch() if wanted else None
         if wanted:
             for phase in earlier:
@@ -55,8 +55,10 @@ class Phases:
             self._record(self._stopwatch.lap(name))
 
     def _record(self, phase: Phase) -> None:
+        from autograder.arena.events import PhaseEnded
+
         name, wall, cpu = phase
-        self._recorder.record("phase", name=name, wall=wall, cpu=cpu)
+        self._log.append(PhaseEnded(name=name, wall=wall, cpu=cpu))
 
 
 def _processor_seconds() -> float:

@@ -7,7 +7,8 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from autograder.arena.recorder import Recorder
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
 from autograder.arena.student import Student
 
 PERIOD = 0.1  # s on the arena's clock
@@ -16,8 +17,8 @@ PERIOD = 0.1  # s on the arena's clock
 class Punctuality:
     """Records how late the arena's own process is woken, and how long the student's gets no processor."""
 
-    def __init__(self, recorder: Recorder, student: Student, scale: float) -> None:
-        self._recorder = recorder
+    def __init__(self, log: ArenaLog, student: Student, scale: float) -> None:
+        self._log = log
         self._student = student
         self._scale = scale
         self._starved_before = 0.0
@@ -36,7 +37,7 @@ class Punctuality:
         finally:
             over.set()
             starved = (self._student.starved() - self._starved_before) * self._scale
-            self._recorder.record("starved", seconds=starved)
+            self._log.append(ev.Starved(seconds=starved))
 
     def _sleep(self, over: threading.Event) -> None:
         worst = 0.0
@@ -46,4 +47,4 @@ class Punctuality:
             late = time.monotonic() - before - PERIOD
             if late > worst:
                 worst = late
-                self._recorder.record("woken_late", late=late)
+                self._log.append(ev.WokenLate(late=late))

@@ -1,4 +1,4 @@
-"""The simulator as a process of the arena: commands go in and truth comes out by pipes, never by topic."""
+"""The simulator as a process of the arena: commands go in and ground truth comes out by pipes, never by topic."""
 
 from __future__ import annotations
 
@@ -6,39 +6,26 @@ import json
 import multiprocessing
 import os
 import threading
-from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from autograder.arena.recorder import Recorder
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
 from autograder.arena.robots import Robots
 
 
 class Simulator:
-    """Forks the simulator, passes its truth on to the recorder and keeps the latest to wait on.
+    """Forks the simulator and appends what it says to the log.
 
-    Make it while this process has one thread, and call :meth:`listen` then.
+    Make it while this process has one thread, and call `listen` then.
     """
 
-    def __init__(
-        self,
-        recorder: Recorder,
-        changed: threading.Condition,
-        robots: Robots,
-        namespace: str,
-        options: Sequence[str],
-    ) -> None:
+    def __init__(self, log: ArenaLog, robots: Robots, namespace: str, options: Sequence[str]) -> None:
         truth_read, truth_write = os.pipe()
         control_read, self._control = os.pipe()
-        self._recorder = recorder
-        self._changed = changed
-        self.robot: dict[str, Any] | None = None
-        self.subscribers: dict[str, int] = {}
-        self.publishers: dict[str, int] = {}
-        self.reports: Counter[str] = Counter()
-        self._commands_left = 0
+        self._log = log
         more = ("--namespace", namespace, "--truth-fd", str(truth_write), "--control-fd", str(control_read))
         self.process = multiprocessing.get_context("fork").Process(
             target=_simulate, args=(robots, options, more)
@@ -52,17 +39,10 @@ class Simulator:
         """Begin to take in the truth."""
         self._thread.start()
 
-    def command(self, do: str, **arguments: Any) -> None:
-        """Send one command of :mod:`robot_sim.ros.scenario_control`."""
-        command = {"do": do, **arguments}
-        self._recorder.record("command_sent", command=command)
-        with self._changed:
-            self._commands_left += 1
+    def command(self, command: Mapping[str, Any]) -> None:
+        """Send one command of `robot_sim.ros.scenario_control`."""
+        self._log.append(ev.CommandSent(command=dict(command)))
         os.write(self._control, json.dumps(command).encode() + b"\n")
-
-    def has_obeyed(self) -> bool:
-        """Whether every command has taken effect, and what it asked for has been reported."""
-        return self._commands_left == 0
 
     def is_running(self) -> bool:
         """Whether the process is alive."""
@@ -79,17 +59,9 @@ class Simulator:
             for line in lines:
                 if not line.endswith(b"\n"):
                     return  # it was ended while it wrote
-                self._recorder.forward(line)
-                record = json.loads(line)
-                with self._changed:
-                    self.reports[record["kind"]] += 1
-                    if record["kind"] == "robot":
-                        self.robot = record
-                    elif record["kind"] == "command":
-                        self._commands_left -= 1
-                    elif record["kind"] == "peers":
-                        self.subscribers, self.publishers = record["subscribers"], record["publishers"]
-                    self._changed.notify_all()
+                fields = json.loads(line)
+                event = ev.KINDS[fields.pop("kind")](**fields)
+                self._log.append_written(event, line)
 
 
 def _simulate(robots: Robots, options: Sequence[str], more: Sequence[str]) -> None:

@@ -6,12 +6,13 @@ import traceback
 
 from rclpy.executors import Executor, ExternalShutdownException
 
-from autograder.arena.recorder import Recorder
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
 
 FROM_OUTSIDE = (RuntimeError, UnicodeError, MemoryError)  # rclpy's own errors are RuntimeErrors
 
 
-def keep_spinning(executor: Executor, recorder: Recorder) -> None:
+def keep_spinning(executor: Executor, log: ArenaLog) -> None:
     """Spin until the context is shut down. What cannot be read is counted; an error of ours makes the run void."""
     while executor.context.ok():
         try:
@@ -20,8 +21,8 @@ def keep_spinning(executor: Executor, recorder: Recorder) -> None:
             return
         except FROM_OUTSIDE:
             traceback.print_exc()
-            recorder.drop("unreadable")
+            log.drop("unreadable")
         except Exception as error:
             traceback.print_exc()
-            recorder.record("scenario_failed", reason=f"{type(error).__name__}: {error}")
+            log.append(ev.ScenarioFailed(reason=f"{type(error).__name__}: {error}"))
             return

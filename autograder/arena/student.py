@@ -6,7 +6,8 @@ import json
 import threading
 from collections.abc import Sequence
 
-from autograder.arena.recorder import Recorder
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
 from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.arena.student_watch import StudentWatch
 from autograder.isolation.limits import StudentLimits
@@ -25,14 +26,12 @@ class Student:
     def __init__(
         self,
         spec: ScenarioSpec,
-        recorder: Recorder,
-        changed: threading.Condition,
+        log: ArenaLog,
         clock: ScaledClock,
         interpreter: WarmInterpreter | None = None,
     ) -> None:
         self._spec = spec
-        self._recorder = recorder
-        self._changed = changed
+        self._log = log
         self._clock = clock
         self._interpreter = interpreter
         self._process: StudentProcess | None = None
@@ -89,7 +88,7 @@ class Student:
         self, arguments: Sequence[str], names: Sequence[str], interpreter: WarmInterpreter | None = None
     ) -> None:
         files = {name: content for name, content in self._spec.files.items() if name in names}
-        self._recorder.record("node_started")
+        self._log.append(ev.NodeStarted())
         self._process = start_student(
             arguments,
             workdir_files=files,
@@ -99,13 +98,11 @@ class Student:
             on_line=self._on_line,
             on_exit=self._on_exit,
         )
-        self._watch = StudentWatch(self._process, self._recorder, self._clock, StudentLimits())
+        self._watch = StudentWatch(self._process, self._log, self._clock, StudentLimits())
 
     def _on_line(self, t: float, stream: str, text: str) -> None:
-        self._recorder.record("node_output", t=t, stream=stream, text=text)
+        self._log.append(ev.NodeOutput(t=t, stream="stderr" if stream == "stderr" else "stdout", text=text))
 
     def _on_exit(self, returncode: int) -> None:
         if not self._closing.is_set():  # that end is ours
-            self._recorder.record("node_exited", returncode=returncode)
-        with self._changed:
-            self._changed.notify_all()
+            self._log.append(ev.NodeExited(returncode=returncode))

@@ -5,7 +5,8 @@ from __future__ import annotations
 import threading
 import time
 
-from autograder.arena.recorder import Recorder
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.process_tree import cpu_seconds, resident_mib, seconds_without_a_processor
 from autograder.isolation.student_process import StudentProcess
@@ -18,11 +19,11 @@ class StudentWatch:
     """A thread beside the scenario. A memory bomb then ends itself and not the arena, so its run can be judged."""
 
     def __init__(
-        self, student: StudentProcess, recorder: Recorder, clock: ScaledClock, limits: StudentLimits
+        self, student: StudentProcess, log: ArenaLog, clock: ScaledClock, limits: StudentLimits
     ) -> None:
         self._student = student
         self._clock = clock
-        self._recorder = recorder
+        self._log = log
         self._limits = limits
         self._started = real_monotonic_ns()
         self._cpu = 0.0
@@ -34,7 +35,7 @@ class StudentWatch:
         """Record what has been used until now."""
         self._look()
         wall = (real_monotonic_ns() - self._started) / 1e9
-        self._recorder.record("node_usage", cpu=self._cpu, wall=wall, peak_memory_mib=self._peak)
+        self._log.append(ev.NodeUsage(cpu=self._cpu, wall=wall, peak_memory_mib=self._peak))
 
     def starved(self) -> float:
         """Return how long (s of real time) its processes have waited for a processor until now."""
@@ -45,7 +46,7 @@ class StudentWatch:
             used = self._look()
             if used > self._limits.memory_mib:
                 reason = f"it used {used:.0f} MiB of memory; {self._limits.memory_mib} MiB are allowed"
-                self._recorder.record("node_killed", reason=reason)
+                self._log.append(ev.NodeKilled(reason=reason))
                 self._student.kill()
                 return
             time.sleep(PERIOD * self._clock.scale)  # this process follows the clock

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable
 from typing import Any
 
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
 from autograder.arena.graph import Graph
-from autograder.arena.recorder import Recorder
 
 FLOOD = 50  # messages within…
 QUIET = 0.25  # s of the arena's clock are more than any sound node sends
@@ -17,12 +17,11 @@ POLLING = 0.005  # s between two looks at what nobody notifies us of, such as ch
 
 
 class Waiting:
-    """`changed` is notified whenever something has arrived; all durations are seconds on the arena's clock."""
+    """Waits for what the log says; all durations are seconds on the arena's clock."""
 
-    def __init__(self, graph: Graph, recorder: Recorder, changed: threading.Condition) -> None:
+    def __init__(self, graph: Graph, log: ArenaLog) -> None:
         self._graph = graph
-        self._recorder = recorder
-        self._changed = changed
+        self._log = log
 
     def wait(self, duration: float) -> None:
         """Let time pass."""
@@ -31,15 +30,8 @@ class Waiting:
             time.sleep(left)
 
     def wait_until(self, condition: Callable[[], Any], timeout: float) -> bool:
-        """Wait for a condition on what has arrived so far; False when the time is over first."""
-        deadline = time.monotonic() + timeout
-        with self._changed:
-            while not condition():
-                left = deadline - time.monotonic()
-                if left <= 0:
-                    return False
-                self._changed.wait(min(left, 1.0))
-        return True
+        """Wait for a condition on the log; False when the time is over first."""
+        return self._log.wait_until(condition, timeout)
 
     def poll_until(self, condition: Callable[[], Any], timeout: float) -> bool:
         """Wait for a condition of which nobody is notified; False when the time is over first."""
@@ -54,22 +46,22 @@ class Waiting:
         """The scenario is over: take in what was sent before, and record what there was too much of."""
         self._take_in_the_rest()
         self._graph.inspect()
-        self._recorder.finish()
+        self._log.finish()
 
     def _take_in_the_rest(self) -> None:
         """Wait until nothing is left of a flood: behind it may stand in line what convicts the node."""
         deadline = time.monotonic() + FLOODED
-        before = self._recorder.received
+        before = self._log.received
         while True:
             self.wait(QUIET)
-            now = self._recorder.received
+            now = self._log.received
             if now - before < FLOOD:
                 return
             if time.monotonic() > deadline:
-                self._recorder.drop("unread")
+                self._log.drop("unread")
                 return
             before = now
 
     def mark(self, name: str) -> None:
         """Name this moment for the checks."""
-        self._recorder.record("mark", name=name)
+        self._log.append(ev.Mark(name=name))

@@ -80,7 +80,7 @@ def _unanswered(run: Transcript) -> Cause | None:
 
 
 def _service_of(run: Transcript, call: str) -> str:
-    return next((asked.sent.service for asked in run.calls if asked.name == call), "a service")
+    return next((asked.service for asked in run.calls if asked.name == call), "a service")
 
 
 def _refused(run: Transcript) -> Cause | None:

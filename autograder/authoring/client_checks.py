@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from autograder.authoring import events as ev
+from autograder.authoring.call import Request
 from autograder.authoring.checks import Failure, expect
 from autograder.authoring.missing import Missing, ordinal, unseen
 from autograder.authoring.readiness import require_within_limits
-from autograder.authoring.transcript import RequestHistory, Transcript
+from autograder.authoring.transcript import Transcript
 
 SLACK = 2.0  # s on the arena's clock for start and shutdown: 0.4 s of wall time at scale 5, on a busy machine
 
@@ -78,7 +79,7 @@ def require_failure(run: Transcript, within: float, statuses: tuple[int, ...], b
     )
 
 
-def require_requests(run: Transcript, service: str, number: int) -> list[RequestHistory]:
+def require_requests(run: Transcript, service: str, number: int) -> list[Request]:
     """The client sent exactly so many requests to a service."""
     requests = run.requests(service)
     expect(
@@ -91,7 +92,7 @@ def require_requests(run: Transcript, service: str, number: int) -> list[Request
     return requests
 
 
-def require_played(run: Transcript, service: str, servers: int = 1, service_type: str = "") -> None:
+def require_offered(run: Transcript, service: str, servers: int = 1, service_type: str = "") -> None:
     """The grader offered a service, with so many servers in all and of one type: what the client had to deal with."""
     offered = [
         event
@@ -99,7 +100,7 @@ def require_played(run: Transcript, service: str, servers: int = 1, service_type
         if event.service == service and service_type in ("", event.type)
     ]
     if len({event.server for event in offered}) != servers:
-        raise unseen(run, f"{service} was played by {len(offered)} servers instead of {servers}")
+        raise unseen(run, f"{service} was offered by {len(offered)} servers instead of {servers}")
 
 
 def require_withdrawn(run: Transcript, service: str) -> ev.ServiceWithdrawn:
@@ -115,7 +116,7 @@ def require_withdrawn(run: Transcript, service: str) -> ev.ServiceWithdrawn:
 
 
 def require_reply(run: Transcript, service: str, number: int = 1) -> ev.ReplySent:
-    """Return the first (`number` 1), second, … reply of a played service that the client was there to get."""
+    """Return the first (`number` 1), second, … reply of a scripted service that the client was there to get."""
     replies = [request.reply for request in run.requests(service) if request.reply]
     if len(replies) < number:
         raise Missing(

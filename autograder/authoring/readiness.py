@@ -1,11 +1,18 @@
-"""The first question about any run: was the student's node there at all? The engine asks it before every check."""
+"""The first questions about any run: was the student's node there at all, and did it keep running?
+
+The engine asks whether it was there before every check.
+"""
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 from autograder.authoring import events as ev
 from autograder.authoring.failure import Failure
 from autograder.authoring.missing import unseen
-from autograder.authoring.transcript import Transcript
+
+if TYPE_CHECKING:  # calls and goals of a transcript ask here themselves
+    from autograder.authoring.transcript import Transcript
 
 
 def require_ready(run: Transcript) -> None:
@@ -53,6 +60,19 @@ def require_within_limits(run: Transcript) -> None:
             observed=f"it was ended: {killed.reason}",
             help="Look for a list that grows without end, or for processes and threads started in a loop.",
             at=killed.t,
+        )
+
+
+def require_alive(run: Transcript) -> None:
+    """The student's process did not die while the scenario ran."""
+    require_within_limits(run)
+    exited = run.first(ev.NodeExited)
+    if exited and run.first(ev.NodeSignalled) is None:
+        raise Failure(
+            expected="a node that keeps running",
+            observed=f"the program ended with status {exited.returncode}: {run.last_words}",
+            help="An exception in a callback ends rclpy.spin() and with it the node: find it in the log below.",
+            at=exited.t,
         )
 
 

@@ -13,11 +13,13 @@ from autograder.authoring.server_checks import require_calls
 from autograder.authoring.standard import Needs, named_check
 from autograder.authoring.transcript import Transcript
 
+_FROM_MEMORY = "Answer from memory: the callback must not sleep or wait for the next message."
+
 
 def answers_every_request(
-    title: str, *, requests: int, within: float, help: str, points: int, on: Scenario, needs: Needs
+    requests: int, *, points: int, on: Scenario, needs: Needs, within: float = 2.0, help: str = _FROM_MEMORY
 ) -> Check:
-    """All `requests` of the scenario are answered, each `within` so many s."""
+    """All `requests` of the scenario, many at once, are answered, each `within` so many s."""
 
     def judge(run: Transcript) -> None:
         latencies = [call.latency for call in require_calls(run, requests)]
@@ -28,6 +30,7 @@ def answers_every_request(
             help=help,
         )
 
+    title = f"{requests} requests, many at once, are all answered, each within {within:g} s"
     return named_check("answers_every_request", title, judge, points=points, on=on, needs=needs)
 
 

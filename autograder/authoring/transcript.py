@@ -1,7 +1,7 @@
 """Everything one arena saw, on one time axis, with the questions checks ask of it.
 
-What a check asks for and is not there is a failure with a reason (:class:`~.missing.Missing`), or, where the arena did
-not do its part, no grade (:class:`~.failure.CannotBeJudged`).
+What a check asks for and is not there is a failure with a reason (`Missing`), or, where the arena did not do its part,
+no grade (`CannotBeJudged`).
 """
 
 from __future__ import annotations
@@ -9,70 +9,19 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, TypeVar
 
 from autograder.authoring import events as ev
-from autograder.authoring.missing import Missing, ordinal, unseen
+from autograder.authoring.call import Call, Request
+from autograder.authoring.goal import Cancel, Goal
+from autograder.authoring.missing import Missing, unseen
 
 E = TypeVar("E")
 A = TypeVar("A", ev.GoalAnswered, ev.ResultReceived, ev.CancelAnswered, ev.ServiceAnswered)
 
 LONGEST_GAP = 0.5  # s between what is asked about the robot and the nearest sample; it is sampled at 50 Hz
-
-
-@dataclass(frozen=True)
-class CancelHistory:
-    """One cancel request and its answer (None: never answered)."""
-
-    sent: ev.CancelSent
-    answer: ev.CancelAnswered | None
-
-
-@dataclass(frozen=True)
-class GoalHistory:
-    """The life of one goal as its client saw it."""
-
-    name: str
-    sent: ev.GoalSent
-    answer: ev.GoalAnswered | None
-    feedback: Sequence[ev.FeedbackReceived]
-    statuses: Sequence[ev.StatusSeen]
-    cancels: Sequence[CancelHistory]
-    result: ev.ResultReceived | None
-
-    @property
-    def accepted(self) -> bool:
-        """Whether the server said yes."""
-        return self.answer is not None and self.answer.accepted
-
-    @property
-    def status(self) -> int | None:
-        """The final status (action_msgs/GoalStatus), None without a result."""
-        return self.result.status if self.result else None
-
-
-@dataclass(frozen=True)
-class CallHistory:
-    """One service call and its answer (None: never answered)."""
-
-    name: str
-    sent: ev.ServiceCalled
-    answer: ev.ServiceAnswered | None
-
-    @property
-    def latency(self) -> float:
-        """Seconds to the answer; infinite without one."""
-        return self.answer.t - self.sent.t if self.answer else math.inf
-
-
-@dataclass(frozen=True)
-class RequestHistory:
-    """One request of the student's client to a service the grader played, and the reply it got (None: none)."""
-
-    received: ev.RequestReceived
-    reply: ev.ReplySent | None
 
 
 @dataclass(frozen=True)
@@ -92,7 +41,7 @@ class Transcript:
         """Put events in order of time, with the arena's start at 0 s."""
         ordered = sorted(events, key=lambda event: event.t)
         origin = ordered[0].t if ordered else 0.0
-        shifted = [event.model_copy(update={"t": event.t - origin}) for event in ordered]
+        shifted = [replace(event, t=event.t - origin) for event in ordered]
         truth = [event for event in shifted if isinstance(event, ev.RobotTruth)]
         others = [event for event in shifted if not isinstance(event, ev.RobotTruth)]
         return cls(scenario, dict(params), others, truth, scale)
@@ -121,7 +70,7 @@ class Transcript:
 
     # -- actions ------------------------------------------------------------------------------------------------------
 
-    def goal(self, name: str) -> GoalHistory:
+    def goal(self, name: str) -> Goal:
         """Return the life of one goal, which must have been sent."""
         sent = next((event for event in self.all(ev.GoalSent) if event.goal == name), None)
         if sent is None:
@@ -130,7 +79,7 @@ class Transcript:
                 expected=f"a server that gets as far as the goal “{name}”",
                 never=f"the goal “{name}” was never sent",
             )
-        return GoalHistory(
+        return Goal(
             name,
             sent,
             self._in_time(ev.GoalAnswered, "goal", name, of="goal"),
@@ -138,18 +87,19 @@ class Transcript:
             [event for event in self.all(ev.StatusSeen) if event.goal == name],
             [cancel for cancel in self.cancels if cancel.sent.goal == name],
             self._in_time(ev.ResultReceived, "goal", name, of="result"),
+            self,
         )
 
     @cached_property
-    def cancels(self) -> list[CancelHistory]:
+    def cancels(self) -> list[Cancel]:
         """Every cancel request, in order."""
         sent = {event.cancel: event for event in reversed(self.all(ev.CancelSent))}
         return [
-            CancelHistory(event, self._in_time(ev.CancelAnswered, "cancel", name, of="cancel"))
+            Cancel(event, self._in_time(ev.CancelAnswered, "cancel", name, of="cancel"), self)
             for name, event in reversed(sent.items())
         ]
 
-    def cancels_of(self, goal: str) -> list[CancelHistory]:
+    def cancels_of(self, goal: str) -> list[Cancel]:
         """Return the requests to cancel one goal (none named: every goal), of which there must be one."""
         requests = [cancel for cancel in self.cancels if cancel.sent.goal == goal]
         if not requests:
@@ -164,38 +114,42 @@ class Transcript:
     # -- services -----------------------------------------------------------------------------------------------------
 
     @cached_property
-    def calls(self) -> list[CallHistory]:
+    def calls(self) -> list[Call]:
         """Every service call, in order."""
         sent = {event.call: event for event in reversed(self.all(ev.ServiceCalled))}
         return [
-            CallHistory(name, event, self._in_time(ev.ServiceAnswered, "call", name, of="call"))
+            Call(name, event, self._in_time(ev.ServiceAnswered, "call", name, of="call"), self)
             for name, event in reversed(sent.items())
         ]
 
-    def calls_to(self, service: str) -> list[CallHistory]:
+    def calls_to(self, service: str) -> list[Call]:
         """Return the calls of one service, in order."""
-        return [call for call in self.calls if call.sent.service == service]
+        return [call for call in self.calls if call.service == service]
 
-    def call(self, service: str, number: int) -> CallHistory:
-        """Return the first (`number` 1), second, … call of a service, which must have been made."""
-        calls = self.calls_to(service)
-        if len(calls) < number:
-            raise Missing(
-                self,
-                expected=f"a server that gets as far as the {ordinal(number)} question to {service}",
-                never=f"{service} was never asked a {ordinal(number)} time"
-                if number > 1
-                else f"{service} was never asked",
-            )
-        return calls[number - 1]
+    def call(self, name: str) -> Call:
+        """Return the call that the scenario gave this name, which must have been made."""
+        for call in self.calls:
+            if call.name == name:
+                return call
+        raise Missing(
+            self,
+            expected=f"a server that gets as far as the request “{name}”",
+            never=f"the request “{name}” was never sent",
+        )
 
-    # -- services that the grader plays -------------------------------------------------------------------------------
+    def given_up(self, what: str, name: str) -> ev.Unanswered | None:
+        """Return when the scenario stopped to wait for the answer to a call, goal, cancel or result."""
+        return next(
+            (event for event in self.all(ev.Unanswered) if (event.what, event.id) == (what, name)), None
+        )
 
-    def requests(self, service: str) -> list[RequestHistory]:
-        """Return the requests that a played service got, whichever of its servers, in order."""
+    # -- scripted services --------------------------------------------------------------------------------------------
+
+    def requests(self, service: str) -> list[Request]:
+        """Return the requests that a scripted service got, whichever of its servers, in order."""
         received = {event.request: event for event in reversed(self.all(ev.RequestReceived))}
         return [
-            RequestHistory(event, self._one(ev.ReplySent, "request", name))
+            Request(event, self._one(ev.ReplySent, "request", name))
             for name, event in reversed(received.items())
             if event.service == service
         ]
@@ -255,9 +209,9 @@ class Transcript:
 
     def _in_time(self, kind: type[A], key: str, value: str, *, of: str) -> A | None:
         """Return the answer to something, unless the scenario had stopped to wait for it and gone on."""
-        given_up = [event.t for event in self.all(ev.Unanswered) if (event.what, event.id) == (of, value)]
+        given_up = self.given_up(of, value)
         answer = self._one(kind, key, value)
-        return None if answer is None or (given_up and answer.t > given_up[0]) else answer
+        return None if answer is None or (given_up and answer.t > given_up.t) else answer
 
     def _one(self, kind: type[E], key: str, value: str) -> E | None:
         return next((event for event in self.all(kind) if getattr(event, key) == value), None)

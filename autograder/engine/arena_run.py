@@ -7,8 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pydantic import ValidationError
-
 from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.authoring import events as ev
 from autograder.authoring.checks import Scenario
@@ -94,7 +92,7 @@ def _transcript(run: ArenaRun, params: dict[str, Any], scale: float, report: byt
     *lines, _unfinished = report.split(b"\n")
     try:
         events = [ev.parse_event(line) for line in lines]
-    except ValidationError as error:
+    except ValueError as error:
         raise NotGraded(f"the arena's report cannot be read: {error}") from error
     failed = next((event for event in events if isinstance(event, ev.ScenarioFailed)), None)
     if failed:

@@ -14,13 +14,13 @@ from autograder.authoring.transcript import Transcript
 
 # What stands in a record, in the words of a report.
 PLURALS: Mapping[str, str] = {
-    "feedback": "feedback messages",
-    "status": "changes of a goal's status",
+    ev.FeedbackReceived.kind: "feedback messages",
+    ev.StatusSeen.kind: "changes of a goal's status",
     "status message": "messages on an action's status topic",
-    "request_received": "requests",
-    "service_answered": "answers",
-    "node_output": "lines of output",
-    "too_large": "messages that are too large",
+    ev.RequestReceived.kind: "requests",
+    ev.ServiceAnswered.kind: "answers",
+    ev.NodeOutput.kind: "lines of output",
+    ev.TooLarge.kind: "messages that are too large",
     "unread": "messages that nobody could read in time",
     "unreadable": "messages that cannot be read",
 }
@@ -59,7 +59,7 @@ def _require_nothing_too_large(run: Transcript) -> None:
 
 def _require_nothing_dropped(run: Transcript, scenario: Scenario) -> None:
     for dropped in run.all(ev.RecordDropped):
-        if dropped.what == "node_output" and scenario.student == "node":
+        if dropped.what == ev.NodeOutput.kind and scenario.student == "node":
             continue  # what a node prints is never judged
         if dropped.what not in PLURALS:
             raise held_up(run, f"{dropped.count} events of the kind {dropped.what[:60]} were not recorded")

@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-import json
 import math
 import os
-import time
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
 
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.side import Side
+from ros_runtime.record.event import Event, to_line
+from ros_runtime.record.ground_truth import (
+    ArmReported,
+    BatteryPublished,
+    JointsPublished,
+    RobotCommanded,
+    RobotPeers,
+    RobotReady,
+    RobotRefused,
+    RobotTruth,
+)
 
 GROUND_TRUTH_RATE = 50.0  # Hz, simulated
-
-
-@dataclass(frozen=True)
-class BatterySample:
-    """One published battery_state: percentage 0..1, voltage V, current A (negative: discharging)."""
-
-    percentage: float
-    voltage: float
-    current: float
 
 
 class GroundTruthWriter:
@@ -32,7 +31,7 @@ class GroundTruthWriter:
 
     def ready(self) -> None:
         """Write that the robot stands and its topics exist."""
-        self._write({"kind": "ready"})
+        self._write(RobotReady())
 
     def robot(
         self, humanoid: Humanoid, lag: float, command: tuple[float, float, float] | None = None
@@ -42,31 +41,30 @@ class GroundTruthWriter:
         x, y, z = pose.position.tolist()
         vx, vy, _ = velocity.linear.tolist()
         self._write(
-            {
-                "kind": "robot",
-                "simulated": humanoid.time,
-                "lag": lag,
-                "x": x,
-                "y": y,
-                "z": z,
-                "yaw": float(pose.yaw),
-                "speed": math.hypot(vx, vy),
-                "turn_rate": float(velocity.angular[2]),
-                "up": float(humanoid.up()),
-                "mode": int(humanoid.mode),
-                "motors_enabled": bool(humanoid.motors_enabled),
-                "steps": int(humanoid.steps),
-                "battery": float(humanoid.battery.percentage),
-            }
+            RobotTruth(
+                simulated=humanoid.time,
+                lag=lag,
+                x=x,
+                y=y,
+                z=z,
+                yaw=float(pose.yaw),
+                speed=math.hypot(vx, vy),
+                turn_rate=float(velocity.angular[2]),
+                up=float(humanoid.up()),
+                mode=int(humanoid.mode),
+                motors_enabled=bool(humanoid.motors_enabled),
+                steps=int(humanoid.steps),
+                battery=float(humanoid.battery.percentage),
+            )
         )
 
-    def battery_published(self, sample: BatterySample) -> None:
+    def battery_published(self, percentage: float, voltage: float, current: float) -> None:
         """Write what went out on battery_state."""
-        self._write({"kind": "battery", **asdict(sample)})
+        self._write(BatteryPublished(percentage=percentage, voltage=voltage, current=current))
 
     def joints_published(self, names: Sequence[str], positions: Sequence[float]) -> None:
         """Write what goes out on joint_states: a position for each name, rad (fingers: m)."""
-        self._write({"kind": "joints", "names": list(names), "positions": list(positions)})
+        self._write(JointsPublished(names=list(names), positions=list(positions)))
 
     def arm(self, humanoid: Humanoid, side: Side) -> None:
         """Write where elbow and hand of an arm are: m from its shoulder, along the torso's x, y and z."""
@@ -75,22 +73,21 @@ class GroundTruthWriter:
         axes = data.body("torso").xmat.reshape(3, 3)
         elbow = (data.body(f"{side.letter}_forearm").xpos - shoulder) @ axes
         hand = (data.site(f"{side.letter}_grip").xpos - shoulder) @ axes
-        self._write({"kind": "arm", "side": side.letter, "elbow": elbow.tolist(), "hand": hand.tolist()})
+        self._write(ArmReported(side=side.letter, elbow=elbow.tolist(), hand=hand.tolist()))
 
     def peers(self, subscribers: dict[str, int], publishers: dict[str, int]) -> None:
         """Write how many subscribers and publishers of other nodes the robot is connected to, by topic."""
-        self._write({"kind": "peers", "subscribers": subscribers, "publishers": publishers})
+        self._write(RobotPeers(subscribers=subscribers, publishers=publishers))
 
     def refused(self, topic: str, count: int, largest: int, reason: str) -> None:
         """Write how many messages of a topic were refused so far, the largest one's bytes, and why."""
-        self._write({"kind": "refused", "topic": topic, "count": count, "bytes": largest, "reason": reason})
+        self._write(RobotRefused(topic=topic, count=count, bytes=largest, reason=reason))
 
     def commanded(self, command: dict) -> None:
         """Write a command of the scenario when it takes effect."""
-        self._write({"kind": "command", "command": command})
+        self._write(RobotCommanded(command=command))
 
-    def _write(self, record: dict) -> None:
-        line = json.dumps({"t": time.monotonic(), **record}) + "\n"
-        view = memoryview(line.encode())
+    def _write(self, event: Event) -> None:
+        view = memoryview(to_line(event))
         while view:
             view = view[os.write(self._fd, view) :]

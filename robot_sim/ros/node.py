@@ -17,7 +17,7 @@ from humanoid_interfaces.msg import BalanceGains as BalanceGainsMessage
 from humanoid_interfaces.msg import RobotState
 from robot_sim.humanoid import Humanoid, Mode
 from robot_sim.model.joint_names import ACTUATED_JOINTS
-from robot_sim.ros.ground_truth import BatterySample, GroundTruthWriter
+from robot_sim.ros.ground_truth import GroundTruthWriter
 from robot_sim.ros.inbox import Inbox
 from robot_sim.ros.manipulation_topics import ManipulationTopics
 from robot_sim.ros.messages import floats, has_subscribers, set_fields
@@ -225,14 +225,14 @@ class HumanoidNode(Node):
         if not self.battery_sensor_connected:
             return
         battery = self.humanoid.battery
-        sample = BatterySample(battery.percentage, battery.voltage, battery.current)
+        percentage, voltage, current = battery.percentage, battery.voltage, battery.current
         message = self._battery_message
-        message.voltage, message.current = sample.voltage, sample.current
-        message.percentage = sample.percentage
+        message.voltage, message.current = voltage, current
+        message.percentage = percentage
         self._read_clock()
         self._battery_state.publish(message)
         if self._ground_truth:
-            self._ground_truth.battery_published(sample)
+            self._ground_truth.battery_published(percentage, voltage, current)
 
     def _publish_robot_state(self) -> None:
         mode, motors_enabled, steps = self._last_announced = self._announcement()

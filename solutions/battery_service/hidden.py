@@ -6,18 +6,8 @@ from autograder.authoring import standard_hidden
 from autograder.authoring.checks import RESTING, Scenario, check
 from autograder.authoring.transcript import Transcript
 
-from .checks import (
-    SENSOR_UNPLUGGED,
-    answers_with_the_last_message,
-    follows_the_battery,
-    says_when_it_knows_nothing,
-)
-from .judging import (
-    require_last_message,
-    require_last_message_after_plugging_in,
-    require_last_message_after_silence,
-    require_last_message_at_each_level,
-)
+from .checks import UNPLUGGED, answers_with_the_last_message, follows_the_battery, says_when_it_knows_nothing
+from .judging import require_at_each_level, require_in_silence, require_last_message
 
 RANDOM_LEVELS = Scenario(
     "ask_at_levels",
@@ -29,33 +19,27 @@ MANY_AT_ONCE = Scenario("ask_many_at_once", {"bursts": 4, "burst": 8}, robot=RES
 OTHER_NAMESPACE = Scenario("ask_once", robot=RESTING, namespace="/lab_7/robot")
 
 
-@check(points=1, on=SENSOR_UNPLUGGED, needs=[answers_with_the_last_message, says_when_it_knows_nothing])
+@check(points=1, on=UNPLUGGED, needs=[answers_with_the_last_message, says_when_it_knows_nothing])
 def recovers_when_the_sensor_appears(run: Transcript) -> None:
     """Once the first message has come, it answers with it"""
-    require_last_message_after_plugging_in(run)
+    call = run.call("after the first message")
+    require_last_message(call, since=run.told("battery_sensor", before=call.sent.t, connected=True).t)
 
 
 @check(points=1, on=[RANDOM_LEVELS, SENSOR_STOPPED], needs=follows_the_battery)
 def keeps_the_last_message(changing: Transcript, stopped: Transcript) -> None:
     """Whatever the charge, and also when the sensor falls silent, it answers with the last message"""
-    require_last_message_at_each_level(changing)
-    require_last_message_after_silence(stopped)
+    require_at_each_level(changing)
+    require_in_silence(stopped.call("in silence"))
 
 
 answers_every_request = standard_hidden.answers_every_request(
-    "Eight requests at once, four times, are all answered, each within 2 s",
-    requests=32,
-    within=2.0,
-    help="Answer from memory: the callback must not sleep or wait for the next message.",
-    points=1,
-    on=MANY_AT_ONCE,
-    needs=answers_with_the_last_message,
+    32, points=1, on=MANY_AT_ONCE, needs=answers_with_the_last_message
 )
-
 
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
     "serves the robot",
-    require_last_message,
+    lambda run: require_last_message(run.call("once")),
     points=1,
     on=OTHER_NAMESPACE,
     needs=answers_with_the_last_message,

@@ -4,31 +4,12 @@ from __future__ import annotations
 
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario, check, expect
+from autograder.authoring.feedback import require_feedback, require_good_feedback_rate
+from autograder.authoring.goal import ABORTED
 from autograder.authoring.transcript import Transcript
 
-from .goals import (
-    ABORTED,
-    FELL,
-    PREEMPTED,
-    require_accepted,
-    require_canceled,
-    require_error_code,
-    require_rejected,
-    require_result,
-)
-from .reports import (
-    require_feedback,
-    require_filled_result,
-    require_good_feedback_rate,
-    require_silence_after_the_end,
-    require_true_feedback,
-)
-from .robot import (
-    require_arrival,
-    require_fall,
-    require_stopped,
-    require_walking,
-)
+from .reports import require_error_code, require_filled_result, require_true_feedback
+from .robot import ACCEPT, require_arrival, require_fall, require_stopped, require_walking
 
 WALK = Scenario("walk", {"x": 0.6, "y": 0.2, "yaw": 0.5})
 IMPOSSIBLE = Scenario("ask_for_the_impossible", {"frame": "map"}, robot=RESTING)
@@ -50,48 +31,47 @@ server_appears = standard.server_appears(
 @check(points=1, on=WALK, needs=server_appears, see="07_cancel_and_preempt#m2-why")
 def accepts_a_goal(run: Transcript) -> None:
     """It accepts a pose in frame odom"""
-    require_accepted(run, "walk")
+    run.goal("walk").require_accepted(ACCEPT)
 
 
 @check(points=2, on=WALK, needs=accepts_a_goal)
 def arrives(run: Transcript) -> None:
     """It SUCCEEDS, and the robot is then within 0.10 m and 0.15 rad of the goal"""
-    require_arrival(run, "walk")
+    require_arrival(run.goal("walk"))
 
 
 @check(points=1, on=WALK, needs=arrives, see="07_cancel_and_preempt#m13-why")
 def fills_the_result(run: Transcript) -> None:
     """The result holds the final pose, the steps and error_code NONE"""
-    require_filled_result(run, "walk")
+    require_filled_result(run.goal("walk"))
 
 
 @check(points=1, on=WALK, needs=accepts_a_goal)
 def feedback_keeps_its_rate(run: Transcript) -> None:
     """Feedback comes at 5 Hz without a gap over 1 s"""
-    require_good_feedback_rate(run, "walk")
+    require_good_feedback_rate(run.goal("walk"))
 
 
 @check(points=1, on=WALK, needs=feedback_keeps_its_rate)
 def feedback_is_true(run: Transcript) -> None:
     """Pose, distance and steps in the feedback are the robot's"""
-    require_true_feedback(run, "walk")
+    require_true_feedback(run.goal("walk"))
 
 
 @check(points=1, on=WALK, needs=[arrives, feedback_keeps_its_rate])
 def feedback_ends_with_the_goal(run: Transcript) -> None:
     """After the result no more feedback comes"""
-    require_feedback(run, "walk")
-    require_silence_after_the_end(run, "walk")
+    goal = run.goal("walk")
+    require_feedback(goal)
+    goal.require_silence_afterwards()
 
 
 @check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal)
 def rejects_a_wrong_frame(run: Transcript) -> None:
     """It rejects a pose in frame map"""
-    require_rejected(
-        run,
-        "wrong frame",
-        "the robot knows no frame 'map'",
-        "Compare goal_request.target_pose.header.frame_id with 'odom' in goal_callback and return "
+    run.goal("wrong frame").require_rejected(
+        because="the robot knows no frame 'map'",
+        help="Compare goal_request.target_pose.header.frame_id with 'odom' in goal_callback and return "
         "GoalResponse.REJECT.",
     )
 
@@ -100,11 +80,9 @@ def rejects_a_wrong_frame(run: Transcript) -> None:
 def rejects_nan(run: Transcript) -> None:
     """It rejects a pose that holds NaN"""
     for name in ("NaN position", "NaN orientation"):
-        require_rejected(
-            run,
-            name,
-            f"{name} cannot be walked to",
-            "Test every number of position and orientation with math.isfinite() in goal_callback: NaN "
+        run.goal(name).require_rejected(
+            because=f"{name} cannot be walked to",
+            help="Test every number of position and orientation with math.isfinite() in goal_callback: NaN "
             "compares false with everything.",
         )
 
@@ -113,11 +91,9 @@ def rejects_nan(run: Transcript) -> None:
 def rejects_without_power(run: Transcript) -> None:
     """It rejects a goal while the motors are off"""
     _require_power_cut(run)
-    require_rejected(
-        run,
-        "unpowered",
-        "robot_state.motors_enabled is false",
-        "Subscribe to robot_state and reject in goal_callback when motors_enabled is false in the last "
+    run.goal("unpowered").require_rejected(
+        because="robot_state.motors_enabled is false",
+        help="Subscribe to robot_state and reject in goal_callback when motors_enabled is false in the last "
         "message.",
     )
 
@@ -139,7 +115,7 @@ def _require_power_cut(run: Transcript) -> None:
 @check(points=2, on=MID_STRIDE, needs=accepts_a_goal, see="07_cancel_and_preempt#m1-why")
 def cancels_in_mid_stride(run: Transcript) -> None:
     """A cancel while the robot walks is agreed to and ends CANCELED"""
-    request = require_canceled(run, "after 1 s")
+    request = run.goal("after 1 s").require_canceled()
     require_walking(run, request.t)
 
 
@@ -155,33 +131,32 @@ def stops_when_canceled(run: Transcript) -> None:
 def walks_again_after_a_cancel(run: Transcript) -> None:
     """A new goal after a cancel is walked to"""
     require_walking(run, run.cancels_of("canceled")[-1].sent.t)
-    require_arrival(run, "again")
+    require_arrival(run.goal("again"))
 
 
 @check(points=2, on=PREEMPT, needs=arrives, see="07_cancel_and_preempt#preempt-why")
 def new_goal_preempts_the_old(run: Transcript) -> None:
     """A new goal aborts the old one with PREEMPTED and is walked to"""
-    require_accepted(run, "old")
-    new = require_accepted(run, "new")
+    old, new = run.goal("old").require_accepted(ACCEPT), run.goal("new").require_accepted(ACCEPT)
     require_walking(run, new.sent.t)
-    old = require_result(run, run.goal("old"), ABORTED)
-    require_error_code(old, PREEMPTED, "PREEMPTED")
+    end = old.require_result(ABORTED)
+    require_error_code(old, "PREEMPTED", because="a new goal has taken its place")
     expect(
-        old.t >= new.sent.t,
+        end.t >= new.sent.t,
         expected="the old goal to go on until the new one comes",
-        observed=f"it ended {new.sent.t - old.t:.1f} s before",
+        observed=f"it ended {new.sent.t - end.t:.1f} s before",
         help="Abort with PREEMPTED only when another goal has been accepted.",
-        at=old.t,
+        at=end.t,
     )
-    require_arrival(run, "new")
+    require_arrival(new)
 
 
 @check(points=1, on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why")
 def aborts_when_the_robot_falls(run: Transcript) -> None:
     """When the robot falls the goal is ABORTED with FELL"""
-    goal = require_accepted(run, "walk")
+    goal = run.goal("walk").require_accepted(ACCEPT)
     fallen = require_fall(run)
-    result = require_result(run, goal, ABORTED)
+    result = goal.require_result(ABORTED)
     expect(
         result.t >= fallen.t - 1.0,
         expected="the goal to go on until the robot falls",
@@ -189,7 +164,7 @@ def aborts_when_the_robot_falls(run: Transcript) -> None:
         help="A push alone is no reason to give up: abort when robot_state.mode is FALLEN.",
         at=result.t,
     )
-    require_error_code(result, FELL, "FELL")
+    require_error_code(goal, "FELL", because="the robot has fallen")
 
 
 ends_cleanly = standard.ends_cleanly(

@@ -3,28 +3,14 @@
 from __future__ import annotations
 
 from autograder.authoring.checks import Scenario, check, expect
+from autograder.authoring.goal import CANCELED, SUCCEEDED
 from autograder.authoring.missing import unseen
-from autograder.authoring.server_checks import require_alive
+from autograder.authoring.readiness import require_alive
 from autograder.authoring.transcript import Transcript
 
 from .checks import arrives, cancels_in_mid_stride, stops_when_canceled
-from .goals import (
-    CANCELED,
-    SUCCEEDED,
-    require_accepted,
-    require_cancel_accepted,
-    require_canceled,
-    require_result,
-)
 from .planar import error
-from .reports import (
-    require_silence_after_the_end,
-)
-from .robot import (
-    require_arrival,
-    require_stopped,
-    require_walking,
-)
+from .robot import ACCEPT, require_arrival, require_stopped, require_walking
 
 
 def _poses(random) -> dict:
@@ -62,14 +48,14 @@ OTHER_NAMESPACE = Scenario("walk", {"x": 0.3, "y": 0.0, "yaw": 0.0}, namespace="
 def arrives_anywhere(run: Transcript) -> None:
     """It reaches poses with any heading, one after the other"""
     for number in range(1, len(run.params["poses"]) + 1):
-        require_arrival(run, f"leg {number}")
+        require_arrival(run.goal(f"leg {number}"))
 
 
 @check(points=1, on=AT_THE_START, needs=cancels_in_mid_stride)
 def cancels_at_the_start(run: Transcript) -> None:
     """A cancel before execution, or at the first feedback, ends CANCELED with the robot still"""
-    require_canceled(run, "at once")
-    request = require_canceled(run, "first feedback")
+    run.goal("at once").require_canceled()
+    request = run.goal("first feedback").require_canceled()
     require_stopped(run, request.t)
 
 
@@ -77,8 +63,7 @@ def cancels_at_the_start(run: Transcript) -> None:
 def stops_in_any_phase_of_the_gait(run: Transcript) -> None:
     """Wherever its feet are when the cancel comes, the robot stops upright"""
     for delay in run.params["delays"]:
-        goal = f"after {delay:g} s"
-        request = require_canceled(run, goal)
+        request = run.goal(f"after {delay:g} s").require_canceled()
         require_walking(run, request.t)
         require_stopped(run, request.t)
 
@@ -86,7 +71,7 @@ def stops_in_any_phase_of_the_gait(run: Transcript) -> None:
 @check(points=1, on=NEAR_ARRIVAL, needs=stops_when_canceled)
 def cancels_near_arrival(run: Transcript) -> None:
     """A cancel just before arrival ends CANCELED, or SUCCEEDED at the goal, with the robot still"""
-    goal = require_accepted(run, "near")
+    goal = run.goal("near").require_accepted(ACCEPT)
     cancel = run.cancels_of("near")[-1]
     distance, _turn = error(run.robot_at(cancel.sent.t), goal)
     expect(
@@ -97,17 +82,17 @@ def cancels_near_arrival(run: Transcript) -> None:
         at=cancel.sent.t,
     )
     if goal.status == SUCCEEDED:
-        require_arrival(run, "near")
+        require_arrival(goal)
     else:
-        require_cancel_accepted(run, cancel, goal)
-        require_result(run, goal, CANCELED)
+        cancel.require_agreed(goal)
+        goal.require_result(CANCELED)
     require_stopped(run, cancel.sent.t)
 
 
 @check(points=1, on=AFTER_THE_END, needs=arrives)
 def survives_a_cancel_after_the_end(run: Transcript) -> None:
     """A cancel after the result changes nothing, and the next goal is walked to"""
-    require_arrival(run, "first")
+    require_arrival(run.goal("first"))
     cancel = run.cancels_of("first")[0]
     result = run.goal("first").result
     if result is None or result.t > cancel.sent.t:
@@ -120,15 +105,15 @@ def survives_a_cancel_after_the_end(run: Transcript) -> None:
         help="Keep no list of goals of your own: rclpy knows which goals are active and refuses the others.",
         at=cancel.sent.t,
     )
-    require_arrival(run, "second")
+    require_arrival(run.goal("second"))
 
 
 @check(points=1, on=TWICE, needs=cancels_in_mid_stride, see="07_cancel_and_preempt#m12-why")
 def survives_two_cancels(run: Transcript) -> None:
     """The same cancel asked for twice ends CANCELED once, and both are answered"""
-    require_canceled_by_first(run)
+    goal, cancels = run.goal("walk"), run.cancels_of("walk")
+    goal.require_canceled(cancels[0])
     require_alive(run)
-    cancels = run.cancels_of("walk")
     if len(cancels) < 2:
         raise unseen(run, "the cancel was asked for only once")
     require_walking(run, cancels[0].sent.t)
@@ -140,20 +125,13 @@ def survives_two_cancels(run: Transcript) -> None:
         "nothing else in it.",
         at=cancels[-1].sent.t,
     )
-    require_silence_after_the_end(run, "walk")
-
-
-def require_canceled_by_first(run: Transcript) -> None:
-    """The first of several requests was agreed to, and the goal ended CANCELED."""
-    goal = require_accepted(run, "walk")
-    require_cancel_accepted(run, run.cancels_of("walk")[0], goal)
-    require_result(run, goal, CANCELED)
+    goal.require_silence_afterwards()
 
 
 @check(points=1, on=BY_A_STRANGER, needs=stops_when_canceled)
 def obeys_a_stranger(run: Transcript) -> None:
     """Another client may cancel every goal"""
-    request = require_canceled(run, "walk", by_request_for_all=True)
+    request = run.goal("walk").require_canceled(run.cancels_of("")[-1])
     require_walking(run, request.t)
     require_stopped(run, request.t)
 
@@ -161,4 +139,4 @@ def obeys_a_stranger(run: Transcript) -> None:
 @check(points=1, on=OTHER_NAMESPACE, needs=arrives, see="01_robot_and_graph#names-why")
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it walks the robot there"""
-    require_arrival(run, "walk")
+    require_arrival(run.goal("walk"))

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import math
 
+from geometry_msgs.msg import Quaternion
+
 from autograder.authoring import events as ev
-from autograder.authoring.transcript import GoalHistory
+from autograder.authoring.goal import Goal
 
 
-def error(robot: ev.RobotTruth, goal: GoalHistory) -> tuple[float, float]:
+def error(robot: ev.RobotTruth, goal: Goal) -> tuple[float, float]:
     """Return how far the robot is from the goal: m, rad."""
-    pose = goal.sent.request["target_pose"]["pose"]
-    distance = math.hypot(robot.x - pose["position"]["x"], robot.y - pose["position"]["y"])
-    return distance, abs(wrap(robot.yaw - yaw(pose["orientation"])))
+    pose = goal.request.target_pose.pose
+    distance = math.hypot(robot.x - pose.position.x, robot.y - pose.position.y)
+    return distance, abs(wrap(robot.yaw - yaw(pose.orientation)))
 
 
-def yaw(orientation: dict[str, float]) -> float:
+def yaw(orientation: Quaternion) -> float:
     """Yaw (rad) of a quaternion x, y, z, w (REP-103)."""
-    x, y, z, w = (orientation[axis] for axis in "xyzw")
+    x, y, z, w = orientation.x, orientation.y, orientation.z, orientation.w
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 

@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from autograder.authoring import events as ev
-from autograder.authoring.checks import Failure, expect
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.goal import SUCCEEDED, Goal
 from autograder.authoring.transcript import Transcript
+from humanoid_interfaces.msg import RobotState
 
-from .goals import SUCCEEDED, require_accepted, require_result
 from .planar import error
 
-WALKING, FALLEN = 2, 3  # humanoid_interfaces/RobotState
+ACCEPT = (
+    "goal_callback must return GoalResponse.ACCEPT for a finite pose in frame odom while the motors are on (True is "
+    "not GoalResponse.ACCEPT)."
+)
 SHORTLY = 0.6  # s
 POSITION_TOLERANCE = 0.10  # m
 YAW_TOLERANCE = 0.15  # rad
@@ -20,11 +24,10 @@ STOP_SPEED = 0.05  # m/s
 WATCHED = 3.5  # s after the cancel
 
 
-def require_arrival(run: Transcript, name: str) -> None:
+def require_arrival(goal: Goal) -> None:
     """The goal succeeded, and by then the simulated robot was where the goal says."""
-    goal = require_accepted(run, name)
-    result = require_result(run, goal, SUCCEEDED)
-    distance, turn = error(run.robot_at(result.t), goal)
+    result = goal.require_accepted(ACCEPT).require_result(SUCCEEDED)
+    distance, turn = error(goal.run.robot_at(result.t), goal)
     expect(
         distance <= POSITION_TOLERANCE and turn <= YAW_TOLERANCE,
         expected=f"the robot within {POSITION_TOLERANCE:.2f} m and {YAW_TOLERANCE:.2f} rad of the goal when it "
@@ -39,7 +42,7 @@ def require_arrival(run: Transcript, name: str) -> None:
 def require_walking(run: Transcript, at: float) -> None:
     """The robot walked shortly before a moment (s) of the scenario's: without that there is nothing to stop."""
     expect(
-        any(robot.mode == WALKING for robot in run.robot_between(at - SHORTLY, at)),
+        any(robot.mode == RobotState.WALKING for robot in run.robot_between(at - SHORTLY, at)),
         expected="the robot walking to its goal by then",
         observed=f"it does not walk at {at:.1f} s",
         help="Publish a velocity on cmd_vel as soon as the goal executes, and again all the time: the robot stops by "
@@ -68,7 +71,7 @@ def require_fall(run: Transcript) -> ev.RobotTruth:
     push = run.told("push")
     require_walking(run, push.t)
     for robot in run.robot_between(push.t, run.end):
-        if robot.mode == FALLEN:
+        if robot.mode == RobotState.FALLEN:
             return robot
     raise Failure(
         expected="the walking robot to be knocked over by the push",
@@ -80,7 +83,7 @@ def require_fall(run: Transcript) -> ev.RobotTruth:
 
 def require_upright(watched: Sequence[ev.RobotTruth]) -> None:
     """The robot did not fall."""
-    fallen = next((robot for robot in watched if robot.mode == FALLEN or robot.up < 0.6), None)
+    fallen = next((robot for robot in watched if robot.mode == RobotState.FALLEN or robot.up < 0.6), None)
     expect(
         fallen is None,
         expected="the robot upright",

@@ -11,9 +11,8 @@ from autograder.authoring.missing import held_up, unseen
 from autograder.authoring.transcript import Transcript
 
 from .judging import (
-    FRAME_TRANSFORM_FAILURE,
-    SUCCESS,
     Reply,
+    Response,
     code_in_words,
     replies,
     require_code,
@@ -88,7 +87,7 @@ def says_what_is_out_of_reach(run: Transcript) -> None:
     for reply in replies(run, "within reach"):
         require_code(
             reply,
-            SUCCESS,
+            Response.SUCCESS,
             because="this can be reached",
             help="Only what cannot be reached is refused.",
         )
@@ -101,7 +100,7 @@ def refuses_other_frames(run: Transcript) -> None:
     """A target in any frame but "shoulder" is FRAME_TRANSFORM_FAILURE, and no other is"""
     for reply in replies(run, "in shoulder"):
         expect(
-            reply.error_code != FRAME_TRANSFORM_FAILURE,
+            reply.error_code != Response.FRAME_TRANSFORM_FAILURE,
             expected=f"another error_code for {reply.question}: that is the right frame",
             observed=f"error_code {code_in_words(reply.error_code)}",
             help="Compare request.target.header.frame_id with 'shoulder'.",
@@ -110,7 +109,7 @@ def refuses_other_frames(run: Transcript) -> None:
     for reply in replies(run, "in others"):
         require_code(
             reply,
-            FRAME_TRANSFORM_FAILURE,
+            Response.FRAME_TRANSFORM_FAILURE,
             because="only 'shoulder' is the frame of the arm",
             help="Numbers mean nothing without their frame: compare request.target.header.frame_id with 'shoulder', "
             "letter by letter, before anything is computed. An empty frame is none.",

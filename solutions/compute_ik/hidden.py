@@ -6,10 +6,10 @@ import math
 from random import Random
 from typing import Any
 
+from rcl_interfaces.msg import ParameterType, ParameterValue
+
 from autograder.authoring.checks import Scenario, check, expect
-from autograder.authoring.missing import Missing
-from autograder.authoring.server_checks import require_answer
-from autograder.authoring.transcript import CallHistory, Transcript
+from autograder.authoring.transcript import Transcript
 
 from .checks import (
     POINTS,
@@ -22,7 +22,7 @@ from .checks import (
     server_appears,
 )
 from .judging import (
-    SUCCESS,
+    Response,
     code_in_words,
     replies,
     require_code,
@@ -32,9 +32,6 @@ from .judging import (
 )
 from .questions import ahead, anywhere, ask_for
 from .two_link_arm import DEFAULT, TwoLinkArm
-
-DOUBLE = 3  # rcl_interfaces/msg/ParameterType
-NOT_SET = {"type": 0}
 
 
 def _anywhere_then_other_lengths(random: Random) -> dict[str, Any]:
@@ -73,7 +70,7 @@ def refuses_what_is_no_number(run: Transcript) -> None:
     """A target that is not a number is no success, and the next question is answered as ever"""
     nonsense, sound = replies(run, "not a number")
     expect(
-        nonsense.error_code != SUCCESS,
+        nonsense.error_code != Response.SUCCESS,
         expected=f"any error_code but SUCCESS for {nonsense.question}",
         observed=f"error_code {code_in_words(nonsense.error_code)}, {nonsense.angles}",
         help="Every comparison with NaN is false, so a test such as `distance > reach` lets it through: ask "
@@ -81,19 +78,23 @@ def refuses_what_is_no_number(run: Transcript) -> None:
         at=nonsense.at,
     )
     require_code(
-        sound, SUCCESS, because="this can be reached", help="Keep nothing from one request to the next."
+        sound,
+        Response.SUCCESS,
+        because="this can be reached",
+        help="Keep nothing from one request to the next.",
     )
 
 
 @check(points=1, on=SET_LENGTHS, needs=server_appears)
 def declares_its_lengths(run: Transcript) -> None:
     """upper_arm_length and forearm_length are parameters of type double: 0.30 and 0.25 m"""
-    call = _call(run, "get_parameters")
-    values = iter(require_answer(run, call).response["values"])
+    call = run.call("get_parameters")
+    values = iter(call.response.values)
     for name, length in (("upper_arm_length", DEFAULT.upper_arm), ("forearm_length", DEFAULT.forearm)):
-        value = next(values, NOT_SET)  # a node that lacks one may say nothing of any
+        value = next(values, ParameterValue())  # a node that lacks one may say nothing of any
         expect(
-            value["type"] == DOUBLE and math.isclose(value["double_value"], length, abs_tol=1e-6),
+            value.type == ParameterType.PARAMETER_DOUBLE
+            and math.isclose(value.double_value, length, abs_tol=1e-6),
             expected=f"a parameter {name} of type double with the value {length:.2f}",
             observed=_in_words(value),
             help=f"Declare it with its default in the constructor: self.declare_parameter({name!r}, {length:.2f}).",
@@ -126,24 +127,16 @@ def works_in_any_namespace(run: Transcript) -> None:
 
 def _arm_after_setting(run: Transcript) -> TwoLinkArm:
     """The lengths the node has said it has: each new one that it took over, and the old one otherwise."""
-    results = require_answer(run, _call(run, "set_parameters")).response["results"]
+    results = run.call("set_parameters").response.results
     lengths = [DEFAULT.upper_arm, DEFAULT.forearm]
     for index, (result, new) in enumerate(zip(results, run.params["lengths"].values(), strict=False)):
-        if result["successful"]:
+        if result.successful:
             lengths[index] = new
     return TwoLinkArm(*lengths)
 
 
-def _call(run: Transcript, service: str) -> CallHistory:
-    """The call of one of the node's own parameter services; every call before it must have been answered."""
-    for call in run.calls:
-        if call.sent.service.endswith(f"/{service}"):
-            return call
-        require_answer(run, call)
-    raise Missing(run, expected=f"a node that can be asked for its {service}", never="that was never asked")
-
-
-def _in_words(value: dict[str, Any]) -> str:
-    if value["type"] == NOT_SET["type"]:
+def _in_words(value: ParameterValue) -> str:
+    if value.type == ParameterType.PARAMETER_NOT_SET:
         return "no value: it is not declared, or without a default"
-    return f"the value {value['double_value']:g}" if value["type"] == DOUBLE else "a value of another type"
+    is_double = value.type == ParameterType.PARAMETER_DOUBLE
+    return f"the value {value.double_value:g}" if is_double else "a value of another type"

@@ -5,74 +5,70 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from autograder.authoring.checks import Failure, expect
-from autograder.authoring.server_checks import require_answer
+from autograder.authoring.call import Call
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.fields import shown
 from autograder.authoring.transcript import Transcript
+from humanoid_interfaces.srv import ComputeIK
 
 from .advice import advice_for
 from .two_link_arm import DEFAULT, TOLERANCE, Point, TwoLinkArm
 
-SERVICE = "compute_ik"
-SUCCESS, NO_IK_SOLUTION, FRAME_TRANSFORM_FAILURE = 1, -31, -21
-CODES = {
-    SUCCESS: "SUCCESS",
-    NO_IK_SOLUTION: "NO_IK_SOLUTION",
-    FRAME_TRANSFORM_FAILURE: "FRAME_TRANSFORM_FAILURE",
-}
+Response = ComputeIK.Response
+CODES = {getattr(Response, name): name for name in ("SUCCESS", "NO_IK_SOLUTION", "FRAME_TRANSFORM_FAILURE")}
 AHEAD = 0.02  # m; farther back, "above the line" may be read in two ways
 
 
 @dataclass(frozen=True)
 class Reply:
-    """An answered question: what was asked for (m, rad) and what came back, `at` (s)."""
+    """An answered question, read in the terms of a planar arm: m, rad."""
 
-    target: Point
-    frame: str
-    elbow_up: bool
-    error_code: int
-    shoulder: float
-    elbow: float
-    at: float
+    call: Call
+
+    @property
+    def target(self) -> Point:
+        """The point asked for."""
+        point = self.call.request.target.point
+        return point.x, point.y
+
+    @property
+    def elbow_up(self) -> bool:
+        """The side asked for."""
+        return self.call.request.elbow_up
+
+    @property
+    def error_code(self) -> int:
+        """The code of the answer."""
+        return self.call.response.error_code
+
+    @property
+    def shoulder_and_elbow(self) -> tuple[float, float]:
+        """The angles of the answer."""
+        return self.call.response.shoulder, self.call.response.elbow
+
+    @property
+    def at(self) -> float:
+        """When (s) it was answered."""
+        return self.call.answered.t
 
     @property
     def question(self) -> str:
         """The request in words."""
         x, y = self.target
-        return f"({x:g}, {y:g}) in frame {self.frame!r}, elbow_up {str(self.elbow_up).lower()}"
+        frame = self.call.request.target.header.frame_id
+        return f"({x:g}, {y:g}) in frame {frame!r}, elbow_up {shown(self.elbow_up)}"
 
     @property
     def angles(self) -> str:
         """The answer's angles in words."""
-        return f"shoulder {self.shoulder:.4f}, elbow {self.elbow:.4f} rad"
+        return "shoulder {:.4f}, elbow {:.4f} rad".format(*self.shoulder_and_elbow)
 
 
 def replies(run: Transcript, group: str) -> list[Reply]:
     """Return the answers to one group of a scenario's questions; every one must have been asked and answered."""
-    number = 1
-    for name, requests in {**run.params["questions"], **run.params.get("then", {})}.items():
-        if name == group:
-            return [_reply(run, nth) for nth in range(number, number + len(requests))]
-        number += len(requests)
-    raise KeyError(f"{run.scenario} has no questions {group!r}")
-
-
-def _reply(run: Transcript, number: int) -> Reply:
-    for earlier in run.calls_to(SERVICE)[
-        : number - 1
-    ]:  # after a question that was not answered no other is asked
-        require_answer(run, earlier)
-    call = run.call(SERVICE, number)
-    answer, request = require_answer(run, call), call.sent.request
-    point = request["target"]["point"]
-    return Reply(
-        target=(point["x"], point["y"]),
-        frame=request["target"]["header"]["frame_id"],
-        elbow_up=request["elbow_up"],
-        error_code=answer.response["error_code"],
-        shoulder=answer.response["shoulder"],
-        elbow=answer.response["elbow"],
-        at=answer.t,
-    )
+    questions = {**run.params["questions"], **run.params.get("then", {})}
+    calls = [run.call(f"{group} {number}") for number in range(1, len(questions[group]) + 1)]
+    return [Reply(call) for call in calls if call.answered]
 
 
 def require_code(reply: Reply, code: int, *, because: str, help: str) -> None:
@@ -95,7 +91,7 @@ def require_refusal(reply: Reply, arm: TwoLinkArm = DEFAULT) -> None:
     """The answer says that the target is out of reach."""
     require_code(
         reply,
-        NO_IK_SOLUTION,
+        Response.NO_IK_SOLUTION,
         because=_reach(reply, arm),
         help="Look at cos(elbow) before acos: beyond -1 and 1 there is no such triangle. Forcing it into that range "
         "makes a failure look like a success.",
@@ -104,15 +100,15 @@ def require_refusal(reply: Reply, arm: TwoLinkArm = DEFAULT) -> None:
 
 def require_hit(reply: Reply, arm: TwoLinkArm = DEFAULT) -> None:
     """The answer's angles bring the hand of `arm` to the target, on whichever side the elbow is."""
-    require_code(reply, SUCCESS, because=_reach(reply, arm), help=_NOT_A_SUCCESS)
-    missed_by = arm.misses(reply.shoulder, reply.elbow, reply.target)
+    require_code(reply, Response.SUCCESS, because=_reach(reply, arm), help=_NOT_A_SUCCESS)
+    missed_by = arm.misses(*reply.shoulder_and_elbow, reply.target)
     if missed_by <= TOLERANCE:
         return
     raise Failure(
         expected=f"angles that bring the hand within 1 mm of {reply.question}, with links of "
         f"{arm.upper_arm:.2f} and {arm.forearm:.2f} m",
         observed=f"{reply.angles}: {_where_that_is(reply, arm, missed_by)}",
-        help=advice_for(reply.shoulder, reply.elbow, reply.target, arm),
+        help=advice_for(*reply.shoulder_and_elbow, reply.target, arm),
         at=reply.at,
     )
 
@@ -121,7 +117,7 @@ def require_side(reply: Reply, arm: TwoLinkArm = DEFAULT) -> None:
     """The elbow is on the side asked for; judged only of targets ahead of the shoulder."""
     if reply.target[0] < AHEAD:
         return
-    is_above = arm.elbow_is_above(reply.shoulder, reply.target)
+    is_above = arm.elbow_is_above(reply.shoulder_and_elbow[0], reply.target)
     expect(
         is_above == reply.elbow_up,
         expected=f"the elbow {_side(reply.elbow_up)} the line from shoulder to target for {reply.question}",
@@ -150,7 +146,7 @@ def _reach(reply: Reply, arm: TwoLinkArm) -> str:
 def _where_that_is(reply: Reply, arm: TwoLinkArm, missed_by: float) -> str:
     if math.isinf(missed_by):
         return "no place at all"
-    x, y = arm.hand_at(reply.shoulder, reply.elbow)
+    x, y = arm.hand_at(*reply.shoulder_and_elbow)
     return f"the hand is at ({x:.3f}, {y:.3f}), {missed_by * 1000:.0f} mm off"
 
 

@@ -6,11 +6,13 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from autograder.arena.stage import Stage
-from humanoid_interfaces.srv import ComputeIK
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import GetParameters, SetParameters
 
-SERVICE = "compute_ik"
-DOUBLE = 3  # rcl_interfaces/msg/ParameterType
+from autograder.arena.stage import ServiceClient, Stage
+from humanoid_interfaces.srv import ComputeIK
+from ros_runtime.messages import from_dict
+
 MOVING = 1.0  # s of the robot's time for the arm from one point to the next
 SETTLING = 0.3  # s of it to come to rest
 OTHER_ARM_JOINTS = ("shoulder_roll", "shoulder_yaw", "wrist_yaw", "wrist_pitch", "wrist_roll")
@@ -21,8 +23,9 @@ Questions = Mapping[str, Sequence[Request]]  # in groups, to which the checks re
 
 def ask(stage: Stage, questions: Questions) -> None:
     """Ask one group of questions after the other."""
-    stage.open(services={SERVICE: ComputeIK})
-    _ask(stage, questions)
+    ik = stage.service("compute_ik", ComputeIK)
+    stage.open()
+    _ask(ik, questions)
 
 
 def interrupt(stage: Stage, questions: Questions) -> None:
@@ -33,49 +36,52 @@ def interrupt(stage: Stage, questions: Questions) -> None:
 
 def set_lengths(stage: Stage, questions: Questions, lengths: Mapping[str, float], then: Questions) -> None:
     """Read the parameters, ask, set them while the node runs, ask again."""
-    stage.open(services={SERVICE: ComputeIK}, parameters_of=SERVICE)
-    stage.call("get_parameters", {"names": list(lengths)})
-    if _ask(stage, questions):
-        stage.call("set_parameters", {"parameters": [_parameter(*length) for length in lengths.items()]})
-        _ask(stage, then)
+    ik = stage.service("compute_ik", ComputeIK)
+    parameters = stage.parameters_of(ik)
+    stage.open()
+    parameters.get.call(GetParameters.Request(names=list(lengths)), as_="get_parameters")
+    if _ask(ik, questions):
+        values = [_parameter(*length) for length in lengths.items()]
+        parameters.set.call(SetParameters.Request(parameters=values), as_="set_parameters")
+        _ask(ik, then)
 
 
 def move_the_arm(stage: Stage, questions: Questions) -> None:
     """Ask; at each answer to the group 'with the arm' bring the robot's left arm to it and see where the hand is."""
-    stage.open(services={SERVICE: ComputeIK})
+    ik = stage.service("compute_ik", ComputeIK)
+    stage.open()
     for group, requests in questions.items():
-        for request in requests:
-            answer = _ask_once(stage, request)
-            if answer is None:
+        for number, request in enumerate(requests, start=1):
+            call = ik.send(from_dict(ComputeIK.Request, request), as_=f"{group} {number}")
+            if not call.wait():
                 return
-            if group == "with the arm":
-                _move_to(stage, answer["shoulder"], answer["elbow"])
+            if group == "with the arm" and call.response:
+                _move_to(stage, call.response.shoulder, call.response.elbow)
 
 
-def _ask(stage: Stage, questions: Questions) -> bool:
+def _ask(ik: ServiceClient, questions: Questions) -> bool:
     """Ask until a question is not answered: whatever hangs or is dead then will not answer the next one either."""
-    return all(_ask_once(stage, request) for requests in questions.values() for request in requests)
+    return all(
+        ik.call(from_dict(ComputeIK.Request, request), as_=f"{group} {number}")
+        for group, requests in questions.items()
+        for number, request in enumerate(requests, start=1)
+    )
 
 
-def _ask_once(stage: Stage, request: Request) -> dict[str, Any] | None:
-    return stage.response(SERVICE, stage.call(SERVICE, request))
-
-
-def _parameter(name: str, value: float) -> dict[str, Any]:
-    return {"name": name, "value": {"type": DOUBLE, "double_value": value}}
+def _parameter(name: str, value: float) -> Parameter:
+    return Parameter(name=name, value=ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value))
 
 
 def _move_to(stage: Stage, shoulder: float, elbow: float) -> None:
     """Bring the left arm to the planar angles (rad), unless they are no angles, and report where it is."""
     if not (math.isfinite(shoulder) and math.isfinite(elbow)):
         return
-    positions = _joint_positions(shoulder, elbow)
-    stage.command_robot("move_joints", positions=positions, duration=MOVING)
-    stage.wait_for_commands()
-    at_rest = stage.robot["simulated"] + MOVING + SETTLING
-    stage.wait_for_robot(lambda robot: robot["simulated"] >= at_rest)
-    stage.command_robot("report_arm", side="l")
-    stage.wait_for_commands()
+    stage.robot.move_joints(_joint_positions(shoulder, elbow), MOVING)
+    stage.robot.wait_for_commands()
+    at_rest = stage.robot.state.simulated + MOVING + SETTLING
+    stage.robot.wait_for(lambda robot: robot.simulated >= at_rest)
+    stage.robot.report_arm("l")
+    stage.robot.wait_for_commands()
 
 
 def _joint_positions(shoulder: float, elbow: float) -> dict[str, float]:

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import re
 
+from autograder.authoring import events as ev
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario, check, expect
-from autograder.authoring.server_checks import require_answer
+from autograder.authoring.robot_topic import require_nothing_published
 from autograder.authoring.transcript import Transcript
 
 from .judging import (
-    call_for,
     listed,
-    question,
     require_names,
     require_positions,
     require_posture,
     require_refusal,
-    require_silence_so_far,
     require_success,
     robot_joints,
 )
@@ -49,80 +47,76 @@ server_appears = standard.server_appears(
 @check(points=1, on=ASK, needs=server_appears)
 def finds_the_joints(run: Transcript) -> None:
     """Asked for joints that the robot has, it answers success: true"""
-    require_success(run, call_for(run, SIX_JOINTS))
+    require_success(run.call("some joints"))
 
 
 @check(points=1, on=ASK, needs=finds_the_joints, see="01_robot_and_graph#joints-run")
 def keeps_the_order_asked(run: Transcript) -> None:
     """joint_state.name holds the names asked for, in the order of the request"""
-    require_names(run, call_for(run, SIX_JOINTS))
+    require_names(run.call("some joints"))
 
 
 @check(points=2, on=ASK, needs=finds_the_joints, see="01_robot_and_graph#joints-run")
 def positions_are_the_robots(run: Transcript) -> None:
     """Each position is that of the joint beside it, in radians, as the robot published it"""
-    require_positions(run, call_for(run, SIX_JOINTS))
+    require_positions(run.call("some joints"))
 
 
 @check(points=1, on=ASK, needs=positions_are_the_robots)
 def no_names_means_all(run: Transcript) -> None:
     """Asked with an empty list, it answers with every joint once"""
-    call = call_for(run, [])
-    require_success(run, call)
-    answer, joints = require_answer(run, call), robot_joints(run)
-    names = answer.response["joint_state"]["name"]
+    call = run.call("all joints")
+    require_success(call)
+    names, joints = call.response.joint_state.name, robot_joints(run)
     missing = sorted(set(joints) - set(names))
     expect(
         sorted(names) == sorted(joints),
         expected=f"all {len(joints)} joints of the robot, each once, in any order",
         observed=f"{len(names)} names; missing: {listed(missing)}",
         help="When request.names is empty, answer as if every name of the last joint_states had been asked for.",
-        at=answer.t,
+        at=call.answered.t,
     )
-    require_positions(run, call)
+    require_positions(call)
 
 
 @check(points=1, on=ASK, needs=positions_are_the_robots)
 def follows_the_robot(run: Transcript) -> None:
     """When the arms have moved, the answer has moved with them"""
-    call = call_for(run, list(POSTURE))
-    require_success(run, call)
-    require_posture(run, call, POSTURE)
-    require_positions(run, call)
+    call = run.call("moved joints")
+    require_success(call)
+    require_posture(call, POSTURE)
+    require_positions(call)
 
 
 @check(points=2, on=ASK, needs=finds_the_joints, see="02_services#set-refuse-why")
 def names_every_unknown_joint(run: Transcript) -> None:
     """Unknown joints: success: false and a message that names each of them; then it serves on"""
-    call = call_for(run, STRANGERS)
-    answer, joints = require_answer(run, call), robot_joints(run)
+    call = run.call("strangers")
+    message, joints = call.response.message, robot_joints(run)
     unknown = [name for name in STRANGERS if name not in joints]
     require_refusal(
-        run,
         call,
         because=f"the robot has no {', '.join(unknown)}",
         help="An unknown name fails the whole request: success stays false and message says which names.",
     )
-    message = answer.response["message"]
     unnamed = [name for name in unknown if not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", message)]
     expect(
         not unnamed,
         expected=f"a message with every unknown joint: {', '.join(unknown)}",
         observed=f"{message[:200]!r}, without {', '.join(unnamed)}",
         help="Collect the unknown names of the whole request before you answer, instead of stopping at the first.",
-        at=answer.t,
+        at=call.answered.t,
     )
-    require_success(run, question(run, 5))
+    require_success(run.call("one joint"))
 
 
 @check(points=1, on=UNPLUGGED, needs=server_appears, see="02_services#m9-fix-why")
 def says_when_it_knows_nothing(run: Transcript) -> None:
     """Before the first joint_states it answers success: false, also to an empty list"""
-    for names in (SIX_JOINTS, []):
-        call = call_for(run, names)
-        require_silence_so_far(run, call)
+    for call in (run.call("some joints"), run.call("all joints")):
+        require_nothing_published(call, ev.JointsPublished, "joint_states")
+        require_nothing_published(call, ev.RobotCommanded, "joint_states")
         require_refusal(
-            run,
             call,
             because="the robot has not published its joints yet",
             help="Start with no message (None) and answer success: false as long as none has arrived.",

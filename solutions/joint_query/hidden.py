@@ -5,9 +5,9 @@ from __future__ import annotations
 import random
 from typing import Any
 
+from autograder.authoring.call import Call
 from autograder.authoring.checks import RESTING, Scenario, check, expect
-from autograder.authoring.server_checks import require_answer
-from autograder.authoring.transcript import CallHistory, Transcript
+from autograder.authoring.transcript import Transcript
 
 from .checks import (
     SIX_JOINTS,
@@ -20,9 +20,7 @@ from .checks import (
     says_when_it_knows_nothing,
 )
 from .judging import (
-    call_for,
     listed,
-    question,
     require_names,
     require_positions,
     require_posture,
@@ -52,11 +50,15 @@ def _inputs(random: random.Random) -> dict[str, Any]:
     joints = random.sample(sorted(RANGES), len(RANGES))
     return {
         "posture": {name: round(random.uniform(*RANGES[name]), 3) for name in joints},
-        "burst": [
-            [f"{random.choice('lr')}_hip_yaw", *random.sample(sorted(RANGES), 3)] for _ in range(BURST)
-        ],
+        "burst": {
+            f"at once, {number}": [f"{random.choice('lr')}_hip_yaw", *random.sample(sorted(RANGES), 3)]
+            for number in range(1, BURST + 1)
+        },
         "reordered": random.sample(sorted(RANGES), 5),
-        "parts": random.sample(["elbow", "l_shoulder", "hip_", "wrist_yaw", "head", "r_"], 2),
+        "parts": {
+            f"part {part}": [part]
+            for part in random.sample(["elbow", "l_shoulder", "hip_", "wrist_yaw", "head", "r_"], 2)
+        },
     }
 
 
@@ -64,34 +66,34 @@ EVERY_WAY = Scenario("ask_in_every_way", _inputs)
 OTHER_NAMESPACE = Scenario("ask_once", {"names": SIX_JOINTS}, robot=RESTING, namespace="/lab_7/robot")
 
 
-def _require_positions_as_asked(run: Transcript, call: CallHistory) -> None:
-    require_success(run, call)
-    require_names(run, call)
-    require_positions(run, call)
+def _require_positions_as_asked(call: Call) -> None:
+    require_success(call)
+    require_names(call)
+    require_positions(call)
 
 
 @check(points=1, on=UNPLUGGED, needs=[positions_are_the_robots, says_when_it_knows_nothing])
 def recovers_when_the_sensors_appear(run: Transcript) -> None:
     """Once the first message has come, it answers with it"""
-    call = question(run, 3)
+    call = run.call("after the first message")
     run.told("joint_sensors", before=call.sent.t, connected=True)
-    _require_positions_as_asked(run, call)
+    _require_positions_as_asked(call)
 
 
 @check(points=1, on=EVERY_WAY, needs=[keeps_the_order_asked, follows_the_robot])
 def answers_in_any_posture(run: Transcript) -> None:
     """Whatever the posture, it answers with it"""
-    call = call_for(run, list(run.params["posture"]))
-    _require_positions_as_asked(run, call)
-    require_posture(run, call, run.params["posture"])
+    call = run.call("in a posture")
+    _require_positions_as_asked(call)
+    require_posture(call, run.params["posture"])
 
 
 @check(points=1, on=EVERY_WAY, needs=finds_the_joints)
 def answers_every_request(run: Transcript) -> None:
     """Eight different requests at once are all answered, each with its own joints and within 2 s"""
-    for names in run.params["burst"]:
-        call = call_for(run, names)
-        answer = require_answer(run, call)
+    for name in run.params["burst"]:
+        call = run.call(name)
+        returned, wanted = call.response.joint_state.name, call.request.names
         expect(
             call.latency <= 2.0,
             expected="every answer within 2 s",
@@ -99,31 +101,29 @@ def answers_every_request(run: Transcript) -> None:
             help="Answer from memory: the callback must not sleep or wait for the next message.",
             at=call.sent.t,
         )
-        returned = answer.response["joint_state"]["name"]
         expect(
-            sorted(returned) == sorted(names),
-            expected=f"an answer to {', '.join(names)}",
+            sorted(returned) == sorted(wanted),
+            expected=f"an answer to {', '.join(wanted)}",
             observed=f"joints of another request: {listed(returned)}",
             help="Requests may be served at the same time: keep what belongs to one in local variables, not in self.",
-            at=answer.t,
+            at=call.answered.t,
         )
 
 
 @check(points=1, on=EVERY_WAY, needs=answers_in_any_posture, see="01_robot_and_graph#joints-run")
 def looks_joints_up_by_name(run: Transcript) -> None:
     """When joint_states lists the joints in another order, each position is still its own joint's"""
-    call = call_for(run, run.params["reordered"])
-    _require_positions_as_asked(run, call)
-    require_reversed(run, call)
+    call = run.call("in another order")
+    _require_positions_as_asked(call)
+    require_reversed(call)
 
 
 @check(points=1, on=EVERY_WAY, needs=names_every_unknown_joint)
 def takes_no_joint_for_another(run: Transcript) -> None:
     """A part of a joint's name is no joint: success: false"""
-    for part in run.params["parts"]:
+    for name in run.params["parts"]:
         require_refusal(
-            run,
-            call_for(run, [part]),
+            run.call(name),
             because="that is only a part of joints' names",
             help="Compare whole names: `name in positions` with a dictionary, not `part in name` with a string.",
         )
@@ -132,6 +132,6 @@ def takes_no_joint_for_another(run: Transcript) -> None:
 @check(points=1, on=OTHER_NAMESPACE, needs=positions_are_the_robots)
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it serves the robot there"""
-    call = call_for(run, SIX_JOINTS)
-    require_success(run, call)
-    require_positions(run, call)
+    call = run.call("some joints")
+    require_success(call)
+    require_positions(call)

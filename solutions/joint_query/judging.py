@@ -6,12 +6,13 @@ import math
 from collections.abc import Mapping, Sequence
 
 from autograder.authoring import events as ev
-from autograder.authoring.checks import Failure, expect
-from autograder.authoring.missing import Missing, unseen
-from autograder.authoring.server_checks import last_messages, require_answer
-from autograder.authoring.transcript import CallHistory, Transcript
+from autograder.authoring.call import Call
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.fields import shown_fields
+from autograder.authoring.missing import unseen
+from autograder.authoring.robot_topic import last_messages
+from autograder.authoring.transcript import Transcript
 
-SERVICE = "get_joint_positions"
 MOVED = 0.1  # rad that a joint may be off where it was told to be, under its load
 TOLERANCE = 0.01  # rad; the robot itself gives by half as much while it settles in its stance
 
@@ -23,42 +24,10 @@ _NOT_HEARD = (
 Positions = Mapping[str, float]  # rad, by the joint's name
 
 
-def call_for(run: Transcript, names: Sequence[str]) -> CallHistory:
-    """Return the call that asked for these names; it and those before it must have been answered."""
-    for call in run.calls:
-        require_answer(run, call)
-        if asked(call) == list(names):
-            return call
-    raise Missing(
-        run,
-        expected=f"a server that gets as far as the question for {listed(names)}",
-        never="that was never asked",
-    )
-
-
-def question(run: Transcript, number: int) -> CallHistory:
-    """Return the first (`number` 1), second, … call of all; it and those before it must have been answered."""
-    for earlier in range(1, number):
-        require_answer(run, run.call(SERVICE, earlier))
-    call = run.call(SERVICE, number)
-    require_answer(run, call)
-    return call
-
-
-def require_silence_so_far(run: Transcript, call: CallHistory) -> None:
-    """The robot had published no joints yet when the call was answered."""
-    answer = require_answer(run, call)
-    spoke = [
-        event for event in (*run.all(ev.JointsPublished), *run.all(ev.RobotCommanded)) if event.t <= answer.t
-    ]
-    if spoke:
-        raise unseen(run, "the joint sensors were plugged in too early")
-
-
-def require_posture(run: Transcript, call: CallHistory, posture: Positions) -> None:
+def require_posture(call: Call, posture: Positions) -> None:
     """The scenario moved the joints, and published them where they are now, in time for the call."""
-    told = run.told("move_joints", before=call.sent.t, positions=dict(posture))
-    messages = last_messages(run, ev.JointsPublished, call, since=told.t)
+    told = call.run.told("move_joints", before=call.sent.t, positions=dict(posture))
+    messages = last_messages(call, ev.JointsPublished, since=told.t)
     reached = _positions(messages[0])
     away = {name: reached.get(name, math.inf) - angle for name, angle in posture.items()}
     name = max(away, key=lambda joint: abs(away[joint]))
@@ -71,18 +40,13 @@ def require_posture(run: Transcript, call: CallHistory, posture: Positions) -> N
     )
 
 
-def require_reversed(run: Transcript, call: CallHistory) -> None:
+def require_reversed(call: Call) -> None:
     """The robot listed its joints in the other order, in time for the call."""
-    told = run.told("joint_states", before=call.sent.t, reversed=True)
-    messages = last_messages(run, ev.JointsPublished, call, since=told.t)
-    before = [message for message in run.all(ev.JointsPublished) if message.t <= told.t]
+    told = call.run.told("joint_states", before=call.sent.t, reversed=True)
+    messages = last_messages(call, ev.JointsPublished, since=told.t)
+    before = [message for message in call.run.all(ev.JointsPublished) if message.t <= told.t]
     if not before or messages[0].names == before[0].names:
-        raise unseen(run, "the robot never listed its joints in another order")
-
-
-def asked(call: CallHistory) -> list[str]:
-    """Return the names of the request."""
-    return call.sent.request["names"]
+        raise unseen(call.run, "the robot never listed its joints in another order")
 
 
 def listed(words: Sequence[str], most: int = 8) -> str:
@@ -104,97 +68,86 @@ def robot_joints(run: Transcript) -> list[str]:
     return published.names
 
 
-def require_success(run: Transcript, call: CallHistory) -> None:
+def require_success(call: Call) -> None:
     """It answered success, since every joint asked for exists."""
-    answer = require_answer(run, call)
-    heard = run.first(ev.JointsPublished) is not None
+    heard = call.run.first(ev.JointsPublished) is not None
     expect(
-        answer.response["success"] is True,
-        expected=f"success: true for {listed(asked(call))}, which the robot has",
-        observed=_outcome(answer),
+        call.response.success,
+        expected=f"success: true for {listed(call.request.names)}, which the robot has",
+        observed=shown_fields(call.response, "success", "message"),
         help="Look up each name in the name list of the last joint_states, and set success when all are there."
         if heard
         else _NOT_HEARD,
-        at=answer.t,
+        at=call.answered.t,
     )
 
 
-def require_refusal(run: Transcript, call: CallHistory, *, because: str, help: str) -> None:
+def require_refusal(call: Call, *, because: str, help: str) -> None:
     """It answered success: false."""
-    answer = require_answer(run, call)
     expect(
-        answer.response["success"] is False,
-        expected=f"success: false for {listed(asked(call))}, because {because}",
-        observed=_outcome(answer),
+        not call.response.success,
+        expected=f"success: false for {listed(call.request.names)}, because {because}",
+        observed=shown_fields(call.response, "success", "message"),
         help=help,
-        at=answer.t,
+        at=call.answered.t,
     )
 
 
-def require_names(run: Transcript, call: CallHistory) -> None:
+def require_names(call: Call) -> None:
     """The answer lists the joints asked for, in the order of the request."""
-    answer = require_answer(run, call)
-    names = answer.response["joint_state"]["name"]
-    if names == asked(call):
-        return
-    raise Failure(
-        expected=f"joint_state.name as asked: {listed(asked(call))}",
+    names, wanted = call.response.joint_state.name, call.request.names
+    expect(
+        names == wanted,
+        expected=f"joint_state.name as asked: {listed(wanted)}",
         observed=listed(names),
         help="These are the right joints in another order: go through request.names, not through the robot's list "
         "or a sorted one."
-        if sorted(names) == sorted(asked(call))
+        if sorted(names) == sorted(wanted)
         else "Put exactly the names of the request into joint_state.name, one position for each.",
-        at=answer.t,
+        at=call.answered.t,
     )
 
 
-def require_positions(run: Transcript, call: CallHistory) -> None:
+def require_positions(call: Call) -> None:
     """Every joint asked for is there, each with the position it has in one of the last messages of the robot."""
-    answer = require_answer(run, call)
-    names, positions = (answer.response["joint_state"][field] for field in ("name", "position"))
+    names, positions = call.response.joint_state.name, call.response.joint_state.position
+    at, published = call.answered.t, call.run.all(ev.JointsPublished)
     expect(
         len(names) == len(positions) > 0,
         expected="as many positions as names, and at least one",
         observed=f"{len(names)} names and {len(positions)} positions",
         help="Fill joint_state.name and joint_state.position together: position[i] belongs to name[i].",
-        at=answer.t,
+        at=at,
     )
-    missing = [name for name in asked(call) if name not in names]
+    missing = [name for name in call.request.names if name not in names]
     expect(
         not missing,
-        expected=f"a position for each of {listed(asked(call))}",
+        expected=f"a position for each of {listed(call.request.names)}",
         observed=f"none for {listed(missing)}",
         help="Answer for every name of the request.",
-        at=answer.t,
+        at=at,
     )
     expect(
-        any(message.t <= answer.t for message in run.all(ev.JointsPublished)),
+        any(message.t <= at for message in published),
         expected="positions from the robot's joint_states",
         observed=f"{_described(names, positions)}, although no joint_states had reached your node",
         help=_NOT_HEARD,
-        at=answer.t,
+        at=at,
     )
-    recent = [
-        _positions(message)
-        for message in last_messages(run, ev.JointsPublished, call, since=_told(run, call))
-    ]
-    if any(_agree(names, positions, message) for message in recent):
-        return
-    truth = [recent[-1].get(name, math.nan) for name in names]
-    raise Failure(
-        expected=_described(names, truth),
+    recent = [_positions(message) for message in last_messages(call, ev.JointsPublished, since=_told(call))]
+    expect(
+        any(_agree(names, positions, message) for message in recent),
+        expected=_described(names, [recent[-1].get(name, math.nan) for name in names]),
         observed=_described(names, positions),
-        help=_advice(names, positions, recent[-1], run.all(ev.JointsPublished)),
-        at=answer.t,
+        help=_advice(names, positions, recent[-1], published),
+        at=at,
     )
 
 
-def _told(run: Transcript, call: CallHistory) -> float:
+def _told(call: Call) -> float:
     """When (s) the scenario last did something to the robot before a call; at the latest when the node was there."""
-    moments = [
-        event.t for event in (*run.all(ev.NodeReady), *run.all(ev.RobotCommanded)) if event.t < call.sent.t
-    ]
-    return max(moments, default=0.0)
+    events = (*call.run.all(ev.NodeReady), *call.run.all(ev.RobotCommanded))
+    return max((event.t for event in events if event.t < call.sent.t), default=0.0)
 
 
 def _positions(message: ev.JointsPublished) -> Positions:
@@ -240,8 +193,3 @@ def _close(some: Sequence[float], others: Sequence[float], tolerance: float) -> 
 
 def _described(names: Sequence[str], positions: Sequence[float]) -> str:
     return listed([f"{name} {position:.3f}" for name, position in zip(names, positions, strict=True)])
-
-
-def _outcome(answer: ev.ServiceAnswered) -> str:
-    success = str(answer.response["success"]).lower()
-    return f"success: {success}, message: {answer.response['message'][:200]!r}"

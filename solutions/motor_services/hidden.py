@@ -6,7 +6,7 @@ import random
 
 from autograder.authoring import standard_hidden
 from autograder.authoring.checks import Scenario, check
-from autograder.authoring.server_checks import DELIVERY
+from autograder.authoring.robot_topic import DELIVERY
 from autograder.authoring.transcript import Transcript
 
 from .checks import (
@@ -18,8 +18,6 @@ from .checks import (
     tells_the_status,
 )
 from .judging import (
-    ENABLE,
-    STATUS,
     require_granted,
     require_refused,
     require_standing_as_told,
@@ -49,30 +47,30 @@ OTHER_NAMESPACE = Scenario("switch_off_and_on", robot=ON_A_STAND, namespace="/la
 @check(points=1, on=RANDOM_WALK, needs=refuses_off_while_walking)
 def refuses_however_it_walks(run: Transcript) -> None:
     """Turning on the spot, sideways or backwards is walking, too"""
-    require_refused(run, 1)
+    require_refused(run.call("off while walking"))
 
 
 @check(points=2, on=RANDOM_WALK, needs=[powers_on, refuses_however_it_walks])
 def refuses_nothing_else(run: Transcript) -> None:
     """Power on is granted while the robot walks, and power off once it stands again"""
-    require_walking_as_told(run, run.call(ENABLE, 2))
-    require_granted(run, 2)
-    require_walking_on(run, 2)
-    require_standing_as_told(run, 3)
-    require_switched(run, 3)
+    on, off = run.call("on while walking"), run.call("off once it stands")
+    require_walking_as_told(on)
+    require_granted(on)
+    require_walking_on(on)
+    require_standing_as_told(off)
+    require_switched(off)
 
 
 @check(points=1, on=SILENT_ROBOT, needs=[tells_the_status, says_when_it_knows_nothing])
 def recovers_when_the_robot_speaks(run: Transcript) -> None:
     """Once the first robot_state has come, get_status answers with it"""
-    run.told("robot_state", before=run.call(STATUS, 2).sent.t - DELIVERY, published=True)
-    require_status(run, 2, on=True)
+    call = run.call("after the first message")
+    run.told("robot_state", before=call.sent.t - DELIVERY, published=True)
+    require_status(call, on=True)
 
 
 answers_every_request = standard_hidden.answers_every_request(
-    "Eight requests at once, three times, are all answered, each within 2 s",
-    requests=24,
-    within=2.0,
+    24,
     help="Publish and answer: the callback must not sleep while others wait for the same thread.",
     points=1,
     on=MANY_AT_ONCE,
@@ -83,6 +81,6 @@ answers_every_request = standard_hidden.answers_every_request(
 @check(points=1, on=OTHER_NAMESPACE, needs=[tells_the_status, powers_on])
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it serves the robot there"""
-    require_switched(run, 1)
-    require_status(run, 1, on=False)
-    require_switched(run, 2)
+    require_switched(run.call("off"))
+    require_status(run.call("status after off"), on=False)
+    require_switched(run.call("on"))

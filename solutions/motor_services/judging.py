@@ -4,140 +4,129 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring import events as ev
-from autograder.authoring.checks import expect
-from autograder.authoring.missing import unseen
-from autograder.authoring.server_checks import DELIVERY, require_answer
-from autograder.authoring.transcript import CallHistory, Transcript
+from autograder.authoring.call import Call
+from autograder.authoring.failure import expect
+from autograder.authoring.fields import shown, shown_fields
+from autograder.authoring.robot_topic import DELIVERY
+from autograder.authoring.transcript import Transcript
+from humanoid_interfaces.msg import RobotState
 
-ENABLE, STATUS = "enable_motors", "get_status"
-MODES = ("OFF", "STANDING", "WALKING", "FALLEN")  # by their number in humanoid_interfaces/RobotState
-WALKING = MODES.index("WALKING")
+MODES = {getattr(RobotState, name): name for name in ("OFF", "STANDING", "WALKING", "FALLEN")}
 OBEYED = 2.0  # s after the answer in which the motors must be as asked
 WATCHED = 1.5  # s after the answer in which the robot must walk on
 
+_NOTHING_UNASKED = "Publish nothing unasked: motor_power only when a request is granted, and cmd_vel never."
 
-def require_status(run: Transcript, number: int, on: bool) -> None:
-    """The first (`number` 1), second, … answer says what the robot's motors are: they have been so for a while."""
-    call = run.call(STATUS, number)
-    _require_motors_known(run, call, on)
-    answer = require_answer(run, call)
-    wanted = f"Motors: {_on_or_off(on).upper()}"
-    response = answer.response
+
+def require_status(call: Call, on: bool) -> None:
+    """The answer says what the robot's motors are: they have been so for a while."""
+    _require_motors_known(call, on)
+    response, wanted = call.response, f"Motors: {_on_or_off(on).upper()}"
     expect(
-        response["success"] is True and response["message"] == wanted,
+        response.success and response.message == wanted,
         expected=f"success: true, message: {wanted!r}; the robot's motors are {_on_or_off(on)}",
-        observed=_shown(response),
-        help=_advice_on_status(response, wanted, first=number == 1),
-        at=answer.t,
+        observed=shown_fields(response, "success", "message"),
+        help=_advice_on_status(call, wanted),
+        at=call.answered.t,
     )
 
 
-def require_status_after_a_change(run: Transcript, number: int, on: bool) -> None:
+def require_status_after_a_change(call: Call, on: bool) -> None:
     """The answer says what the motors are after the scenario, and not the node, has switched them."""
-    call = run.call(STATUS, number)
-    run.told("motor_power", before=call.sent.t - DELIVERY, on=on)
-    require_status(run, number, on)
+    call.run.told("motor_power", before=call.sent.t - DELIVERY, on=on)
+    require_status(call, on)
 
 
-def require_granted(run: Transcript, number: int) -> None:
-    """The first (`number` 1), second, … request was answered with success, and the motors are soon as it asked."""
-    call = run.call(ENABLE, number)
-    answer = require_answer(run, call)
-    on = call.sent.request["data"]
+def require_granted(call: Call) -> None:
+    """The request was answered with success, and the motors are soon as it asked."""
+    run, on = call.run, call.request.data
     expect(
-        answer.response["success"] is True,
+        call.response.success,
         expected=f"success: true to {_question(call)} while the robot is {_mode(run, call.sent.t)}",
-        observed=_shown(answer.response),
+        observed=shown_fields(call.response, "success", "message"),
         help="success tells whether the request is granted, not what data was. Refuse only power off, and only "
         "while the last robot_state.mode is WALKING.",
-        at=answer.t,
+        at=call.answered.t,
     )
-    end = min(answer.t + OBEYED, _next_question(run, call), run.end)
-    watched = run.robot_between(call.sent.t, max(end, answer.t + DELIVERY))
+    end = min(call.answered.t + OBEYED, _next_question(call), run.end)
+    last = run.robot_between(call.sent.t, max(end, call.answered.t + DELIVERY))[-1]
     expect(
-        watched[-1].motors_enabled is on,
+        last.motors_enabled is on,
         expected=f"the robot's motors {_on_or_off(on)} within {OBEYED:.0f} s of the answer to {_question(call)}",
         observed=f"they are {_on_or_off(not on)}, though the answer was success",
         help="Publish std_msgs/Bool(data=request.data) on motor_power (relative name), with a publisher made in the "
         "constructor: one made in the callback may not have found the robot yet.",
-        at=watched[-1].t,
+        at=last.t,
     )
 
 
-def require_switched(run: Transcript, number: int) -> None:
+def require_switched(call: Call) -> None:
     """The request was granted, and it changed something: before it the motors were the other way."""
-    call = run.call(ENABLE, number)
-    on = call.sent.request["data"]
+    on = call.request.data
     expect(
-        run.robot_at(call.sent.t).motors_enabled is not on,
+        call.run.robot_at(call.sent.t).motors_enabled is not on,
         expected=f"the robot's motors {_on_or_off(not on)} until {_question(call)} is asked for",
         observed=f"they are {_on_or_off(on)} before",
         help="Publish on motor_power only when a request is granted.",
         at=call.sent.t,
     )
-    require_granted(run, number)
+    require_granted(call)
 
 
-def require_refused(run: Transcript, number: int) -> None:
+def require_refused(call: Call) -> None:
     """Power off was refused with a sentence, and the robot walked on."""
-    call = run.call(ENABLE, number)
-    answer = require_answer(run, call)
-    require_walking_as_told(run, call)
-    expect(
-        answer.response["success"] is False,
-        expected=f"success: false to {_question(call)} while the robot is WALKING",
-        observed=_shown(answer.response),
+    answered = call.answered
+    require_walking_as_told(call)
+    call.expect(
+        "success",
+        False,
+        because="the robot was WALKING when power off was asked for",
         help="Keep the last robot_state, and answer success: false when data is false and its mode is "
         "RobotState.WALKING.",
-        at=answer.t,
     )
     expect(
-        bool(answer.response["message"].strip()),
+        bool(call.response.message.strip()),
         expected="a message that says why power off is refused",
         observed="an empty message",
         help='Set response.message, for example to "the robot is walking: stop it first".',
-        at=answer.t,
+        at=answered.t,
     )
-    require_walking_on(run, number)
+    require_walking_on(call)
 
 
-def require_walking_as_told(run: Transcript, call: CallHistory) -> None:
+def require_walking_as_told(call: Call) -> None:
     """The robot walked when the question came, and had for long enough that the node knew."""
-    told = run.told("walk", before=call.sent.t - DELIVERY)
-    watched = run.robot_between(call.sent.t - DELIVERY, call.sent.t)
-    idle = next((robot for robot in watched if robot.mode != WALKING), None)
+    told = call.run.told("walk", before=call.sent.t - DELIVERY)
+    watched = call.run.robot_between(call.sent.t - DELIVERY, call.sent.t)
+    idle = next((robot for robot in watched if robot.mode != RobotState.WALKING), None)
     expect(
         idle is None and any(told.command["velocity"]),
         expected="the robot walking when power off is asked for, as it was told",
-        observed=f"it is {_mode(run, idle.t if idle else call.sent.t)}",
+        observed=f"it is {_mode(call.run, idle.t if idle else call.sent.t)}",
         help=_NOTHING_UNASKED,
         at=call.sent.t,
     )
 
 
-def require_standing_as_told(run: Transcript, number: int) -> None:
+def require_standing_as_told(call: Call) -> None:
     """The robot was told to stop, and stood when the question came, for long enough that the node knew."""
-    call = run.call(ENABLE, number)
-    run.told("walk", before=call.sent.t - DELIVERY, velocity=[0.0, 0.0, 0.0])
-    watched = run.robot_between(call.sent.t - DELIVERY, call.sent.t)
+    call.run.told("walk", before=call.sent.t - DELIVERY, velocity=[0.0, 0.0, 0.0])
+    watched = call.run.robot_between(call.sent.t - DELIVERY, call.sent.t)
     expect(
-        all(robot.mode != WALKING for robot in watched),
+        all(robot.mode != RobotState.WALKING for robot in watched),
         expected="the robot standing when power off is asked for again, as it was told",
-        observed=f"it is {_mode(run, call.sent.t)}",
+        observed=f"it is {_mode(call.run, call.sent.t)}",
         help=_NOTHING_UNASKED,
         at=call.sent.t,
     )
 
 
-def require_walking_on(run: Transcript, number: int) -> None:
+def require_walking_on(call: Call) -> None:
     """The motors kept their power, and the robot still walks a while after the answer."""
-    call = run.call(ENABLE, number)
-    answer = require_answer(run, call)
-    watched = run.robot_between(call.sent.t, answer.t + WATCHED)
+    watched = call.run.robot_between(call.sent.t, call.answered.t + WATCHED)
     last = next((robot for robot in watched if not robot.motors_enabled), watched[-1])
     expect(
-        last.motors_enabled and last.mode == WALKING,
+        last.motors_enabled and last.mode == RobotState.WALKING,
         expected=f"the robot walking on after {_question(call)}",
         observed=f"it is {MODES[last.mode]}, its motors are {_on_or_off(last.motors_enabled)}",
         help="Return before anything is published when a request is refused; where it is granted, publish what "
@@ -146,21 +135,9 @@ def require_walking_on(run: Transcript, number: int) -> None:
     )
 
 
-def require_silence_so_far(run: Transcript) -> CallHistory:
-    """Return the first question for the status, which came before the robot had said anything."""
-    call = run.call(STATUS, 1)
-    answer = require_answer(run, call)
-    if any(command.t <= answer.t for command in run.all(ev.RobotCommanded)):
-        raise unseen(run, "the robot published its state too early")
-    return call
-
-
-_NOTHING_UNASKED = "Publish nothing unasked: motor_power only when a request is granted, and cmd_vel never."
-
-
-def _require_motors_known(run: Transcript, call: CallHistory, on: bool) -> None:
+def _require_motors_known(call: Call, on: bool) -> None:
     """The motors were as they are for long enough that the node knew."""
-    watched = run.robot_between(call.sent.t - DELIVERY, call.sent.t)
+    watched = call.run.robot_between(call.sent.t - DELIVERY, call.sent.t)
     other = next((robot for robot in watched if robot.motors_enabled is not on), None)
     expect(
         other is None,
@@ -171,18 +148,19 @@ def _require_motors_known(run: Transcript, call: CallHistory, on: bool) -> None:
     )
 
 
-def _next_question(run: Transcript, call: CallHistory) -> float:
+def _next_question(call: Call) -> float:
     """When the next request for the motors was sent (s): from then on they may change again."""
-    later = [other.sent.t for other in run.calls_to(ENABLE) if other.sent.t > call.sent.t]
+    later = [other.sent.t for other in call.run.calls_to(call.service) if other.sent.t > call.sent.t]
     return min(later, default=math.inf)
 
 
-def _advice_on_status(response: dict, wanted: str, first: bool) -> str:
-    if response["message"] == wanted:
+def _advice_on_status(call: Call, wanted: str) -> str:
+    response, is_first = call.response, call is call.run.calls_to(call.service)[0]
+    if response.message == wanted:
         return "success tells whether the question could be answered, not whether the motors are on: set it to True."
-    if response["message"].strip().rstrip(".").lower() == wanted.lower():
+    if response.message.strip().rstrip(".").lower() == wanted.lower():
         return f"The text is compared letter by letter, as a program would: {wanted!r}."
-    if first or not response["success"]:
+    if is_first or not response.success:
         return (
             "Subscribe to robot_state (relative name), keep its last message, and answer from "
             "motors_enabled in it."
@@ -193,13 +171,9 @@ def _advice_on_status(response: dict, wanted: str, first: bool) -> str:
     )
 
 
-def _question(call: CallHistory) -> str:
-    data = call.sent.request.get("data")
-    return call.sent.service if data is None else f"{call.sent.service} (data: {str(data).lower()})"
-
-
-def _shown(response: dict) -> str:
-    return f"success: {str(response['success']).lower()}, message: {response['message']!r}"
+def _question(call: Call) -> str:
+    data = getattr(call.request, "data", None)
+    return call.service if data is None else f"{call.service} (data: {shown(data)})"
 
 
 def _mode(run: Transcript, t: float) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from autograder.authoring.checks import check, expect, program
-from autograder.authoring.client_checks import require_failure, require_played
+from autograder.authoring.client_checks import require_failure, require_offered
 from autograder.authoring.transcript import Transcript
 
 from .judging import (
@@ -41,7 +41,7 @@ def prints_the_status(run: Transcript) -> None:
 def gives_up_without_servers(run: Transcript) -> None:
     """Without any server it ends with status 1 within 10 s, and says so on stderr"""
     for service in (ENABLE, STATUS):
-        require_played(run, service, servers=0)
+        require_offered(run, service, servers=0)
     require_failure(run, WITHIN, NO_SERVER, "nobody offers enable_motors and get_status")
 
 

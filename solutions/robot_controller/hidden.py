@@ -7,7 +7,7 @@ import random
 from autograder.authoring.checks import check, program
 from autograder.authoring.client_checks import (
     require_failure,
-    require_played,
+    require_offered,
     require_reply,
     require_withdrawn,
 )
@@ -68,10 +68,10 @@ def works_in_any_namespace(run: Transcript) -> None:
 @check(points=1, on=[ONE_OF_TWO, ANOTHER_TYPE], needs=gives_up_without_servers)
 def needs_both_services(missing: Transcript, other_type: Transcript) -> None:
     """A get_status that is missing, or of another type, ends it with status 1"""
-    require_played(missing, ENABLE)
-    require_played(missing, STATUS, servers=0)
+    require_offered(missing, ENABLE)
+    require_offered(missing, STATUS, servers=0)
     require_failure(missing, WITHIN, NO_SERVER, "nobody offers get_status")
-    require_played(other_type, STATUS, service_type="std_srvs/srv/SetBool")
+    require_offered(other_type, STATUS, service_type="std_srvs/srv/SetBool")
     require_failure(other_type, WITHIN, NO_SERVER, "get_status is there with another type")
 
 
@@ -118,7 +118,7 @@ def finds_a_restarted_server(run: Transcript) -> None:
 @check(points=1, on=TWO, needs=prints_the_status, see="03_clients_that_survive#two-why")
 def copes_with_two_servers(run: Transcript) -> None:
     """Two servers of one name give one status"""
-    require_played(run, STATUS, servers=2)
+    require_offered(run, STATUS, servers=2)
     require_printed_status(run, [run.params["status"]])
 
 
@@ -126,6 +126,6 @@ def copes_with_two_servers(run: Transcript) -> None:
 def reports_a_refusal(run: Transcript) -> None:
     """When enable_motors says no, it does not end with status 0"""
     reply = require_reply(run, ENABLE)
-    if reply.response["success"]:
+    if reply.response.success:
         raise unseen(run, "enable_motors did not refuse")
     require_failure(run, WITHIN, REFUSED, "enable_motors answered success: false")

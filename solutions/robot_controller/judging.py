@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from autograder.authoring.checks import expect
+from autograder.authoring.call import Request
 from autograder.authoring.client_checks import (
     require_end,
-    require_played,
+    require_offered,
     require_reply,
     require_requests,
     require_success,
 )
+from autograder.authoring.failure import expect
 from autograder.authoring.missing import Missing, unseen
-from autograder.authoring.transcript import RequestHistory, Transcript
+from autograder.authoring.transcript import Transcript
 
 ENABLE, STATUS = "enable_motors", "get_status"
 WITHIN = 10.0  # s for everything
@@ -24,7 +25,7 @@ PREFIX = "Robot status: "
 def require_enabled_before_asked(run: Transcript) -> None:
     """The motors were enabled, and get_status was asked after the answer."""
     for service in (ENABLE, STATUS):
-        require_played(run, service)
+        require_offered(run, service)
     requests = run.requests(ENABLE)
     if not requests:
         require_end(run, WITHIN)
@@ -38,7 +39,7 @@ def require_enabled_before_asked(run: Transcript) -> None:
     )
     first = requests[0]
     expect(
-        first.received.fields["data"] is True,
+        first.message.data,
         expected="data: true, which switches the motors on",
         observed="data: false",
         help="A new request holds false: set request.data = True before you send it.",
@@ -104,9 +105,9 @@ def require_printed_second_answer(run: Transcript) -> None:
             )
 
 
-def require_silence(run: Transcript, service: str, number: int) -> list[RequestHistory]:
+def require_silence(run: Transcript, service: str, number: int) -> list[Request]:
     """The client sent so many requests to a service that answered none of them."""
-    require_played(run, service)
+    require_offered(run, service)
     requests = require_requests(run, service, number)
     if any(request.reply for request in requests):
         raise unseen(run, f"{service} answered though it should not")

@@ -5,24 +5,26 @@ from __future__ import annotations
 from std_srvs.srv import SetBool, Trigger
 
 from autograder.arena.client_stage import ClientStage
-from autograder.arena.played_service import SILENCE, PlayedService, Reply
+from autograder.arena.scripted_service import SILENCE, Reply, ScriptedService
 
-ENABLE, STATUS = "enable_motors", "get_status"
-ENABLED = Reply({"success": True, "message": "the motors are on"})
 FIRST_REQUEST_TIMEOUT = 15.0  # s
 RESTART = 0.4  # s; a client may ask again 2 s after its first request
 
 
+def _enabled(after: float = 0.0) -> Reply:
+    return Reply(SetBool.Response(success=True, message="the motors are on"), after)
+
+
 def _status(message: str, after: float = 0.0) -> Reply:
-    return Reply({"success": True, "message": message}, after)
+    return Reply(Trigger.Response(success=True, message=message), after)
 
 
-def _play_enable(stage: ClientStage, *replies: Reply | None) -> PlayedService:
-    return stage.play_service(ENABLE, SetBool, replies)
+def _offer_enable(stage: ClientStage, *replies: Reply | None) -> ScriptedService:
+    return stage.offer_service("enable_motors", SetBool, *(replies or [_enabled()]))
 
 
-def _play_status(stage: ClientStage, *replies: Reply | None) -> PlayedService:
-    return stage.play_service(STATUS, Trigger, replies)
+def _offer_status(stage: ClientStage, *replies: Reply | None) -> ScriptedService:
+    return stage.offer_service("get_status", Trigger, *replies)
 
 
 def _run(stage: ClientStage) -> None:
@@ -32,8 +34,8 @@ def _run(stage: ClientStage) -> None:
 
 def good(stage: ClientStage, status: str) -> None:
     """Both servers answer soon; enable_motors takes long enough to see whether it is waited for."""
-    _play_enable(stage, Reply(ENABLED.response, after=0.3))
-    _play_status(stage, _status(status))
+    _offer_enable(stage, _enabled(after=0.3))
+    _offer_status(stage, _status(status))
     _run(stage)
 
 
@@ -44,56 +46,56 @@ def nobody(stage: ClientStage) -> None:
 
 def one_of_two(stage: ClientStage) -> None:
     """Only enable_motors is there."""
-    _play_enable(stage, ENABLED)
+    _offer_enable(stage)
     _run(stage)
 
 
 def another_type(stage: ClientStage) -> None:
     """get_status is there with another type."""
-    _play_enable(stage, ENABLED)
-    stage.play_service(STATUS, SetBool, [Reply()])
+    _offer_enable(stage)
+    stage.offer_service("get_status", SetBool, Reply())
     _run(stage)
 
 
 def silent_enable(stage: ClientStage) -> None:
     """enable_motors takes every request and answers none."""
-    _play_enable(stage, SILENCE)
-    _play_status(stage, _status("Motors: OFF"))
+    _offer_enable(stage, SILENCE)
+    _offer_status(stage, _status("Motors: OFF"))
     _run(stage)
 
 
 def silent_status(stage: ClientStage) -> None:
     """get_status takes every request and answers none."""
-    _play_enable(stage, ENABLED)
-    _play_status(stage, SILENCE)
+    _offer_enable(stage)
+    _offer_status(stage, SILENCE)
     _run(stage)
 
 
 def first_lost(stage: ClientStage, status: str) -> None:
     """Each server leaves its first request unanswered and answers the second."""
-    _play_enable(stage, SILENCE, ENABLED)
-    _play_status(stage, SILENCE, _status(status))
+    _offer_enable(stage, SILENCE, _enabled())
+    _offer_status(stage, SILENCE, _status(status))
     _run(stage)
 
 
 def slow(stage: ClientStage, status: str, after: float) -> None:
     """Each answer takes `after` s."""
-    _play_enable(stage, Reply(ENABLED.response, after))
-    _play_status(stage, _status(status, after))
+    _offer_enable(stage, _enabled(after))
+    _offer_status(stage, _status(status, after))
     _run(stage)
 
 
 def late(stage: ClientStage, statuses: tuple[str, str], after: tuple[float, float]) -> None:
     """The answer to the first get_status comes `after[0]` s later, when the second request waits for its own."""
-    _play_enable(stage, ENABLED)
-    _play_status(stage, *(_status(status, delay) for status, delay in zip(statuses, after, strict=True)))
+    _offer_enable(stage)
+    _offer_status(stage, *(_status(status, delay) for status, delay in zip(statuses, after, strict=True)))
     _run(stage)
 
 
 def dying(stage: ClientStage) -> None:
     """get_status dies while it works on the first request."""
-    _play_enable(stage, ENABLED)
-    status = _play_status(stage, SILENCE)
+    _offer_enable(stage)
+    status = _offer_status(stage, SILENCE)
     stage.start_program()
     if stage.wait_for_requests(status, 1, FIRST_REQUEST_TIMEOUT):
         status.withdraw()
@@ -102,26 +104,26 @@ def dying(stage: ClientStage) -> None:
 
 def restarting(stage: ClientStage, status: str) -> None:
     """get_status dies while it works on the first request and is soon started again."""
-    _play_enable(stage, ENABLED)
-    first = _play_status(stage, SILENCE)
+    _offer_enable(stage)
+    first = _offer_status(stage, SILENCE)
     stage.start_program()
     if stage.wait_for_requests(first, 1, FIRST_REQUEST_TIMEOUT):
         first.withdraw()
         stage.wait(RESTART)
-        _play_status(stage, _status(status))
+        _offer_status(stage, _status(status))
     stage.wait_for_end()
 
 
 def two_of_one_name(stage: ClientStage, status: str) -> None:
     """Two servers offer get_status, and both answer."""
-    _play_enable(stage, ENABLED)
-    _play_status(stage, _status(status))
-    _play_status(stage, _status(status))
+    _offer_enable(stage)
+    _offer_status(stage, _status(status))
+    _offer_status(stage, _status(status))
     _run(stage)
 
 
 def refusing(stage: ClientStage, reason: str) -> None:
     """enable_motors says no."""
-    _play_enable(stage, Reply({"success": False, "message": reason}))
-    _play_status(stage, _status("Motors: OFF"))
+    _offer_enable(stage, Reply(SetBool.Response(success=False, message=reason)))
+    _offer_status(stage, _status("Motors: OFF"))
     _run(stage)

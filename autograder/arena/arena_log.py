@@ -1,0 +1,115 @@
+"""The log of a scenario: the stage waits on it, and every event goes to the pipe that the controller reads.
+
+What students send is bounded here: how many events of a kind are kept, how long a text and how large an event may be,
+and how much all of them together. What is not kept is counted, and `ArenaLog.finish` says so.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from autograder.arena import events as ev
+from autograder.arena.long_texts import cut_long_texts
+from ros_runtime.record.event import Event, as_line, to_json
+from ros_runtime.record.event_log import EventLog
+from ros_runtime.recorded_client.conversation import NOBODYS
+
+MOST_OF_A_KIND = 5000  # events of one kind for one goal, call, …; no sound node comes near
+MOST_OF: Mapping[str, int] = {
+    ev.FeedbackReceived.kind: 1000,  # of one goal: 50 a second for the longest walk, ten times what is asked for
+    ev.RequestReceived.kind: 500,  # of one service: each may be waited for
+}
+LARGEST_EVENT = 2**20  # bytes of JSON
+LARGEST_RECORD = 32 * 2**20  # bytes of what students send; the controller reads twice as much
+MOST_OF_NOBODYS = 500  # events of one kind that belong to no goal of the scenario's
+
+
+@dataclass
+class _Dropped:
+    """Events of one kind that were not kept; `since` and `until` are s."""
+
+    count: int
+    since: float
+    until: float
+
+
+class ArenaLog(EventLog):
+    """Writes each event as one JSON object a line to `fd`; safe to use from any thread."""
+
+    def __init__(self, fd: int) -> None:
+        super().__init__()
+        self._fd = fd
+        self._writing = threading.Lock()
+        self._counting = threading.Lock()
+        self._counts: Counter[tuple[str, str]] = Counter()
+        self._first: dict[str, float] = {}
+        self._dropped: dict[str, _Dropped] = {}
+        self._bytes = 0
+
+    def append(self, event: Event) -> None:
+        """Write an event, and wake up whoever waits for it."""
+        fields, longest = cut_long_texts(to_json(event))
+        line = as_line(event.kind, fields)
+        if len(line) > LARGEST_EVENT:
+            self.too_large(event.kind, "", len(line), LARGEST_EVENT)
+            return
+        with self._counting:
+            self._bytes += len(line)
+        self.append_written(event, line)
+        if longest.was_cut:
+            self.too_large(event.kind, "", longest.length, longest.limit)
+
+    def append_written(self, event: Event, line: bytes) -> None:
+        """Append an event that another trusted process has already written as a line."""
+        with self._writing:
+            while line:
+                line = line[os.write(self._fd, line) :]
+        super().append(event)
+
+    def admits(self, what: str, of: str) -> bool:
+        """Whether one more event of a kind that the student's processes cause is recorded; asked once for each.
+
+        `of` is the goal, call or service it belongs to, or NOBODYS: each has a number of its own, so that a flood of
+        one pushes out nothing of another. An event that is not admitted counts as dropped.
+        """
+        now = time.monotonic()
+        with self._counting:
+            self._first.setdefault(what, now)
+            self._counts[what, of] += 1
+            most = MOST_OF_NOBODYS if of == NOBODYS else MOST_OF.get(what, MOST_OF_A_KIND)
+            admitted = self._counts[what, of] <= most and self._bytes < LARGEST_RECORD
+        if not admitted:
+            self.drop(what)
+        return admitted
+
+    @property
+    def received(self) -> int:
+        """How many events of the student's processes there were so far, recorded or not."""
+        with self._counting:
+            return self._counts.total()
+
+    def drop(self, what: str) -> None:
+        """Count an event that is not recorded."""
+        now = time.monotonic()
+        with self._counting:
+            since = self._first.setdefault(what, now)
+            dropped = self._dropped.setdefault(what, _Dropped(0, since, now))
+            dropped.count += 1
+            dropped.until = now
+
+    def too_large(self, what: str, id: str, size: int, limit: int) -> None:
+        """Record that something had more bytes than are read."""
+        if self.admits(ev.TooLarge.kind, what):
+            self.append(ev.TooLarge(what=what, id=id, bytes=size, limit=limit))
+
+    def finish(self) -> None:
+        """Record what was dropped, an event for each kind."""
+        with self._counting:
+            dropped, self._dropped = self._dropped, {}
+        for what, each in dropped.items():
+            self.append(ev.RecordDropped(what=what, count=each.count, seconds=each.until - each.since))

@@ -1,0 +1,74 @@
+"""What students' nodes send, looked at before it is unpacked: how large it is, and whether it can be read at all."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from autograder.arena.arena_log import ArenaLog
+from ros_runtime.messages import is_message
+from ros_runtime.recorded_client.conversation import Reading
+
+KIB = 1024
+LARGEST: Mapping[str, int] = {  # bytes; what the course's interfaces are used for has a few hundred
+    "feedback": 16 * KIB,
+    "status": 64 * KIB,  # two thousand goals
+    "answer": 64 * KIB,
+    "result": 64 * KIB,
+    "cancel answer": 64 * KIB,
+    "request": 64 * KIB,
+}
+
+
+class BoundedReading(Reading):
+    """Reads up to a size and a number; the rest is recorded as too large or dropped."""
+
+    def __init__(self, log: ArenaLog) -> None:
+        self._log = log
+
+    def admits(self, what: str, of: str) -> bool:
+        """Whether one more event of a kind is read; `of` is the goal, call or service it belongs to, or NOBODYS."""
+        return self._log.admits(what, of)
+
+    def is_too_large(self, what: str, id: str, message: Any) -> bool:
+        """Whether a message is larger than is read; recorded when it is."""
+        return self._has_too_many_bytes(what, id, size_of(message))
+
+    def unpack(self, what: str, id: str, data: bytes, message_type: Any) -> Any | None:
+        """Return the message in serialized `data`, or None and a record of why not."""
+        if self._has_too_many_bytes(what, id, len(data)):
+            return None
+        try:
+            return super().unpack(what, id, data, message_type)
+        except Exception:  # the middleware's own error, which has no public name
+            self._log.drop("unreadable")
+            return None
+
+    def _has_too_many_bytes(self, what: str, id: str, size: int) -> bool:
+        if size <= LARGEST[what]:
+            return False
+        self._log.too_large(what, id, size, LARGEST[what])
+        return True
+
+
+def size_of(message: Any) -> int:
+    """Return about how many bytes a message has, from the lengths of its texts and lists: nothing is copied.
+
+    A long list is counted by its length alone, so that this takes no longer for a large message.
+    """
+    if is_message(message):
+        return sum(size_of(getattr(message, name)) for name in message.get_fields_and_field_types())
+    if isinstance(message, str | bytes | bytearray):
+        return 4 + len(message)
+    if isinstance(message, np.ndarray):
+        return 4 + int(message.nbytes)
+    if isinstance(message, array):
+        return 4 + len(message) * message.itemsize
+    if isinstance(message, list | tuple):
+        if len(message) > max(LARGEST.values()):
+            return 4 + len(message)
+        return 4 + sum(size_of(element) for element in message)
+    return 8

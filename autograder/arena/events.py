@@ -1,0 +1,211 @@
+"""What an arena can report, every time in seconds on the arena's own clock.
+
+Here stand the events of the arena itself; those of its client and of the simulator come from `ros_runtime.record`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from ros_runtime.record.client_events import (
+    CancelAnswered,
+    CancelSent,
+    FeedbackReceived,
+    GoalAnswered,
+    GoalSent,
+    ResultReceived,
+    ServiceAnswered,
+    ServiceCalled,
+    StatusSeen,
+    TooLarge,
+    Unanswered,
+)
+from ros_runtime.record.event import Event
+from ros_runtime.record.ground_truth import (
+    ArmReported,
+    BatteryPublished,
+    JointsPublished,
+    RobotCommanded,
+    RobotPeers,
+    RobotReady,
+    RobotRefused,
+    RobotTruth,
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class NodeStarted(Event):
+    """The student's process exists."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class NodeReady(Event):
+    """The endpoints the scenario waits for are matched; `waited` s after the node was started."""
+
+    waited: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class NodeNotReady(Event):
+    """They never were; `missing` names them, `offered` lists what the student's node does offer as 'name [type]'."""
+
+    missing: list[str]
+    offered: list[str]
+    waited: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class NodeOutput(Event):
+    """A line the student's process printed."""
+
+    stream: Literal["stdout", "stderr"]
+    text: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class NodeSignalled(Event):
+    """The scenario sent the student's process a signal."""
+
+    signal: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class NodeExited(Event):
+    """The student's process ended by itself or by a signal (negative)."""
+
+    returncode: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class NodeKilled(Event):
+    """The student's processes were ended because they used more than they may."""
+
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class NodeUsage(Event):
+    """What the student's processes used: processor time (s) over `wall` s of real time, peak memory (MiB)."""
+
+    cpu: float
+    wall: float
+    peak_memory_mib: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ServiceOffered(Event):
+    """The grader began to offer a scripted service; `server` names it, `type` is the ROS name of its type."""
+
+    service: str
+    server: str
+    type: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class ServiceWithdrawn(Event):
+    """A scripted service ceased to exist, together with the requests it was working on."""
+
+    service: str
+    server: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class RequestReceived(Event):
+    """A request of the student's client reached a scripted service."""
+
+    request: str
+    service: str
+    server: str
+    message: Any
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReplySent(Event):
+    """A scripted service answered a request."""
+
+    request: str
+    response: Any
+
+
+@dataclass(frozen=True, kw_only=True)
+class WokenLate(Event):
+    """A sleep of the arena's trusted process took `late` s longer than asked for, more than any before it."""
+
+    late: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Starved(Event):
+    """The student's program was ready to run and got no processor, for so many seconds of the arena's clock."""
+
+    seconds: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mark(Event):
+    """A moment the scenario names, so that checks can refer to it."""
+
+    name: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class PhaseEnded(Event):
+    """What a phase of the arena cost, where that is measured: wall and processor time of all its processes (s)."""
+
+    name: str
+    wall: float
+    cpu: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScenarioEnded(Event):
+    """The scenario ran to its end."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScenarioFailed(Event):
+    """The scenario could not be carried out, for a reason that is not the student's."""
+
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordDropped(Event):
+    """What the student's processes sent and was not kept: `count` events of the kind `what`.
+
+    `seconds` is the time from the first event of that kind to the last one dropped.
+    """
+
+    what: str
+    count: int
+    seconds: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class GraphFlooded(Event):
+    """The ROS graph held what no sound program puts there; `nodes` is how many nodes were seen in it."""
+
+    nodes: int
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class CommandSent(Event):
+    """The scenario sent the robot a command; RobotCommanded with the same command follows when it takes effect."""
+
+    command: dict[str, Any]
+
+
+_EVENTS: list[type[Event]] = [
+    *(ServiceCalled, ServiceAnswered, Unanswered, TooLarge),
+    *(GoalSent, GoalAnswered, FeedbackReceived, StatusSeen, CancelSent, CancelAnswered, ResultReceived),
+    *(RobotReady, RobotTruth, BatteryPublished, JointsPublished, ArmReported),
+    *(RobotPeers, RobotCommanded, RobotRefused),
+    *(NodeStarted, NodeReady, NodeNotReady, NodeOutput, NodeSignalled, NodeExited, NodeKilled, NodeUsage),
+    *(ServiceOffered, ServiceWithdrawn, RequestReceived, ReplySent),
+    *(WokenLate, Starved, Mark, PhaseEnded, ScenarioEnded, ScenarioFailed),
+    *(RecordDropped, GraphFlooded, CommandSent),
+]
+KINDS = {each.kind: each for each in _EVENTS}
+"""Every type of event by its kind."""

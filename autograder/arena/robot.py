@@ -1,0 +1,99 @@
+"""The robot as a scenario has it: what it is told, and waiting for what it does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
+from autograder.arena.simulator import Simulator
+
+TIMEOUT = 30.0  # s on the arena's clock
+
+
+class RobotTrouble(Exception):
+    """The simulator did not do what the scenario needs: our fault, never the student's."""
+
+
+class Robot:
+    """Commands reach the simulator by a pipe, so no topic is used and no node can be in the way."""
+
+    def __init__(self, simulator: Simulator, log: ArenaLog) -> None:
+        self._simulator = simulator
+        self._log = log
+
+    @property
+    def state(self) -> ev.RobotTruth:
+        """The robot as the simulator has it, at most 20 ms old."""
+        latest = self._log.last(ev.RobotTruth)
+        if latest is None:
+            raise RobotTrouble("the simulator has said nothing yet")
+        return latest
+
+    # -- what it is told ----------------------------------------------------------------------------------------------
+
+    def push(self, impulse: Sequence[float]) -> None:
+        """Push the torso (N·s in odom)."""
+        self._command("push", impulse=list(impulse))
+
+    def walk(self, velocity: Sequence[float]) -> None:
+        """Walk with a velocity (m/s, m/s, rad/s in base_link); zeros stop it."""
+        self._command("walk", velocity=list(velocity))
+
+    def set_battery(self, percentage: float) -> None:
+        """Charge or drain the battery to 0..1."""
+        self._command("set_battery", percentage=percentage)
+
+    def set_motor_power(self, on: bool) -> None:
+        """Switch the motors on or off."""
+        self._command("motor_power", on=on)
+
+    def move_joints(self, positions: Mapping[str, float], duration: float) -> None:
+        """Move joints to positions (rad) within `duration` s."""
+        self._command("move_joints", positions=dict(positions), duration=duration)
+
+    def report_arm(self, side: str) -> None:
+        """Say where elbow and hand of the arm "l" or "r" are."""
+        self._command("report_arm", side=side)
+
+    def connect_battery_sensor(self, connected: bool = True) -> None:
+        """Begin, or cease, to publish battery_state."""
+        self._command("battery_sensor", connected=connected)
+
+    def connect_joint_sensors(self, connected: bool = True) -> None:
+        """Begin, or cease, to publish joint_states."""
+        self._command("joint_sensors", connected=connected)
+
+    def reverse_joint_states(self) -> None:
+        """Publish joint_states in the reverse order."""
+        self._command("joint_states", reversed=True)
+
+    def publish_robot_state(self) -> None:
+        """Begin to publish robot_state."""
+        self._command("robot_state", published=True)
+
+    # -- waiting ------------------------------------------------------------------------------------------------------
+
+    def wait_for(self, condition: Callable[[ev.RobotTruth], Any], timeout: float = TIMEOUT) -> bool:
+        """Wait for a condition on its state; False when `timeout` s are over first."""
+        return self._wait_until(lambda: condition(self.state), timeout)
+
+    def wait_for_commands(self) -> bool:
+        """Wait until every command has taken effect, and what it asked for has been reported."""
+        return self._wait_until(self._has_obeyed, TIMEOUT)
+
+    def wait_for_published(self, kind: type[ev.Event], number: int = 1) -> bool:
+        """Wait until every command has taken effect, and then for `number` messages (BatteryPublished, …) more."""
+        self.wait_for_commands()
+        enough = self._log.count(kind) + number
+        return self._wait_until(lambda: self._log.count(kind) >= enough, TIMEOUT)
+
+    def _has_obeyed(self) -> bool:
+        return self._log.count(ev.RobotCommanded) >= self._log.count(ev.CommandSent)
+
+    def _wait_until(self, condition: Callable[[], Any], timeout: float) -> bool:
+        return self._log.wait_until(lambda: condition() or not self._simulator.is_running(), timeout)
+
+    def _command(self, do: str, **arguments: Any) -> None:
+        self._simulator.command({"do": do, **arguments})

@@ -1,0 +1,82 @@
+"""A service call as its client saw it, and a request as a scripted service saw it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from autograder.authoring import events as ev
+from autograder.authoring.failure import Failure
+from autograder.authoring.fields import expect_field
+from autograder.authoring.readiness import require_alive
+
+if TYPE_CHECKING:  # a transcript makes these
+    from autograder.authoring.transcript import Transcript
+
+_BUSY = (
+    "The callback must return the response at once: it may not wait, sleep or call another service while the node has "
+    "only one thread."
+)
+
+
+@dataclass(frozen=True)
+class Call:
+    """One service call. What is asked of its answer fails with a reason when none came."""
+
+    name: str
+    sent: ev.ServiceCalled
+    answer: ev.ServiceAnswered | None  # None: never, or too late
+    run: Transcript = field(repr=False)
+
+    @property
+    def service(self) -> str:
+        """The name of the service, as the scenario has it."""
+        return self.sent.service
+
+    @property
+    def request(self) -> Any:
+        """The request, a ROS message."""
+        return self.sent.request
+
+    @property
+    def response(self) -> Any:
+        """The response, a ROS message."""
+        return self.answered.response
+
+    @property
+    def answered(self) -> ev.ServiceAnswered:
+        """Its answer, which must have come while it was waited for."""
+        if self.answer is not None:
+            return self.answer
+        require_alive(self.run)
+        given_up = self.run.given_up("call", self.name)
+        waited = given_up.waited if given_up else self.run.end - self.sent.t
+        raise Failure(
+            expected=f"an answer to {self.service}",
+            observed=f"none within {waited:.0f} s",
+            help=_BUSY,
+            at=self.sent.t,
+        )
+
+    @property
+    def latency(self) -> float:
+        """Seconds to the answer; infinite without one."""
+        return self.answer.t - self.sent.t if self.answer else math.inf
+
+    def expect(self, path: str, value: Any, *, because: str, help: str, see: str = "") -> None:
+        """A field of the response has a value, `because` of what the robot or the request was."""
+        expect_field(self.response, path, value, because=because, help=help, at=self.answered.t, see=see)
+
+
+@dataclass(frozen=True)
+class Request:
+    """One request of the student's client to a scripted service, and the reply it got (None: none)."""
+
+    received: ev.RequestReceived
+    reply: ev.ReplySent | None
+
+    @property
+    def message(self) -> Any:
+        """The request, a ROS message."""
+        return self.received.message

@@ -1,0 +1,72 @@
+"""Feedback of a goal: its rate, its gaps, and that there is any."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from autograder.authoring.failure import expect
+from autograder.authoring.goal import Goal
+from autograder.authoring.missing import Missing
+
+MIN_RATE, MAX_RATE = 3.0, 10.0  # Hz; 5 are asked for
+RATE_SLACK = 0.5  # Hz of measuring error over a short walk
+MAX_GAP = 1.0  # s
+ARRIVING = 0.5  # s more that the last message may be older than the result
+
+
+def require_feedback(goal: Goal) -> None:
+    """The goal was accepted, and there was feedback on it."""
+    goal.require_accepted()
+    expect(
+        len(goal.feedback) > 0,
+        expected="feedback",
+        observed="none",
+        help="Publish feedback while the robot walks.",
+    )
+
+
+def require_good_feedback_rate(goal: Goal) -> None:
+    """Feedback came at 3-10 Hz on average without a gap over 1 s, from the answer to the result."""
+    goal.require_accepted()
+    start = goal.answer.t if goal.answer else goal.sent.t
+    times = [feedback.t for feedback in goal.feedback if goal.result is None or feedback.t <= goal.result.t]
+    expect(
+        len(times) >= 3,
+        expected="feedback about five times a second while the robot walks",
+        observed=f"{len(times)} message(s)",
+        help="Call goal_handle.publish_feedback(feedback), with the action's Feedback, in the loop of execute.",
+        at=start,
+    )
+    rate = (len(times) - 1) / max(times[-1] - times[0], 1e-6)
+    expect(
+        MIN_RATE - RATE_SLACK <= rate <= MAX_RATE + RATE_SLACK,
+        expected=f"feedback at 5 Hz ({MIN_RATE:.0f} to {MAX_RATE:.0f} Hz on average)",
+        observed=f"{rate:.1f} Hz",
+        help="Publish every 0.2 s: a loop with time.sleep(0.05) publishes in every fourth round.",
+        at=times[0],
+    )
+    _require_no_gap([start, *times], MAX_GAP)
+    _require_no_gap([times[-1], end_of_feedback(goal)], MAX_GAP + ARRIVING)
+
+
+def end_of_feedback(goal: Goal) -> float:
+    """When (s) feedback may end: at the result; with the last message where the scenario saw that none comes."""
+    if goal.result:
+        return goal.result.t
+    if goal.run.given_up("result", goal.name) and goal.feedback:
+        return goal.feedback[-1].t
+    raise Missing(
+        goal.run, expected=f"feedback until the goal “{goal.name}” ends", never="nobody waited for its end"
+    )
+
+
+def _require_no_gap(times: Sequence[float], longest: float) -> None:
+    gap, at = max((later - earlier, earlier) for earlier, later in pairwise(times))
+    expect(
+        gap <= longest,
+        expected=f"no gap over {MAX_GAP:.0f} s in the feedback",
+        observed=f"a gap of {gap:.1f} s",
+        help="Something in the loop waits: publish feedback also while the robot turns, slows down or settles.",
+        at=at,
+    )

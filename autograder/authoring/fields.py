@@ -1,0 +1,58 @@
+"""Fields of ROS messages compared with what they should be; what was observed is what they are."""
+
+from __future__ import annotations
+
+import math
+from functools import reduce
+from numbers import Real
+from typing import Any
+
+from autograder.authoring.failure import expect
+
+ROUNDING = 1e-5  # of a number that went through a float32
+LONGEST = 200  # characters of a text that are shown
+
+
+def expect_field(
+    message: Any, path: str, value: Any, *, because: str, help: str, at: float | None = None, see: str = ""
+) -> None:
+    """A field of a message has a value: `path` names it, such as "battery.percentage"; NaN is compared as a value.
+
+    Raises:
+        Failure: it has another; what it has is what was observed.
+    """
+    observed = reduce(getattr, path.split("."), message)
+    expect(
+        same(observed, value),
+        expected=f"{path}: {shown(value)}, because {because}",
+        observed=f"{path}: {shown(observed)}",
+        help=help,
+        at=at,
+        see=see,
+    )
+
+
+def same(observed: Any, value: Any) -> bool:
+    """Whether two values of a field are the same; numbers may differ by the rounding of a float32."""
+    if _is_number(observed) and _is_number(value):
+        both_nan = math.isnan(observed) and math.isnan(value)
+        return both_nan or math.isclose(observed, value, rel_tol=ROUNDING, abs_tol=ROUNDING)
+    return type(observed) is type(value) and observed == value
+
+
+def shown(value: Any) -> str:
+    """Return a value as ROS's tools print it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if _is_number(value):
+        return "NaN" if math.isnan(value) else f"{value:g}"
+    return repr(value[:LONGEST] if isinstance(value, str) else value)
+
+
+def shown_fields(message: Any, *names: str) -> str:
+    """Return some fields of a message: 'success: true, message: "…"'."""
+    return ", ".join(f"{name}: {shown(getattr(message, name))}" for name in names)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)

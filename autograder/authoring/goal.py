@@ -1,0 +1,204 @@
+"""The life of one goal as its client saw it, and what every exercise may ask of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from action_msgs.msg import GoalStatus
+from action_msgs.srv import CancelGoal
+
+from autograder.authoring import events as ev
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.fields import expect_field
+from autograder.authoring.missing import unseen
+from autograder.authoring.readiness import require_alive
+
+if TYPE_CHECKING:  # a transcript makes these
+    from autograder.authoring.transcript import Transcript
+
+SUCCEEDED, CANCELED, ABORTED = (
+    GoalStatus.STATUS_SUCCEEDED,
+    GoalStatus.STATUS_CANCELED,
+    GoalStatus.STATUS_ABORTED,
+)
+LISTENED = 1.2  # s after a result in which a scenario has to listen for what may not come any more
+ON_ITS_WAY = 0.3  # s a message may be overtaken by the result
+
+_NAMES = {
+    getattr(GoalStatus, name): name.removeprefix("STATUS_")
+    for name in dir(GoalStatus)
+    if name.startswith("STATUS_")
+}
+_BUSY = (
+    "The executor was busy: on one thread a callback that sleeps or waits keeps goals and cancels from being served. "
+    "Use MultiThreadedExecutor, or an async execute callback that awaits."
+)
+_ACCEPT = (
+    "goal_callback must return GoalResponse.ACCEPT for a goal that can be carried out (True is not "
+    "GoalResponse.ACCEPT)."
+)
+_NO_RESULT = (
+    "Every path through execute must make one terminal call (succeed, canceled or abort) and return a Result. "
+    "succeed() followed by `return None` never reaches the client."
+)
+_SLEEPS = (
+    "While execute sleeps on the only thread, nobody serves the cancel request{in_time}: use MultiThreadedExecutor, or "
+    "an async execute callback that awaits instead of time.sleep."
+)
+_REFUSES = (
+    "rclpy refuses every cancel by default: give ActionServer a cancel_callback that returns "
+    "CancelResponse.ACCEPT."
+)
+# What to do when a goal ended with one status instead of another.
+_ENDED_OTHERWISE = {
+    (
+        ABORTED,
+        SUCCEEDED,
+    ): "ABORTED is also what rclpy reports when execute raises or makes no terminal call: call "
+    "goal_handle.succeed().",
+    (
+        ABORTED,
+        CANCELED,
+    ): "Once is_cancel_requested is seen, stop the robot, call goal_handle.canceled() and return; an "
+    "exception or a missing terminal call gives ABORTED.",
+    (SUCCEEDED, CANCELED): "An accepted cancel ends with goal_handle.canceled(), not succeed(): look at "
+    "is_cancel_requested in every round.",
+}
+_ABORT = "Call goal_handle.abort(), with the reason in result.error_code, when the goal cannot be reached any more."
+_LOOK = "Look at which terminal call (succeed, canceled, abort) execute makes on this path."
+
+
+@dataclass(frozen=True)
+class Cancel:
+    """One cancel request and its answer (None: never answered)."""
+
+    sent: ev.CancelSent
+    answer: ev.CancelAnswered | None
+    run: Transcript = field(repr=False)
+
+    def require_agreed(self, goal: Goal) -> None:
+        """The server agreed to cancel the goal."""
+        if self.answer is None:
+            require_alive(self.run)
+            raise Failure(
+                expected="an answer to the cancel request",
+                observed="none within 5 s",
+                help=_SLEEPS.format(in_time=""),
+                at=self.sent.t,
+            )
+        if goal.name in self.answer.canceling:
+            return
+        has_ended = self.answer.return_code == CancelGoal.Response.ERROR_GOAL_TERMINATED
+        raise Failure(
+            expected="the server to agree to cancel",
+            observed="it answered only when the goal had ended (return code 3)"
+            if has_ended
+            else "it refused (no goal in goals_canceling)",
+            help=_SLEEPS.format(in_time=" in time") if has_ended else _REFUSES,
+            at=self.answer.t,
+        )
+
+
+@dataclass(frozen=True)
+class Goal:
+    """One goal. What is asked of its answer or result fails with a reason when there is none."""
+
+    name: str
+    sent: ev.GoalSent
+    answer: ev.GoalAnswered | None
+    feedback: Sequence[ev.FeedbackReceived]
+    statuses: Sequence[ev.StatusSeen]
+    cancels: Sequence[Cancel]
+    result: ev.ResultReceived | None
+    run: Transcript = field(repr=False)
+
+    @property
+    def request(self) -> Any:
+        """The goal itself, a ROS message."""
+        return self.sent.request
+
+    @property
+    def status(self) -> int | None:
+        """The final status (action_msgs/GoalStatus), None without a result."""
+        return self.result.status if self.result else None
+
+    def require_accepted(self, help: str = _ACCEPT) -> Goal:
+        """The server accepted it."""
+        if self.answer is None:
+            require_alive(self.run)
+            raise Failure(
+                expected="the goal to be accepted", observed=self._no_answer(), help=_BUSY, at=self.sent.t
+            )
+        expect(
+            self.answer.accepted,
+            expected="the goal to be accepted",
+            observed="it was rejected",
+            help=help,
+            at=self.answer.t,
+        )
+        return self
+
+    def require_rejected(self, *, because: str, help: str) -> None:
+        """The server rejected it."""
+        if self.answer is None:
+            require_alive(self.run)
+        expect(
+            self.answer is not None and not self.answer.accepted,
+            expected=f"the goal to be rejected: {because}",
+            observed="it was accepted" if self.answer else self._no_answer(),
+            help=help,
+            at=self.answer.t if self.answer else self.sent.t,
+        )
+
+    def require_result(self, status: int) -> ev.ResultReceived:
+        """It ended with a status (SUCCEEDED, CANCELED, ABORTED); returns the result."""
+        if self.result is None:
+            require_alive(self.run)
+            raise Failure(
+                expected=f"a result with status {_NAMES[status]}",
+                observed="no result",
+                help=_NO_RESULT,
+                at=self.run.end,
+            )
+        ended = self.result.status
+        expect(
+            ended == status,
+            expected=f"status {_NAMES[status]}",
+            observed=f"status {_NAMES.get(ended, ended)}",
+            help=_ENDED_OTHERWISE.get((ended, status), _ABORT if status == ABORTED else _LOOK),
+            at=self.result.t,
+        )
+        return self.result
+
+    def require_canceled(self, request: Cancel | None = None) -> ev.CancelSent:
+        """It was accepted, the request to cancel it (the last one) agreed to, and it ended CANCELED."""
+        self.require_accepted()
+        request = request or self.run.cancels_of(self.name)[-1]  # earlier ones may have overtaken their goal
+        request.require_agreed(self)
+        self.require_result(CANCELED)
+        return request.sent
+
+    def require_silence_afterwards(self) -> None:
+        """No feedback came after the result, and the scenario listened for some."""
+        if self.result is None or self.run.end < self.result.t + LISTENED:
+            raise unseen(self.run, f"nobody listened for feedback after the result of “{self.name}”")
+        end = self.result.t
+        late = [feedback for feedback in self.feedback if feedback.t > end + ON_ITS_WAY]
+        expect(
+            not late,
+            expected="no feedback after the result",
+            observed=f"{len(late)} message(s), the last {late[-1].t - end:.1f} s after it" if late else "",
+            help="Stop the timer or thread that publishes feedback before the terminal call.",
+            at=late[0].t if late else None,
+        )
+
+    def expect(self, path: str, value: Any, *, because: str, help: str, see: str = "") -> None:
+        """A field of its result, which must be there, has a value."""
+        assert self.result, "ask for its result first"
+        expect_field(self.result.result, path, value, because=because, help=help, at=self.result.t, see=see)
+
+    def _no_answer(self) -> str:
+        given_up = self.run.given_up("goal", self.name)
+        return f"no answer to the goal within {given_up.waited if given_up else self.run.end - self.sent.t:.0f} s"

@@ -1,0 +1,47 @@
+"""What every event has, and how one is written as a line of JSON."""
+
+from __future__ import annotations
+
+import json
+import re
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+from ros_runtime.messages import is_message, to_dict, type_name
+
+
+@dataclass(frozen=True, kw_only=True)
+class Event:
+    """Something that happened at `t` (s, `time.monotonic()` of the process that saw it; now, unless it is given).
+
+    `kind` is the name of the class in lower case and with underscores.
+    """
+
+    kind: ClassVar[str]
+    t: float = field(default_factory=time.monotonic)
+
+    def __init_subclass__(cls) -> None:
+        cls.kind = re.sub(r"(?<!^)(?=[A-Z])", "_", cls.__name__).lower()
+
+
+def to_line(event: Event) -> bytes:
+    """Return an event as one line of JSON; a ROS message in it says its type."""
+    return as_line(event.kind, to_json(event))
+
+
+def as_line(kind: str, fields: Mapping[str, Any]) -> bytes:
+    """Return the fields of an event, as JSON has them, as one line."""
+    return json.dumps({"kind": kind, **fields}).encode() + b"\n"
+
+
+def to_json(event: Event) -> dict[str, Any]:
+    """Return the fields of an event as JSON has them."""
+    return {name: _to_json(value) for name, value in vars(event).items()}
+
+
+def _to_json(value: Any) -> Any:
+    if is_message(value):
+        return {"ros_type": type_name(value), "ros_fields": to_dict(value)}
+    return value

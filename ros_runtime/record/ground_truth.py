@@ -1,0 +1,87 @@
+"""What the simulator says of the robot and of itself, by a pipe that student code cannot reach."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from ros_runtime.record.event import Event
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotReady(Event):
+    """The robot stands and its topics exist."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotTruth(Event):
+    """The robot as the simulator has it (50 Hz): base_link in odom (m, rad), speed over ground (m/s).
+
+    `up` is 1 when upright; `mode` is of humanoid_interfaces/RobotState; `battery` is 0..1; `lag` is how far (s) the
+    simulation was behind the clock.
+    """
+
+    simulated: float
+    lag: float
+    x: float
+    y: float
+    z: float
+    yaw: float
+    speed: float
+    turn_rate: float
+    up: float
+    mode: int
+    motors_enabled: bool
+    steps: int
+    battery: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class BatteryPublished(Event):
+    """What the robot published on battery_state: percentage 0..1, voltage V, current A (negative: discharging)."""
+
+    percentage: float
+    voltage: float
+    current: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class JointsPublished(Event):
+    """What the robot published on joint_states: a position for each name, rad (fingers: m)."""
+
+    names: list[str]
+    positions: list[float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ArmReported(Event):
+    """Where elbow and hand (between the fingers) of an arm were: m from its shoulder, along the torso's x, y and z."""
+
+    side: str
+    elbow: list[float]
+    hand: list[float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotPeers(Event):
+    """How many subscribers and publishers of other nodes the robot is connected to, by topic."""
+
+    subscribers: dict[str, int]
+    publishers: dict[str, int]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotCommanded(Event):
+    """A command of the scenario took effect in the simulator."""
+
+    command: dict[str, Any]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotRefused(Event):
+    """So many messages of a topic (the largest of so many bytes) the robot has not processed so far, and why."""
+
+    topic: str
+    count: int
+    bytes: int
+    reason: str

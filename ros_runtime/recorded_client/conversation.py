@@ -1,0 +1,79 @@
+"""What the handles of one client share: the log, how what comes in is read, and when waiting is in vain."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from rclpy.serialization import deserialize_message
+
+from ros_runtime.record.client_events import TooLarge, Unanswered
+from ros_runtime.record.event import Event
+from ros_runtime.record.event_log import EventLog
+
+NOBODYS = "nobody's"  # what is published for goals that are not this client's
+
+
+class Reading:
+    """Turns what servers send into messages, whatever its size and number."""
+
+    def admits(self, what: str, of: str) -> bool:
+        """Whether one more event of a kind is read; `of` is the goal, call or service it belongs to, or NOBODYS."""
+        return True
+
+    def is_too_large(self, what: str, id: str, message: Any) -> bool:
+        """Whether an answer is larger than is read."""
+        return False
+
+    def unpack(self, what: str, id: str, data: bytes, message_type: Any) -> Any | None:
+        """Return the message in serialized `data`; None when it is not read."""
+        return deserialize_message(data, message_type)
+
+
+@dataclass
+class Conversation:
+    """A log and the rules of writing it.
+
+    Attributes:
+        log: all that is sent and received goes there, and all waiting is for something there.
+        reading: of what comes in.
+        is_in_vain: whether nobody will answer any more.
+    """
+
+    log: EventLog
+    reading: Reading = field(default_factory=Reading)
+    is_in_vain: Callable[[], bool] = lambda: False
+    _named: Counter[str] = field(default_factory=Counter)
+
+    def name(self, kind: str, of: str, wanted: str = "") -> str:
+        """Return a name for a call, goal or cancel request: the one `wanted`, else `of` and a number."""
+        if wanted:
+            self._named[f"{kind} {wanted}"] += 1
+            if self._named[f"{kind} {wanted}"] > 1:
+                raise ValueError(f"there is already a {kind} named {wanted!r}")
+            return wanted
+        self._named[f"{kind} {of}"] += 1
+        return f"{of} {self._named[f'{kind} {of}']}"
+
+    def wait(
+        self,
+        what: Literal["call", "goal", "cancel", "result"],
+        id: str,
+        has_come: Callable[[], Any],
+        timeout: float,
+    ) -> bool:
+        """Wait for an answer; when none comes within `timeout` s, or it is in vain to wait, write that down."""
+        started = time.monotonic()
+        self.log.wait_until(lambda: has_come() or self.is_in_vain(), timeout)
+        if has_come():
+            return True
+        self.log.append(Unanswered(what=what, id=id, waited=time.monotonic() - started))
+        return False
+
+    def has_come(self, kind: type[Event], what: str, **named: str) -> bool:
+        """Whether an answer is in the log, or was too large to be read."""
+        log, (id,) = self.log, named.values()
+        return log.first(kind, **named) is not None or log.first(TooLarge, what=what, id=id) is not None
