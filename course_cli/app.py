@@ -64,7 +64,12 @@ COMMANDS: dict[str, Command] = {
     "release": Command("course_cli.commands.release:release", "Write the students' bundle."),
     "audit": Command("course_cli.commands.audit:audit", "Grade submissions whose faults are known."),
     "bench": Command("course_cli.commands.bench:bench", "Print the performance table."),
-    "test": Command("course_cli.commands.test:test", "Run the test suite.", forwards_arguments=True),
+    "test": Command(
+        "course_cli.commands.test:test",
+        "Run the tests, all or by tier.",
+        forwards_arguments=True,
+        forwards_help=False,
+    ),
 }
 
 
