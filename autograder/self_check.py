@@ -43,7 +43,7 @@ class SelfCheck:
 def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
     """Check `file` (default: what the notebook has written here) with the visible checks and print the table.
 
-    Raises :class:`~autograder.engine.submission.UnusableSubmission` when the file cannot be read.
+    Raises `UnusableSubmission` when the file cannot be read.
     """
     console = _console()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
@@ -57,7 +57,7 @@ def check_aloud(
 
     `arenas` are those of this work, when one has been opened ahead.
 
-    Raises :class:`~.engine.submission.UnusableSubmission` and :class:`~.engine.exercise.UnknownExercise`.
+    Raises `UnusableSubmission` and `UnknownExercise`.
     """
     loaded = load_exercise(exercise, hidden=False)
     submission = read_submission(path, exercise)

@@ -4,6 +4,8 @@ Exit status of every command: 0 it did its job, 1 it could not, 2 unusable argum
 To add a command, write course_cli/commands/<name>.py and a line in COMMANDS.
 """
 
+from __future__ import annotations
+
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -34,16 +36,18 @@ class Command:
 
     @property
     def module(self) -> str:
+        """The module in which the command is."""
         return self.target.partition(":")[0]
 
     @property
     def settings(self) -> dict[str, Any]:
-        """What Typer shall do with its arguments."""
+        """Context settings of the command in Typer, which decide what it parses and what it leaves in context.args."""
         if not self.forwards_arguments:
             return {}
         return FORWARDING | ({"help_option_names": []} if self.forwards_help else {})
 
     def load(self) -> Any:
+        """Import the module and return what `target` names in it."""
         return getattr(import_module(self.module), self.target.partition(":")[2])
 
 
@@ -65,7 +69,7 @@ COMMANDS: dict[str, Command] = {
     "audit": Command("course_cli.commands.audit:audit", "Grade submissions whose faults are known."),
     "bench": Command("course_cli.commands.bench:bench", "Print the performance table."),
     "test": Command(
-        "course_cli.commands.test:test",
+        "course_cli.commands.test:run_tests",
         "Run the tests, all or by tier.",
         forwards_arguments=True,
         forwards_help=False,

@@ -26,8 +26,8 @@ def bench_arenas(
 ) -> None:
     """Measure, print, and write `json_file`. `against` is a file that this wrote, or a commit that is measured, too.
 
-    Raises :class:`~autograder.bench.arena_costs.BenchFailed`,
-    :class:`~autograder.bench.processor_time.CannotBeMeasured` and, for a file that is none of ours, ValueError.
+    Raises `BenchFailed`,
+    `CannotBeMeasured` and, for a file that is none of ours, ValueError.
     """
     earlier = (
         Costs.from_json(json.loads(Path(against).read_text())) if against and Path(against).exists() else None

@@ -1,5 +1,7 @@
 """How commands end: their exit statuses, and the way to say why they could not go on."""
 
+from __future__ import annotations
+
 import typer
 from rich.console import Console
 

@@ -1,5 +1,7 @@
 """The option `--course`, which several commands have."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Annotated
 

@@ -56,7 +56,7 @@ class Leak(Exception):
 def write_bundle(root: Path, archive: Path) -> int:
     """Write the students' archive of the clone at `root`; return how many files it holds.
 
-    Raises :class:`Leak` when a solution or a hidden check is about to get in.
+    Raises `Leak` when a solution or a hidden check is about to get in.
     """
     with tempfile.TemporaryDirectory() as temporary:
         exercises = Path(temporary) / "exercises"
@@ -75,7 +75,7 @@ def write_bundle(root: Path, archive: Path) -> int:
 
 
 def require_no_leak(files: Mapping[str, Path]) -> None:
-    """Raise :class:`Leak` when a file names a hidden check or holds a solution."""
+    """Raise `Leak` when a file names a hidden check or holds a solution."""
     forbidden = ["### BEGIN SOLUTION", *hidden_check_ids()]
     for name, path in files.items():
         content = path.read_bytes()

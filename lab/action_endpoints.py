@@ -19,9 +19,11 @@ STATUS_QOS = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)  
 class Listener(Protocol):
     """A goal that wants to know what the server publishes about it."""
 
-    def note_feedback(self, feedback: Any) -> None: ...
+    def note_feedback(self, feedback: Any) -> None:
+        """Take a feedback message of the action's type."""
 
-    def note_status(self, status: int) -> None: ...
+    def note_status(self, status: int) -> None:
+        """Take a status, a constant of action_msgs/GoalStatus."""
 
 
 class ActionEndpoints:

@@ -1,5 +1,7 @@
 """What can go wrong in a notebook, each with what was seen, what was expected and what to do next."""
 
+from __future__ import annotations
+
 
 class LabError(Exception):
     """Something in the lab did not happen."""

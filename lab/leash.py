@@ -4,6 +4,8 @@ It is a program of its own, and not a function called between fork and exec, bec
 then that may hold a lock at that moment.
 """
 
+from __future__ import annotations
+
 import ctypes
 import os
 import signal

@@ -1,5 +1,7 @@
 """The end of a session."""
 
+from __future__ import annotations
+
 import atexit
 
 from lab import story

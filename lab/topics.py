@@ -57,7 +57,7 @@ def odometry() -> Odometry:
 
 
 def pose() -> Pose:
-    """x and y (m) and heading (rad) out of the last message on odom."""
+    """Position x, y (m) and heading (rad) out of the last message on odom."""
     where = odometry().pose.pose
     q = where.orientation
     yaw = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))

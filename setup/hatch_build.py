@@ -7,6 +7,8 @@
 Editable and normal wheels carry the same additions.
 """
 
+from __future__ import annotations
+
 import os
 import subprocess
 import sys

@@ -39,7 +39,7 @@ def header_of(text: str) -> str:
 def whole_program(path: Path) -> str:
     """Return the program that a patch in known/<kind>/ makes of the submission it names, under the patch's header.
 
-    Raises :class:`PatchError` saying what to do when it does not apply.
+    Raises `PatchError` saying what to do when it does not apply.
     """
     text = path.read_text(encoding="utf-8")
     found = _BEGINNING.search(text)

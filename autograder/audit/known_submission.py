@@ -55,7 +55,7 @@ class KnownSubmission:
         return f"{self.kind}/{self.path.stem}"
 
     def read(self) -> Submission:
-        """Return it as the grader takes it; raises :class:`~.fault_patch.PatchError`."""
+        """Return it as the grader takes it; raises `PatchError`."""
         if self.path.suffix == SUFFIX:
             (file_name,) = file_names(self.exercise)
             return Submission(self.exercise, self.name, {file_name: whole_program(self.path)})
@@ -80,7 +80,7 @@ def known_submissions(exercise: str, *, only: str = "*") -> list[KnownSubmission
 
 
 def known_submission(exercise: str, name: str) -> KnownSubmission:
-    """Read the one of this name, such as faulty/sleeps; raises :class:`HeaderError` where there is none, or two."""
+    """Read the one of this name, such as faulty/sleeps; raises `HeaderError` where there is none, or two."""
     kind, _, stem = name.rpartition("/")
     found = known_submissions(exercise, only=name)
     if len(found) != 1:
@@ -90,7 +90,7 @@ def known_submission(exercise: str, name: str) -> KnownSubmission:
 
 
 def read_known_submission(path: Path) -> KnownSubmission:
-    """Read the header of <exercise>/known/<kind>/<name>; raises :class:`HeaderError`."""
+    """Read the header of <exercise>/known/<kind>/<name>; raises `HeaderError`."""
     kind, exercise = _kind(path), path.parents[2].name
     header = _parse(_header_text(path))
     headline = _HEADLINE[kind]
@@ -104,7 +104,7 @@ def read_known_submission(path: Path) -> KnownSubmission:
 
 
 def require_known_checks(known: KnownSubmission, check_ids: Sequence[str]) -> None:
-    """Raise :class:`HeaderError` when a header names a check that its exercise does not have."""
+    """Raise `HeaderError` when a header names a check that its exercise does not have."""
     named = {*known.caught_by, *known.also_fails}
     if unknown := sorted(named - set(check_ids)):
         raise HeaderError(

@@ -72,7 +72,7 @@ class Collection:
 
 
 def collect(folder: Path) -> Collection:
-    """Find every work in the folder; raises :class:`NoSubmissions` when there is none."""
+    """Find every work in the folder; raises `NoSubmissions` when there is none."""
     if not folder.is_dir():
         raise NoSubmissions(f"{folder} is not a folder; expected {LAYOUT}")
     works: dict[tuple[str, str], Work] = {}

@@ -1,4 +1,4 @@
-"""Processes that can do no harm: the arena (:mod:`.arena_process`), the student's (:mod:`.student_process`).
+"""Processes that can do no harm: the arena (`arena_process`), the student's (`student_process`).
 
 Knows nothing of checks, scenarios or robots. Kept free of imports, because both sides of the wall load it.
 """

@@ -4,7 +4,7 @@
     arena = start_arena(spec, available_isolation().kind)
     report = arena.wait()
 
-The command is trusted; what it starts with :mod:`.student_process` is not.
+The command is trusted; what it starts with `student_process` is not.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Ended(str, Enum):
     EXIT = "exit"  # the command ended by itself
     DEADLINE = "deadline"
     MEMORY = "memory"
-    KILLED = "killed"  # by :meth:`ArenaProcess.kill`
+    KILLED = "killed"  # by `kill`
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class ArenaReport:
 def start_arena(spec: ArenaSpec, kind: Kind) -> ArenaProcess:
     """Start an arena of a kind and return once its command is about to run.
 
-    Raises :class:`.bubblewrap.SandboxError` when it cannot start.
+    Raises `SandboxError` when it cannot start.
     """
     return ArenaProcess(spec, kind)
 

@@ -27,7 +27,7 @@ class ArenaSpec:
     so a mapped page can be shared. `pass_fds` are descriptors inherited under the same number: the caller
     closes its own copies of them once the arena has started. `stdin` is all that the command can read there.
     `waiting_env`, if given, is the environment of an interpreter that shall wait in the arena to become students'
-    programs (:mod:`.warm_interpreter`); the command is then `python -m MODULE …`. Without namespaces none waits.
+    programs (`warm_interpreter`); the command is then `python -m MODULE …`. Without namespaces none waits.
     """
 
     command: Sequence[str]

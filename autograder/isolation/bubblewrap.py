@@ -18,7 +18,7 @@ from types import TracebackType
 
 from autograder.isolation.process_tree import children, ended_within, is_asleep
 
-STUDENT_FILTER = "/run/course/student.seccomp"  # where the arena keeps the filter of :mod:`.seccomp_filter`
+STUDENT_FILTER = "/run/course/student.seccomp"  # where the arena keeps the filter of `seccomp_filter`
 
 _START_TIMEOUT = 30.0  # s, for the namespaces and mounts on a busy machine
 # The command waits until init will end with bwrap; when we die before that, so does it, as its input ends.
@@ -117,7 +117,7 @@ class Sandbox:
         """Run `command` inside with pipes for its streams; `prefix` is a program that becomes bwrap.
 
         Call it from a thread that lives as long as the sandbox: the kernel ends the sandbox when that thread
-        ends. Raises :class:`SandboxError` when the command could not be started.
+        ends. Raises `SandboxError` when the command could not be started.
         """
         started = self._start(command, prefix, pass_fds)
         assert started.process.stdin
@@ -130,7 +130,7 @@ class Sandbox:
     def start_empty(self) -> StartedSandbox:
         """Make the sandbox for a program that enters it from outside; in it a shell waits, which `command_pid` names.
 
-        As :meth:`start` otherwise. The sandbox ends when its `process` loses its stdin.
+        As `start` otherwise. The sandbox ends when its `process` loses its stdin.
         """
         return self._start((), (), ())
 
@@ -176,7 +176,7 @@ def bwrap_path() -> str:
 
 
 def same_paths(paths: Iterable[str | Path]) -> list[tuple[str, str]]:
-    """Return each path as visible at the same place inside; a missing one raises :class:`SandboxError`."""
+    """Return each path as visible at the same place inside; a missing one raises `SandboxError`."""
     pairs = []
     for path in dict.fromkeys(os.path.abspath(path) for path in paths):
         if not os.path.exists(path):

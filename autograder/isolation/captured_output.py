@@ -91,7 +91,7 @@ class OutputPump:
             self._selector.register(fd, selectors.EVENT_READ)
 
     def watch(self, fd: int) -> None:
-        """Also wake up from :meth:`poll` when this descriptor becomes readable."""
+        """Also wake up from `poll` when this descriptor becomes readable."""
         self._selector.register(fd, selectors.EVENT_READ)
 
     def poll(self, timeout: float) -> set[int]:

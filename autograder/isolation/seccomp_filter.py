@@ -41,7 +41,7 @@ class SeccompUnavailableError(SandboxError):
 
 @lru_cache(maxsize=1)
 def student_filter() -> bytes:
-    """Return the filter as a program for bwrap's --seccomp. Raises :class:`SeccompUnavailableError`."""
+    """Return the filter as a program for bwrap's --seccomp. Raises `SeccompUnavailableError`."""
     try:
         import pyseccomp
     except (ImportError, RuntimeError) as error:

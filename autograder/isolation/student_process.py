@@ -44,7 +44,7 @@ def start_student(
     `interpreter` is one that waits to become the program, instead of a new one. `env` is its environment, to which
     the arena's network settings are added. `read_only_paths` are files and folders of the arena that it sees at the
     same place. `on_line(time, "stdout" | "stderr", text)` is called for each kept line and `on_exit(returncode)` once
-    at the end, after the last line, both on a thread of their own. Raises :class:`.bubblewrap.SandboxError` when the
+    at the end, after the last line, both on a thread of their own. Raises `SandboxError` when the
     sandbox cannot be started, ValueError for a file name that leaves the folder.
     """
     for name in workdir_files:

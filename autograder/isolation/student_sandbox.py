@@ -26,7 +26,7 @@ _NETWORK_VARIABLES = ("ROS_DOMAIN_ID", "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDD
 
 @dataclass(frozen=True)
 class Program:
-    """What to run: a Python file or `-m MODULE`, and its arguments. See :func:`.student_process.start_student`."""
+    """What to run: a Python file or `-m MODULE`, and its arguments. See `start_student`."""
 
     arguments: Sequence[str]
     workdir_files: Mapping[str, bytes]

@@ -62,7 +62,7 @@ class WarmInterpreter:
     ) -> EnteredProgram:
         """Run the Python file `arguments[0]` in `folder` of an empty sandbox, following the clock's page.
 
-        Raises :class:`.bubblewrap.SandboxError` when it cannot enter.
+        Raises `SandboxError` when it cannot enter.
         """
         order = {
             "sandbox": sandbox.init_pid,

@@ -1,5 +1,5 @@
 """nbgrader on both ends of the grader: release notebooks for students, gradebook and feedback from verdicts.
 
 nbgrader never sees a student's own file and never runs a cell: its place of execution is taken by
-:class:`~autograder.nbgrader_bridge.verdict_outputs.VerdictOutputs`, which writes what the arenas have found.
+`VerdictOutputs`, which writes what the arenas have found.
 """

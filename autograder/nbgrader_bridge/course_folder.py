@@ -63,7 +63,7 @@ def open_course(folder: Path, *, gradebook: bool = True) -> NbGraderAPI:
 
     Without a gradebook it can only make releases.
 
-    Raises :class:`StudentCodeWouldRun` unless autograding is exactly what is listed here.
+    Raises `StudentCodeWouldRun` unless autograding is exactly what is listed here.
     """
     root = folder.resolve()
     options: dict[str, Any] = {
@@ -89,7 +89,7 @@ def open_course(folder: Path, *, gradebook: bool = True) -> NbGraderAPI:
 
 
 def call(action: Callable[..., dict[str, Any]], *names: str) -> None:
-    """Call a method of nbgrader's API; raises :class:`NbgraderError` where it reports that it failed."""
+    """Call a method of nbgrader's API; raises `NbgraderError` where it reports that it failed."""
     with warnings.catch_warnings():
         # SQLAlchemy warns about how nbgrader links a new submission; the submission is stored all the same.
         warnings.filterwarnings("ignore", "Object of type .* not in session")
@@ -135,7 +135,7 @@ def _without_saving() -> list[Any]:
 
 
 def _let_nbgrader_find_alembic() -> None:
-    """nbgrader makes a new gradebook with the program alembic, found by PATH; it is installed beside this Python."""
+    """Put this Python's programs on PATH: nbgrader makes a new gradebook with the program alembic."""
     programs = str(Path(sys.executable).parent)
     folders = os.environ.get("PATH", os.defpath).split(os.pathsep)
     if programs not in folders:

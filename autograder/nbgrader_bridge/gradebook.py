@@ -52,7 +52,7 @@ class CourseGradebook:
         """Record one grade and return its feedback page; None for what was not graded, which leaves no score.
 
         What is entered already is left as it is. Raises
-        :class:`~autograder.nbgrader_bridge.course_folder.NbgraderError`.
+        `NbgraderError`.
         """
         grade = entry.grade
         if grade.status != "graded":

@@ -35,7 +35,7 @@ class VerdictOutputs(NbGraderPreprocessor):
     records = Unicode(help="folder with one JSON file a student: a list of grades").tag(config=True)
 
     def preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
-        """Write the outputs of one student's notebook; raises :class:`NotGradedError`."""
+        """Write the outputs of one student's notebook; raises `NotGradedError`."""
         names = resources["nbgrader"]
         grade = read_grade(Path(self.records), names["student"], names["assignment"])
         verdicts = verdicts_by_cell(grade)
@@ -52,7 +52,7 @@ class VerdictOutputs(NbGraderPreprocessor):
 
 
 def read_grade(records: Path, student: str, exercise: str) -> Grade:
-    """Return the grade that was recorded; raises :class:`NotGradedError` when there is none."""
+    """Return the grade that was recorded; raises `NotGradedError` when there is none."""
     path = records / f"{student}.json"
     try:
         grades = [Grade.from_json(record) for record in json.loads(path.read_text())]

@@ -31,7 +31,7 @@ class CannotMake(Exception):
 def make_exercise(name: str, kind: str, course: Path) -> Path:
     """Write `course`/`name`/, an exercise of a kind (one of KINDS), and return that folder.
 
-    Raises :class:`CannotMake` for a name that is none, or is taken.
+    Raises `CannotMake` for a name that is none, or is taken.
     """
     if not _NAME.fullmatch(name) or keyword.iskeyword(name):
         raise CannotMake(

@@ -1,5 +1,7 @@
 """`course audit`: does every check catch what it should, and does no sound submission fail?"""
 
+from __future__ import annotations
+
 import json
 from pathlib import Path
 from typing import Annotated

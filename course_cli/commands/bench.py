@@ -1,5 +1,7 @@
 """`course bench`: what the toolkit costs, measured on this machine, in this run."""
 
+from __future__ import annotations
+
 import io
 import subprocess
 import time

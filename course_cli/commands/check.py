@@ -1,5 +1,7 @@
 """`course check`: a student's own check, with the visible checks and the engine that grades."""
 
+from __future__ import annotations
+
 import json
 from pathlib import Path
 from typing import Annotated

@@ -1,5 +1,7 @@
 """`course demo`: the whole idea in a minute, on a machine without a screen."""
 
+from __future__ import annotations
+
 import contextlib
 import io
 import json

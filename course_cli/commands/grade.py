@@ -1,5 +1,7 @@
 """`course grade`: an instructor's batch, from submissions to gradebook and feedback pages."""
 
+from __future__ import annotations
+
 import os
 import sys
 from collections.abc import Sequence

@@ -1,5 +1,7 @@
 """`course lab`: JupyterLab on the clone."""
 
+from __future__ import annotations
+
 import os
 import sys
 from pathlib import Path

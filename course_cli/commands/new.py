@@ -1,5 +1,7 @@
 """`course new`: the folder of a new exercise."""
 
+from __future__ import annotations
+
 from enum import Enum
 from pathlib import Path
 from typing import Annotated

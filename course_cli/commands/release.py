@@ -1,5 +1,7 @@
 """`course release`: what students get, the archive or the notebooks alone."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Annotated
 

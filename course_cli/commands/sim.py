@@ -1,5 +1,7 @@
 """`course sim`: the robot node alone."""
 
+from __future__ import annotations
+
 import os
 import sys
 

@@ -14,10 +14,11 @@ ROOT = Path(__file__).resolve().parents[2]
 TIERS = ("fast", "arena", "robot", "browser")  # folders of tests/
 
 
-def test(
+def run_tests(
     context: typer.Context,
     fast: Annotated[
-        bool, typer.Option("--fast", help="Units, without a sandbox, a robot process or a browser: one minute.")
+        bool,
+        typer.Option("--fast", help="Units, without a sandbox, a robot process or a browser: one minute."),
     ] = False,
     arena: Annotated[
         bool,
@@ -25,7 +26,9 @@ def test(
     ] = False,
     robot: Annotated[
         bool,
-        typer.Option("--robot", help="Robot processes, chapters and the lab in kernels, the demo: six minutes."),
+        typer.Option(
+            "--robot", help="Robot processes, chapters and the lab in kernels, the demo: six minutes."
+        ),
     ] = False,
     browser: Annotated[
         bool, typer.Option("--browser", help="JupyterLab and the web view, seen in a browser: half a minute.")

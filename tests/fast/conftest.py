@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ def slow_part(command: Any) -> str | None:
     """The word of a command that makes it slow, or None."""
     words = [command] if isinstance(command, (str, bytes, os.PathLike)) else command
     program, *arguments = map(os.fsdecode, words)
-    modules = [word for option, word in zip(arguments, arguments[1:], strict=False) if option == "-m"]
+    modules = [word for option, word in pairwise(arguments) if option == "-m"]
     slow = [*({Path(program).name} & SLOW_PROGRAMS), *(set(modules) & SLOW_MODULES)]
     return slow[0] if slow else None
 

@@ -1,6 +1,6 @@
 """Runs small programs in arenas. Needs the standard library and autograder.isolation alone, so any Python can run it.
 
-As a program it says, as JSON, what :func:`run_student` saw of the student code on stdin.
+As a program it says, as JSON, what `run_student` saw of the student code on stdin.
 """
 
 from __future__ import annotations

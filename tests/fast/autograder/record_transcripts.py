@@ -6,6 +6,8 @@ Needed when a scenario has changed. It takes an arena for each submission, one a
 exercise on a quiet machine.
 """
 
+from __future__ import annotations
+
 import sys
 from dataclasses import replace
 

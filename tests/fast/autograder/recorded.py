@@ -4,6 +4,8 @@ One file is one run of one scenario: a line with the scenario's inputs and the c
 of time, a line each, all as it was recorded.
 """
 
+from __future__ import annotations
+
 import gzip
 import json
 from dataclasses import dataclass

@@ -4,6 +4,8 @@ Whatever is lost, doubled or late, the outcome is a verdict with a sentence, nev
 something lost or doubled nothing passes that failed before.
 """
 
+from __future__ import annotations
+
 import re
 from collections.abc import Iterator
 from dataclasses import replace

@@ -1,5 +1,7 @@
 """Messages in words."""
 
+from __future__ import annotations
+
 from geometry_msgs.msg import PoseStamped
 from sensor_msgs.msg import BatteryState, JointState
 from std_srvs.srv import Trigger

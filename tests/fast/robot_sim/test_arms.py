@@ -1,5 +1,7 @@
 """Trajectories of the upper body, reaching, and the hands."""
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

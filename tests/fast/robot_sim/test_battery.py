@@ -1,5 +1,7 @@
 """What the robot's work costs."""
 
+from __future__ import annotations
+
 import pytest
 
 from robot_sim.battery import Battery

@@ -1,5 +1,7 @@
 """Crouching, rising, and how stiffly the body is held."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import replace
 

@@ -1,5 +1,7 @@
 """The same seed and the same commands give the same robot, bit by bit."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from robot_sim.humanoid import Humanoid

@@ -1,5 +1,7 @@
 """Pushes, falls and motor power."""
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

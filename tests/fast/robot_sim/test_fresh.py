@@ -1,5 +1,7 @@
 """A robot that was used and reset, or that was built before a fork, is bit for bit a fresh one."""
 
+from __future__ import annotations
+
 import hashlib
 import os
 

@@ -1,5 +1,7 @@
 """Crouching and standing up in phases, each of which ends on what is measured."""
 
+from __future__ import annotations
+
 import math
 from itertools import pairwise
 

@@ -1,5 +1,7 @@
 """The inertial sensor has errors, and three seconds of standing still are enough to find the lasting ones."""
 
+from __future__ import annotations
+
 import numpy as np
 import pytest
 

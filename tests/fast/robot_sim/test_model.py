@@ -1,5 +1,7 @@
 """The body: masses, joints, scenes."""
 
+from __future__ import annotations
+
 import mujoco
 import pytest
 

@@ -1,5 +1,7 @@
 """Arms do not pass through the body or through each other."""
 
+from __future__ import annotations
+
 import mujoco
 import numpy as np
 import pytest

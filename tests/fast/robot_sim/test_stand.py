@@ -1,5 +1,7 @@
 """The stand, on which motors can be switched off and on again."""
 
+from __future__ import annotations
+
 import pytest
 
 from robot_sim.humanoid import Humanoid

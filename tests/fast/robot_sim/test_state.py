@@ -1,5 +1,7 @@
 """What the robot tells about itself."""
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

@@ -1,5 +1,7 @@
 """A foot that tips is laid down again by its centre of pressure."""
 
+from __future__ import annotations
+
 import math
 
 import pytest

@@ -1,4 +1,4 @@
-"""The trials, a few runs of each: the long ones are for ``python -m robot_sim.trials``."""
+"""The trials, a few runs of each: the long ones are for `python -m robot_sim.trials`."""
 
 import pytest
 

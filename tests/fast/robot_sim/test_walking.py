@@ -1,5 +1,7 @@
 """Standing, walking and stopping."""
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

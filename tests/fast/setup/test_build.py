@@ -1,5 +1,7 @@
 """The build hook: which ROS 2 it builds with, and when a finished build is used again."""
 
+from __future__ import annotations
+
 import shutil
 import sys
 from pathlib import Path

@@ -1,5 +1,7 @@
 """The console script `course`."""
 
+from __future__ import annotations
+
 import subprocess
 import sys
 from importlib.metadata import version

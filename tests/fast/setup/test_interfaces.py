@@ -1,5 +1,7 @@
 """The built interfaces have exactly the fields and constants that other people's code relies on."""
 
+from __future__ import annotations
+
 import subprocess
 import sys
 from pathlib import Path

@@ -1,5 +1,7 @@
 """The launcher notices when its environment no longer fits the clone."""
 
+from __future__ import annotations
+
 import os
 import shutil
 import subprocess

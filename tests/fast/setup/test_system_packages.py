@@ -1,5 +1,7 @@
 """System packages: root gets them installed, everyone else is told the line to type."""
 
+from __future__ import annotations
+
 import os
 import subprocess
 from pathlib import Path
