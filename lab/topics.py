@@ -1,4 +1,4 @@
-"""What the robot says: the last message of each of its topics."""
+"""The last message on each of the robot's topics."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from sensor_msgs.msg import BatteryState, JointState
 
 from humanoid_interfaces.msg import RobotState
-from lab import story
+from lab import interaction_log
 from lab.connection import NAMESPACE, connection
 from lab.errors import NoRobotError
+from lab.formatting import fixed
 from lab.waiting import comes_true
-from lab.wording import fixed
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 TOPICS: dict[str, tuple[Any, Any]] = {
@@ -65,12 +65,12 @@ def pose() -> Pose:
 
 
 def mode() -> str:
-    """What the robot does, by its name in RobotState: "OFF", "STANDING", "WALKING" or "FALLEN"."""
+    """The robot's mode by its name in RobotState: "OFF", "STANDING", "WALKING" or "FALLEN"."""
     return MODES[robot_state().mode]
 
 
 def latest(topic: str, timeout: float = 5.0) -> Any:
-    """The last message on one of the robot's topics; waits for one if there is none of the last second.
+    """The last message on one of the robot's topics; waits for a new one if the last is older than a second.
 
     Raises NoRobotError when none comes within `timeout` s.
     """
@@ -82,8 +82,8 @@ def latest(topic: str, timeout: float = 5.0) -> Any:
     return memory.messages[topic][0]
 
 
-def has_spoken() -> bool:
-    """Whether every topic of the robot has arrived since `forget()`."""
+def has_published() -> bool:
+    """Whether every topic of the robot had a message since `forget()`."""
     return _memory().messages.keys() >= TOPICS.keys()
 
 
@@ -113,4 +113,4 @@ class _Memory:
         before = self.messages.get(topic)
         self.messages[topic] = (message, time.monotonic())
         if topic == "robot_state" and before and before[0].mode != message.mode:
-            story.tell("robot", "robot", MODES[message.mode])
+            interaction_log.record("robot", "robot", MODES[message.mode])

@@ -1,4 +1,4 @@
-"""`course bench`: what the toolkit costs, measured on this machine, in this run."""
+"""`course bench`: times and processor times on this machine."""
 
 from __future__ import annotations
 
@@ -30,6 +30,7 @@ from autograder.isolation.availability import available_isolation
 from autograder.project import PROJECT
 from course_cli.arena_bench import bench_arenas
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.jobs_option import JobsOption
 from lab.view_cost import view_cost
 from robot_sim.trials import run_trials
 from robot_sim.trials.__main__ import table_of
@@ -41,34 +42,36 @@ THREADED = "correct/threads_and_sleep"  # the sound server that every machine mu
 
 def bench(
     arena: Annotated[
-        bool, typer.Option("--arena", help="instead of all this, what one arena costs, by phase")
+        bool, typer.Option("--arena", help="measure only the cost of one arena, by phase")
     ] = False,
     submission: Annotated[
         list[str] | None,
-        typer.Option(help="what grading this exercise's reference costs (repeat it, or 'all')"),
+        typer.Option(
+            help="measure only the cost of grading this exercise's reference (can be repeated, or 'all')"
+        ),
     ] = None,
     against: Annotated[
         str | None,
         typer.Option(
-            metavar="FILE|COMMIT", help="beside what --json wrote, or another commit measured in turn"
+            metavar="FILE|COMMIT",
+            help="compare with a file that --json wrote, or with another commit, measured alternately",
         ),
     ] = None,
     json_file: Annotated[
         Path | None, typer.Option("--json", help="write the costs of arenas to this file")
     ] = None,
     runs: Annotated[
-        int, typer.Option(min=1, help="how often: walks at each scale, arenas, gradings; the best one counts")
+        int,
+        typer.Option(min=1, help="number of walks at each scale, arenas and gradings; the best run counts"),
     ] = 5,
     scale: Annotated[
-        list[float] | None, typer.Option(help="scales for the fairness rows (repeat it)")
+        list[float] | None, typer.Option(help="clock scale of the fairness rows (can be repeated)")
     ] = None,
-    jobs: Annotated[int, typer.Option(min=1, help="arenas at a time; one a core")] = 2,
+    jobs: JobsOption = 2,
     robot: Annotated[bool, typer.Option(help="also run the robot's quick trials")] = True,
     checks_of: Annotated[
         list[str] | None,
-        typer.Option(
-            help="instead of all this, the time of each check of this exercise (repeat it, or 'all')"
-        ),
+        typer.Option(help="measure only the time of each check of this exercise (can be repeated, or 'all')"),
     ] = None,
 ) -> None:
     """Print the performance table."""
@@ -153,7 +156,7 @@ def _checks(console: Console, name: str, jobs: int) -> Table:
             reference, exercise, scale=scale, jobs=jobs, progress=lambda _scenario: progress.advance(task)
         )
     table = Table(
-        title=f"The checks of {name} and their arenas, with the reference, {jobs} at a time",
+        title=f"The checks of {name} and their arenas, with the reference, {jobs} in parallel",
         caption="An arena that several checks judge is counted at each of them, and once in the last row.",
     )
     table.add_column("check")
@@ -167,7 +170,7 @@ def _checks(console: Console, name: str, jobs: int) -> Table:
 
 
 def _arenas(arenas: Sequence[ArenaCost]) -> tuple[str, str, str]:
-    """The cells that say how many arenas, and what they cost."""
+    """Cells of a row: number of arenas, their clock s, their wall s."""
     cost = total(arenas)
     return str(len(arenas)), f"{cost.clock:.1f}", f"{cost.wall:.1f}"
 
@@ -207,7 +210,7 @@ def _fairness(
 
 
 def _live_picture(console: Console) -> Table | str:
-    """What `lab.watch_robot()` gives and costs, or why there is no picture."""
+    """Frame rate and cost of `lab.watch_robot()`, or why there is no picture."""
     try:
         with console.status("a robot is watched while it walks …"), redirect_stdout(io.StringIO()):
             cost = view_cost()

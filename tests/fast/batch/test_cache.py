@@ -49,7 +49,7 @@ def test_another_source_seed_isolation_or_set_of_checks_is_graded_anew(cache, tm
     assert cache.get(ANNA, load_exercise("battery_service", hidden=False)) is None
 
 
-def test_what_was_not_graded_is_not_remembered(tmp_path):
+def test_what_was_not_graded_is_not_cached(tmp_path):
     cache = GradeCache(tmp_path, 0, ISOLATED)
     cache.put(ANNA, EXERCISE, passed(ANNA, status="error"))
     assert cache.get(ANNA, EXERCISE) is None

@@ -73,9 +73,9 @@ def test_infrastructure_failures_are_not_graded_and_bad_submissions_are_zero(tmp
 def test_resume_grades_only_what_is_not_known(tmp_path, works, monkeypatch):
     monkeypatch.setattr(module, "grade", grade_by_content)
     list(batch(tmp_path).run(works))
-    again = {result.work.student: result.remembered for result in batch(tmp_path, resume=True).run(works)}
+    again = {result.work.student: result.cached for result in batch(tmp_path, resume=True).run(works)}
     assert again == {"anna": True, "bert": False, "carl": False, "dora": True, "emil": False}
-    assert not any(result.remembered for result in batch(tmp_path).run(works))
+    assert not any(result.cached for result in batch(tmp_path).run(works))
 
 
 def test_every_check_is_reported_once(tmp_path, works, monkeypatch):

@@ -13,7 +13,12 @@ from nbgrader.nbgraderformat import MetadataValidator
 from nbgrader.utils import is_grade, is_solution
 
 from autograder.engine.exercise import exercise_names, file_names, load_exercise
-from autograder.nbgrader_bridge.release import bring_in_step, generate_release, out_of_step, source_notebooks
+from autograder.nbgrader_bridge.release import (
+    bring_up_to_date,
+    generate_release,
+    out_of_date,
+    source_notebooks,
+)
 
 ROOT = Path(__file__).resolve().parents[3]
 SOLUTIONS = ROOT / "solutions"
@@ -30,7 +35,7 @@ def test_every_exercise_with_checks_has_a_source_notebook():
 
 
 def test_exercises_are_what_nbgrader_makes_of_solutions():
-    assert out_of_step(SOLUTIONS, EXERCISES) == [], RENEW
+    assert out_of_date(SOLUTIONS, EXERCISES) == [], RENEW
 
 
 @pytest.mark.parametrize("folder", [SOLUTIONS, EXERCISES], ids=["solutions", "exercises"])
@@ -99,7 +104,7 @@ def test_making_the_release_again_gives_the_same_bytes(tmp_path):
         assert (tmp_path / "first" / name).read_bytes() == (tmp_path / "second" / name).read_bytes()
 
 
-def test_what_is_out_of_step_is_named_and_brought_in_step(tmp_path):
+def test_what_is_out_of_date_is_named_and_renewed(tmp_path):
     solutions, exercises = tmp_path / "solutions", tmp_path / "exercises"
     shutil.copytree(SOLUTIONS, solutions)
     shutil.copytree(EXERCISES, exercises)
@@ -110,9 +115,9 @@ def test_what_is_out_of_step_is_named_and_brought_in_step(tmp_path):
     leftover.parent.mkdir()
     shutil.copyfile(release, leftover)
     release.write_text(release.read_text().replace("relative name", "absolute name"))
-    assert set(out_of_step(solutions, exercises)) == {source, release, leftover}
-    assert set(bring_in_step(solutions, exercises)) == {source, release, leftover}
-    assert out_of_step(solutions, exercises) == []
+    assert set(out_of_date(solutions, exercises)) == {source, release, leftover}
+    assert set(bring_up_to_date(solutions, exercises)) == {source, release, leftover}
+    assert out_of_date(solutions, exercises) == []
     assert source.read_text() == (SOLUTIONS / "battery_service/battery_service.ipynb").read_text()
     assert not leftover.exists()
 

@@ -1,7 +1,7 @@
-"""Run a program that the kernel ends when its parent dies: `python leash.py PARENT_PID PROGRAM ARGUMENT…`.
+"""Run a program that the kernel ends when its parent dies: `python die_with_parent.py PARENT_PID PROGRAM ARGUMENT…`.
 
-It is a program of its own, and not a function called between fork and exec, because the kernel has threads by
-then that may hold a lock at that moment.
+It is a program of its own and no `preexec_fn`: between fork and exec, a lock that another thread of the notebook
+kernel held at that moment is never released.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""ROS messages in a line that a person can read."""
+"""ROS messages as one readable line."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from geometry_msgs.msg import Pose, PoseStamped
 
 
 def describe(message: Any) -> str:
-    """The fields of a message in one line: three digits of a number, no headers, poses as x, y and heading."""
+    """Format the fields of a message in one line: numbers with three digits, no headers, poses as x, y, heading."""
     return ", ".join(f"{name} {_value(value)}" for name, value in _fields(message)) or "empty"
 
 
 def describe_briefly(message: Any) -> str:
-    """For an arrow of a diagram: `describe` without the names of poses and without what is zero or empty."""
-    said = [(name, value) for name, value in _fields(message) if _says_something(value)]
-    parts = [_value(value) if _is_pose(value) else f"{name} {_value(value)}" for name, value in said]
+    """Like `describe`, but shorter, for diagrams: no names of poses, no fields that are zero or empty."""
+    fields = [(name, value) for name, value in _fields(message) if _is_informative(value)]
+    parts = [_value(value) if _is_pose(value) else f"{name} {_value(value)}" for name, value in fields]
     return ", ".join(parts) or describe(message)
 
 
 def fixed(value: float, digits: int) -> str:
-    """A number with so many decimals, and no minus before a zero."""
+    """Format a number with `digits` decimals and without a minus sign before zero."""
     return f"{round(value, digits) + 0.0:.{digits}f}"  # adding 0.0 turns -0.0 into 0.0
 
 
@@ -34,9 +34,9 @@ def _fields(message: Any) -> list[tuple[str, Any]]:
     ]
 
 
-def _says_something(value: Any) -> bool:
+def _is_informative(value: Any) -> bool:
     if _is_message(value):
-        return any(_says_something(part) for _, part in _fields(value))
+        return any(_is_informative(part) for _, part in _fields(value))
     return len(value) > 0 if hasattr(value, "__len__") else bool(value)
 
 

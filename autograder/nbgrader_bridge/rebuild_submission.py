@@ -1,7 +1,7 @@
-"""Puts what a student wrote into a copy of the release notebook: the only form in which nbgrader gets to see it.
+"""Rebuilds a submission for nbgrader: a copy of the release notebook with the student's code in its solution cells.
 
-A student's notebook can hold anything: metadata that ends a whole batch, cells twice or not at all, markdown that
-formgrader would render as live HTML. None of it is copied. Only the text that was graded is, into one code cell.
+A student's notebook can hold anything: metadata that ends a whole batch, duplicate or missing cells, markdown that
+formgrader would render as live HTML. None of it is copied; only the code that was graded is, into one cell a file.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ LONGEST_SOURCE = 60_000  # characters shown
 
 
 class NoSolutionCell(Exception):
-    """The release notebook has no cell to put a student's work into."""
+    """The release notebook has no cell for the student's code."""
 
 
-def transplant(
+def rebuild_submission(
     release: NotebookNode, names: Sequence[str], sources: Mapping[str, str] | None, problem: str = ""
 ) -> NotebookNode:
-    """Return the release notebook with the sources of the files `names` in its solution cells.
+    """Return a copy of the release notebook with the sources of the files `names` in its solution cells.
 
-    Without them the cells say what the problem with the submission is.
+    Without sources the cells quote `problem`, the reason why the submission could not be read.
     """
     notebook = copy.deepcopy(release)
     for name in names:
