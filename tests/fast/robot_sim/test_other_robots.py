@@ -1,5 +1,6 @@
 """Robots of MuJoCo Menagerie, as far as that goes without its download: a model of our own lies in its place."""
 
+import time
 import urllib.error
 import urllib.request
 
@@ -61,6 +62,7 @@ def test_without_the_network_it_says_so_and_what_to_do(monkeypatch, tmp_path):
         raise urllib.error.URLError("no network")
 
     monkeypatch.setattr(urllib.request, "urlopen", unreachable)
+    monkeypatch.setattr(time, "sleep", lambda seconds: None)  # Menagerie waits between its attempts
     monkeypatch.setenv("MENAGERIE_CACHE_DIR", str(tmp_path))
     monkeypatch.delenv("MENAGERIE_ROOT", raising=False)
     with pytest.raises(RobotUnavailable, match=r"no network.*MENAGERIE_ROOT"):

@@ -48,7 +48,7 @@ def test_the_test_command_tells_pytests_outcome(tmp_path: Path, assertion: str, 
     test_file = tmp_path / "test_sample.py"
     test_file.write_text(f"def test_sample():\n    assert {assertion}\n")
 
-    finished = course("test", str(test_file), "-q", "-p", "no:cacheprovider")
+    finished = course("test", str(test_file), "-q", "-n", "0", "-p", "no:cacheprovider")
 
     assert finished.returncode == status
     assert ("1 passed" if status == 0 else "1 failed") in finished.stdout.splitlines()[-1]
