@@ -12,7 +12,7 @@ import urllib.request
 from collections.abc import Callable, Iterator
 
 import pytest
-from conftest import FAILED, grade_of
+from made_up_grades import FAILED, grade_of
 from nbgrader.api import Gradebook
 
 from autograder.nbgrader_bridge.gradebook import Entry

@@ -6,7 +6,7 @@ import dataclasses
 import json
 
 import pytest
-from conftest import FAILED, SOLUTIONS, grade_of
+from made_up_grades import FAILED, SOLUTIONS, grade_of
 from nbgrader.api import Gradebook, MissingEntry
 from traitlets.config import PyFileConfigLoader
 

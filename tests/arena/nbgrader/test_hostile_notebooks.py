@@ -7,7 +7,7 @@ import json
 
 import nbformat
 import pytest
-from conftest import ROOT, grade_of
+from made_up_grades import ROOT, grade_of
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_output
 from nbgrader.api import Gradebook
 from nbgrader.utils import is_grade, is_solution

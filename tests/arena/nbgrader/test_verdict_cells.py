@@ -6,7 +6,7 @@ import re
 
 import nbformat
 import pytest
-from conftest import FAILED, grade_of
+from made_up_grades import FAILED, grade_of
 from nbclient import NotebookClient
 
 from autograder.self_check import SelfCheck

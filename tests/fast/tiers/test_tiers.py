@@ -74,7 +74,7 @@ def test_a_test_in_no_tier_stops_the_run_and_is_named(project: Path) -> None:
         [sys.executable, "-m", "robot_sim"],
         [sys.executable, "-m", "ipykernel_launcher"],
     ],
-    ids=lambda command: command[-1],
+    ids=["sandbox", "browser", "robot", "kernel"],
 )
 def test_a_fast_test_cannot_start_what_is_slow(command: list[str]) -> None:
     with pytest.raises(Exception, match="move this test to tests/arena"):
