@@ -52,6 +52,7 @@ def test_markers_and_flags_of_the_command_choose_the_same_tests(project: Path) -
     assert collected(project) == set(TIERS)
     assert collected(project, "-m", "arena or robot") == {"arena", "robot"}
     assert collected(project, *pytest_arguments({"arena", "robot"}, [])) == {"arena", "robot"}
+    assert collected(project, *pytest_arguments({"fast"}, ["tests/robot"])) == set()
 
 
 def test_without_a_flag_every_tier_is_run_and_arguments_reach_pytest() -> None:
