@@ -1,4 +1,4 @@
-"""What an exercise's notebook calls: the visible checks of `course check`, and their verdicts one by one."""
+"""The self-check of an exercise's notebook: the visible checks of `course check`, and their verdicts one by one."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ class SelfCheck:
         print_verdict(_console(), verdict)
 
     def hidden(self, number: int) -> None:
-        """Say when a hidden check is made."""
+        """Print when a hidden check is made."""
         print(f"Hidden check {number} is made when your work is graded.")
 
 
 def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
-    """Check `file` (default: what the notebook has written here) with the visible checks and print the table.
+    """Check `file` (default: the file that the notebook wrote here) with the visible checks and print the verdicts.
 
-    Raises :class:`~autograder.engine.submission.UnusableSubmission` when the file cannot be read.
+    Raises `UnusableSubmission` when the file cannot be read.
     """
     console = _console()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
@@ -53,11 +53,11 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
 def check_aloud(
     console: Console, path: Path, exercise: str, *, jobs: int = 2, arenas: SubmissionArenas | None = None
 ) -> Grade:
-    """Check a student's work with the visible checks; print each verdict as soon as it is known, then the table.
+    """Check a student's file with the visible checks; print each verdict as soon as it is known, then the table.
 
-    `arenas` are those of this work, when one has been opened ahead.
+    `arenas` are those of this submission, if one was opened ahead.
 
-    Raises :class:`~.engine.submission.UnusableSubmission` and :class:`~.engine.exercise.UnknownExercise`.
+    Raises `UnusableSubmission` and `UnknownExercise`.
     """
     loaded = load_exercise(exercise, hidden=False)
     submission = read_submission(path, exercise)

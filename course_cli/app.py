@@ -1,6 +1,6 @@
 """The commands of `course`; a command's module is imported only when that command runs.
 
-Exit status of every command: 0 it did its job, 1 it could not, 2 unusable arguments.
+Exit status of every command: 0 success, 1 failure, 2 unusable arguments.
 To add a command, write course_cli/commands/<name>.py and a line in COMMANDS.
 """
 
@@ -23,10 +23,11 @@ FORWARDING = {"ignore_unknown_options": True, "allow_extra_args": True}
 class Command:
     """A command before its module is imported.
 
-    target: "module:name" of a function written for Typer, or of a typer.Typer with subcommands.
-    summary: its line in `course --help`.
-    forwards_arguments: it starts another program, which gets every argument from typer.Context.args.
-    forwards_help: --help, too, goes to that program.
+    Attributes:
+        target: "module:name" of a function written for Typer, or of a typer.Typer with subcommands.
+        summary: its line in `course --help`.
+        forwards_arguments: it passes unknown arguments, in typer.Context.args, to another program.
+        forwards_help: it passes --help to that program, too.
     """
 
     target: str
@@ -36,16 +37,18 @@ class Command:
 
     @property
     def module(self) -> str:
+        """The module in which the command is."""
         return self.target.partition(":")[0]
 
     @property
     def settings(self) -> dict[str, Any]:
-        """The settings of its context in Typer."""
+        """Typer's context settings: what the command parses itself and what it leaves in context.args."""
         if not self.forwards_arguments:
             return {}
         return FORWARDING | ({"help_option_names": []} if self.forwards_help else {})
 
     def load(self) -> Any:
+        """Import the module and return what `target` names in it."""
         return getattr(import_module(self.module), self.target.partition(":")[2])
 
 
@@ -63,10 +66,15 @@ COMMANDS: dict[str, Command] = {
     "sim": Command("course_cli.commands.sim:sim", "The robot node alone.", forwards_arguments=True),
     "grade": Command("course_cli.commands.grade:grade", "Grade a batch of submissions."),
     "new": Command("course_cli.commands.new:new", "Make the folder of a new exercise."),
-    "release": Command("course_cli.commands.release:release", "Write the students' bundle."),
-    "audit": Command("course_cli.commands.audit:audit", "Grade submissions whose faults are known."),
+    "release": Command("course_cli.commands.release:release", "Write the students' archive."),
+    "audit": Command("course_cli.commands.audit:audit", "Grade submissions with known faults."),
     "bench": Command("course_cli.commands.bench:bench", "Print the performance table."),
-    "test": Command("course_cli.commands.test:test", "Run the test suite.", forwards_arguments=True),
+    "test": Command(
+        "course_cli.commands.test:run_tests",
+        "Run the tests, all or by tier.",
+        forwards_arguments=True,
+        forwards_help=False,
+    ),
 }
 
 
@@ -78,7 +86,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def app(chosen: str | None) -> typer.Typer:
-    """The application with every command listed, and only `chosen` imported."""
+    """Return the application with every command listed, and only `chosen` imported."""
     course = typer.Typer(
         help=HELP, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False
     )
@@ -96,7 +104,7 @@ def app(chosen: str | None) -> typer.Typer:
 
 
 def _listed_only(summary: str) -> Callable[[], None]:
-    """Stands for a command that this run does not call, so that help can list it."""
+    """Return a placeholder for a command that this run does not call, so that help can list it."""
 
     def listed() -> None: ...
 

@@ -1,4 +1,4 @@
-"""How commands end: their exit statuses, and the way to say why they could not go on."""
+"""Exit statuses of the commands, and how they end with an error message."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The option `--course`, which several commands have."""
+"""The option `--course` of several commands."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from autograder.engine.exercise import UnusableExercise, use_exercises_of
 
 
 def _use(folder: Path | None) -> Path | None:
-    """Work with the exercises of this folder, before anything of the command is done."""
+    """Use the exercises of this folder, before the command begins."""
     if folder is not None:
         try:
             use_exercises_of(folder)

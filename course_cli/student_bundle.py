@@ -1,4 +1,4 @@
-"""The archive that students get: everything to read, run and check, without solutions and hidden checks."""
+"""The students' archive: everything to read, run and check, without solutions and hidden checks."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from autograder.engine.exercise import exercise_names, exercises_folder, file_na
 from autograder.nbgrader_bridge.release import generate_release
 
 TOP = "humanoid-course"  # the folder the archive unpacks to
-README = "docs/for_students.md"  # is their README.md: the clone's own is for whoever teaches
+README = "docs/for_students.md"  # becomes their README.md; the clone's own is for instructors
 PARTS = (
     "LICENSE",
     "course",
@@ -31,7 +31,7 @@ PARTS = (
     "docs/images",
     "docs/robot.md",
 )
-# The instructor's side. `course` lists only commands whose modules are there.
+# For instructors only. `course` lists only commands whose modules exist.
 KEPT_BACK = (
     "autograder/audit",
     "autograder/authoring/standard_hidden.py",
@@ -48,20 +48,20 @@ _DATED = (2026, 1, 1, 0, 0, 0)  # a fixed date makes the archive reproducible
 
 
 class Leak(Exception):
-    """A file of the bundle holds what students must not get."""
+    """A file of the archive contains what students must not see."""
 
 
 def write_bundle(root: Path, archive: Path) -> int:
     """Write the students' archive of the clone at `root`; return how many files it holds.
 
-    Raises `Leak` when a solution or a hidden check is about to get in.
+    Raises `Leak` when a file contains a solution or a hidden check.
     """
     with tempfile.TemporaryDirectory() as temporary:
         exercises = Path(temporary) / "exercises"
         generate_release(exercises_folder(), exercises)
         files = {path.relative_to(root).as_posix(): path for path in _files_of(root)}
         files |= dict(_visible_checks())
-        # Freshly generated, because whoever tries the exercises out leaves solutions beside them.
+        # Freshly generated, because trying an exercise leaves a solution beside its notebook.
         files |= {path.relative_to(temporary).as_posix(): path for path in exercises.rglob("*.ipynb")}
         files["README.md"] = root / README
         require_no_leak(files)
@@ -73,7 +73,7 @@ def write_bundle(root: Path, archive: Path) -> int:
 
 
 def require_no_leak(files: Mapping[str, Path]) -> None:
-    """Raise `Leak` when a file names a hidden check or holds a solution."""
+    """Raise `Leak` when a file names a hidden check or contains a solution."""
     forbidden = ["### BEGIN SOLUTION", *hidden_check_ids()]
     for name, path in files.items():
         content = path.read_bytes()
@@ -95,7 +95,7 @@ def hidden_check_ids() -> list[str]:
 
 
 def _visible_checks() -> Iterator[tuple[str, Path]]:
-    """What judges the exercises without the hidden checks, by where a student's copy of the engine looks for it."""
+    """The modules with visible checks, by the path at which a student's copy of the engine looks for them."""
     for exercise in exercise_names():
         for path in sorted((exercises_folder() / exercise).glob("*.py")):
             if path.name != "hidden.py" and path.name not in file_names(exercise):

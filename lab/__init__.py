@@ -1,12 +1,12 @@
-"""What a notebook uses: start the robot, run a student's file as a node, call, send a goal, draw what happened.
+"""The API of the notebooks: start the robot, run your file as a node, call, send a goal, draw what happened.
 
     import lab
     lab.start_robot()
     server = lab.run_node("battery_service.py")
     lab.call("get_battery_status", GetBatteryStatus)
 
-Every verb blocks with a timeout and says on failure what it saw. Import it before any ROS message: it switches on
-rclpy's checks of field types, which are decided at the first import.
+Every function that waits has a timeout, and its error says what was seen. Import `lab` before any ROS message: it
+switches on rclpy's checks of field types, which rclpy reads at the first import.
 """
 
 import os
@@ -25,6 +25,7 @@ from lab.errors import (
     NotInTimeError,
 )
 from lab.film import film_robot
+from lab.formatting import describe
 from lab.goals import CancelAnswer, Goal, Outcome, send_goal
 from lab.graph import list_graph, nodes_in_graph
 from lab.graph_drawing import draw_graph
@@ -39,7 +40,6 @@ from lab.session import stop_everything
 from lab.student_nodes import StudentNode, run_node, stop_nodes
 from lab.topics import Pose, battery, mode, odometry, pose, robot_state
 from lab.waiting import wait_until
-from lab.wording import describe
 
 __all__ = [
     "CancelAnswer",

@@ -10,22 +10,24 @@ from action_msgs.srv import CancelGoal
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
-from lab import story
+from lab import interaction_log
 from lab.exchange import Exchange
 
 STATUS_QOS = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # as every action has it
 
 
 class Listener(Protocol):
-    """A goal that wants to know what the server publishes about it."""
+    """A goal that receives what the server publishes about it."""
 
-    def note_feedback(self, feedback: Any) -> None: ...
+    def note_feedback(self, feedback: Any) -> None:
+        """Take a feedback message of the action's type."""
 
-    def note_status(self, status: int) -> None: ...
+    def note_status(self, status: int) -> None:
+        """Take a status, a constant of action_msgs/GoalStatus."""
 
 
 class ActionEndpoints:
-    """One action's endpoints; `goals` are those it passes messages on to, by goal id."""
+    """One action's endpoints; `goals` receive its feedback and status messages, by goal id."""
 
     def __init__(self, node: Node, name: str, action_type: Any) -> None:
         self.name = name
@@ -55,7 +57,7 @@ class ActionEndpoints:
         service: str,
         request: Any,
         label: str,
-        in_words: Callable[[Any], str],
+        format_answer: Callable[[Any], str],
         on_answer: Callable[[Any], None] | None = None,
     ) -> Exchange:
         """Send a request to one of the three services."""
@@ -64,14 +66,14 @@ class ActionEndpoints:
             request,
             self._server,
             label,
-            in_words=in_words,
+            format_answer=format_answer,
             on_answer=on_answer,
             continues=service != "send_goal",
         )
 
-    def tell(self, label: str, *, repeats: bool = False) -> None:
-        """Write into the story what the server published."""
-        story.tell(self._server, story.NOTEBOOK, label, repeats=repeats)
+    def record(self, label: str, *, repeats: bool = False) -> None:
+        """Record in the interaction log what the server published."""
+        interaction_log.record(self._server, interaction_log.NOTEBOOK, label, repeats=repeats)
 
     @property
     def _server(self) -> str:

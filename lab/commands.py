@@ -1,4 +1,4 @@
-"""What the robot is told by topic."""
+"""Commands to the robot by topic."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ COMMAND_PERIOD = 0.1  # s; the robot stops by itself 0.5 s after the last comman
 
 
 def publish(topic: str, message: Any, *, timeout: float = 5.0) -> None:
-    """Publish one message, once somebody listens: a message sent before that would be lost.
+    """Wait for a subscriber, then publish one message: a message sent before that would be lost.
 
-    Raises NoRobotError when nobody listens within `timeout` s.
+    Raises NoRobotError when there is no subscriber within `timeout` s.
     """
     publisher = _publisher(topic, type(message))
     if not comes_true(lambda: publisher.get_subscription_count() > 0, timeout):
@@ -33,7 +33,7 @@ def publish(topic: str, message: Any, *, timeout: float = 5.0) -> None:
 def walking(forward: float = 0.0, sideways: float = 0.0, turn: float = 0.0) -> Iterator[None]:
     """Walk as long as the `with` block lasts, then stop: m/s, m/s (left is positive), rad/s (left is positive).
 
-    It publishes cmd_vel ten times a second, because the robot stops when it hears nothing for 0.5 s.
+    It publishes cmd_vel ten times a second, because the robot stops when it receives nothing for 0.5 s.
     """
     command = Twist()
     command.linear.x, command.linear.y, command.angular.z = float(forward), float(sideways), float(turn)

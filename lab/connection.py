@@ -1,4 +1,4 @@
-"""The notebook's own node, spun by one background thread."""
+"""The notebook's own node, spun by a background thread."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _connection: Connection | None = None
 
 
 def connection() -> Connection:
-    """The kernel's connection to the ROS graph, made when it is first asked for."""
+    """The kernel's connection to the ROS graph, made at the first call."""
     global _connection
     if _connection is None:
         _connection = Connection()
@@ -43,7 +43,7 @@ def connection() -> Connection:
 
 
 def node() -> Node:
-    """The notebook's own rclpy node, for what the lab has no verb for; the lab spins it."""
+    """The notebook's own rclpy node, for what `lab` has no function for. The lab spins it."""
     return connection().node
 
 
@@ -56,7 +56,7 @@ def disconnect() -> None:
 
 
 class Connection:
-    """A node in the robot's namespace, and what was made on it."""
+    """A node in the robot's namespace, with its publishers, subscriptions and clients."""
 
     def __init__(self) -> None:
         self.domain_id = join_ros_domain().domain_id
@@ -70,23 +70,23 @@ class Connection:
         self.node = Node(
             "notebook", namespace=NAMESPACE, context=self._context, start_parameter_services=False
         )
-        self._made: dict[Hashable, Any] = {}
+        self._cache: dict[Hashable, Any] = {}
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
         self._thread = threading.Thread(target=self._spin, name="lab spin", daemon=True)
         self._thread.start()
 
     def once(self, key: Hashable, make: Callable[[Node], T]) -> T:
-        """`make(node)` the first time a key is asked for, and the same object ever after."""
-        if key not in self._made:
-            self._made[key] = make(self.node)
-        return self._made[key]
+        """Return `make(node)`, called only the first time for each key."""
+        if key not in self._cache:
+            self._cache[key] = make(self.node)
+        return self._cache[key]
 
     def client(self, service_type: Any, name: str) -> Any:
-        """The client of a service; one of another type is dropped, because a node can have only one of a name."""
+        """The client of a service. It replaces one of another type, because a node can have only one of a name."""
         key = ("client", name)
-        if key in self._made and self._made[key].srv_type is not service_type:
-            self._drop_client(self._made.pop(key))
+        if key in self._cache and self._cache[key].srv_type is not service_type:
+            self._drop_client(self._cache.pop(key))
         return self.once(key, lambda node: node.create_client(service_type, name))
 
     def _drop_client(self, client: Any) -> None:
@@ -97,7 +97,7 @@ class Connection:
         comes_true(lambda: handle() is None, 1.0)
 
     def servers(self) -> dict[str, str]:
-        """The services and actions of the other nodes, by full name, with their type; those of every node left out."""
+        """The services and actions of other nodes, full name → type, without the services that every node has."""
         found: dict[str, str] = {}
         for name, namespace in self.node.get_node_names_and_namespaces():
             if name != self.node.get_name():

@@ -1,49 +1,48 @@
-"""What just happened, as a sequence diagram."""
+"""The last call or goal as a sequence diagram."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import groupby
 
 from IPython.display import HTML
 
-from lab import story
+from lab import interaction_log
 from lab.errors import LabError
-from lab.story import Said
+from lab.interaction_log import Message
 from ros_runtime.drawing.sequence_diagram import Arrow, sequence_svg
 
 LABEL_LENGTH = 38  # characters that fit between two lifelines
 
 
 def draw_sequence(title: str = "What just happened") -> HTML:
-    """The last call or goal, with all that was said until now: requests solid, answers dashed, topics dotted.
+    """Draw the last call or goal and all messages since then: requests solid, answers dashed, topics dotted.
 
     Of a stream of feedback only the first and the last message are drawn.
 
-    Raises LabError when nothing was asked yet.
+    Raises LabError when nothing was called or sent yet.
     """
-    told = story.told()
-    if not told:
+    messages = interaction_log.messages()
+    if not messages:
         raise LabError("there is nothing to draw yet: use lab.call() or lab.send_goal() first")
-    start = told[0].time
+    start = messages[0].time
     arrows = [
-        Arrow(said.time - start, said.sender, said.receiver, _shorten(said.label), said.kind)
-        for said in _without_repetition(told)
+        Arrow(message.time - start, message.sender, message.receiver, _shorten(message.label), message.kind)
+        for message in _without_repetition(messages)
     ]
     return HTML(sequence_svg(arrows, title=title))
 
 
-def _without_repetition(told: Sequence[Said]) -> list[Said]:
-    kept: list[Said] = []
-    for key, stream in groupby(told, key=lambda said: (said.repeats, said.sender)):
-        said = list(stream)
-        if key[0] and len(said) > 3:
-            middle = said[len(said) // 2]
-            note = Said(
-                middle.time, middle.sender, middle.receiver, f"… {len(said) - 2} more …", middle.kind, True
-            )
-            said = [said[0], note, said[-1]]
-        kept += said
+def _without_repetition(messages: Sequence[Message]) -> list[Message]:
+    """The messages, with those in the middle of a stream replaced by one that counts them."""
+    kept: list[Message] = []
+    for (repeats, _sender), group in groupby(messages, key=lambda message: (message.repeats, message.sender)):
+        stream = list(group)
+        if repeats and len(stream) > 3:
+            middle = replace(stream[len(stream) // 2], label=f"… {len(stream) - 2} more …")
+            stream = [stream[0], middle, stream[-1]]
+        kept += stream
     return kept
 
 

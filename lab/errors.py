@@ -1,31 +1,31 @@
-"""What can go wrong in a notebook, each with what was seen, what was expected and what to do next."""
+"""The errors of the lab; each message says what was seen, what was expected and what to do next."""
 
 from __future__ import annotations
 
 
 class LabError(Exception):
-    """Something in the lab did not happen."""
+    """Something that a notebook asked for did not happen."""
 
     def _render_traceback_(self) -> list[str]:
-        """Jupyter shows this instead of a traceback: the lines of the lab teach nobody anything."""
+        """What Jupyter shows instead of a traceback, which would only list lines of the lab."""
         return [f"{type(self).__name__}: {self}"]
 
 
 class NoRobotError(LabError):
-    """The robot does not run, or says nothing."""
+    """The robot does not run, or publishes nothing."""
 
 
 class NoServerError(LabError):
-    """Nobody offers the service or action."""
+    """No node offers the service or action."""
 
 
 class NoAnswerError(LabError):
-    """The server took longer than the caller wanted to wait, or is no longer there."""
+    """The server did not answer in time, or is gone."""
 
 
 class NodeEndedError(LabError):
-    """A student's file ended with an error before it was a node."""
+    """Your file ended with an error before its node had started."""
 
 
 class NotInTimeError(LabError):
-    """A condition did not come true."""
+    """A condition did not become true in time."""

@@ -6,12 +6,12 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from lab import story
+from lab import interaction_log
 from lab.connection import connection
 from lab.errors import NoServerError
-from lab.student_nodes import last_words
+from lab.formatting import describe_briefly
+from lab.student_nodes import output_of_failed_nodes
 from lab.waiting import comes_true, is_done_within
-from lab.wording import describe_briefly
 
 MATCHING_TIME = (
     0.1  # s; a server that has just been found may not have found its client, and its answer would be lost
@@ -19,16 +19,16 @@ MATCHING_TIME = (
 
 
 class Exchange:
-    """Sends a request at once, and writes it and its answer into the story.
+    """A request that is sent at once; it and its answer are recorded in the interaction log.
 
     Args:
         client: of rclpy.
         request: the message to send.
-        server: who is asked, for the story.
-        label: what for, for the story.
-        in_words: the answer for the story.
+        server: name of the server in the log.
+        label: text of the request in the log.
+        format_answer: makes the text of the answer in the log.
         on_answer: is called with the answer, on the spinning thread.
-        continues: it belongs to the goal before it, not to a story of its own.
+        continues: it belongs to the goal before it and starts no new log.
     """
 
     def __init__(
@@ -38,14 +38,14 @@ class Exchange:
         server: str,
         label: str,
         *,
-        in_words: Callable[[Any], str] = describe_briefly,
+        format_answer: Callable[[Any], str] = describe_briefly,
         on_answer: Callable[[Any], None] | None = None,
         continues: bool = False,
     ) -> None:
         self._client, self._server = client, server
-        self._in_words, self._on_answer = in_words, on_answer
-        story.begin(self, continues=continues)
-        story.tell(story.NOTEBOOK, server, label, "request")
+        self._format_answer, self._on_answer = format_answer, on_answer
+        interaction_log.begin(self, continues=continues)
+        interaction_log.record(interaction_log.NOTEBOOK, server, label, "request")
         self._future = client.call_async(request)
         self._future.add_done_callback(self._note)
 
@@ -55,26 +55,30 @@ class Exchange:
         return self._future.result() if self._future.done() else None
 
     def wait(self, timeout: float) -> bool:
-        """Whether the answer is there or comes within `timeout` s."""
+        """Wait for the answer; return whether it arrived within `timeout` s."""
         return is_done_within(self._future, timeout)
 
     def give_up(self, timeout: float) -> None:
-        """Wait no longer; an answer that comes later is ignored. `timeout` (s) is for the story."""
+        """Stop waiting; a later answer is ignored. `timeout` (s) is how long the caller has waited, for the log."""
         self._client.remove_pending_request(self._future)  # or it is kept for as long as the kernel lives
-        story.tell(story.NOTEBOOK, story.NOTEBOOK, f"no answer after {timeout:g} s")
-        story.end(self)
+        interaction_log.record(
+            interaction_log.NOTEBOOK, interaction_log.NOTEBOOK, f"no answer after {timeout:g} s"
+        )
+        interaction_log.end(self)
 
     def _note(self, future: Any) -> None:
-        story.tell(self._server, story.NOTEBOOK, self._in_words(future.result()), "answer")
+        interaction_log.record(
+            self._server, interaction_log.NOTEBOOK, self._format_answer(future.result()), "answer"
+        )
         if self._on_answer:
             self._on_answer(future.result())
-        story.end(self)
+        interaction_log.end(self)
 
 
 def require_server(is_ready: Callable[[], bool], name: str, interface: Any, timeout: float) -> None:
-    """Wait until a server is matched. `name` is relative; for an action it is the action's.
+    """Wait until a server is matched. `name` is that of the service or action, relative to the namespace.
 
-    Raises NoServerError, saying what is offered instead, after `timeout` s.
+    Raises NoServerError after `timeout` s; its message names the servers that do exist.
     """
     if is_ready():
         return
@@ -89,5 +93,5 @@ def require_server(is_ready: Callable[[], bool], name: str, interface: Any, time
         seen = f"there are: {', '.join(sorted(offered)) or 'no servers at all'}"
     raise NoServerError(
         f"nobody offers {wanted} ({interface.__name__}) after {timeout:g} s of waiting; {seen}. "
-        f"Start a server with lab.run_node('FILE.py').{last_words()}"
+        f"Start a server with lab.run_node('FILE.py').{output_of_failed_nodes()}"
     )

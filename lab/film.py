@@ -1,4 +1,4 @@
-"""A film of the robot, to keep in the notebook."""
+"""A film of the robot, stored in the notebook."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ LONGEST = 60.0  # s, which are about 5 MB in the notebook
 
 
 def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: str = "track") -> HTML:
-    """Film the robot for `seconds` from now on, drawn from its own messages; also written to `file`, a .webp.
+    """Film the robot for `seconds` from now on, drawn from its own messages; also write it to `file`, a .webp.
 
-    It blocks for that long: start the motion before, without waiting for its end. Where the machine has no OpenGL, the
-    text that would accompany the film is shown, with the reason.
+    It blocks that long: start the motion before it, without waiting for the end of the motion. Without OpenGL you get
+    the caption of the film and the reason why there is none.
 
     Raises:
-        NoRobotError: no robot is up.
+        NoRobotError: no robot is running.
         ValueError: the duration is not between 0 and 60 s, or there is no such camera.
     """
     if not 0 < seconds <= LONGEST:

@@ -10,14 +10,14 @@ from typing import Any, NamedTuple
 from action_msgs.srv import CancelGoal
 from unique_identifier_msgs.msg import UUID
 
-from lab import story
+from lab import interaction_log
 from lab.action_endpoints import ActionEndpoints
 from lab.connection import connection
 from lab.errors import LabError, NoAnswerError
 from lab.exchange import Exchange, require_server
-from lab.student_nodes import last_words
+from lab.formatting import describe, describe_briefly
+from lab.student_nodes import output_of_failed_nodes
 from lab.waiting import comes_true
-from lab.wording import describe, describe_briefly
 from ros_runtime.message_constants import GoalStatus, name_of
 
 
@@ -32,7 +32,7 @@ class Outcome(NamedTuple):
 
 
 class CancelAnswer(NamedTuple):
-    """What the server said to a request to cancel: `accepted` if it lists the goal as one it will try to cancel."""
+    """The answer to a cancel request; `accepted` if the server lists the goal in `goals_canceling`."""
 
     accepted: bool
     return_code: int
@@ -65,10 +65,10 @@ def send_goal(action: str, action_type: Any, goal: Any, *, timeout: float = 5.0)
 
 
 class Goal:
-    """A goal on its way.
+    """A goal that was sent to an action server.
 
     Attributes:
-        accepted: the server took it; a rejected goal has no status and no result.
+        accepted: whether the server accepted it; a rejected goal has no status and no result.
         feedback: the feedback messages so far.
     """
 
@@ -93,13 +93,13 @@ class Goal:
             sending.give_up(timeout)
             raise NoAnswerError(
                 f"{endpoints.name} has neither accepted nor rejected the goal within {timeout:g} s. "
-                f"Is its goal callback or its only thread busy?{last_words()}"
+                f"Is its goal callback or its only thread busy?{output_of_failed_nodes()}"
             )
         self.accepted: bool = sending.answer.accepted
 
     @property
     def status(self) -> str:
-        """The name of its status, as last published on the status topic or told with the result."""
+        """The name of its status, as last published on the status topic or returned with the result."""
         return name_of(GoalStatus, self._status)
 
     @property
@@ -110,10 +110,10 @@ class Goal:
         )
 
     def result(self, timeout: float = 60.0, *, show_feedback: bool = True) -> Outcome:
-        """Wait for the end and return status and result. Prints feedback meanwhile, at most once a second.
+        """Wait until the goal has ended and return status and result. Prints feedback, at most once a second.
 
         Raises:
-            NoAnswerError: the goal has not ended in time; it goes on, and you may call this again.
+            NoAnswerError: the goal has not ended in time; it continues, and you may call this again.
         """
         if not self.accepted:
             raise LabError(f"{self._endpoints.name} rejected this goal, so it has no result")
@@ -130,7 +130,7 @@ class Goal:
         return Outcome(name_of(GoalStatus, response.status), response.result)
 
     def cancel(self, timeout: float = 5.0) -> CancelAnswer:
-        """Ask the server to cancel this goal; returns what it said, which is not yet the end of the goal.
+        """Ask the server to cancel this goal and return its answer. Accepting a cancel does not end the goal yet.
 
         Raises:
             NoAnswerError: the server has not answered in time.
@@ -144,7 +144,7 @@ class Goal:
             asking.give_up(timeout)
             raise NoAnswerError(
                 f"{self._endpoints.name} has not answered the request to cancel within {timeout:g} s: "
-                f"a server whose only thread is busy cannot.{last_words()}"
+                f"a server whose only thread is busy cannot.{output_of_failed_nodes()}"
             )
         return self._read(asking.answer)
 
@@ -162,10 +162,10 @@ class Goal:
 
     def _no_result(self, timeout: float) -> NoAnswerError:
         assert self._getting_result
-        story.end(self._getting_result)
+        interaction_log.end(self._getting_result)
         return NoAnswerError(
             f"no result from {self._endpoints.name} within {timeout:g} s; the goal's status is {self.status}. "
-            f"Call result() again to wait longer, or cancel().{last_words()}"
+            f"Call result() again to wait longer, or cancel().{output_of_failed_nodes()}"
         )
 
     def _on_goal_answer(self, answer: Any) -> None:
@@ -177,23 +177,23 @@ class Goal:
                 request,
                 "get_result",
                 lambda answer: f"{name_of(GoalStatus, answer.status)}, {describe_briefly(answer.result)}",
-                lambda answer: self.note_status(answer.status, told=False),
+                lambda answer: self.note_status(answer.status, published=False),
             )
 
     def note_feedback(self, feedback: Any) -> None:
-        """The server published feedback."""
+        """Take a feedback message that the server published."""
         self.feedback.append(feedback)
-        self._endpoints.tell(f"feedback: {describe_briefly(feedback)}", repeats=True)
-        self._tell_listeners()
+        self._endpoints.record(f"feedback: {describe_briefly(feedback)}", repeats=True)
+        self._notify_listeners()
 
-    def note_status(self, status: int, *, told: bool = True) -> None:
-        """The server published this status, or answered with it."""
+    def note_status(self, status: int, *, published: bool = True) -> None:
+        """Take a status that the server published or returned with the result."""
         if status != self._status:
             self._status = status
-            if told:
-                self._endpoints.tell(f"status: {name_of(GoalStatus, status)}")
-            self._tell_listeners()
+            if published:
+                self._endpoints.record(f"status: {name_of(GoalStatus, status)}")
+            self._notify_listeners()
 
-    def _tell_listeners(self) -> None:
+    def _notify_listeners(self) -> None:
         for listener in self._listeners:
             listener(self)

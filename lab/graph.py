@@ -1,4 +1,4 @@
-"""The live graph: which topics there are, who publishes on them and who listens."""
+"""The live ROS graph: topics, their publishers and their subscribers."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ OF_EVERY_NODE = ("/parameter_events", "/rosout")
 
 @dataclass(frozen=True)
 class Endpoint:
-    """One end of a topic: the full name of its node, and what it offers (a publisher) or asks for (a listener)."""
+    """A publisher or subscription of a topic: full name of its node, QoS offered (publisher) or requested."""
 
     node: str
     qos: QoSProfile
 
     def terms(self) -> str:
-        """Reliability and durability in words."""
+        """Its QoS in words: reliability and durability."""
         reliable = self.qos.reliability == ReliabilityPolicy.RELIABLE
         latched = self.qos.durability == DurabilityPolicy.TRANSIENT_LOCAL
         return ("reliable" if reliable else "best effort") + (", transient local" if latched else "")
@@ -38,7 +38,7 @@ class Endpoint:
 
 @dataclass(frozen=True)
 class Topic:
-    """A topic with all its ends."""
+    """A topic with its publishers and subscriptions."""
 
     name: str
     type: str
@@ -46,7 +46,7 @@ class Topic:
     listeners: tuple[Endpoint, ...]
 
     def not_heard_by(self, listener: Endpoint) -> list[Endpoint]:
-        """The publishers that offer less than the listener asks for, so that nothing of theirs arrives."""
+        """The publishers whose QoS is incompatible: they offer less than the listener requests, so nothing arrives."""
         return [
             publisher
             for publisher in self.publishers
@@ -55,10 +55,10 @@ class Topic:
 
 
 def topics_in_graph(*names: str) -> list[Topic]:
-    """The topics of these names, or all but those that every node has, in the order of the alphabet.
+    """The topics of these names, sorted by name; without names all, except those that every node has.
 
     A name without a slash in front is relative to the robot's namespace.
-    Raises LabError for a topic that nobody publishes or listens to; the message has those there are.
+    Raises LabError for a topic without publishers and subscriptions; its message lists the existing topics.
     """
     node = connection().node
     types = dict(node.get_topic_names_and_types())
@@ -78,9 +78,9 @@ def topics_in_graph(*names: str) -> list[Topic]:
 
 
 def list_graph(*names: str) -> None:
-    """Print topics with their type, who publishes, who listens, and who cannot hear whom.
+    """Print topics with type, publishers, subscribers, and where incompatible QoS keeps messages away.
 
-    Without names all are listed but /rosout and /parameter_events, which every node has.
+    Without names it lists all topics except /rosout and /parameter_events, which every node has.
     """
     for topic in topics_in_graph(*names):
         print(f"{topic.name}  {topic.type}")
@@ -93,7 +93,7 @@ def list_graph(*names: str) -> None:
 
 
 def nodes_in_graph() -> list[str]:
-    """The full names of all nodes, in the order of the alphabet."""
+    """The full names of all nodes, sorted."""
     node: Node = connection().node
     return sorted(
         _full_name(namespace, name)

@@ -1,4 +1,4 @@
-"""The live graph as a picture: publishers on the left, topics in the middle, listeners on the right."""
+"""The live ROS graph as a picture: publishers on the left, topics in the middle, subscribers on the right."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ HEARD, UNHEARD = 'stroke="#333333"', 'stroke="#c0392b" stroke-dasharray="5 4"'
 
 
 def draw_graph(*names: str, title: str = "The graph now") -> HTML:
-    """Draw topics with the nodes that publish and listen; where the terms keep messages away, the line is red.
+    """Draw topics with their publishers and subscribers; where incompatible QoS keeps messages away, the line is red.
 
-    Without names all are drawn but /rosout and /parameter_events, which every node has.
+    Without names it draws all topics except /rosout and /parameter_events, which every node has.
 
-    Raises LabError when nobody has a topic of these names, or nobody any topic at all.
+    Raises LabError when no node has a topic of these names, or any topic at all.
     """
     topics = topics_in_graph(*names)
     if not topics:
@@ -55,7 +55,7 @@ def draw_graph(*names: str, title: str = "The graph now") -> HTML:
 
 
 def _places(links: Sequence[tuple[str, int]]) -> dict[str, int]:
-    """Each node's y: beside the middle of its topics, and below the node before."""
+    """The y of each node, px: at the mean of its topics, and below the previous node."""
     beside: dict[str, list[int]] = {}
     for node, y in links:
         beside.setdefault(node, []).append(y)

@@ -1,4 +1,4 @@
-"""Build the interface package of a notebook: its .msg, .srv and .action files become types that nodes can import."""
+"""Build the interface package of a notebook: .msg, .srv and .action files become types that nodes can import."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from lab.errors import LabError
 from ros_runtime.interface_build.definitions import InvalidDefinitions
 from ros_runtime.interface_build.student_package import BuiltPackage, build_package
 
-BUILDS = Path(".interfaces")  # hidden, like what a tool makes for itself
+BUILDS = Path(".interfaces")  # hidden, as for the files of any tool
 
 
 def build_interfaces(folder: str | Path) -> None:
     """Build the definitions in a folder; the folder's name becomes the package's.
 
-    Nodes that start afterwards, and this notebook, can import it. What runs already keeps the types it has.
-    Definitions that have not changed since they were built are not built again.
+    Nodes that you start afterwards, and this notebook, can import it. Nodes that already run keep the types they have.
+    Definitions that have not changed are not built again.
 
     Raises:
         LabError: there is nothing to build, or a definition is wrong: which file, which line, what was expected.

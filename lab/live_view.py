@@ -1,4 +1,4 @@
-"""The robot in motion, in the notebook."""
+"""A live view of the robot in the notebook."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ _running: _LiveView | None = None
 
 
 def watch_robot(camera: str = "track") -> ipywidgets.Image | ipywidgets.Label:
-    """Show the robot moving, below this cell, until `stop_watching()`; a second call moves the picture there.
+    """Show a live view of the robot below this cell until `stop_watching()`; a second call moves the view there.
 
-    It is drawn in the notebook's process from the robot's own messages, so looking does not slow the robot down.
-    `camera` is "track", "side" or "front". Where the machine has no OpenGL, a text says so.
+    It is drawn in the notebook's process from the robot's own messages, so watching does not slow the robot down.
+    `camera` is "track", "side" or "front". Without OpenGL you get a text that says why there is no picture.
 
     Raises:
-        NoRobotError: no robot is up.
+        NoRobotError: no robot is running.
         ValueError: there is no such camera.
     """
     global _running
     stop_watching()
-    topics.odometry()  # says so at once when there is no robot
+    topics.odometry()  # raises at once when there is no robot
     view = _LiveView(camera)
     try:
         view.begin()
@@ -46,7 +46,7 @@ def watch_robot(camera: str = "track") -> ipywidgets.Image | ipywidgets.Label:
 
 
 def stop_watching() -> None:
-    """End the moving picture; its last frame stays."""
+    """End the live view; its last frame stays."""
     global _running
     if _running is not None:
         _running.end()

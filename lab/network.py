@@ -1,4 +1,4 @@
-"""Puts this kernel and its children into a ROS domain of their own."""
+"""A ROS domain for this kernel and its child processes alone."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A picture of the robot as it stands now."""
+"""A picture of the robot in its present posture."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ WIDTH, HEIGHT = 480, 360  # px
 def show_robot(camera: str = "track") -> HTML:
     """Draw the robot from its own messages, odom and joint_states; camera "track", "side" or "front".
 
-    Where the machine has no OpenGL, the text that would accompany the picture is shown, with the reason.
+    Without OpenGL you get the caption of the picture and the reason why there is none.
     """
     words = f"The robot: {topics.mode()} at {topics.pose()}"
     body = _body()
@@ -37,7 +37,7 @@ def show_robot(camera: str = "track") -> HTML:
 
 
 def figure(image: bytes, kind: str, words: str, caption: str) -> HTML:
-    """A picture or film of that kind ("png", "webp") with an alternative text and a caption, inside the notebook."""
+    """Embed an image of that kind ("png", "webp") in the notebook, with an alternative text and a caption."""
     data = base64.b64encode(image).decode()
     return HTML(
         f'<figure><img src="data:image/{kind};base64,{data}" width="{WIDTH}" alt="{escape(words)}">'
@@ -47,12 +47,12 @@ def figure(image: bytes, kind: str, words: str, caption: str) -> HTML:
 
 @cache
 def _body() -> Humanoid:
-    """A humanoid that is only looked at: it never steps."""
+    """A humanoid for rendering only: it is never stepped."""
     return Humanoid()
 
 
 def take_posture(body: Humanoid) -> None:
-    """Put a humanoid where the messages say the robot is."""
+    """Set the pose and joints of a humanoid from the robot's last odom and joint_states."""
     pose, joints = topics.odometry().pose.pose, topics.latest("joint_states")
     p, q = pose.position, pose.orientation
     body.data.qpos[:7] = p.x, p.y, p.z, q.w, q.x, q.y, q.z  # MuJoCo puts w first

@@ -18,17 +18,17 @@ import psutil
 from ros_runtime.workarounds import die_with_parent
 
 KEPT_LINES = 2000
-LAST_WORDS = 1.0  # s for what an ended process still has in its pipe
+DRAIN_TIME = 1.0  # s to read what an ended process left in its pipe
 
 # The signal that `die_with_parent` asks for comes when the *thread* that started the child ends: this one never does.
 _spawner = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lab spawner")
 
 
 class Process:
-    """A running Python program in a session of its own, with its last output.
+    """A Python program in a process session of its own, with its last output.
 
-    The session keeps the SIGINT of Jupyter's stop button away from it; the kernel's end is its end, too.
-    What it writes to stderr is part of its output, unless `own_stderr` keeps the two apart.
+    The session keeps the SIGINT of Jupyter's stop button away from it, and `die_with_parent` ends it together with
+    the notebook's kernel. Its output includes stderr, unless `own_stderr` keeps the two apart.
     """
 
     def __init__(self, arguments: Sequence[str], *, own_stderr: bool = False) -> None:
@@ -38,7 +38,7 @@ class Process:
 
     @property
     def is_running(self) -> bool:
-        """Whether it has not ended yet."""
+        """Whether it is still running."""
         return self._popen.poll() is None
 
     @property
@@ -47,20 +47,20 @@ class Process:
         return self._popen.poll()
 
     def cpu_time(self) -> float:
-        """Seconds of a processor that it has used so far, 0.01 s exact; it must be running."""
+        """Processor time used so far, in s, with a resolution of 0.01 s. The process must be running."""
         used = psutil.Process(self._popen.pid).cpu_times()
         return used.user + used.system
 
     def output(self) -> str:
-        """What it printed, stdout and stderr as they came; the last 2000 lines."""
+        """The last 2000 lines of stdout and stderr, in the order in which they were written."""
         return self._output.text(complete=not self.is_running)
 
     def errors(self) -> str:
-        """What it wrote to a stderr of its own; the last 2000 lines."""
+        """The last 2000 lines of stderr, if it is kept apart."""
         return self._errors.text(complete=not self.is_running) if self._errors else ""
 
     def wait(self, timeout: float) -> bool:
-        """Whether it has ended or ends within `timeout` s."""
+        """Wait for its end; return whether it ended within `timeout` s."""
         try:
             self._popen.wait(timeout)
         except subprocess.TimeoutExpired:
@@ -68,7 +68,7 @@ class Process:
         return True
 
     def stop(self, grace: float = 3.0) -> bool:
-        """Ctrl-C, then SIGKILL after `grace` s. Returns whether Ctrl-C was enough."""
+        """Send SIGINT, then SIGKILL after `grace` s. Returns whether SIGINT was enough."""
         self.send(signal.SIGINT)
         if self.wait(grace):
             return True
@@ -76,12 +76,12 @@ class Process:
         return False
 
     def kill(self) -> None:
-        """SIGKILL for it and all that it started, and wait until it is gone."""
+        """Send SIGKILL to it and to all processes that it started, and wait for its end."""
         self.send(signal.SIGKILL)
         self._popen.wait()
 
     def send(self, signal_number: int) -> None:
-        """Send a signal to it and all that it started."""
+        """Send a signal to it and to all processes that it started."""
         if self.is_running:
             with suppress(ProcessLookupError):
                 os.killpg(self._popen.pid, signal_number)
@@ -98,9 +98,9 @@ class _LastLines:
         self._reader.start()
 
     def text(self, *, complete: bool) -> str:
-        """The lines so far. `complete`: nobody writes any more, so wait for what is still in the pipe."""
+        """The lines so far. `complete`: the process has ended, so first read what is left in the pipe."""
         if complete:
-            self._reader.join(LAST_WORDS)
+            self._reader.join(DRAIN_TIME)
         return "".join(self._lines.copy())
 
     def _read(self) -> None:

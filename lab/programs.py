@@ -1,4 +1,4 @@
-"""Run a student's client: a program that ends by itself, with an exit status."""
+"""Run your client: a program that ends by itself, with an exit status."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _running: dict[Path, Program] = {}
 
 
 def run_program(file: str | Path, *arguments: str, timeout: float = 30.0) -> Program:
-    """Run a Python file in namespace /robot to its end: `start_program` and `wait` in one.
+    """Run a Python file in namespace /robot and wait for its end: `start_program` followed by `wait`.
 
     Raises LabError when there is no such file.
     """
@@ -21,9 +21,9 @@ def run_program(file: str | Path, *arguments: str, timeout: float = 30.0) -> Pro
 
 
 def start_program(file: str | Path, *arguments: str) -> Program:
-    """Start a Python file as a process in namespace /robot and go on at once.
+    """Start a Python file as a process in namespace /robot and return without waiting.
 
-    What an earlier cell started from the same file and left running is stopped first.
+    A program that an earlier cell started from the same file is stopped first if it still runs.
 
     Raises LabError when there is no such file.
     """
@@ -48,7 +48,7 @@ class Program:
 
     Attributes:
         file: its path.
-        stopped: it did not end by itself.
+        stopped: whether it had to be stopped because it did not end by itself.
     """
 
     def __init__(self, file: Path, process: Process) -> None:
@@ -60,26 +60,26 @@ class Program:
 
     @property
     def exit_status(self) -> int | None:
-        """What it ended with by itself; None while it runs, and when it had to be stopped."""
+        """Its exit status; None while it runs, and when it had to be stopped."""
         return None if self.stopped else self._process.exit_status
 
     @property
     def stdout(self) -> str:
-        """What it has printed."""
+        """What it has written to stdout: the output of `print()`."""
         return self._process.output()
 
     @property
     def stderr(self) -> str:
-        """Its complaints: its logger's lines, tracebacks and what it printed to sys.stderr."""
+        """What it has written to stderr: log messages and tracebacks."""
         return self._process.errors()
 
     @property
     def seconds(self) -> float:
-        """How long `wait` saw it run, or how long it has run until now."""
+        """How long it ran until `wait` returned, or has run until now, in s."""
         return time.monotonic() - self._started if self._seconds is None else self._seconds
 
     def wait(self, timeout: float = 30.0) -> Program:
-        """Wait for its end, and stop it when it has not ended after `timeout` s. Returns the program itself."""
+        """Wait for its end, or stop it after `timeout` s. Returns the program itself."""
         ended = self._process.wait(timeout)
         self._seconds = self._seconds or self.seconds
         if not ended:
@@ -87,7 +87,7 @@ class Program:
         return self
 
     def stop(self) -> None:
-        """Press Ctrl-C, and kill it when that does not help."""
+        """Press Ctrl-C, and kill it if it does not end within 3 s."""
         if self._process.is_running:
             self.stopped = True
             self._process.stop()
@@ -96,8 +96,8 @@ class Program:
         return f"<{self.file.name}: {self._state()}>"
 
     def __str__(self) -> str:
-        said = (self.stdout + self.stderr).splitlines()
-        return "\n    ".join([repr(self), *said])
+        lines = (self.stdout + self.stderr).splitlines()
+        return "\n    ".join([repr(self), *lines])
 
     def _state(self) -> str:
         if self.stopped:

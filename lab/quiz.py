@@ -1,4 +1,4 @@
-"""Questions that are marked at once, with the reason for each choice."""
+"""Quiz questions with immediate feedback and a reason for each choice."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LETTERS = "abcdefgh"
 
 @dataclass(frozen=True)
 class Choice:
-    """One of the answers to a question. `why` is shown to whoever chooses it, right or not."""
+    """One of the answers to a question. `why` is shown when it is chosen, right or wrong."""
 
     text: str
     why: str
@@ -36,9 +36,9 @@ class Question:
 
 
 def quiz(chapter: str, number: int) -> Quiz:
-    """A question of a chapter, such as `quiz("services", 1)`.
+    """Return a question of a chapter, such as `quiz("services", 1)`.
 
-    Raises LabError when there is none of that number.
+    Raises LabError when the chapter has no question of that number.
     """
     questions = import_module(f"lab.questions.{chapter}").QUESTIONS
     if not 1 <= number <= len(questions):
@@ -47,18 +47,18 @@ def quiz(chapter: str, number: int) -> Quiz:
 
 
 class Quiz:
-    """A question in a notebook: buttons to click where there are widgets, `answer("b")` everywhere."""
+    """A question in a notebook: click a button, or call `answer("b")` where there are no widgets."""
 
     def __init__(self, title: str, question: Question) -> None:
         self.title = title
         self.question = question
 
     def answer(self, letter: str) -> None:
-        """Say whether this choice is right, and why."""
+        """Print whether this choice is right, and why."""
         print(self.mark(letter))
 
     def mark(self, letter: str) -> str:
-        """The verdict on a choice, as a sentence.
+        """Return the feedback on a choice as a sentence.
 
         Raises LabError when there is no such letter.
         """

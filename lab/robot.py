@@ -1,4 +1,4 @@
-"""Start and stop the robot: the simulator with its ROS face, as a process of its own."""
+"""Start and stop the robot: the simulator with its ROS node, as a process of its own."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ _robot: Process | None = None
 
 
 def start_robot(scene: str = "flat") -> None:
-    """Start the robot and wait until its topics arrive; does nothing when it runs already.
+    """Start the robot and wait for the first message on each of its topics. Does nothing if it is running.
 
     In the scene "stand" a stand holds it by the chest, so that it does not fall without power; "table" has a cup.
 
-    Raises NoRobotError with the robot's last words when it does not come up within 30 s.
+    Raises NoRobotError, quoting the robot's output, when it does not start within 30 s.
     """
     global _robot
     domain_id = connection().domain_id  # also sets the environment that the child inherits
@@ -26,7 +26,7 @@ def start_robot(scene: str = "flat") -> None:
         topics.forget()
         _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1", "--scene", scene])
     robot = _robot
-    if not comes_true(lambda: topics.has_spoken() or not robot.is_running, START_TIMEOUT):
+    if not comes_true(lambda: topics.has_published() or not robot.is_running, START_TIMEOUT):
         raise NoRobotError(
             f"the robot runs, but nothing arrived from it within {START_TIMEOUT:g} s: is the machine very busy? "
             f"Try lab.restart_robot(). It printed:\n{robot.output()}"
@@ -49,7 +49,7 @@ def robot_process() -> Process:
 
 
 def restart_robot(scene: str = "flat") -> None:
-    """A robot that stands at the origin with a full battery, whatever happened to the last one."""
+    """Replace the robot by one that stands at the origin with a full battery."""
     stop_robot()
     start_robot(scene)
 

@@ -1,4 +1,4 @@
-"""Call a service and wait for its answer, with an end to the waiting."""
+"""Call a service and wait for its answer, with a time limit."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import Any
 from lab.connection import connection
 from lab.errors import LabError, NoAnswerError
 from lab.exchange import Exchange, require_server
-from lab.student_nodes import last_words
-from lab.wording import describe_briefly
+from lab.formatting import describe_briefly
+from lab.student_nodes import output_of_failed_nodes
 
 
 def call(service: str, service_type: Any, request: Any = None, *, timeout: float = 2.0) -> Any:
@@ -23,7 +23,7 @@ def call(service: str, service_type: Any, request: Any = None, *, timeout: float
 
     Raises:
         NoServerError: nobody offers the service.
-        NoAnswerError: a server was there and has not answered in time; it may have obeyed all the same.
+        NoAnswerError: a server exists but did not answer in time; it may have done what you asked.
     """
     request = service_type.Request() if request is None else request
     if not isinstance(request, service_type.Request):
@@ -32,19 +32,19 @@ def call(service: str, service_type: Any, request: Any = None, *, timeout: float
     deadline = time.monotonic() + timeout
     client = connection().client(service_type, service)
     require_server(client.service_is_ready, service, service_type, timeout)
-    said = describe_briefly(request)
+    content = describe_briefly(request)
     exchange = Exchange(
-        client, request, f"{service} server", service if said == "empty" else f"{service}: {said}"
+        client, request, f"{service} server", service if content == "empty" else f"{service}: {content}"
     )
     if not exchange.wait(max(0.0, deadline - time.monotonic())):
         exchange.give_up(timeout)
         raise NoAnswerError(
             f"no answer from {service} within {timeout:g} s. The request was sent; whether it was carried out is "
-            f"unknown. Look at the server: does it run, and what does its log() say?{last_words()}"
+            f"unknown. Look at the server: does it run, and what does its log() say?{output_of_failed_nodes()}"
         )
     return exchange.answer
 
 
 def service_is_ready(service: str, service_type: Any) -> bool:
-    """What rclpy's `service_is_ready()` and `wait_for_service()` say: somebody has announced this service."""
+    """Whether rclpy's `service_is_ready()` is true: a server has been discovered, which may no longer run."""
     return connection().client(service_type, service).service_is_ready()

@@ -6,7 +6,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from lab import story
+from lab import interaction_log
 from lab.connection import NAMESPACE, connection
 from lab.errors import LabError, NodeEndedError
 from lab.processes import Process
@@ -14,23 +14,23 @@ from lab.waiting import comes_true
 from ros_runtime.reachability import wait_until_reachable
 
 START_TIMEOUT = 10.0  # s
-NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node whose own account of itself has not arrived
+NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
 
 _nodes: dict[Path, StudentNode] = {}
 
 
 def run_node(file: str | Path, *arguments: str) -> StudentNode:
-    """Start a Python file as a process in namespace /robot and wait until it can be talked to.
+    """Start a Python file as a process in namespace /robot and wait until its node answers.
 
-    What an earlier cell started from the same file is stopped first, so that no old server goes on answering.
+    A node that an earlier cell started from the same file is stopped first, so that no old server keeps answering.
     `arguments` are the program's own.
 
     Raises:
         LabError: there is no such file.
-        NodeEndedError: it ended with an error at once; the message has what it printed.
+        NodeEndedError: it ended with an error at once; the message quotes what it printed.
     """
     path = existing_file(file)
-    story.forget()  # what an earlier server left unanswered is not part of what follows
+    interaction_log.clear()  # requests that an earlier server never answered do not belong to what follows
     earlier = _nodes.pop(path, None)
     if earlier is not None:
         earlier.stop()
@@ -39,8 +39,8 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
     _nodes[path] = node
     if comes_true(lambda: not node.is_running or _nodes_seen().keys() - known, START_TIMEOUT):
         deadline = time.monotonic() + START_TIMEOUT
-        for mark, name in _nodes_seen().items():
-            if mark not in known:
+        for gid, name in _nodes_seen().items():
+            if gid not in known:
                 wait_until_reachable(
                     connection().node, name, lambda: not node.is_running or time.monotonic() > deadline
                 )
@@ -72,12 +72,12 @@ def existing_file(file: str | Path) -> Path:
 
 
 def in_namespace(arguments: Sequence[str]) -> list[str]:
-    """A program's own arguments, and behind them those that put its node into the robot's namespace."""
+    """The arguments of a program, followed by those that put its node into the robot's namespace."""
     return [*arguments, "--ros-args", "-r", f"__ns:={NAMESPACE}"]
 
 
-def last_words() -> str:
-    """What the nodes printed that have ended with an error, for an error message; "" if there are none."""
+def output_of_failed_nodes() -> str:
+    """The output of each node that ended with an error, to quote in an error message; "" if there are none."""
     return "".join(
         f"\n{node.file.name} has ended with exit status {node.exit_status}; it printed:\n{node.log()}"
         for node in _nodes.values()
@@ -100,7 +100,7 @@ class StudentNode:
 
     @property
     def is_running(self) -> bool:
-        """Whether its process has not ended."""
+        """Whether its process is still running."""
         return self._process.is_running
 
     @property
@@ -109,18 +109,18 @@ class StudentNode:
         return self._process.exit_status
 
     def log(self) -> str:
-        """All it has printed: its prints, its logger's lines and tracebacks."""
+        """Everything it has printed: `print()`, log messages and tracebacks."""
         return self._process.output()
 
     def stop(self) -> None:
-        """Press Ctrl-C. A node that does not end within 3 s is killed, and you are told."""
+        """Press Ctrl-C. If the node does not end within 3 s, kill it and say so."""
         if self.is_running:
             self.was_stopped = True
             if not self._process.stop():
                 print(f"{self.file.name} did not end within 3 s of Ctrl-C and was killed")
 
     def kill(self) -> None:
-        """End it as a crash or a power cut would, without a word to anybody."""
+        """End it as a crash or a power cut would: it cannot clean up or tell other nodes."""
         self.was_stopped = True
         self._process.kill()
 
@@ -130,7 +130,7 @@ class StudentNode:
 
 
 def _nodes_seen() -> dict[bytes, str]:
-    """The full names of the nodes in the graph, by what no later node shares: the identifier of their /rosout."""
+    """The full names of the nodes in the graph, by the GID of their /rosout publisher, which is unique."""
     return {
         bytes(info.endpoint_gid): f"{info.node_namespace.rstrip('/')}/{info.node_name}"
         for info in connection().node.get_publishers_info_by_topic("/rosout")

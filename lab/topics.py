@@ -1,4 +1,4 @@
-"""What the robot says: the last message of each of its topics."""
+"""The last message on each of the robot's topics."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from sensor_msgs.msg import BatteryState, JointState
 
 from humanoid_interfaces.msg import RobotState
-from lab import story
+from lab import interaction_log
 from lab.connection import NAMESPACE, connection
 from lab.errors import NoRobotError
+from lab.formatting import fixed
 from lab.waiting import comes_true
-from lab.wording import fixed
 from ros_runtime.angles import yaw_of
 from ros_runtime.message_constants import RobotMode, name_of
 
@@ -58,7 +58,7 @@ def odometry() -> Odometry:
 
 
 def pose() -> Pose:
-    """x and y (m) and heading (rad) out of the last message on odom."""
+    """Position x, y (m) and heading (rad) out of the last message on odom."""
     where = odometry().pose.pose
     q = where.orientation
     yaw = yaw_of(q.x, q.y, q.z, q.w)
@@ -66,12 +66,12 @@ def pose() -> Pose:
 
 
 def mode() -> str:
-    """What the robot does, by its name in RobotState: "OFF", "STANDING", "WALKING" or "FALLEN"."""
+    """The robot's mode by its name in RobotState: "OFF", "STANDING", "WALKING" or "FALLEN"."""
     return name_of(RobotMode, robot_state().mode)
 
 
 def latest(topic: str, timeout: float = 5.0) -> Any:
-    """The last message on one of the robot's topics; waits for one if there is none of the last second.
+    """The last message on one of the robot's topics; waits for a new one if the last is older than a second.
 
     Raises NoRobotError when none comes within `timeout` s.
     """
@@ -83,8 +83,8 @@ def latest(topic: str, timeout: float = 5.0) -> Any:
     return memory.messages[topic][0]
 
 
-def has_spoken() -> bool:
-    """Whether every topic of the robot has arrived since `forget()`."""
+def has_published() -> bool:
+    """Whether every topic of the robot had a message since `forget()`."""
     return _memory().messages.keys() >= TOPICS.keys()
 
 
@@ -114,4 +114,4 @@ class _Memory:
         before = self.messages.get(topic)
         self.messages[topic] = (message, time.monotonic())
         if topic == "robot_state" and before and before[0].mode != message.mode:
-            story.tell("robot", "robot", name_of(RobotMode, message.mode))
+            interaction_log.record("robot", "robot", name_of(RobotMode, message.mode))

@@ -1,4 +1,4 @@
-"""Waiting with an end."""
+"""Waiting with a time limit."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 from lab.errors import NotInTimeError
 
-PERIOD = 0.02  # s between two looks
+PERIOD = 0.02  # s between two evaluations
 
 
 def wait_until(condition: Callable[[], Any], timeout: float = 10.0, what: str = "the condition") -> None:
@@ -22,7 +22,7 @@ def wait_until(condition: Callable[[], Any], timeout: float = 10.0, what: str = 
 
 
 def comes_true(condition: Callable[[], Any], timeout: float) -> bool:
-    """Whether `condition()` is true now or becomes so within `timeout` s."""
+    """Wait until `condition()` is true; return whether it became so within `timeout` s."""
     deadline = time.monotonic() + timeout
     while not condition():
         if time.monotonic() >= deadline:
@@ -32,7 +32,7 @@ def comes_true(condition: Callable[[], Any], timeout: float) -> bool:
 
 
 def is_done_within(future: Any, timeout: float) -> bool:
-    """Whether a future that another thread completes is done, now or within `timeout` s."""
+    """Wait for a future that another thread completes; return whether it was done within `timeout` s."""
     done = threading.Event()
     future.add_done_callback(lambda _: done.set())
     return done.wait(timeout)

@@ -1,11 +1,32 @@
-"""In which order the tests begin: the longest files first, so that two workers end at about the same time."""
+"""The tier of each test, which its first folder names, and the order in which the files begin."""
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
-FIRST = ("test_audit.py", "test_form.py")
+TESTS = Path(__file__).parent
+TIERS = ("fast", "arena", "robot", "browser")
+
+# The longest files begin first, so that two workers end at about the same time.
+FIRST = ("test_audit.py", "test_every_chapter.py", "test_new_exercise.py", "test_notebooks_run.py")
+
+
+def tier_of(file: Path) -> str:
+    """The folder below tests/ in which a file is."""
+    return file.relative_to(TESTS).parts[0]
+
+
+def pytest_configure() -> None:
+    stray = [str(file) for file in sorted(TESTS.rglob("test_*.py")) if tier_of(file) not in TIERS]
+    if stray:
+        folders = ", ".join(f"tests/{tier}" for tier in TIERS)
+        raise pytest.UsageError(f"{', '.join(stray)}: belongs to no tier; move it below one of {folders}")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        if item.path.is_relative_to(TESTS):
+            item.add_marker(tier_of(item.path))
     items.sort(key=lambda item: FIRST.index(item.path.name) if item.path.name in FIRST else len(FIRST))

@@ -1,1 +1,1 @@
-"""Proof that the grader grades: submissions whose faults are known, against every check."""
+"""Tests the grader: submissions with known faults are graded with every check, as in mutation testing."""

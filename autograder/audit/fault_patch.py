@@ -1,4 +1,4 @@
-"""A fault as what differs from a sound submission: a header, and a unified diff of the program below its docstring.
+"""A faulty submission as a patch of a correct one: a header, and a unified diff of the program below its docstring.
 
 Fault: sleeps in the callback (M2)
 Caught by: answers_in_time
@@ -20,7 +20,7 @@ import whatthepatch
 from whatthepatch.exceptions import WhatThePatchException
 
 SUFFIX = ".patch"
-LARGEST_SHARE = 0.6  # of a program; where more differs, nothing much is shared and the whole file is clearer
+LARGEST_SHARE = 0.6  # of a program's lines; if more differ, the whole file is clearer than a diff
 _CONTEXT = 2  # lines around a change
 DOCSTRING = re.compile(r'\A(?:#.*\n|\s)*"""(.*?)"""\n?', re.DOTALL)  # also where the file does not parse
 _BEGINNING = re.compile(r"^--- (\S+)", re.MULTILINE)
@@ -31,15 +31,15 @@ class PatchError(Exception):
 
 
 def header_of(text: str) -> str:
-    """Return what stands before the changes."""
+    """Return the text before the diff."""
     found = _BEGINNING.search(text)
     return text[: found.start()] if found else text
 
 
 def whole_program(path: Path) -> str:
-    """Return the program that a patch in known/<kind>/ makes of the submission it names, under the patch's header.
+    """Apply a patch in known/<kind>/ to the submission it names; return the program, with the patch's header.
 
-    Raises `PatchError` saying what to do when it does not apply.
+    Raises `PatchError`, saying what to do, when the patch does not apply.
     """
     text = path.read_text(encoding="utf-8")
     found = _BEGINNING.search(text)
@@ -60,7 +60,7 @@ def whole_program(path: Path) -> str:
 
 
 def as_patch(program: Path, sound: Sequence[Path]) -> str | None:
-    """Return the patch that makes a program of the nearest of some sound ones; None where too little is shared."""
+    """Return the shortest patch from one of the programs `sound` to `program`; None if they share too little."""
     docstring = DOCSTRING.match(program.read_text(encoding="utf-8"))
     if docstring is None or not sound:
         return None

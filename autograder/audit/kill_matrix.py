@@ -1,4 +1,4 @@
-"""The kill matrix: a row a submission, a column a check."""
+"""The kill matrix: one row for each submission, one column for each check."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SURPRISE = "bold white on red"
 
 
 def print_progress(console: Console, run: AuditedRun) -> None:
-    """Print one run when it is done, with what differs from what is known."""
+    """Print one finished run, with each difference from the expected verdict."""
     surprises = run.surprises()
     mark, colour = ("✗", "red") if surprises else ("✓", "green")
     score = run.grade.score if run.grade.score is not None else "not graded"
@@ -31,7 +31,7 @@ def print_progress(console: Console, run: AuditedRun) -> None:
 
 
 def kill_matrix(runs: Sequence[AuditedRun], exercise: Exercise) -> RenderableType:
-    """Return matrix, legend and figures of one exercise."""
+    """Return the matrix of one exercise, with its legend and figures."""
     table = Table(
         title=f"Kill matrix of {exercise.name}", title_justify="left", show_edge=False, padding=(0, 1, 0, 0)
     )
@@ -50,7 +50,7 @@ def kill_matrix(runs: Sequence[AuditedRun], exercise: Exercise) -> RenderableTyp
 
 
 def figures(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:
-    """Return the audit in numbers, a line each."""
+    """Return the figures of the audit, each as a line."""
     faulty = [run for run in runs if run.known.kind == "faulty"]
     killed = [run for run in faulty if not run.missed()]
     correct = [run for run in runs if run.known.kind == "correct"]

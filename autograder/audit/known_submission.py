@@ -1,15 +1,15 @@
-"""A submission whose verdict is known beforehand, told in its first docstring.
+"""A submission whose verdict is known beforehand: the header in its first docstring states it.
 
-Of a patch, which says what differs from a sound submission, the first lines tell it; of a folder, its about.md.
+The header of a patch is the text before the diff; that of a folder is its about.md.
 
 correct:  Style: how it is written
 faulty:   Fault: the mistake (M2)            the number of the misconception, where it has one
           Caught by: check_id, check_id      each must fail
-          Also fails: check_id               may fail as a plain consequence of the same fault
+          Also fails: check_id               may fail as a consequence of the same fault
 hostile:  Attack: what it tries
-          Outcome: what becomes of it
+          Outcome: what happens
           Caught by: …, Also fails: …        as above, or
-          Passes: nothing it did not do      it does its job beside the attack, which must change nothing
+          Passes: nothing it did not do      it solves the task and attacks; the attack must change nothing
 """
 
 from __future__ import annotations
@@ -51,11 +51,11 @@ class KnownSubmission:
 
     @property
     def name(self) -> str:
-        """The name in tables: faulty/no_cancel_callback."""
+        """Its name in tables, such as faulty/no_cancel_callback."""
         return f"{self.kind}/{self.path.stem}"
 
     def read(self) -> Submission:
-        """Return it as the grader takes it; raises `PatchError`."""
+        """Return the whole submission; raises `PatchError` when a patch does not apply."""
         if self.path.suffix == SUFFIX:
             (file_name,) = file_names(self.exercise)
             return Submission(self.exercise, self.name, {file_name: whole_program(self.path)})
@@ -80,7 +80,7 @@ def known_submissions(exercise: str, *, only: str = "*") -> list[KnownSubmission
 
 
 def known_submission(exercise: str, name: str) -> KnownSubmission:
-    """Read the one of this name, such as faulty/sleeps; raises `HeaderError` where there is none, or two."""
+    """Return the submission of this name, such as faulty/sleeps; raises `HeaderError` unless there is exactly one."""
     kind, _, stem = name.rpartition("/")
     found = known_submissions(exercise, only=name)
     if len(found) != 1:
@@ -104,7 +104,7 @@ def read_known_submission(path: Path) -> KnownSubmission:
 
 
 def require_known_checks(known: KnownSubmission, check_ids: Sequence[str]) -> None:
-    """Raise `HeaderError` when a header names a check that its exercise does not have."""
+    """Raise `HeaderError` when a header names a check that the exercise does not have."""
     named = {*known.caught_by, *known.also_fails}
     if unknown := sorted(named - set(check_ids)):
         raise HeaderError(

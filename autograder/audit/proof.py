@@ -1,4 +1,4 @@
-"""What is enough to prove every check once, for those who cannot wait for every submission and every check."""
+"""Selects known submissions and checks that prove every check once, for an audit that takes minutes."""
 
 from __future__ import annotations
 
@@ -15,10 +15,9 @@ _MISCONCEPTION = re.compile(r"\(M\d+\)")
 def enough_to_prove(
     submissions: Sequence[KnownSubmission], of_each: int | None = None
 ) -> list[KnownSubmission]:
-    """Return as few faulty submissions as name every check and misconception, with correct and hostile ones.
+    """Return few faulty submissions that together name every check and misconception, and correct and hostile ones.
 
-    Of the latter the first `of_each` of either kind, or all. Greedy: the faulty one that names most of what is still
-    to be proved comes first.
+    The first `of_each` correct and hostile ones are taken, by default all. The faulty ones are a greedy set cover.
     """
     chosen = {
         known.path
@@ -37,9 +36,9 @@ def enough_to_prove(
 
 
 def enough_to_catch(known: KnownSubmission, exercise: Exercise) -> Exercise:
-    """Return the exercise with only the checks that a faulty submission names, and those they need.
+    """Return the exercise with only the checks that a faulty submission must fail, and those they need.
 
-    For a correct or a hostile one every check stays: what it must not lose counts as much.
+    For a correct or hostile submission every check stays, because it must pass the others.
     """
     if known.kind != "faulty":
         return exercise

@@ -1,4 +1,4 @@
-"""Grades known submissions with every check, and compares the verdicts with what is known."""
+"""Grades known submissions with every check and compares the verdicts with the expected ones."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from autograder.engine.verdict import CheckStatus, Grade
 
 @dataclass(frozen=True)
 class AuditedRun:
-    """One grading of a known submission; `seconds` is what it took on the wall."""
+    """One grading of a known submission; `seconds` is its wall time."""
 
     known: KnownSubmission
     repetition: int
@@ -34,8 +34,8 @@ class AuditedRun:
     def missed(self) -> list[str]:
         """Return the checks that had to fail and did not.
 
-        An attack that already fails what a check needs, as its header allows, is caught sooner: when a flood shows
-        depends on the machine.
+        A hostile one may fail a check of its "Also fails" first, so that the check which catches it is not run. That
+        counts as caught: when the effect of a flood shows depends on the machine.
         """
         failed = ["failed"]
         if self.known.kind == "hostile" and set(self.failed()) & set(self.known.also_fails):
@@ -43,12 +43,12 @@ class AuditedRun:
         return [check_id for check_id in self.known.caught_by if self.status(check_id) not in failed]
 
     def unexpected(self) -> list[str]:
-        """Return the checks that failed and are not named; for a correct submission, false failures."""
+        """Return the checks that failed although the header does not name them: false failures, if it is correct."""
         named = {*self.known.caught_by, *self.known.also_fails}
         return [check_id for check_id in self.failed() if check_id not in named]
 
     def surprises(self) -> list[str]:
-        """Say in words what differs from what is known; empty when nothing does."""
+        """Describe each difference from the expected verdict; empty if there is none."""
         words = [f"{check_id} did not catch it ({self.status(check_id)})" for check_id in self.missed()]
         for check in self.grade.checks:
             if check.status == "error" and "was not graded" not in check.help:  # the first cause only
@@ -84,7 +84,7 @@ def audit(
     scale: float | None = None,
     report: Callable[[AuditedRun], None] = lambda run: None,
 ) -> list[AuditedRun]:
-    """Grade each submission `repeat` times, with other inputs for the scenarios each time, `jobs` arenas at a time.
+    """Grade each submission `repeat` times, each time with other scenario inputs, in `jobs` arenas in parallel.
 
     `report` gets each run when it is done; the runs are returned in the order of the submissions.
     """
@@ -115,7 +115,7 @@ def audit_one(
 
 
 def checks_without_a_killer(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:
-    """Return the checks that failed for no submission that names them: what they are worth is not proved."""
+    """Return the checks that failed for none of the submissions that name them, so that nothing proves their use."""
     proved = {
         check_id for run in runs for check_id in run.known.caught_by if run.status(check_id) == "failed"
     }

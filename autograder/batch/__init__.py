@@ -1,1 +1,1 @@
-"""A whole class at once: find the submissions, grade them in parallel, remember what is done, write it down."""
+"""Grades a whole class: finds the submissions, grades them in parallel, caches and writes the grades."""

@@ -1,4 +1,4 @@
-"""Remembers grades, so that a batch that was interrupted goes on where it stopped."""
+"""A cache of grades, with which an interrupted batch is resumed."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ WITHOUT_INFLUENCE = (
 
 
 class GradeCache:
-    """Grades by what they depend on: the sources, the checks, the inputs drawn, the isolation.
+    """Grades on disk, keyed by what they depend on: sources, checks, seed of the scenario inputs, isolation.
 
-    What could not be graded is never remembered.
+    A submission that could not be graded is never cached.
     """
 
     def __init__(self, folder: Path, seed: int, isolation: Isolation) -> None:
@@ -37,14 +37,14 @@ class GradeCache:
         self._isolation = isolation
 
     def get(self, submission: Submission, exercise: Exercise) -> Grade | None:
-        """Return the grade that such a submission got before, in the name of this student."""
+        """Return the cached grade of a submission with the same sources, under this student's name."""
         path = self._path(submission, exercise)
         if not path.exists():
             return None
         return dataclasses.replace(Grade.from_json(json.loads(path.read_text())), student=submission.student)
 
     def put(self, submission: Submission, exercise: Exercise, grade: Grade) -> None:
-        """Remember a grade."""
+        """Cache a grade."""
         if grade.status != "graded":
             return
         path = self._path(submission, exercise)

@@ -1,4 +1,4 @@
-"""Finds what students have handed in, in nbgrader's layout or as plain files."""
+"""Finds the submissions of a class, in nbgrader's layout or as plain files."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ LAYOUT = "SUBMITTED/<student>/<exercise>/<exercise>.ipynb or SUBMITTED/<student>
 
 
 class NoSubmissions(Exception):
-    """The folder holds nothing that can be graded; the message says what it should look like."""
+    """The folder has nothing that can be graded; the message says what layout is expected."""
 
 
 @dataclass(frozen=True)
 class Work:
-    """One student's work on one exercise; `path` is None when their folder for it holds no file of that name."""
+    """One student's submission for one exercise; `path` is None when their folder has no file of that name."""
 
     student: str
     exercise: str
@@ -30,7 +30,7 @@ class Work:
     timestamp: str = ""  # as in the timestamp.txt of nbgrader's collect
 
     def read(self) -> Submission:
-        """Read it; raises UnusableSubmission saying what is wrong with it."""
+        """Read the submission; raises UnusableSubmission, which says what is wrong with it."""
         if self.path is None:
             names = " nor ".join(file_names(self.exercise))
             raise UnusableSubmission(
@@ -61,9 +61,9 @@ class Work:
 
 @dataclass(frozen=True)
 class Collection:
-    """The works found, in order of student and exercise.
+    """The submissions found, in order of student and exercise.
 
-    `ignored` says what else lies there, `refused` which students' folders have names that cannot be taken over.
+    `ignored` lists what else is in the folder, `refused` the student folders with unusable names, as sentences.
     """
 
     works: Sequence[Work]
@@ -72,7 +72,7 @@ class Collection:
 
 
 def collect(folder: Path) -> Collection:
-    """Find every work in the folder; raises `NoSubmissions` when there is none."""
+    """Find all submissions in the folder; raises `NoSubmissions` when there is none."""
     if not folder.is_dir():
         raise NoSubmissions(f"{folder} is not a folder; expected {LAYOUT}")
     works: dict[tuple[str, str], Work] = {}
@@ -96,7 +96,7 @@ def collect(folder: Path) -> Collection:
 
 
 def _works_of(student: Path) -> Iterator[Work]:
-    """A folder for the exercise comes before a file beside it, a notebook before the file it writes when run."""
+    """Prefer a folder for the exercise to a file beside it, and a notebook to the file it writes when run."""
     for exercise in exercise_names():
         folder = student / exercise
         home = folder if folder.is_dir() else student
@@ -106,7 +106,7 @@ def _works_of(student: Path) -> Iterator[Work]:
 
 
 def _places(folder: Path, exercise: str) -> list[Path]:
-    """The notebook; the program; where there are several files, their folder, if one of them lies there."""
+    """Where a submission may be: the notebook, then the program, or the folder of an exercise with several files."""
     names = file_names(exercise)
     written = [folder / name for name in names]
     if len(names) > 1:
@@ -123,7 +123,7 @@ def _visible(folder: Path) -> list[Path]:
 
 
 def _timestamp(folder: Path) -> str:
-    """When the work was handed in, if that is written there so that nbgrader can read it."""
+    """The time of submission from timestamp.txt, if nbgrader can parse it; otherwise ""."""
     path = folder / "timestamp.txt"
     if path.is_symlink() or not path.is_file():
         return ""

@@ -1,4 +1,4 @@
-"""What a batch leaves behind for people and for other programs."""
+"""The file of grades that a batch writes."""
 
 from __future__ import annotations
 
@@ -12,6 +12,6 @@ GRADES = "grades.json"
 
 
 def write_grades(path: Path, grades: Sequence[Grade]) -> None:
-    """Write a batch as one list, for the instructor: with everything that hidden checks have seen."""
+    """Write the grades of a batch as one list, for the instructor: it includes the details of hidden checks."""
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps([grade.to_json() for grade in grades], indent=2) + "\n")

@@ -1,4 +1,4 @@
-"""Grades many submissions at a time, and keeps going whatever one of them holds."""
+"""Grades many submissions in parallel; a failure of one does not stop the others."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from autograder.isolation.availability import Isolation
 
 @dataclass(frozen=True)
 class Graded:
-    """One work with its grade; `sources` is None and `problem` says why when it could not be read."""
+    """A submission with its grade. If it could not be read, `sources` is None and `problem` says why."""
 
     work: Work
     grade: Grade
     sources: Mapping[str, str] | None
     problem: str = ""
-    remembered: bool = False
+    cached: bool = False
 
 
 class _Interrupted(Exception):
@@ -34,9 +34,9 @@ class _Interrupted(Exception):
 
 
 class BatchRunner:
-    """Grades works with `jobs` arenas at a time; without trusted isolation only with the visible checks.
+    """Grades submissions in `jobs` arenas in parallel; without trusted isolation only with the visible checks.
 
-    `report` gets each verdict as soon as it is known, from any thread.
+    `report` is called with each verdict as soon as it is known, on any thread.
     """
 
     def __init__(
@@ -58,13 +58,13 @@ class BatchRunner:
         self._stop = threading.Event()
 
     def exercise(self, name: str) -> Exercise:
-        """Return an exercise with the checks that this batch judges it by."""
+        """Return an exercise with the checks that this batch makes."""
         return load_exercise(name, hidden=self._isolation.trusted)
 
     def run(self, works: Sequence[Work]) -> Generator[Graded, None, None]:
-        """Yield each work as soon as it is graded.
+        """Yield each submission as soon as it is graded.
 
-        Leaving the loop early, by Ctrl-C for one, ends the arenas that run; what was graded by then is remembered.
+        Leaving the loop early, for example by Ctrl-C, ends the running arenas; finished grades stay in the cache.
         """
         jobs_each = max(1, self._jobs // max(1, len(works)))
         with ThreadPoolExecutor(max_workers=max(1, self._jobs // jobs_each)) as pool:
@@ -88,7 +88,7 @@ class BatchRunner:
         if self._resume and (known := self._cache.get(submission, exercise)):
             for verdict in known.checks:
                 self._report(verdict)
-            return Graded(work, known, submission.sources, remembered=True)
+            return Graded(work, known, submission.sources, cached=True)
         result = self._grade_in_arenas(submission, exercise, jobs)
         self._cache.put(submission, exercise, result)
         return Graded(work, result, submission.sources)
@@ -116,14 +116,14 @@ class BatchRunner:
             )
 
     def _report_or_stop(self, verdict: CheckVerdict) -> None:
-        """Leave a submission at its next verdict once the batch has been stopped; grade() then ends its arenas."""
+        """Once the batch was stopped, raise at the next verdict of a submission; `grade` then ends its arenas."""
         if self._stop.is_set():
             raise _Interrupted
         self._report(verdict)
 
 
 def unreadable(work: Work, exercise: Exercise, isolation: Isolation, problem: str) -> Grade:
-    """Return the grade of a work that cannot be read: no points, and the reason where the student will look for it."""
+    """Return the grade of an unreadable submission: no points, and the reason at its first check."""
     first, *others = exercise.checks
     names = " and ".join(exercise.file_names)
     verdicts = [
@@ -154,7 +154,7 @@ def unreadable(work: Work, exercise: Exercise, isolation: Isolation, problem: st
 
 
 def with_reason(grade: Grade) -> Grade:
-    """Put the first reason why something could not be judged where every report shows it."""
+    """Return the grade with the first cause of a check that could not be judged as its reason."""
     if grade.status == "graded" or grade.reason:
         return grade
     broken = next((verdict for verdict in grade.checks if verdict.status == "error"), None)

@@ -36,7 +36,7 @@ class Ended(str, Enum):
     EXIT = "exit"  # the command ended by itself
     DEADLINE = "deadline"
     MEMORY = "memory"
-    KILLED = "killed"  # by `ArenaProcess.kill`
+    KILLED = "killed"  # by `kill`
 
 
 @dataclass(frozen=True)

@@ -74,6 +74,7 @@ class ChildProgram(RunningProgram):
         self._init = sandbox_init
 
     def processes(self) -> list[int]:
+        """Return the ids of its processes: the program, or bwrap around it, and all that descend from it."""
         return [self._process.pid, *descendants(self._process.pid)]
 
     def _kill_everything(self) -> None:
@@ -102,6 +103,7 @@ class EnteredProgram(RunningProgram):
         self._sandbox = sandbox
 
     def processes(self) -> list[int]:
+        """Return the ids of its processes: the program, the init of its sandbox, and all that descend from them."""
         roots = (self._main_pid, self._sandbox.init_pid)
         return [*roots, *(pid for root in roots for pid in descendants(root))]
 

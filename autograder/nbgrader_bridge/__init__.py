@@ -1,5 +1,5 @@
-"""nbgrader on both ends of the grader: release notebooks for students, gradebook and feedback from verdicts.
+"""nbgrader before and after grading: release notebooks for students, gradebook and feedback from verdicts.
 
-nbgrader never sees a student's own file and never runs a cell: its place of execution is taken by
-:class:`~autograder.nbgrader_bridge.verdict_outputs.VerdictOutputs`, which writes what the arenas have found.
+nbgrader never reads a student's own file and never runs a cell: instead of executing it, `VerdictOutputs` writes the
+verdicts as cell outputs.
 """

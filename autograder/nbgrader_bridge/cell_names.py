@@ -10,10 +10,12 @@ class Named(Protocol):
     """A check or its verdict."""
 
     @property
-    def id(self) -> str: ...
+    def id(self) -> str:
+        """The name of the check, a Python identifier."""
 
     @property
-    def hidden(self) -> bool: ...
+    def hidden(self) -> bool:
+        """Whether only the instructor's grading makes the check."""
 
 
 def cell_names(checks: Sequence[Named]) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""The locked grade cells at the end of an exercise's notebook, made from its checks."""
+"""Generates the locked grade cells at the end of an exercise's notebook from its checks."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ above covers it."""
 
 
 def with_check_cells(notebook: NotebookNode, exercise: Exercise) -> NotebookNode:
-    """Return the notebook with everything from its last section on replaced by the cells of the exercise's checks."""
+    """Return the notebook with its last section, the verdicts, replaced by the cells of the exercise's checks."""
     kept: list[NotebookNode] = []
     for cell in notebook.cells:
         if cell.id == HEADING_ID:
@@ -29,7 +29,7 @@ def with_check_cells(notebook: NotebookNode, exercise: Exercise) -> NotebookNode
 
 
 def check_cells(exercise: Exercise) -> list[NotebookNode]:
-    """Return a heading, then one locked cell a check, in order, with its points."""
+    """Return a heading and one locked grade cell for each check, in order."""
     heading = new_markdown_cell(HEADING, id=HEADING_ID, metadata=cell_metadata("verdicts"))
     names = cell_names(exercise.checks)
     return [heading, *(_check_cell(check, names[check.id]) for check in exercise.checks)]

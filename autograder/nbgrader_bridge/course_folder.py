@@ -47,7 +47,7 @@ _OPTIONS: dict[str, Any] = {
 
 
 class NbgraderError(Exception):
-    """nbgrader could not do what it was asked. The message is its last word, `log` all of them."""
+    """A call to nbgrader failed. The message is the last line of its log, `log` the whole."""
 
     def __init__(self, message: str, log: str) -> None:
         super().__init__(message)
@@ -59,11 +59,11 @@ class StudentCodeWouldRun(Exception):
 
 
 def open_course(folder: Path, *, gradebook: bool = True) -> NbGraderAPI:
-    """Return nbgrader's API on a course folder; no configuration file of the machine or the user is read.
+    """Return nbgrader's API for a course folder. It reads no configuration file of the machine or the user.
 
-    Without a gradebook it can only make releases.
+    Without a gradebook it can only generate releases.
 
-    Raises :class:`StudentCodeWouldRun` unless autograding is exactly what is listed here.
+    Raises `StudentCodeWouldRun` unless nbgrader autogrades with exactly AUTOGRADE_PREPROCESSORS.
     """
     root = folder.resolve()
     options: dict[str, Any] = {
@@ -89,7 +89,7 @@ def open_course(folder: Path, *, gradebook: bool = True) -> NbGraderAPI:
 
 
 def call(action: Callable[..., dict[str, Any]], *names: str) -> None:
-    """Call a method of nbgrader's API; raises :class:`NbgraderError` where it reports that it failed."""
+    """Call a method of nbgrader's API; raises `NbgraderError` when it reports a failure."""
     with warnings.catch_warnings():
         # SQLAlchemy warns about how nbgrader links a new submission; the submission is stored all the same.
         warnings.filterwarnings("ignore", "Object of type .* not in session")
@@ -102,9 +102,9 @@ def call(action: Callable[..., dict[str, Any]], *names: str) -> None:
 
 
 def write_config_file(folder: Path) -> None:
-    """Let `nbgrader` and its JupyterLab extension, started in the folder, work as our own calls do.
+    """Write a configuration with which `nbgrader` and its JupyterLab extension behave as our own calls do.
 
-    The file holds plain values only: nbgrader ignores a configuration that raises, and would execute submissions.
+    It holds plain values only: nbgrader ignores a configuration file that raises, and would then execute submissions.
     """
     options = _OPTIONS | {"VerdictOutputs.records": RECORDS}
     lines = [f"c.{name} = {_python(value)}" for name, value in options.items()]
@@ -135,7 +135,7 @@ def _without_saving() -> list[Any]:
 
 
 def _let_nbgrader_find_alembic() -> None:
-    """nbgrader makes a new gradebook with the program alembic, found by PATH; it is installed beside this Python."""
+    """Put this Python's programs on PATH: nbgrader makes a new gradebook with the program alembic."""
     programs = str(Path(sys.executable).parent)
     folders = os.environ.get("PATH", os.defpath).split(os.pathsep)
     if programs not in folders:

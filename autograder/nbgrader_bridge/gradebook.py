@@ -1,4 +1,4 @@
-"""Enters grades into nbgrader's gradebook and makes the feedback pages; one after the other, never in parallel."""
+"""Enters grades into nbgrader's gradebook and generates feedback pages, one at a time."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from autograder.nbgrader_bridge.course_folder import (
     open_course,
     write_config_file,
 )
-from autograder.nbgrader_bridge.transplant import transplant
+from autograder.nbgrader_bridge.rebuild_submission import rebuild_submission
 
 TIMESTAMP = "timestamp.txt"
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A grade with what it was given for. `sources` is None when the submission could not be read."""
+    """A grade and the submission it was given for. `sources` is None when the submission could not be read."""
 
     grade: Grade
     sources: Mapping[str, str] | None
@@ -51,8 +51,9 @@ class CourseGradebook:
     def enter(self, entry: Entry) -> Path | None:
         """Record one grade and return its feedback page; None for what was not graded, which leaves no score.
 
-        What is entered already is left as it is. Raises
-        :class:`~autograder.nbgrader_bridge.course_folder.NbgraderError`.
+        A grade that is entered already is not entered again.
+
+        Raises `NbgraderError` when nbgrader fails.
         """
         grade = entry.grade
         if grade.status != "graded":
@@ -63,7 +64,7 @@ class CourseGradebook:
         submission = self._submission(entry)
         if page.exists() and not self._is_new and self._holds(grade, submission):
             return page
-        page.unlink(missing_ok=True)  # from here on it would tell of an entry that is not complete
+        page.unlink(missing_ok=True)  # it would show a grade that is not entered completely
         record(self._folder, grade)
         self._submit(grade, submission)
         call(self._course.autograde, grade.exercise, grade.student)
@@ -71,7 +72,7 @@ class CourseGradebook:
         return page
 
     def _assign(self, exercise: str) -> None:
-        """Make the exercise known to the gradebook, with the points of its checks as they are now."""
+        """Create the exercise's assignment in the gradebook, with the present points of its checks."""
         if exercise in self._assigned:
             return
         folder = self._folder / "source" / exercise
@@ -88,15 +89,15 @@ class CourseGradebook:
         self._assigned.add(exercise)
 
     def _submission(self, entry: Entry) -> dict[str, str]:
-        """The files that nbgrader gets to see: the transplanted notebook and the time it was handed in."""
+        """The files that nbgrader reads: the rebuilt notebook and the time it was handed in."""
         name = entry.grade.exercise
         release = nbformat.read(self._folder / "release" / name / f"{name}.ipynb", as_version=4)
-        notebook = transplant(release, file_names(name), entry.sources, entry.problem)
+        notebook = rebuild_submission(release, file_names(name), entry.sources, entry.problem)
         files = {f"{name}.ipynb": nbformat.writes(notebook) + "\n"}
         return files | ({TIMESTAMP: entry.timestamp} if entry.timestamp else {})
 
     def _holds(self, grade: Grade, submission: dict[str, str]) -> bool:
-        """Whether this very grade of this very submission was entered before."""
+        """Whether the same grade of the same submission was entered before."""
         folder = self._submitted(grade)
         before = (
             {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
@@ -118,7 +119,7 @@ class CourseGradebook:
 
 
 def record(folder: Path, grade: Grade) -> None:
-    """Keep a grade in its student's JSON file, in place of an earlier one for the same exercise."""
+    """Write a grade to the student's JSON file; it replaces an earlier one for the same exercise."""
     others = [record for record in _records(folder, grade.student) if record["exercise"] != grade.exercise]
     grades = sorted([*others, grade.to_json()], key=lambda record: record["exercise"])
     path = folder / RECORDS / f"{grade.student}.json"

@@ -1,4 +1,4 @@
-"""Makes the students' notebooks from the source notebooks, with nbgrader's generate_assignment."""
+"""Generates the students' notebooks from the source notebooks, with nbgrader's generate_assignment."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ def source_notebooks(solutions: Path) -> dict[str, Path]:
     }
 
 
-def out_of_step(solutions: Path, exercises: Path) -> list[Path]:
-    """Return the notebooks that differ from what they are made from: the checks, the source notebooks."""
+def out_of_date(solutions: Path, exercises: Path) -> list[Path]:
+    """Return the notebooks that differ from what the checks and the source notebooks would generate."""
     return [path for path, content in _wanted(solutions, exercises).items() if _content(path) != content]
 
 
-def bring_in_step(solutions: Path, exercises: Path) -> list[Path]:
-    """Renew the grade cells in solutions/ and make exercises/ again; return the notebooks that have changed."""
+def bring_up_to_date(solutions: Path, exercises: Path) -> list[Path]:
+    """Generate the grade cells in solutions/ and all of exercises/; return the notebooks that have changed."""
     changed = []
     for path, content in _wanted(solutions, exercises).items():
         if _content(path) == content:

@@ -1,4 +1,4 @@
-"""Grade cells without a verdict wait for a person instead of counting as 0."""
+"""Marks grade cells without a verdict for manual grading, instead of scoring them 0."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from autograder.nbgrader_bridge.verdict_outputs import UNJUDGED
 
 
 class UnjudgedCells(NbGraderPreprocessor):
-    """After the scores are saved, takes back those of checks that were not run: hidden ones without isolation."""
+    """Removes the saved scores of checks that were not run: hidden ones where there is no isolation."""
 
     def preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
         """Mark the cells in the gradebook as needing manual grading."""

@@ -1,4 +1,4 @@
-"""The preprocessor that stands where stock nbgrader executes a submission: it writes verdicts as cell outputs."""
+"""The preprocessor that writes verdicts as cell outputs, in place of stock nbgrader's execution of a submission."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ HIDDEN_HELP = "Not passed. Read the task again sentence by sentence: every sente
 
 
 class NotGradedError(Exception):
-    """There is no grade to enter, for a reason that is not the student's; nbgrader must record no score."""
+    """There is no grade to enter, through no fault of the student's; nbgrader must record no score."""
 
 
 class VerdictOutputs(NbGraderPreprocessor):
-    """Gives every grade cell exactly one number, its points, and says on stdout what was found.
+    """Gives every grade cell one number as its output, the points, and the verdict on stdout.
 
-    nbgrader takes an error or anything on stderr for 0 points and no number at all for full marks. So there is always
-    a number, and where there can be none, an exception.
+    nbgrader scores an error or output on stderr as 0 and a cell without a number as full marks. So each cell gets a
+    number; where there is none, this raises.
     """
 
-    records = Unicode(help="folder with one JSON file a student: a list of grades").tag(config=True)
+    records = Unicode(help="folder with one JSON file for each student: a list of grades").tag(config=True)
 
     def preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
-        """Write the outputs of one student's notebook; raises :class:`NotGradedError`."""
+        """Write the outputs of one student's notebook; raises `NotGradedError`."""
         names = resources["nbgrader"]
         grade = read_grade(Path(self.records), names["student"], names["assignment"])
         verdicts = verdicts_by_cell(grade)
@@ -52,7 +52,7 @@ class VerdictOutputs(NbGraderPreprocessor):
 
 
 def read_grade(records: Path, student: str, exercise: str) -> Grade:
-    """Return the grade that was recorded; raises :class:`NotGradedError` when there is none."""
+    """Return the grade that was recorded; raises `NotGradedError` when there is none."""
     path = records / f"{student}.json"
     try:
         grades = [Grade.from_json(record) for record in json.loads(path.read_text())]
@@ -73,16 +73,16 @@ def verdicts_by_cell(grade: Grade) -> dict[str, CheckVerdict]:
 
 
 def outputs(verdict: CheckVerdict | None, max_points: float, count: int) -> list[NotebookNode]:
-    """Return what is shown, then the points, at least 0 and at most the cell's."""
+    """Return two outputs: the text of the verdict, and the points, between 0 and `max_points`."""
     points = min(max(float(verdict.points), 0.0), max_points) if verdict else 0.0
     return [
-        new_output("stream", name="stdout", text=_told(verdict) + "\n"),
+        new_output("stream", name="stdout", text=_text(verdict) + "\n"),
         new_output("execute_result", data={"text/plain": str(points)}, execution_count=count),
     ]
 
 
-def _told(verdict: CheckVerdict | None) -> str:
-    """What a student may know. Of a hidden check that is only whether it passed: its inputs stay useful."""
+def _text(verdict: CheckVerdict | None) -> str:
+    """What a student may see; of a hidden check only whether it passed, so that its inputs stay secret."""
     if verdict is None:
         return "Not checked automatically."
     if verdict.hidden:

@@ -1,1 +1,1 @@
-"""Makes the folder of a new exercise, which passes its own audit and waits to be changed."""
+"""Creates the folder of a new exercise, a working example that passes its own audit."""

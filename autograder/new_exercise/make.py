@@ -1,4 +1,4 @@
-"""From a kind of exercise to a folder of it: notebook, scenario, checks, known submissions."""
+"""Creates an exercise from the templates of its kind: notebook, scenarios, checks, known submissions."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class CannotMake(Exception):
 def make_exercise(name: str, kind: str, course: Path) -> Path:
     """Write `course`/`name`/, an exercise of a kind (one of KINDS), and return that folder.
 
-    Raises :class:`CannotMake` for a name that is none, or is taken.
+    Raises `CannotMake` for an invalid name, or one that exists.
     """
     if not _NAME.fullmatch(name) or keyword.iskeyword(name):
         raise CannotMake(
@@ -62,7 +62,7 @@ def _type_name(name: str) -> str:
 
 
 def _notebook(words: dict[str, str], task: str, solution: str) -> NotebookNode:
-    """Return the source notebook, up to its grade cells, which `release --exercises` makes of the checks."""
+    """Return the source notebook without grade cells: `release --exercises` generates them from the checks."""
     name = words["name"]
     cells = [
         new_markdown_cell(f"# {words['title']}", id="title"),

@@ -1,1 +1,1 @@
-"""Renders verdicts for people: tables, sequence diagrams, pages. Reads records, decides nothing."""
+"""Renders verdicts as tables, sequence diagrams and pages. It only reads grades and transcripts."""

@@ -1,4 +1,4 @@
-"""The grades of a whole class on a terminal."""
+"""A table of the grades of a whole class, for the terminal."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from autograder.report.table import summary
 
 
 def class_table(grades: Sequence[Grade]) -> RenderableType:
-    """Return one row a submission: the score, and the checks that cost points."""
+    """Return a table with a row for each submission: the score, and the checks that cost points."""
     table = Table(show_edge=False)
     table.add_column("student", overflow="fold")
     table.add_column("exercise")
@@ -30,10 +30,10 @@ def class_table(grades: Sequence[Grade]) -> RenderableType:
     return table
 
 
-def progress_line(grade: Grade, *, remembered: bool = False) -> Text:
-    """Return the line that is printed when one submission is done."""
+def progress_line(grade: Grade, *, cached: bool = False) -> Text:
+    """Return the line to print when one submission is graded."""
     colour = "magenta" if grade.status == "not graded" else "green" if grade.all_passed else "yellow"
-    note = "  (as before)" if remembered else ""
+    note = "  (as before)" if cached else ""
     return Text.assemble(
         (f"{grade.student} · {grade.exercise}  ", ""), (summary(grade).splitlines()[0], colour), (note, "dim")
     )

@@ -1,4 +1,4 @@
-"""One page for people who would rather look than read: verdicts, diagrams, pictures; complete in itself."""
+"""An HTML report with verdicts, diagrams and pictures, in one file without references."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def write_page(
     figures: Sequence[str] = (),
     sections: Sequence[Section] = (),
 ) -> None:
-    """Write an HTML page. `figures` and the sections' diagrams are markup of our own; all else is escaped here."""
+    """Write an HTML page. `figures` and the diagrams are trusted markup; all other texts are escaped."""
     environment = Environment(
         loader=FileSystemLoader(Path(__file__).parent / "templates"),
         autoescape=select_autoescape(default=True),

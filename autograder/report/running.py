@@ -1,4 +1,4 @@
-"""A line that says what is running now, wherever the verdicts are printed."""
+"""A status line with the running scenarios, below the verdicts."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from autograder.authoring.checks import Scenario
 
 
 class RunningLine:
-    """On a terminal the last line, in a notebook a line that is written over, elsewhere a line at every change."""
+    """The last line of a terminal, a line that is overwritten in a notebook, elsewhere a new line at every change."""
 
     def __init__(self, console: Console, *, in_notebook: bool = False) -> None:
         self._console = console
@@ -30,7 +30,7 @@ class RunningLine:
         self.show([])
 
     def show(self, scenarios: Sequence[Scenario]) -> None:
-        """Say which scenarios run now."""
+        """Show the names of the running scenarios; none removes the line."""
         names = ", ".join(dict.fromkeys(scenario.name.replace("_", " ") for scenario in scenarios))
         text = f"running: {names}" if names else ""
         if text == self._shown:
@@ -46,7 +46,7 @@ class RunningLine:
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """Print something else, which the line makes room for."""
+        """Remove the line while the block prints, and show it again afterwards."""
         shown = self._shown
         if self._in_notebook and shown:
             print(f"\r{'':<{len(shown)}}\r", end="")

@@ -20,7 +20,7 @@ MOST_ARROWS = 60
 
 
 def transcript_svg(transcript: Transcript, title: str) -> str:
-    """Draw what happened in one arena; runs of feedback are drawn as one arrow, and a very long story is cut."""
+    """Draw a transcript as SVG; consecutive feedback messages are one arrow, and a long transcript is cut."""
     arrows = sorted([*_talk(transcript), *_robot(transcript)], key=lambda arrow: arrow.time)
     if len(arrows) > MOST_ARROWS:
         left_out = len(arrows) - MOST_ARROWS

@@ -1,4 +1,4 @@
-"""Verdicts on a terminal."""
+"""Verdicts as tables for the terminal."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ MARKS = {
 
 
 def print_beginning(console: Console, path: Path, exercise: Exercise) -> None:
-    """Say what is checked, before minutes in which nothing may be heard."""
+    """Print what is checked and how long it takes, before the first verdict."""
     count = len(exercise.checks)
     console.print(
-        f"{path}: {count} checks, each told as soon as it is known; all of them take less than a minute.",
+        f"{path}: {count} checks, each shown as soon as its verdict is known; all of them take less than a minute.",
         markup=False,
     )
 
 
 def print_verdict(console: Console, verdict: CheckVerdict) -> None:
-    """Print one verdict as soon as it is known, with the reason when it is not 'passed'."""
+    """Print one verdict, with the reason unless it is 'passed'."""
     mark, colour = MARKS[verdict.status]
     console.print(Text.assemble((f"{mark} ", colour), verdict.title, (f"  {_points(verdict)}", "dim")))
     reason = explanation(verdict)
@@ -42,12 +42,12 @@ def print_verdict(console: Console, verdict: CheckVerdict) -> None:
 
 
 def print_second_look(console: Console, check: Check) -> None:
-    """Say that a check failed once and is looked at again."""
+    """Print that a check failed once and is repeated."""
     console.print(Text(f"… {check.title}: failed once, looking again", "dim"))
 
 
 def explanation(verdict: CheckVerdict) -> Table:
-    """Return what went wrong, a row each: expected, observed with its time, next step, the end of the node's output."""
+    """Return a table with expected, observed with its time, next step, and the end of the node's output."""
     table = Table.grid(padding=(0, 2), pad_edge=False)
     table.add_column(style="bold", no_wrap=True)
     table.add_column(overflow="fold")
@@ -66,7 +66,7 @@ def explanation(verdict: CheckVerdict) -> Table:
 
 
 def grade_table(grade: Grade) -> RenderableType:
-    """Return the whole table of one grade with its score."""
+    """Return a table with all verdicts of a grade, and its score."""
     table = Table(title=f"{grade.exercise} · {grade.student}", title_justify="left", show_edge=False)
     table.add_column("")
     table.add_column("check", overflow="fold")
@@ -84,7 +84,7 @@ def grade_table(grade: Grade) -> RenderableType:
 
 
 def summary(grade: Grade) -> str:
-    """Return the score in one line; a grade without isolation or verdict says so."""
+    """Return the score in one line, marked if there was no isolation or no verdict."""
     if grade.status == "not graded":
         return f"NOT GRADED, no points either way{': ' + grade.reason if grade.reason else ''}"
     label = "" if grade.isolation == "namespaces" else f"  [{grade.isolation}]"

@@ -24,10 +24,9 @@ def bench_arenas(
     runs: int,
     jobs: int,
 ) -> None:
-    """Measure, print, and write `json_file`. `against` is a file that this wrote, or a commit that is measured, too.
+    """Measure, print, and write `json_file`. `against` is such a file, or a commit to measure as well.
 
-    Raises `BenchFailed`,
-    `CannotBeMeasured` and, for a file that is none of ours, ValueError.
+    Raises `BenchFailed`, `CannotBeMeasured` and, for a file of another format, ValueError.
     """
     earlier = (
         Costs.from_json(json.loads(Path(against).read_text())) if against and Path(against).exists() else None
@@ -77,14 +76,14 @@ def _arenas_table(arenas: Sequence[ArenaCost], others: Sequence[ArenaCost]) -> T
 def _submissions_table(
     graded: Sequence[SubmissionCost], others: Sequence[SubmissionCost], jobs: int
 ) -> Table:
-    table = _table(f"A reference graded, hidden checks too, {jobs} arenas at a time (best run)", others)
+    table = _table(f"A reference graded, hidden checks too, {jobs} arenas in parallel (best run)", others)
     for one in graded:
         _add(table, one.exercise, one, next((o for o in others if o.exercise == one.exercise), None))
     return table
 
 
 def _phases_table(arenas: Sequence[ArenaCost]) -> Table:
-    """The first phases are those of the opening; the interpreter that waits for students starts beside the others."""
+    """The first phases are those of opening the arena; the waiting interpreter starts in parallel to the others."""
     table = Table(title="By phase: CPU s / wall s", box=box.SIMPLE_HEAD, padding=(0, 0))
     table.add_column("")
     for arena in arenas:

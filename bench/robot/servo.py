@@ -107,6 +107,7 @@ class TurnWalkTurn:
         self._there = False
 
     def __call__(self, error: Pose) -> Twist:
+        """Return the velocity for an error in base_link (m, m, rad)."""
         forward, left, turn = error
         distance, bearing = math.hypot(forward, left), math.atan2(left, forward)
         self._there = distance < (0.08 if self._there else 0.04)

@@ -167,4 +167,5 @@ def mean(values: Sequence[float]) -> float:
 
 
 def all_succeeded(runs: Sequence[Run]) -> bool:
+    """Whether every run succeeded."""
     return all(run.success for run in runs)

@@ -1,0 +1,1 @@
+"""One module a command of `course`; `course_cli.app` lists them."""

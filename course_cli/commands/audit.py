@@ -1,4 +1,4 @@
-"""`course audit`: does every check catch what it should, and does no sound submission fail?"""
+"""`course audit`: every check must catch its faults, and no correct submission may fail."""
 
 from __future__ import annotations
 
@@ -23,16 +23,22 @@ from autograder.engine.exercise import UnknownExercise, UnusableExercise, exerci
 from autograder.engine.grading import HiddenChecksRefused
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
+from course_cli.jobs_option import JobsOption
 
 MATRIX_WIDTH = 140
 
 
 def audit(
     exercise: Annotated[str | None, typer.Argument(help="the exercise (default: all of them)")] = None,
-    jobs: Annotated[int, typer.Option(min=1, help="how many arenas run at a time, one for each core")] = 2,
-    repeat: Annotated[int, typer.Option(min=1, help="times, each with other inputs for the scenarios")] = 1,
+    jobs: JobsOption = 2,
+    repeat: Annotated[
+        int,
+        typer.Option(min=1, help="how often to grade each submission, each time with other scenario inputs"),
+    ] = 1,
     only: Annotated[str, typer.Option(help="only submissions whose name matches, such as 'faulty/*'")] = "*",
-    scale: Annotated[float | None, typer.Option(help="how much faster the arenas' clock runs")] = None,
+    scale: Annotated[
+        float | None, typer.Option(help="factor by which the arenas' clock runs faster than real time")
+    ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", help="write every verdict to this file")] = None,
     show: Annotated[
         str | None,
@@ -40,11 +46,11 @@ def audit(
     ] = None,
     to_patch: Annotated[
         str | None,
-        typer.Option(metavar="NAME", help="keep of a program only what differs from the nearest correct one"),
+        typer.Option(metavar="NAME", help="replace a program by a patch of the most similar correct one"),
     ] = None,
     course: CourseOption = None,
 ) -> None:
-    """Grade submissions whose faults are known; exit 0 only when every verdict is the right one."""
+    """Grade submissions with known faults; exit status 0 only if every verdict is as expected."""
     console = Console(highlight=False)
     audited: dict[str, list[AuditedRun]] = {}
     try:
@@ -97,7 +103,7 @@ def _found(exercise: str | None, name: str) -> KnownSubmission:
 
 
 def _show(known: KnownSubmission) -> None:
-    """Print the program; where there are several files, each under its name."""
+    """Print the program; if there are several files, each below its name."""
     sources = known.read().sources
     for name, text in sources.items():
         if len(sources) > 1:
@@ -106,7 +112,7 @@ def _show(known: KnownSubmission) -> None:
 
 
 def _to_patch(known: KnownSubmission) -> str:
-    """Replace a program by its patch, unless little is shared; returns what was done."""
+    """Replace a program by its patch, unless too little is shared; return what was done, as a sentence."""
     program = known.path
     if program.suffix != ".py":
         return f"{program} is no program; nothing was changed"

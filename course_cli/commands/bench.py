@@ -1,4 +1,4 @@
-"""`course bench`: what the toolkit costs, measured on this machine, in this run."""
+"""`course bench`: times and processor times on this machine."""
 
 from __future__ import annotations
 
@@ -16,40 +16,43 @@ from bench.arena.tables import bench_arenas
 from bench.overview import bench_overview
 from bench.robot.table import bench_robot
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.jobs_option import JobsOption
 
 ALL = "all"
 
 
 def bench(
     arena: Annotated[
-        bool, typer.Option("--arena", help="instead of all this, what one arena costs, by phase")
+        bool, typer.Option("--arena", help="measure only the cost of one arena, by phase")
     ] = False,
     submission: Annotated[
         list[str] | None,
-        typer.Option(help="what grading this exercise's reference costs (repeat it, or 'all')"),
+        typer.Option(
+            help="measure only the cost of grading this exercise's reference (can be repeated, or 'all')"
+        ),
     ] = None,
     against: Annotated[
         str | None,
         typer.Option(
-            metavar="FILE|COMMIT", help="beside what --json wrote, or another commit measured in turn"
+            metavar="FILE|COMMIT",
+            help="compare with a file that --json wrote, or with another commit, measured alternately",
         ),
     ] = None,
     json_file: Annotated[
         Path | None, typer.Option("--json", help="write the costs of arenas to this file")
     ] = None,
     runs: Annotated[
-        int, typer.Option(min=1, help="how often: walks at each scale, arenas, gradings; the best one counts")
+        int,
+        typer.Option(min=1, help="number of walks at each scale, arenas and gradings; the best run counts"),
     ] = 5,
     scale: Annotated[
-        list[float] | None, typer.Option(help="scales for the fairness rows (repeat it)")
+        list[float] | None, typer.Option(help="clock scale of the fairness rows (can be repeated)")
     ] = None,
-    jobs: Annotated[int, typer.Option(min=1, help="how many arenas run at a time, one for each core")] = 2,
+    jobs: JobsOption = 2,
     robot: Annotated[bool, typer.Option(help="also run the robot's quick trials")] = True,
     checks_of: Annotated[
         list[str] | None,
-        typer.Option(
-            help="instead of all this, the time of each check of this exercise (repeat it, or 'all')"
-        ),
+        typer.Option(help="measure only the time of each check of this exercise (can be repeated, or 'all')"),
     ] = None,
     trial: Annotated[
         list[str] | None,

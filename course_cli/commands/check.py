@@ -1,4 +1,4 @@
-"""`course check`: a student's own check, with the visible checks and the engine that grades."""
+"""`course check`: students check their own work, with the visible checks and the engine that grades."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from autograder.engine.submission import UnusableSubmission, place_of_work
 from autograder.engine.submission_arenas import SubmissionArenas
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
+from course_cli.jobs_option import JobsOption
 
 
 def check(
@@ -31,7 +32,7 @@ def check(
         ),
     ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", help="write the verdicts to this file")] = None,
-    jobs: Annotated[int, typer.Option(min=1, help="how many arenas run at a time, one for each core")] = 2,
+    jobs: JobsOption = 2,
     course: CourseOption = None,
 ) -> None:
     """Check your own solution of an exercise."""
@@ -53,7 +54,7 @@ def check(
 
 
 def _default_file(exercise: str) -> Path:
-    """Return the first that exists of the places a student's work lies."""
+    """Return the first existing file of the places where a student's work may be."""
     if written := place_of_work(exercise, Path()):
         return written
     notebooks = [Path("exercises") / exercise / f"{exercise}.ipynb", Path(f"{exercise}.ipynb")]

@@ -1,4 +1,4 @@
-"""`course demo`: the whole idea in a minute, on a machine without a screen."""
+"""`course demo`: the toolkit in one minute, also on a machine without a screen."""
 
 from __future__ import annotations
 
@@ -28,6 +28,7 @@ from autograder.report.page import Section, write_page
 from autograder.report.sequence import transcript_svg
 from autograder.report.table import MARKS, summary
 from course_cli.ending import COULD_NOT, ended
+from course_cli.jobs_option import JobsOption
 from humanoid_interfaces.action import WalkTo
 from ros_runtime.project import PROJECT
 
@@ -37,15 +38,15 @@ FAULTY = {"ignores cancel": "faulty/ignores_cancel", "crashes": "faulty/crashes_
 
 
 class DemoFailed(Exception):
-    """What was to be shown did not happen."""
+    """A step of the demo did not do what it should show."""
 
 
 def demo(
-    out: Annotated[Path, typer.Option(help="where the report goes")] = PROJECT / "demo",
-    jobs: Annotated[int, typer.Option(min=1, help="how many arenas run at a time, one for each core")] = 2,
+    out: Annotated[Path, typer.Option(help="folder of the report")] = PROJECT / "demo",
+    jobs: JobsOption = 2,
 ) -> None:
     """See it all work: a walk, a cancel, three graded submissions."""
-    # this very stream: below, the lab's words are kept off whatever sys.stdout is then
+    # the present sys.stdout: below, it is replaced to hide what the lab prints
     console = Console(file=sys.stdout, highlight=False)
     try:
         figures = _walk_and_cancel(console)
@@ -156,7 +157,7 @@ def _comparison(grades: Sequence[Grade]) -> Table:
 
 
 def _send_accepted(distance: float) -> lab.Goal:
-    """Send a goal; a server that has only just started rejects goals until it has heard the robot."""
+    """Send a goal until it is accepted: a server rejects goals until it has received the robot's state."""
     sent: list[lab.Goal] = []
 
     def is_accepted() -> bool:
@@ -184,6 +185,6 @@ def _html(display: object) -> str:
 
 @contextlib.contextmanager
 def _quiet() -> Iterator[None]:
-    """The lab talks to a notebook's reader; here the steps above say enough."""
+    """Hide what the lab prints for readers of a notebook."""
     with contextlib.redirect_stdout(io.StringIO()):
         yield

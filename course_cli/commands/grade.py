@@ -1,4 +1,4 @@
-"""`course grade`: an instructor's batch, from submissions to gradebook and feedback pages."""
+"""`course grade`: grade the submissions of a class, up to gradebook and feedback pages."""
 
 from __future__ import annotations
 
@@ -21,10 +21,11 @@ from autograder.engine.exercise import UnusableExercise, exercises_folder
 from autograder.isolation.availability import Isolation, available_isolation
 from autograder.nbgrader_bridge.course_folder import NbgraderError
 from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
-from autograder.nbgrader_bridge.transplant import NoSolutionCell
+from autograder.nbgrader_bridge.rebuild_submission import NoSolutionCell
 from autograder.report.class_table import class_table, progress_line
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
+from course_cli.jobs_option import JobsOption
 
 LOG = "nbgrader.log"
 
@@ -37,13 +38,11 @@ def grade(
     out: Annotated[Path, typer.Option(help="folder for grades.json, gradebook.db and feedback/")] = Path(
         "graded"
     ),
-    jobs: Annotated[
-        int, typer.Option(min=1, help="how many arenas run at a time, one for each core")
-    ] = os.cpu_count() or 1,
-    resume: Annotated[
-        bool, typer.Option("--resume", help="keep the grades an earlier run has found")
-    ] = False,
-    seed: Annotated[int, typer.Option(help="draws the inputs of hidden checks, the same for everyone")] = 0,
+    jobs: JobsOption = os.cpu_count() or 1,
+    resume: Annotated[bool, typer.Option("--resume", help="keep the grades of an earlier run")] = False,
+    seed: Annotated[
+        int, typer.Option(help="seed of the inputs of hidden checks, which are the same for all students")
+    ] = 0,
     json_file: Annotated[
         Path | None, typer.Option("--json", help="write all verdicts to this file as well")
     ] = None,
@@ -99,7 +98,7 @@ def _grade_all(
     seed: int,
     resume: bool,
 ) -> list[Graded]:
-    """Grade in parallel and return the results in the order of the works."""
+    """Grade in parallel and return the results in the order of the submissions."""
     with _progress(console) as progress:
         task = progress.add_task("checks", total=None)
         runner = BatchRunner(
@@ -118,7 +117,7 @@ def _grade_all(
             with closing(runner.run(collection.works)) as graded:
                 for result in graded:
                     results[result.work] = result
-                    progress.print(progress_line(result.grade, remembered=result.remembered))
+                    progress.print(progress_line(result.grade, cached=result.cached))
         except KeyboardInterrupt:
             console.print("Interrupted. Add --resume to go on where it stopped.", style="yellow")
             raise typer.Exit(COULD_NOT) from None
@@ -126,7 +125,7 @@ def _grade_all(
 
 
 def _enter_all(console: Console, results: Sequence[Graded], out: Path) -> list[str]:
-    """Enter the grades into nbgrader's gradebook one by one; returns what could not be entered, with reasons."""
+    """Enter the grades into nbgrader's gradebook one by one; return a sentence for each that failed."""
     problems: list[str] = []
     logs: list[str] = []
     with _progress(console) as progress:

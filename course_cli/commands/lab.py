@@ -1,4 +1,4 @@
-"""`course lab`: JupyterLab on the clone."""
+"""`course lab`: JupyterLab in the clone."""
 
 from __future__ import annotations
 

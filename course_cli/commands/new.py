@@ -1,4 +1,6 @@
-"""`course new`: the folder of a new exercise."""
+"""`course new`: create the folder of a new exercise."""
+
+from __future__ import annotations
 
 from enum import Enum
 from pathlib import Path
@@ -8,7 +10,7 @@ import typer
 from rich.console import Console
 
 from autograder.engine.exercise import exercises_folder, use_exercises_of
-from autograder.nbgrader_bridge.release import bring_in_step
+from autograder.nbgrader_bridge.release import bring_up_to_date
 from autograder.new_exercise.make import KINDS, CannotMake, make_exercise
 from course_cli.ending import UNUSABLE, ended
 
@@ -23,11 +25,11 @@ def new(
         typer.Option(
             "--course",
             metavar="FOLDER",
-            help="a folder of exercises, made when missing (default: that of this course)",
+            help="folder of exercises, created if missing (default: that of this course)",
         ),
     ] = None,
 ) -> None:
-    """Make the folder of a new exercise, which passes its own audit, to be changed into yours."""
+    """Create the folder of a new exercise: a working example that passes its own audit, for you to change."""
     console = Console(highlight=False)
     place = course or exercises_folder()
     try:
@@ -35,7 +37,7 @@ def new(
     except CannotMake as error:
         raise ended(console, error, UNUSABLE) from error
     use_exercises_of(place)
-    bring_in_step(place, place.parent / "exercises")
+    bring_up_to_date(place, place.parent / "exercises")
     for path in sorted(path for path in folder.rglob("*") if path.is_file() and path.suffix != ".pyc"):
         console.print(f"  {path}", markup=False, soft_wrap=True)
     also = f" --course {course}" if course else ""

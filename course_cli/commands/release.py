@@ -1,4 +1,4 @@
-"""`course release`: what students get, the archive or the notebooks alone."""
+"""`course release`: write the students' archive, or only their notebooks."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import typer
 from rich.console import Console
 
 from autograder.engine.exercise import UnusableExercise, exercises_folder
-from autograder.nbgrader_bridge.release import bring_in_step, out_of_step
+from autograder.nbgrader_bridge.release import bring_up_to_date, out_of_date
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 from course_cli.student_bundle import Leak, write_bundle
@@ -20,14 +20,21 @@ def release(
     out: Annotated[Path, typer.Option(help="the archive to write")] = Path("students.zip"),
     exercises: Annotated[
         bool,
-        typer.Option("--exercises", help="instead, make exercises/ again from solutions/ and the checks"),
+        typer.Option(
+            "--exercises",
+            help="only generate exercises/ and the grade cells of solutions/ from solutions/ and the checks",
+        ),
     ] = False,
     check: Annotated[
-        bool, typer.Option("--check", help="instead, fail when solutions/ or exercises/ is out of step")
+        bool,
+        typer.Option(
+            "--check",
+            help="only report whether solutions/ and exercises/ are up to date; exit status 1 if not",
+        ),
     ] = False,
     course: CourseOption = None,
 ) -> None:
-    """Write the students' bundle: no solutions, no hidden checks."""
+    """Write the students' archive, without solutions and hidden checks."""
     console = Console(highlight=False)
     try:
         _release(console, out, exercises, check)
@@ -39,14 +46,14 @@ def _release(console: Console, out: Path, exercises: bool, check: bool) -> None:
     solutions = exercises_folder()
     released = solutions.parent / "exercises"
     if check:
-        differing = out_of_step(solutions, released)
+        differing = out_of_date(solutions, released)
         for path in differing:
-            console.print(f"{path.relative_to(solutions.parent)} is out of step", style="red", markup=False)
+            console.print(f"{path.relative_to(solutions.parent)} is out of date", style="red", markup=False)
         if differing:
             console.print("Run ./course release --exercises and commit what it changes.")
         raise typer.Exit(COULD_NOT if differing else 0)
     if exercises:
-        for path in bring_in_step(solutions, released):
+        for path in bring_up_to_date(solutions, released):
             console.print(f"{path.relative_to(solutions.parent)} renewed", markup=False)
         return
     try:

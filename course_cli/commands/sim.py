@@ -9,6 +9,6 @@ import typer
 
 
 def sim(context: typer.Context) -> None:
-    """Run the robot node; it explains its own options."""
+    """Run the robot node; all options go to it, --help too."""
     # The node replaces this process, so that signals and the exit status are its own.
     os.execv(sys.executable, [sys.executable, "-m", "robot_sim", *context.args])

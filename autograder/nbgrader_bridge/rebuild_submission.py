@@ -1,0 +1,53 @@
+"""Rebuilds a submission for nbgrader: a copy of the release notebook with the student's code in its solution cells.
+
+A student's notebook can hold anything: metadata that ends a whole batch, duplicate or missing cells, markdown that
+formgrader would render as live HTML. None of it is copied; only the code that was graded is, into one cell a file.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping, Sequence
+
+from nbformat import NotebookNode
+from nbgrader.utils import is_solution
+
+LONGEST_SOURCE = 60_000  # characters shown
+
+
+class NoSolutionCell(Exception):
+    """The release notebook has no cell for the student's code."""
+
+
+def rebuild_submission(
+    release: NotebookNode, names: Sequence[str], sources: Mapping[str, str] | None, problem: str = ""
+) -> NotebookNode:
+    """Return a copy of the release notebook with the sources of the files `names` in its solution cells.
+
+    Without sources the cells quote `problem`, the reason why the submission could not be read.
+    """
+    notebook = copy.deepcopy(release)
+    for name in names:
+        cell = _solution_cell(notebook, name)
+        cell.source = f"%%writefile {name}\n{_shown(sources, name, problem)}"
+        cell.outputs = []
+    return notebook
+
+
+def _solution_cell(notebook: NotebookNode, name: str) -> NotebookNode:
+    magic = f"%%writefile {name}"
+    for cell in notebook.cells:
+        if cell.cell_type == "code" and is_solution(cell) and cell.source.startswith(magic):
+            return cell
+    raise NoSolutionCell(f"the release notebook has no solution cell that begins {magic!r}")
+
+
+def _shown(sources: Mapping[str, str] | None, name: str, problem: str) -> str:
+    if sources is None:
+        return f"# The submission could not be read: {' '.join(problem.split())}"
+    if name not in sources:
+        return "# This file was not handed in."
+    source = sources[name]
+    if len(source) > LONGEST_SOURCE:
+        return f"{source[:LONGEST_SOURCE]}\n# … the file goes on; all of it was graded"
+    return source

@@ -1,0 +1,84 @@
+"""Records the transcripts that test_evidence.py judges, all or some.
+
+python tests/arena/autograder/record_transcripts.py [EXERCISE …] [EXERCISE:SCENARIO …]
+
+Needed when a scenario has changed. It takes an arena for each submission, one after the other: a minute or two an
+exercise on a quiet machine.
+"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+
+from recorded import FOLDER, scenarios_of, write
+
+from autograder.audit.known_submission import KnownSubmission, known_submission
+from autograder.audit.proof import enough_to_catch
+from autograder.authoring.transcript import Transcript
+from autograder.engine.arena_run import ArenaRun, run_in_arena
+from autograder.engine.exercise import Exercise, exercise_names, load_exercise
+from autograder.engine.grading import STRAINED
+from autograder.engine.lateness import lateness
+from autograder.engine.submission_arenas import SubmissionArenas
+
+# One that passes everything, and a few that go wrong in different ways: an answer that is wrong, one that never comes,
+# a node that ends.
+SUBMISSIONS_OF = {
+    "battery_service": [
+        *("correct/class_based", "faulty/answers_from_a_cache", "faulty/no_test_for_none"),
+        *("faulty/forgets_after_a_second", "faulty/waits_for_the_first_message"),
+    ],
+    "cancellable_walk": [
+        *("correct/threads_and_sleep", "faulty/sleeps_on_one_thread", "faulty/pretends", "faulty/walks_on"),
+        "faulty/feedback_for_ever",
+    ],
+    "compute_ik": ["correct/class_based", "faulty/raises_for_a_frame", "faulty/ignores_elbow_up"],
+    "interfaces": ["correct/bare", "faulty/no_separator"],
+    "joint_query": [
+        *("correct/class_based", "faulty/key_error", "faulty/keeps_the_first_message"),
+        "faulty/remembers_the_places",
+    ],
+    "motor_services": [
+        *("correct/class_based", "faulty/sets_a_field_of_its_own", "faulty/refuses_and_obeys"),
+        *("faulty/flag_of_its_own", "faulty/only_a_flag"),
+    ],
+    "patterns": ["correct/as_in_the_notebook", "faulty/eleven_answers"],
+    "robot_controller": [
+        *("correct/class_based", "faulty/asks_only_once", "faulty/both_at_once", "faulty/always_exit_0"),
+        "faulty/raises_before_the_node",
+    ],
+}
+
+
+def main(wanted: list[str]) -> None:
+    """Record what is asked for, or all."""
+    for each in wanted or exercise_names():
+        name, _, scenario = each.partition(":")
+        for submission in SUBMISSIONS_OF[name]:
+            _record(load_exercise(name, hidden=True), known_submission(name, submission), scenario)
+
+
+def _record(exercise: Exercise, known: KnownSubmission, only: str) -> None:
+    files = known.read().files
+    wanted = {scenario for check in enough_to_catch(known, exercise).checks for scenario in check.on}
+    with SubmissionArenas(exercise.scenario_file) as arenas:
+        for name, scenario in scenarios_of(exercise.name).items():
+            if scenario in wanted and only in ("", scenario.name):
+                run = ArenaRun(exercise, files, scenario, cold=False)
+                transcript = _carry_out(run, arenas)
+                write(FOLDER / exercise.name / f"{known.path.stem}.{name}.jsonl.gz", transcript)
+                print(f"{exercise.name} {known.path.stem} {name}: {transcript.end:.1f} s", flush=True)
+
+
+def _carry_out(run: ArenaRun, arenas: SubmissionArenas) -> Transcript:
+    """Run a scenario until nothing was late in it, more slowly each time the machine was too busy."""
+    for scale in (5.0, 5.0, 5.0, 2.0, 2.0, 1.0):
+        transcript = run_in_arena(replace(run, scale=scale), arenas=arenas)
+        if not run.scenario.timed or lateness(transcript) <= STRAINED:
+            return transcript
+    raise SystemExit(f"the machine is too busy to record {run.scenario.name}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,77 @@
+"""Transcripts of real arenas, kept in `transcripts/` so that checks can be tested without arenas.
+
+One file is one run of one scenario: a line with the scenario's inputs and the clock's scale, then the events in order
+of time, a line each, all as it was recorded.
+"""
+
+from __future__ import annotations
+
+import gzip
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Check, Scenario
+from autograder.authoring.transcript import Transcript
+from autograder.engine.exercise import load_exercise
+
+FOLDER = Path(__file__).parent / "transcripts"
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A check and the recorded transcripts it judges."""
+
+    submission: str
+    check: Check
+    transcripts: tuple[Transcript, ...]
+
+    def __str__(self) -> str:
+        return f"{self.submission}: {self.check.id}"
+
+
+def scenarios_of(exercise: str) -> dict[str, Scenario]:
+    """Name the scenarios of an exercise, each in its own words and with a number where two have one name."""
+    named: dict[str, Scenario] = {}
+    for check in load_exercise(exercise, hidden=True).checks:
+        for scenario in check.on:
+            if scenario not in named.values():
+                alike = sum(name.split("-")[0] == scenario.name for name in named)
+                named[f"{scenario.name}-{alike + 1}" if alike else scenario.name] = scenario
+    return named
+
+
+def write(path: Path, transcript: Transcript) -> None:
+    """Keep a transcript."""
+    events = sorted([*transcript.events, *transcript.truth], key=lambda event: event.t)
+    head = {"params": transcript.params, "scale": transcript.scale}
+    lines = [json.dumps(head), *(json.dumps(event.model_dump()) for event in events)]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(gzip.compress("\n".join(lines).encode(), mtime=0))
+
+
+def read(path: Path, scenario: Scenario) -> Transcript:
+    """Return a transcript that was kept; the scenario must still have the inputs it had then."""
+    head, *lines = gzip.decompress(path.read_bytes()).decode().splitlines()
+    kept = json.loads(head)
+    now = json.dumps(scenario.draw(0))
+    assert now == json.dumps(kept["params"]), f"{path.name} has other inputs: record it again"
+    return Transcript.from_events(
+        scenario.name, scenario.draw(0), [ev.parse_event(line) for line in lines], kept["scale"]
+    )
+
+
+def cases(exercise: str) -> list[Case]:
+    """Return every check of an exercise with the transcripts of each submission that has those it needs."""
+    scenarios = scenarios_of(exercise)
+    kept: dict[str, dict[Scenario, Transcript]] = {}
+    for path in sorted((FOLDER / exercise).glob("*.jsonl.gz")):
+        submission, name = path.name.removesuffix(".jsonl.gz").split(".")
+        kept.setdefault(submission, {})[scenarios[name]] = read(path, scenarios[name])
+    return [
+        Case(submission, check, tuple(runs[scenario] for scenario in check.on))
+        for submission, runs in kept.items()
+        for check in load_exercise(exercise, hidden=True).checks
+        if all(scenario in runs for scenario in check.on)
+    ]

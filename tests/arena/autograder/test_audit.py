@@ -1,0 +1,50 @@
+"""Submissions whose verdict is known get that verdict: the proof that the grader grades.
+
+`./course audit` grades all of them with every check; here are as many as prove every check, the faulty ones with the
+checks that must catch them. They are graded a few at a time in the background from the first test that needs one on,
+in the order of the tests, so each test waits for its own and only those that were selected are graded
+(`-k battery_service`, `-k walks_on`).
+"""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+
+from autograder.audit.known_submission import known_submissions
+from autograder.audit.proof import enough_to_catch, enough_to_prove
+from autograder.audit.run import audit_one
+from autograder.engine.exercise import exercise_names, load_exercise
+from autograder.isolation.availability import available_isolation
+
+ARENAS_AT_A_TIME = 2
+EXERCISES = {name: load_exercise(name, hidden=True) for name in exercise_names()}
+GRADED = [known for name in EXERCISES for known in enough_to_prove(known_submissions(name), of_each=1)]
+
+
+def label(known):
+    return f"{known.exercise}/{known.name}"
+
+
+@pytest.fixture(scope="session")
+def audited(request):
+    """Return a function that waits for the grading of a known submission."""
+    if not available_isolation().trusted:
+        pytest.skip(f"hidden checks need isolated arenas: {available_isolation().reason}")
+    wanted = [item.callspec.params["known"] for item in request.session.items if is_audit(item)]
+    with ThreadPoolExecutor(ARENAS_AT_A_TIME) as pool:
+        runs = {
+            known.path: pool.submit(audit_one, known, enough_to_catch(known, EXERCISES[known.exercise]))
+            for known in wanted
+        }
+        yield lambda known: runs[known.path].result()
+        pool.shutdown(cancel_futures=True)
+
+
+def is_audit(item):
+    return getattr(item, "originalname", "") == "test_verdict_is_as_known"
+
+
+@pytest.mark.parametrize("known", GRADED, ids=label)
+def test_verdict_is_as_known(known, audited):
+    surprises = audited(known).surprises()
+    assert surprises == [], "\n".join(surprises)

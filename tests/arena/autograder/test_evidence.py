@@ -1,0 +1,224 @@
+"""Absence of evidence never passes: checks judge recorded transcripts of which something is missing.
+
+Whatever is lost, doubled or late, the outcome is a verdict with a sentence, never a check that breaks; and with
+something lost or doubled nothing passes that failed before.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+
+import pytest
+from needed import ALWAYS, NEEDED
+from recorded import Case, cases
+
+from autograder.audit.known_submission import known_submissions
+from autograder.authoring import events as ev
+from autograder.authoring.transcript import Transcript
+from autograder.engine.exercise import exercise_names, load_exercise
+from autograder.engine.judging import judge
+
+EXERCISES = exercise_names()
+RUNS_OF = ("joints", "feedback", "battery", "peers", "woken_late")  # of a row of these the ends are enough
+ANSWERS = ("service_answered", "goal_answered", "cancel_answered", "result", "reply_sent", "arm")
+DELAYS = (0.4, 2.0, 30.0)  # s
+# What a program does by itself. Without one of these a record is that of another program, and that may be a sound one.
+OWN_DOING = ("node_output", "node_exited", "node_killed", "request_received", "feedback", "status")
+
+
+@cache
+def recorded(exercise) -> list[Case]:
+    return cases(exercise)
+
+
+@cache
+def verdict(case):
+    return judge(case.check, case.transcripts)
+
+
+def changed(case, change) -> Iterator[tuple[str, object]]:
+    """Judge a case again and again, with one of its transcripts changed in every way; yields what and the verdict."""
+    for index, transcript in enumerate(case.transcripts):
+        for what, other in change(transcript):
+            transcripts = [*case.transcripts[:index], other, *case.transcripts[index + 1 :]]
+            yield f"{case}, {transcript.scenario} {what}", judge(case.check, transcripts)
+
+
+def places(transcript) -> list[int]:
+    """Return the indices of its events, of a long row of one kind only the first and the last."""
+    events = transcript.events
+    return [
+        index
+        for index, event in enumerate(events)
+        if event.kind not in RUNS_OF
+        or index in (0, len(events) - 1)
+        or not events[index - 1].kind == event.kind == events[index + 1].kind
+    ]
+
+
+def prefixes(transcript):
+    for index in places(transcript):
+        yield f"until {transcript.events[index].kind} {index}", cut(transcript, index + 1)
+
+
+def ended_prefixes(transcript):
+    """As if the scenario had ended there."""
+    for what, prefix in prefixes(transcript):
+        events = [event for event in prefix.events if event.kind != "scenario_ended"]
+        yield what, replace(prefix, events=[*events, ev.ScenarioEnded(t=events[-1].t if events else 0.0)])
+
+
+def cut(transcript, number) -> Transcript:
+    events = list(transcript.events[:number])
+    end = events[-1].t if events else 0.0
+    return replace(transcript, events=events, truth=[robot for robot in transcript.truth if robot.t <= end])
+
+
+def without_one(transcript):
+    for index in places(transcript):
+        events = [*transcript.events[:index], *transcript.events[index + 1 :]]
+        yield f"without {transcript.events[index].kind} {index}", replace(transcript, events=events)
+
+
+def without_a_kind(transcript):
+    for kind in sorted({event.kind for event in transcript.events}):
+        yield f"without any {kind}", lacking(transcript, kind)
+    yield "without any robot", replace(transcript, truth=[])
+
+
+def lacking(transcript, kind):
+    """Without a command that was never sent nobody waits for its effect."""
+    kinds = (kind, "command_sent") if kind == "command" else (kind,)
+    return replace(transcript, events=[event for event in transcript.events if event.kind not in kinds])
+
+
+def doubled(transcript):
+    for index in places(transcript):
+        events = [*transcript.events[: index + 1], *transcript.events[index:]]
+        yield f"with {transcript.events[index].kind} {index} twice", replace(transcript, events=events)
+
+
+def delayed(transcript):
+    for index in places(transcript):
+        event = transcript.events[index]
+        for delay in DELAYS:
+            late = event.model_copy(update={"t": event.t + delay})
+            others = [*transcript.events[:index], late, *transcript.events[index + 1 :]]
+            events = sorted(others, key=lambda event: event.t)
+            yield f"with {event.kind} {index} {delay} s late", replace(transcript, events=events)
+
+
+def flooded(transcript):
+    for kind in ("feedback", "status", "request_received", "service_answered", "woken_late"):
+        dropped = ev.RecordDropped(t=transcript.end, what=kind, count=1, seconds=1.0)
+        yield f"with a flood of {kind}", replace(transcript, events=[*transcript.events, dropped])
+
+
+def require_a_verdict(what, verdict):
+    assert verdict.status in ("passed", "failed", "error"), what
+    assert "Traceback" not in verdict.help, f"{what}: {verdict.help}"
+    if verdict.status == "failed":
+        assert verdict.expected, what
+        assert verdict.observed, what
+        assert verdict.help, what
+
+
+@pytest.mark.parametrize("exercise", EXERCISES)
+def test_whole_transcripts_have_the_verdicts_that_are_known(exercise):
+    known = {known.path.stem: known for known in known_submissions(exercise)}
+    for case in recorded(exercise):
+        submission = known[case.submission]
+        require_a_verdict(case, verdict(case))
+        if case.check.id in submission.caught_by:
+            assert verdict(case).status == "failed", case
+        elif case.check.id not in submission.also_fails and not unmet(case, submission):
+            assert verdict(case).status == "passed", (case, verdict(case))
+
+
+def unmet(case, submission):
+    """Whether the check needs one that fails for the submission."""
+    checks = {check.id: check for check in load_exercise(submission.exercise, hidden=True).checks}
+    needs = list(case.check.needs)
+    for need in needs:
+        needs += checks[need].needs
+    return bool({*submission.caught_by, *submission.also_fails} & set(needs))
+
+
+@pytest.mark.parametrize("change", [prefixes, ended_prefixes, without_one, without_a_kind, doubled, delayed])
+@pytest.mark.parametrize("exercise", EXERCISES)
+def test_there_is_always_a_verdict_and_nothing_passes_that_failed(exercise, change):
+    for case in recorded(exercise):
+        failed = verdict(case).status != "passed"
+        for what, judged in changed(case, change):
+            require_a_verdict(what, judged)
+            if failed and change is not delayed and not own_doing(what):
+                assert judged.status != "passed", what
+
+
+def own_doing(what):
+    return re.search(rf"(?:without|with)(?: any)? (?:{'|'.join(OWN_DOING)})\b", what)
+
+
+@pytest.mark.parametrize("exercise", EXERCISES)
+def test_a_flood_or_a_record_that_breaks_off_never_passes(exercise):
+    for case in recorded(exercise):
+        for what, judged in (*changed(case, broken_off), *changed(case, flooded)):
+            assert judged.status != "passed", what
+
+
+def broken_off(transcript):
+    return ((what, prefix) for what, prefix in prefixes(transcript) if prefix.first(ev.ScenarioEnded) is None)
+
+
+@pytest.mark.parametrize("exercise", EXERCISES)
+def test_what_ends_before_something_that_is_needed_does_not_pass(exercise):
+    for case in recorded(exercise):
+        if verdict(case).status == "passed":
+            needed = [
+                judged.status != "passed" and any(f" {kind} " in what for kind in ANSWERS)
+                for what, judged in changed(case, without_one)
+            ]
+            early = [(what, judged.status != "passed") for what, judged in changed(case, ended_prefixes)]
+            for index, (what, has_not_passed) in enumerate(early):
+                assert has_not_passed or not any(needed_of_the_same(case, needed, index)), what
+
+
+def needed_of_the_same(case, needed, index):
+    """Of the places behind `index` in the same transcript, whether each is needed; the end itself is put there anew."""
+    start = 0
+    for transcript in case.transcripts:
+        here = places(transcript)
+        if index < start + len(here):
+            kinds = [transcript.events[place].kind for place in here]
+            behind = range(index - start + 1, len(here))
+            return [needed[start + place] for place in behind if kinds[place] != "scenario_ended"]
+        start += len(here)
+    return []
+
+
+@pytest.mark.parametrize("exercise", EXERCISES)
+def test_each_check_needs_the_evidence_of_its_stimulus(exercise):
+    sound = [case for case in recorded(exercise) if case.submission in reference(exercise)]
+    assert {case.check.id for case in sound} == set(NEEDED[exercise])
+    assert set(NEEDED[exercise]) == {check.id for check in load_exercise(exercise, hidden=True).checks}
+    for case in sound:
+        needed = {
+            what.split("without any ")[1]
+            for what, judged in changed(case, without_a_kind)
+            if judged.status != "passed"
+        }
+        assert needed == {*ALWAYS, *NEEDED[exercise][case.check.id].split()} - without_robot(case), case
+
+
+def without_robot(case):
+    """What is not needed where there is no robot, or no node."""
+    robots = any(scenario.robot is not None for scenario in case.check.on)
+    nodes = any(scenario.student == "node" for scenario in case.check.on)
+    return ({"robot"} if not robots else set()) | ({"node_ready"} if not nodes else set())
+
+
+def reference(exercise):
+    return [known.path.stem for known in known_submissions(exercise) if known.kind == "correct"]

@@ -1,0 +1,123 @@
+"""`course grade` from notebooks to gradebook, with real arenas."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from nbgrader.api import Gradebook
+
+from autograder.engine.exercise import load_exercise
+from autograder.isolation.availability import available_isolation
+
+ROOT = Path(__file__).resolve().parents[3]
+NOTEBOOK = "battery_service/battery_service.ipynb"
+KEYS = {"exercise", "student", "status", "isolation", "score", "max_score", "reason", "checks"}
+CHECK_KEYS = {
+    "id",
+    "title",
+    "status",
+    "points",
+    "max_points",
+    "expected",
+    "observed",
+    "help",
+    "robot_time",
+    "log",
+}
+
+
+def course(*arguments: str | Path, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [Path(sys.executable).with_name("course"), *arguments],
+        env={**os.environ, "COLUMNS": "200", **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def hand_in(folder: Path, student: str, content: bytes) -> None:
+    path = folder / student / NOTEBOOK
+    path.parent.mkdir(parents=True)
+    path.write_bytes(content)
+
+
+def scores(folder: Path) -> dict[str, tuple[float, float]]:
+    """Each student's points and the points there are, from nbgrader's database."""
+    with Gradebook(f"sqlite:///{folder / 'gradebook.db'}") as db:
+        return {
+            submission.student.id: (submission.score, submission.max_score)
+            for submission in db.assignment_submissions("battery_service")
+        }
+
+
+def test_the_reference_gets_full_marks_the_starter_some_and_a_second_run_goes_on(tmp_path):
+    submitted, out = tmp_path / "submitted", tmp_path / "graded"
+    hand_in(submitted, "anna", (ROOT / "solutions" / NOTEBOOK).read_bytes())
+    hand_in(submitted, "bert", (ROOT / "exercises" / NOTEBOOK).read_bytes())
+
+    first = course("grade", submitted, "--out", out, "--json", tmp_path / "all.json")
+    assert first.returncode == 0, first.stdout + first.stderr
+    anna, bert = json.loads((tmp_path / "all.json").read_text())
+    assert set(anna) >= KEYS
+    assert set(anna["checks"][0]) >= CHECK_KEYS
+    checks = load_exercise("battery_service", hidden=available_isolation().trusted).checks
+    assert [check["id"] for check in anna["checks"]] == [check.id for check in checks]
+    assert anna["score"] == anna["max_score"] == sum(check.points for check in checks)
+    assert 0 < bert["score"] < bert["max_score"]
+    assert {student: score for student, (score, _) in scores(out).items()} == {
+        "anna": anna["score"],
+        "bert": bert["score"],
+    }
+    assert json.loads((out / "records/bert.json").read_text()) == [bert]
+    page = (out / "feedback/bert" / NOTEBOOK).with_suffix(".html").read_text()
+    failed = next(check for check in bert["checks"] if check["status"] == "failed")
+    assert failed["id"] in page
+    assert "YOUR CODE HERE" in page
+
+    hand_in(submitted, "carl", b"not a notebook")
+    second = course("grade", submitted, "--out", out, "--resume")
+    assert second.returncode == 0, second.stdout + second.stderr
+    assert second.stdout.count("(as before)") == 2
+    assert json.loads((out / "grades.json").read_text())[:2] == [anna, bert]
+    carl = json.loads((out / "grades.json").read_text())[2]
+    assert (carl["status"], carl["score"]) == ("graded", 0)
+    assert "is not a notebook" in carl["checks"][0]["observed"]
+    assert scores(out)["carl"][0] == 0
+
+
+def test_without_isolation_grades_are_marked_and_hidden_checks_left_out(tmp_path):
+    hand_in(tmp_path / "submitted", "anna", b"not a notebook")
+    out = tmp_path / "graded"
+    ran = course("grade", tmp_path / "submitted", "--out", out, COURSE_ISOLATION="none")
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert "No isolation" in ran.stdout
+    (anna,) = json.loads((out / "grades.json").read_text())
+    assert anna["isolation"] == "untrusted"
+    assert not any(check["hidden"] for check in anna["checks"])
+
+
+@pytest.mark.parametrize(
+    "make", [lambda folder: None, lambda folder: folder.mkdir()], ids=["absent", "empty"]
+)
+def test_nothing_to_grade_is_an_unusable_argument(tmp_path, make):
+    make(tmp_path / "submitted")
+    ran = course("grade", tmp_path / "submitted", "--out", tmp_path / "graded")
+    assert ran.returncode == 2
+    assert "<student>/<exercise>" in ran.stdout
+    assert not (tmp_path / "graded").exists()
+
+
+def test_a_folder_with_an_unusable_name_is_named_and_the_others_are_graded(tmp_path):
+    hand_in(tmp_path / "submitted", "anna", b"not a notebook")
+    shutil.copytree(tmp_path / "submitted/anna", tmp_path / "submitted/a*")
+    ran = course("grade", tmp_path / "submitted", "--out", tmp_path / "graded")
+    assert ran.returncode == 1
+    assert "'a*'" in ran.stdout
+    assert len(json.loads((tmp_path / "graded/grades.json").read_text())) == 1

@@ -1,0 +1,19 @@
+"""What a student gets for handing in the notebook as it was given out: something, and not everything."""
+
+from pathlib import Path
+
+import pytest
+
+from autograder.engine.exercise import exercise_names, load_exercise
+from autograder.engine.grading import grade
+from autograder.engine.submission import read_submission
+
+EXERCISES = Path(__file__).resolve().parents[3] / "exercises"
+
+
+@pytest.mark.parametrize("name", exercise_names())
+def test_the_starter_gets_some_points_and_fails_some_check(name):
+    starter = read_submission(EXERCISES / name / f"{name}.ipynb", name)
+    result = grade(starter, load_exercise(name, hidden=False))
+    assert result.status == "graded"
+    assert 0 < result.score < result.max_score

@@ -1,0 +1,160 @@
+"""Students get everything they need to work and nothing that would do their work for them."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from course_cli.student_bundle import TOP, Leak, hidden_check_ids, require_no_leak, write_bundle
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+@pytest.fixture(scope="module")
+def archive(tmp_path_factory) -> Path:
+    path = tmp_path_factory.mktemp("bundle") / "students.zip"
+    write_bundle(ROOT, path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def unpacked(archive) -> Path:
+    with zipfile.ZipFile(archive) as bundle:
+        bundle.extractall(archive.parent)
+    return archive.parent / TOP
+
+
+def files(unpacked: Path) -> list[str]:
+    return [path.relative_to(unpacked).as_posix() for path in unpacked.rglob("*") if path.is_file()]
+
+
+def test_it_holds_no_solutions_hidden_checks_or_submissions(unpacked):
+    names = files(unpacked)
+    assert not [
+        name for name in names if name.startswith(("solutions", "tests")) or name.endswith("hidden.py")
+    ]
+    assert not [name for name in names if "__pycache__" in name or "/." in name]
+    reference = "def _reason_to_give_up"
+    assert reference in (ROOT / "solutions/cancellable_walk/cancellable_walk.ipynb").read_text()
+    for name in names:
+        content = (unpacked / name).read_bytes()
+        for secret in (reference, "BEGIN SOLUTION", *hidden_check_ids()):
+            assert secret.encode() not in content, name
+
+
+def test_it_holds_what_students_work_with(unpacked):
+    names = files(unpacked)
+    for part in (
+        "README.md",
+        "course",
+        "requirements.lock",
+        "setup/environment.sh",
+        "humanoid_interfaces/package.xml",
+    ):
+        assert part in names
+    for room in ("exercises", "chapters"):
+        wanted = {
+            path.relative_to(ROOT).as_posix()
+            for path in (ROOT / room).rglob("*.ipynb")
+            if "/." not in str(path)
+        }
+        assert wanted
+        assert wanted <= set(names)
+
+
+def test_its_launcher_can_be_executed(archive):
+    with zipfile.ZipFile(archive) as bundle:
+        assert bundle.getinfo(f"{TOP}/course").external_attr >> 16 & 0o111
+
+
+def test_its_files_suffice_to_check_and_to_learn(unpacked):
+    program = """
+import importlib, pkgutil, sys
+from pathlib import Path
+here = Path.cwd()
+import autograder, course_cli, lab, robot_sim, ros_runtime
+for package in (autograder, course_cli, lab, robot_sim, ros_runtime):
+    assert Path(package.__file__).is_relative_to(here), package.__file__
+    for module in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
+        if not module.name.endswith("__main__"):
+            importlib.import_module(module.name)
+from robot_sim.model.build import build_model
+from robot_sim.model.scenes import SCENES
+for scene in SCENES:
+    build_model(scene)
+from autograder.engine.exercise import exercise_names, load_exercise
+for name in exercise_names():
+    exercise = load_exercise(name, hidden=True)
+    assert not exercise.has_hidden_checks and exercise.checks
+print(*exercise_names())
+"""
+    environment = {**os.environ, "PYTHONPATH": str(unpacked), "PYTHONDONTWRITEBYTECODE": "1"}
+    ran = subprocess.run(
+        [sys.executable, "-c", program],
+        cwd=unpacked,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ran.returncode == 0, ran.stderr
+    assert ran.stdout.split() == sorted(path.stem for path in (ROOT / "exercises").rglob("*.ipynb"))
+
+
+def test_its_commands_are_the_students(unpacked):
+    environment = {
+        **os.environ,
+        "PYTHONPATH": str(unpacked),
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "COLUMNS": "100",
+    }
+    program = "from course_cli.app import main; main(['--help'])"
+    ran = subprocess.run(
+        [sys.executable, "-c", program],
+        cwd=unpacked,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    for command in ("check", "lab", "sim"):
+        assert f" {command} " in ran.stdout
+    for command in ("grade", "audit", "release"):
+        assert f" {command} " not in ran.stdout
+
+
+def test_its_readme_names_only_commands_that_students_have(unpacked):
+    readme = (unpacked / "README.md").read_text()
+    named = set(re.findall(r"\./course (\w+)", readme))
+    assert {"lab", "check"} <= named
+    assert all((unpacked / f"course_cli/commands/{name}.py").exists() for name in named)
+    pictures = re.findall(r"\]\((\S+)\)", readme)
+    assert all((unpacked / picture).exists() for picture in pictures)
+
+
+def test_what_cells_have_written_beside_the_chapters_stays_here(unpacked):
+    assert {path.suffix for path in (unpacked / "chapters").rglob("*") if path.is_file()} == {
+        ".ipynb",
+        ".md",
+        ".svg",
+    }
+
+
+def test_it_is_small_and_the_same_every_time(archive, tmp_path):
+    assert archive.stat().st_size < 10e6
+    write_bundle(ROOT, tmp_path / "again.zip")
+    assert (tmp_path / "again.zip").read_bytes() == archive.read_bytes()
+
+
+@pytest.mark.parametrize("secret", ["### BEGIN SOLUTION", *hidden_check_ids()[:2]])
+def test_a_file_that_gives_something_away_stops_the_release(tmp_path, secret):
+    leaking = tmp_path / "notes.md"
+    leaking.write_text(f"by the way: {secret}\n")
+    with pytest.raises(Leak, match=r"chapters/notes\.md"):
+        require_no_leak({"chapters/notes.md": leaking})

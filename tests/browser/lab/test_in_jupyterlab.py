@@ -1,0 +1,98 @@
+"""A student's first minutes: unpack the archive, `course lab`, click the first chapter, see the robot walk."""
+
+from __future__ import annotations
+
+import io
+import os
+import shutil
+import subprocess
+import sys
+import time
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import psutil
+import pytest
+from PIL import Image
+from playwright.sync_api import Page, sync_playwright
+
+from course_cli.student_bundle import TOP, write_bundle
+
+CHROMIUM = shutil.which("chromium")
+OFFLINE = ("--no-sandbox", "--disable-quic", "--disable-background-networking", "--disable-component-update")
+TIMEOUT = 90.0  # s, for each thing a busy machine has to do
+PICTURE = ".jp-OutputArea .widget-image"
+
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium to look with")
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Where `course lab` serves the students' archive, for somebody who has never used Jupyter."""
+    folder = tmp_path_factory.mktemp("student")
+    write_bundle(Path(__file__).resolve().parents[3], folder / "students.zip")
+    with zipfile.ZipFile(folder / "students.zip") as bundle:
+        bundle.extractall(folder)
+    command = [
+        sys.executable,
+        "-c",
+        "from course_cli.app import main; main()",
+        "lab",
+        "--no-browser",
+        "--port",
+        "0",
+    ]
+    environment = {**os.environ, "HOME": str(folder), "PYTHONPATH": str(folder / TOP)}
+    with subprocess.Popen(
+        command,
+        cwd=folder / TOP,
+        env=environment,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as server:
+        assert server.stderr
+        yield next(line.strip() for line in server.stderr if "http://127.0.0.1" in line)
+        started = psutil.Process(server.pid).children(recursive=True)
+        server.terminate()
+        server.communicate(timeout=TIMEOUT)
+        _, left_behind = psutil.wait_procs(started, timeout=TIMEOUT)
+        assert left_behind == []
+
+
+@pytest.fixture
+def page(address: str) -> Iterator[Page]:
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OFFLINE)
+        page = browser.new_page(viewport={"width": 1100, "height": 1000})
+        page.set_default_timeout(1000 * TIMEOUT)
+        page.goto(address)
+        yield page
+        browser.close()
+
+
+def test_from_the_start_page_to_a_robot_that_walks(page: Page) -> None:
+    page.get_by_role("link", name="The robot and its graph").click()
+    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
+    assert page.get_by_text("Validate", exact=True).count() == 0  # nbgrader's, with a time limit of its own
+
+    page.get_by_role("heading", name="1 · The robot and its graph").click()
+    page.keyboard.press("Shift+Enter")
+    page.keyboard.press("Shift+Enter")
+    page.locator(PICTURE).wait_for()
+    standing = seen(page)
+    assert len(np.unique(standing.reshape(-1, 3), axis=0)) > 500  # a robot on a floor, not an empty frame
+
+    page.keyboard.press("Shift+Enter")
+    page.keyboard.press("Shift+Enter")
+    deadline = time.monotonic() + TIMEOUT
+    while np.mean(abs(seen(page) - standing) > 20) < 0.05:
+        assert time.monotonic() < deadline, f"the picture has not moved within {TIMEOUT:g} s"
+
+
+def seen(page: Page) -> np.ndarray:
+    """The picture of the robot as it is now, (height, width, 3)."""
+    screenshot = page.locator(PICTURE).screenshot()
+    return np.asarray(Image.open(io.BytesIO(screenshot)).convert("RGB")).astype(int)

@@ -1,0 +1,80 @@
+"""An interrupted batch goes on where it stopped, and never with a grade for something else."""
+
+from __future__ import annotations
+
+import pytest
+
+from autograder.batch import cache as module
+from autograder.batch.cache import GradeCache, checks_version
+from autograder.engine.exercise import load_exercise
+from autograder.engine.submission import Submission
+from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.isolation.arena_process import Kind
+from autograder.isolation.availability import Isolation
+
+ISOLATED = Isolation(Kind.NAMESPACES, "as a test says")
+EXERCISE = load_exercise("battery_service", hidden=True)
+ANNA = Submission("battery_service", "anna", {"battery_service.py": "x = 1\n"})
+
+
+def passed(submission, status="passed"):
+    checks = [
+        CheckVerdict(check.id, check.title, status, check.points, check.points) for check in EXERCISE.checks
+    ]
+    return Grade(submission.exercise, submission.student, "namespaces", checks)
+
+
+@pytest.fixture
+def cache(tmp_path):
+    cache = GradeCache(tmp_path, 0, ISOLATED)
+    cache.put(ANNA, EXERCISE, passed(ANNA))
+    return cache
+
+
+def test_the_same_work_has_the_same_grade(cache):
+    assert cache.get(ANNA, EXERCISE) == passed(ANNA)
+
+
+def test_the_same_source_by_another_student_has_it_in_that_students_name(cache):
+    bert = Submission("battery_service", "bert", ANNA.sources)
+    assert cache.get(bert, EXERCISE) == passed(bert)
+
+
+def test_another_source_seed_isolation_or_set_of_checks_is_graded_anew(cache, tmp_path):
+    assert (
+        cache.get(Submission("battery_service", "anna", {"battery_service.py": "x = 2\n"}), EXERCISE) is None
+    )
+    assert GradeCache(tmp_path, 1, ISOLATED).get(ANNA, EXERCISE) is None
+    assert GradeCache(tmp_path, 0, Isolation(Kind.NONE, "")).get(ANNA, EXERCISE) is None
+    assert cache.get(ANNA, load_exercise("battery_service", hidden=False)) is None
+
+
+def test_what_was_not_graded_is_not_cached(tmp_path):
+    cache = GradeCache(tmp_path, 0, ISOLATED)
+    cache.put(ANNA, EXERCISE, passed(ANNA, status="error"))
+    assert cache.get(ANNA, EXERCISE) is None
+
+
+@pytest.mark.parametrize(
+    ("changed", "matters"),
+    [
+        ("solutions/battery_service/hidden.py", True),
+        ("autograder/authoring/server_checks.py", True),
+        ("autograder/engine/grading.py", True),
+        ("robot_sim/walking/gait.py", True),
+        ("solutions/cancellable_walk/checks.py", False),
+        ("solutions/battery_service/known/faulty/sleeps.py", False),
+        ("autograder/report/table.py", False),
+    ],
+)
+def test_a_change_of_what_judges_makes_old_grades_void(tmp_path, monkeypatch, changed, matters):
+    for name in ("autograder/engine/grading.py", changed):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text("before")
+    monkeypatch.setattr(module, "PROJECT", tmp_path)
+    checks_version.cache_clear()
+    before = checks_version(tmp_path / "solutions" / "battery_service")
+    (tmp_path / changed).write_text("after")
+    checks_version.cache_clear()
+    assert (checks_version(tmp_path / "solutions" / "battery_service") != before) == matters
+    checks_version.cache_clear()

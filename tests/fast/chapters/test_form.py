@@ -1,0 +1,70 @@
+"""What holds for every chapter as it is stored: its parts, its cells and its drawings."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import nbformat
+import pytest
+
+CHAPTERS = Path(__file__).resolve().parents[3] / "chapters"
+NAMES = sorted(path.stem for path in CHAPTERS.glob("*.ipynb"))
+MOST_WORDS = 2000  # between two things to do; at 130 words a minute a quarter of an hour
+
+
+def read(name: str) -> nbformat.NotebookNode:
+    return nbformat.read(CHAPTERS / f"{name}.ipynb", as_version=4)
+
+
+def markdown(name: str) -> str:
+    return "\n".join(cell.source for cell in read(name).cells if cell.cell_type == "markdown")
+
+
+def test_there_are_chapters() -> None:
+    assert [name[:2] for name in NAMES] == ["01", "02", "03", "04", "07"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_it_is_stored_without_outputs_and_with_stable_ids(name: str) -> None:
+    notebook = read(name)
+    assert (notebook.nbformat, notebook.nbformat_minor) == (4, 5)
+    assert notebook.metadata.kernelspec.name == "python3"
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert all(cell.outputs == [] and cell.execution_count is None for cell in code)
+    ids = [cell.id for cell in notebook.cells]
+    assert len(set(ids)) == len(ids)
+    assert all(re.fullmatch(r"[a-z0-9-]+", cell_id) for cell_id in ids)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_it_has_the_parts_of_a_lesson(name: str) -> None:
+    text = markdown(name)
+    for part in (
+        "After this chapter you can",
+        "## Why",
+        "**Predict",
+        "## Break it",
+        "## Fix it",
+        "## Pitfall",
+    ):
+        assert part in text, part
+    for part in ("expects of you", "## Quiz", "## Your turn", "./course check", "## What comes next"):
+        assert part in text, part
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_there_is_something_to_do_every_quarter_of_an_hour(name: str) -> None:
+    words = 0
+    for cell in read(name).cells:
+        words = 0 if cell.cell_type == "code" else words + len(cell.source.split())
+        assert words < MOST_WORDS, cell.id
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_drawing_exists_and_has_an_alternative_text(name: str) -> None:
+    images = re.findall(r"!\[(.*?)\]\((.*?)\)", markdown(name), re.DOTALL)
+    assert images
+    for alternative, path in images:
+        assert len(alternative) > 40, path
+        assert "<title>" in (CHAPTERS / path).read_text()

@@ -1,0 +1,63 @@
+"""The docstrings have one style: what the linter has no rule for."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+# Rooms that are not yet in the style.
+LEFT_OUT = (
+    *("autograder/arena", "autograder/authoring", "autograder/bench", "autograder/engine"),
+    *("robot_sim", "ros_runtime", "solutions"),
+)
+ROOMS = ("autograder", "course_cli", "lab", "robot_sim", "ros_runtime", "setup", "solutions", "tests")
+# A Sphinx role such as :class:`Name`, or code in double backticks.
+OTHER_MARKUP = re.compile(r":\w+:`|``")
+DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+
+
+def modules() -> Iterator[tuple[str, ast.Module]]:
+    """Each of the project's Python files, without the programs that students might have written, and its syntax."""
+    for file in sorted(file for room in ROOMS for file in (ROOT / room).rglob("*.py")):
+        path = file.relative_to(ROOT)
+        if "known" not in path.parts and not any(path.is_relative_to(room) for room in LEFT_OUT):
+            yield path.as_posix(), ast.parse(file.read_text())
+
+
+def docstrings(module: ast.Module) -> list[str]:
+    return [ast.get_docstring(node) or "" for node in ast.walk(module) if isinstance(node, DOCUMENTED)]
+
+
+def has_annotations(module: ast.Module) -> bool:
+    return any(
+        isinstance(node, ast.AnnAssign) or getattr(node, "annotation", None) or getattr(node, "returns", None)
+        for node in ast.walk(module)
+    )
+
+
+def postpones_annotations(module: ast.Module) -> bool:
+    return any(isinstance(node, ast.ImportFrom) and node.module == "__future__" for node in module.body)
+
+
+def test_code_in_docstrings_stands_in_single_backticks_and_without_roles() -> None:
+    found = [
+        (path, text) for path, module in modules() for text in docstrings(module) if OTHER_MARKUP.search(text)
+    ]
+    assert found == []
+
+
+def test_a_file_with_annotations_postpones_them() -> None:
+    found = [
+        path for path, module in modules() if has_annotations(module) and not postpones_annotations(module)
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize("text", ["Raises :class:`Leak`.", "Returns ``None``."])
+def test_other_markup_is_noticed(text: str) -> None:
+    assert OTHER_MARKUP.search(text)

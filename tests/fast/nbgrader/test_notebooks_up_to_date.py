@@ -1,0 +1,131 @@
+"""solutions/, exercises/ and the checks say the same."""
+
+from __future__ import annotations
+
+import ast
+import filecmp
+import shutil
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbgrader.nbgraderformat import MetadataValidator
+from nbgrader.utils import is_grade, is_solution
+
+from autograder.engine.exercise import exercise_names, file_names, load_exercise
+from autograder.nbgrader_bridge.release import (
+    bring_up_to_date,
+    generate_release,
+    out_of_date,
+    source_notebooks,
+)
+
+ROOT = Path(__file__).resolve().parents[3]
+SOLUTIONS = ROOT / "solutions"
+EXERCISES = ROOT / "exercises"
+RENEW = "run ./course release --exercises and commit what it changes"
+
+
+def read(folder, exercise):
+    return nbformat.read(folder / exercise / f"{exercise}.ipynb", as_version=4)
+
+
+def test_every_exercise_with_checks_has_a_source_notebook():
+    assert sorted(source_notebooks(SOLUTIONS)) == exercise_names()
+
+
+def test_exercises_are_what_nbgrader_makes_of_solutions():
+    assert out_of_date(SOLUTIONS, EXERCISES) == [], RENEW
+
+
+@pytest.mark.parametrize("folder", [SOLUTIONS, EXERCISES], ids=["solutions", "exercises"])
+@pytest.mark.parametrize("exercise", exercise_names())
+def test_grade_cells_are_the_checks_in_order_with_their_points(folder, exercise):
+    cells = [cell for cell in read(folder, exercise).cells if is_grade(cell)]
+    checks = load_exercise(exercise, hidden=True).checks
+    visible = [check for check in checks if not check.hidden]
+    hidden = [check for check in checks if check.hidden]
+    expected = [(check.id, check.points) for check in visible]
+    expected += [(f"hidden_{number}", check.points) for number, check in enumerate(hidden, start=1)]
+    assert [(cell.metadata.nbgrader.grade_id, cell.metadata.nbgrader.points) for cell in cells] == expected
+    assert all(cell.metadata.nbgrader.locked for cell in cells)
+
+
+@pytest.mark.parametrize("folder", [SOLUTIONS, EXERCISES], ids=["solutions", "exercises"])
+@pytest.mark.parametrize("exercise", exercise_names())
+def test_notebooks_are_valid_stripped_and_have_stable_cell_ids(folder, exercise):
+    notebook = read(folder, exercise)
+    nbformat.validate(notebook)
+    MetadataValidator().validate_nb(notebook)
+    assert (notebook.nbformat, notebook.nbformat_minor) == (4, 5)
+    assert len({cell.id for cell in notebook.cells}) == len(notebook.cells)
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert code
+    assert all(cell.outputs == [] and cell.execution_count is None for cell in code)
+
+
+@pytest.mark.parametrize("exercise", exercise_names())
+def test_a_release_holds_no_solution_and_does_not_tell_what_is_hidden(exercise):
+    release = (EXERCISES / exercise / f"{exercise}.ipynb").read_text()
+    assert "BEGIN SOLUTION" not in release
+    assert "END SOLUTION" not in release
+    for check in load_exercise(exercise, hidden=True).checks:
+        if check.hidden:
+            assert check.id not in release
+            assert check.title not in release
+
+
+@pytest.mark.parametrize("exercise", exercise_names())
+def test_the_starter_lacks_what_the_reference_has(exercise):
+    reference, starter = (solutions_in(folder, exercise) for folder in (SOLUTIONS, EXERCISES))
+    assert list(reference) == list(starter) == list(file_names(exercise))
+    for name, source in starter.items():
+        assert "# YOUR CODE HERE" in source
+        assert len(source) < 0.9 * len(reference[name])
+        if name.endswith(".py"):
+            ast.parse(source)
+            ast.parse(reference[name])
+
+
+def solutions_in(folder, exercise):
+    """The source of each file that the notebook's solution cells write, by its name."""
+    cells = [cell for cell in read(folder, exercise).cells if is_solution(cell)]
+    written = (cell.source.partition("\n") for cell in cells)
+    return {magic.removeprefix("%%writefile "): source for magic, _, source in written}
+
+
+def test_making_the_release_again_gives_the_same_bytes(tmp_path):
+    for folder in ("first", "second"):
+        generate_release(SOLUTIONS, tmp_path / folder)
+    compared = filecmp.dircmp(tmp_path / "first", tmp_path / "second")
+    assert compared.common_dirs == exercise_names()
+    for exercise in exercise_names():
+        name = f"{exercise}/{exercise}.ipynb"
+        assert (tmp_path / "first" / name).read_bytes() == (tmp_path / "second" / name).read_bytes()
+
+
+def test_what_is_out_of_date_is_named_and_renewed(tmp_path):
+    solutions, exercises = tmp_path / "solutions", tmp_path / "exercises"
+    shutil.copytree(SOLUTIONS, solutions)
+    shutil.copytree(EXERCISES, exercises)
+    source = solutions / "battery_service/battery_service.ipynb"
+    release = exercises / "battery_service/battery_service.ipynb"
+    source.write_text(source.read_text().replace('"points": 2', '"points": 3'))
+    leftover = exercises / "removed/removed.ipynb"
+    leftover.parent.mkdir()
+    shutil.copyfile(release, leftover)
+    release.write_text(release.read_text().replace("relative name", "absolute name"))
+    assert set(out_of_date(solutions, exercises)) == {source, release, leftover}
+    assert set(bring_up_to_date(solutions, exercises)) == {source, release, leftover}
+    assert out_of_date(solutions, exercises) == []
+    assert source.read_text() == (SOLUTIONS / "battery_service/battery_service.ipynb").read_text()
+    assert not leftover.exists()
+
+
+def test_a_program_left_beside_a_source_notebook_is_not_released(tmp_path):
+    solutions = tmp_path / "solutions"
+    shutil.copytree(SOLUTIONS, solutions)
+    (solutions / "battery_service/battery_service.py").write_text("the reference solution")
+    generate_release(solutions, tmp_path / "exercises")
+    written = [path.name for path in (tmp_path / "exercises").rglob("*") if path.is_file()]
+    assert sorted(written) == [f"{exercise}.ipynb" for exercise in exercise_names()]

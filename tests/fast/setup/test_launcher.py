@@ -1,0 +1,139 @@
+"""The launcher notices when its environment no longer fits the clone."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+WHAT_DECIDES = (
+    "course",
+    "pyproject.toml",
+    "requirements.lock",
+    "setup",
+    "humanoid_interfaces",
+    "ros_runtime",
+)
+
+
+@pytest.fixture
+def clone(tmp_path: Path) -> Path:
+    """A copy of what the environment is made from, with a stand-in environment that is up to date."""
+    clone = tmp_path / "clone"
+    clone.mkdir()
+    for name in WHAT_DECIDES:
+        source = ROOT / name
+        if source.is_dir():
+            shutil.copytree(source, clone / name, ignore=shutil.ignore_patterns("__pycache__"))
+        else:
+            shutil.copy2(source, clone / name)
+    for program in ("python", "course"):
+        path = clone / ".venv/bin" / program
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("#!/bin/sh\n")
+        path.chmod(0o755)
+    fingerprint = dry_run(clone)[1]
+    (clone / ".venv/course.stamp").write_text(f"{fingerprint}\n{clone}\nwheels\n")
+    assert state(clone) == "ready"
+    return clone
+
+
+def dry_run(clone: Path, **environment: str) -> list[str]:
+    """The launcher's verdict on the environment, and the fingerprint of what it would be made from."""
+    inherited = {name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "AMENT_"))}
+    finished = subprocess.run(
+        [clone / "course"],
+        env={**inherited, "COURSE_DRY_RUN": "1", **environment},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return finished.stdout.split()
+
+
+def state(clone: Path, **environment: str) -> str:
+    return dry_run(clone, **environment)[0]
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        "pyproject.toml",
+        "requirements.lock",
+        "setup/hatch_build.py",
+        "humanoid_interfaces/package.xml",
+        "humanoid_interfaces/msg/RobotState.msg",
+        "ros_runtime/workarounds/scaled_clock/scaled_clock.c",
+    ],
+)
+def test_a_changed_source_makes_it_stale(clone: Path, changed: str) -> None:
+    with (clone / changed).open("a", encoding="utf-8") as source:
+        source.write("\n")
+
+    assert state(clone) == "stale"
+
+
+def test_an_added_and_a_removed_interface_make_it_stale(clone: Path) -> None:
+    added = clone / "humanoid_interfaces/srv/Wave.srv"
+    added.write_text("---\n")
+    assert state(clone) == "stale"
+
+    added.unlink()
+    assert state(clone) == "ready"
+
+    (clone / "humanoid_interfaces/srv/ComputeIK.srv").unlink()
+    assert state(clone) == "stale"
+
+
+def test_a_new_date_of_the_same_content_changes_nothing(clone: Path) -> None:
+    os.utime(clone / "pyproject.toml", (0, 0))
+
+    assert state(clone) == "ready"
+
+
+def test_an_interrupted_set_up_is_begun_again(clone: Path) -> None:
+    (clone / ".venv/course.stamp").unlink()
+
+    assert state(clone) == "missing"
+
+
+def test_an_environment_whose_python_is_gone_is_missing(clone: Path) -> None:
+    python = clone / ".venv/bin/python"
+    python.unlink()
+    python.symlink_to(clone / "uninstalled/python3")
+
+    assert state(clone) == "missing"
+
+
+def test_a_moved_clone_needs_its_environment_made_again(clone: Path) -> None:
+    moved = clone.with_name("moved")
+    clone.rename(moved)
+
+    assert state(moved) == "moved"
+
+
+def test_sourcing_ros_2_jazzy_asks_for_an_environment_that_uses_it(clone: Path, tmp_path: Path) -> None:
+    prefix = tmp_path / "opt/ros/jazzy"
+    (prefix / "lib/python3.12/site-packages/rclpy").mkdir(parents=True)
+
+    assert state(clone, ROS_DISTRO="jazzy", AMENT_PREFIX_PATH=f"/elsewhere:{prefix}") == "other-ros"
+    assert state(clone, ROS_DISTRO="humble", AMENT_PREFIX_PATH=str(prefix)) == "ready"
+    assert state(clone, ROS_DISTRO="jazzy", AMENT_PREFIX_PATH="/elsewhere") == "ready"
+
+
+@pytest.mark.parametrize("home", ["", "/nonexistent"])
+def test_without_a_usable_home_the_clone_serves_as_one(clone: Path, home: str) -> None:
+    (clone / ".venv/bin/course").write_text('#!/bin/sh\necho "$HOME"\n')
+    environment = {**os.environ, "HOME": home}
+    environment.pop("ROS_DISTRO", None)
+
+    printed = subprocess.run(
+        [clone / "course"], env=environment, capture_output=True, text=True, check=True
+    ).stdout
+
+    assert printed.splitlines()[-1] == str(clone / "build/home")
+    assert (clone / "build/home").is_dir()

@@ -1,0 +1,82 @@
+"""Every test has exactly one tier, which its folder names, and `course test` runs the tiers it is asked for."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from course_cli.commands.test import TIERS, pytest_arguments
+
+ROOT = Path(__file__).resolve().parents[3]
+TEST_FILE = "def test_sample():\n    pass\n"
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """A project with a test in each tier, and with this one's conftest and settings."""
+    for name in ("pyproject.toml", "tests/conftest.py"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text((ROOT / name).read_text())
+    for tier in TIERS:
+        write_test(tmp_path / f"tests/{tier}/topic/test_{tier}_sample.py")
+    return tmp_path
+
+
+def write_test(file: Path) -> None:
+    file.parent.mkdir(parents=True)
+    file.write_text(TEST_FILE)
+
+
+def run_pytest(project: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-q", *arguments]
+    return subprocess.run(command, cwd=project, capture_output=True, text=True)
+
+
+def collected(project: Path, *arguments: str) -> set[str]:
+    """The tiers of the tests that pytest would run."""
+    lines = run_pytest(project, "--collect-only", *arguments).stdout.splitlines()
+    return {line.split("/")[1] for line in lines if "::" in line}
+
+
+def test_every_test_has_exactly_one_tier(request: pytest.FixtureRequest) -> None:
+    for item in request.session.items:
+        if item.path.is_relative_to(ROOT):
+            tiers = [mark.name for mark in item.iter_markers() if mark.name in TIERS]
+            assert tiers == [item.path.relative_to(ROOT).parts[1]], item.nodeid
+
+
+def test_markers_and_flags_of_the_command_choose_the_same_tests(project: Path) -> None:
+    assert collected(project) == set(TIERS)
+    assert collected(project, "-m", "arena or robot") == {"arena", "robot"}
+    assert collected(project, *pytest_arguments({"arena", "robot"}, [])) == {"arena", "robot"}
+    assert collected(project, *pytest_arguments({"fast"}, ["tests/robot"])) == set()
+
+
+def test_without_a_flag_every_tier_is_run_and_arguments_reach_pytest() -> None:
+    assert pytest_arguments(set(), ["-k", "name"]) == ["-k", "name"]
+    assert pytest_arguments(set(TIERS), ["-x"]) == ["-x"]
+
+
+def test_a_test_in_no_tier_stops_the_run_and_is_named(project: Path) -> None:
+    write_test(project / "tests/elsewhere/test_lost.py")
+    ran = run_pytest(project, "tests/fast")
+    assert ran.returncode == pytest.ExitCode.USAGE_ERROR
+    assert "tests/elsewhere/test_lost.py: belongs to no tier" in ran.stderr
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["bwrap", "--version"],
+        ["/usr/bin/chromium", "--version"],
+        [sys.executable, "-m", "robot_sim"],
+        [sys.executable, "-m", "ipykernel_launcher"],
+    ],
+    ids=["sandbox", "browser", "robot", "kernel"],
+)
+def test_a_fast_test_cannot_start_what_is_slow(command: list[str]) -> None:
+    with pytest.raises(Exception, match="move this test to tests/arena"):
+        subprocess.run(command, timeout=10)

@@ -1,0 +1,54 @@
+"""What holds for every chapter when it runs: its pictures, its quiz, and that it leaves nothing running."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from execution import CHAPTERS, Executed, processes_in
+
+NAMES = sorted(path.stem for path in CHAPTERS.glob("*.ipynb"))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_it_runs_and_every_picture_it_makes_has_words_for_it(
+    name: str, executed: Callable[[str], Executed]
+) -> None:
+    chapter = executed(name)
+    shown = [
+        output.data["text/html"]
+        for cell in chapter.notebook.cells
+        if cell.cell_type == "code"
+        for output in cell.outputs
+        if "text/html" in output.get("data", {})
+    ]
+    drawings = [html for html in shown if "<svg" in html]
+    pictures = [html for html in shown if "<img" in html]
+    assert drawings
+    assert all("<title>" in html and "<desc>" in html for html in drawings)
+    assert all(re.search(r'alt="[^"]{20,}"', html) for html in pictures)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_it_leaves_no_process_behind(name: str, executed: Callable[[str], Executed]) -> None:
+    assert executed(name).left_behind == []
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_its_quiz_marks_every_answer_with_a_reason(name: str, executed: Callable[[str], Executed]) -> None:
+    chapter = executed(name)
+    cells = [cell.id for cell in chapter.notebook.cells if re.fullmatch(r"quiz-\d+-answer", cell.id)]
+    assert len(cells) >= 5
+    for cell_id in cells:
+        assert re.match(r"a: (Right|Not this one)\. .{30,}", chapter.text(cell_id)), cell_id
+
+
+def test_a_run_is_seen_while_it_runs(tmp_path: Path) -> None:
+    """The check for processes left behind does see processes."""
+    with subprocess.Popen([sys.executable, "-c", "input()"], cwd=tmp_path, stdin=subprocess.PIPE) as process:
+        assert [seen.pid for seen in processes_in(tmp_path)] == [process.pid]
+        process.communicate(b"\n")

@@ -1,0 +1,98 @@
+"""The source notebooks do what they say: on a live robot, with the reference solution in them."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import nbformat
+from nbclient import NotebookClient
+
+SOLUTIONS = Path(__file__).resolve().parents[3] / "solutions"
+CELL_TIMEOUT = 300  # s, for a self-check on a busy machine
+
+
+def run(exercise, folder, until=None):
+    """Execute a source notebook up to the cell of that id; return what each cell printed and gave, by its id."""
+    notebook = nbformat.read(SOLUTIONS / exercise / f"{exercise}.ipynb", as_version=4)
+    ids = [cell.id for cell in notebook.cells]
+    notebook.cells = notebook.cells[: ids.index(until) if until else None]
+    NotebookClient(notebook, timeout=CELL_TIMEOUT, resources={"metadata": {"path": str(folder)}}).execute()
+    return {cell.id: _text(cell.outputs) for cell in notebook.cells if cell.cell_type == "code"}
+
+
+def _text(outputs):
+    return "\n".join(
+        output.text if output.output_type == "stream" else output.data["text/plain"] for output in outputs
+    )
+
+
+def test_battery_service_from_the_task_to_the_verdicts(tmp_path):
+    seen = run("battery_service", tmp_path)
+    assert "at x " in seen["example-again"] or "no odom yet" in seen["example-again"]
+    assert re.search(r"available (True|False), battery \(voltage", seen["try"])
+    assert "✓" in seen["self-check"]
+    assert "✗" not in seen["self-check"]
+    assert "The node offers get_battery_status" in seen["server_appears"]
+    assert seen["hidden_1"].strip() == "Hidden check 1 is made when your work is graded."
+
+
+def test_compute_ik_from_the_task_to_the_arm(tmp_path):
+    seen = run("compute_ik", tmp_path, until="self-check-intro")
+    assert "knees at 0.960 rad" in seen["example-run"]
+    assert "not 0.90" in seen["example-run"]
+    assert "knees at 0.902 rad" in seen["example-again"]
+    assert "code 1, shoulder 14.54°, elbow 49.46°" in seen["try"]
+    assert "code 1, shoulder 59.20°, elbow -49.46°" in seen["try"]
+    assert "code -31" in seen["try"]
+    assert "code 1" in seen["try-arm"]
+
+
+def test_joint_query_on_the_live_robot(tmp_path):
+    seen = run("joint_query", tmp_path, until="self-check-intro")
+    assert "m/s² along z" in seen["example-again"] or "no imu yet" in seen["example-again"]
+    assert "name=['r_elbow', 'l_knee']" in seen["try"]
+    assert "success=False, message='unknown joints: tail_yaw, l_wing_roll'" in seen["try-unknown"]
+
+
+def test_motor_services_on_the_stand_and_on_the_floor(tmp_path):
+    seen = run("motor_services", tmp_path, until="self-check-intro")
+    assert "Gaze: AHEAD" in seen["example-run"]
+    assert "Gaze: DOWN" in seen["example-again"]
+    assert seen["try"].count("Motors: ON") == 2
+    assert seen["try"].index("Motors: OFF") > seen["try"].index("power off was sent")
+    assert "refused" in seen["try-walking"]
+    assert "the robot is WALKING" in seen["try-walking"]
+
+
+def test_patterns_from_the_task_to_the_verdicts(tmp_path):
+    seen = run("patterns", tmp_path)
+    assert "odom" in seen["example"]
+    assert "12 action c" in seen["try"]
+    assert "Situation 6" in seen["self-check"]
+    assert "✗" not in seen["self-check"]
+
+
+def test_robot_controller_without_servers_with_good_ones_and_with_silent_ones(tmp_path):
+    seen = run("robot_controller", tmp_path, until="self-check-intro")
+    assert "nobody offers get_battery_status" in seen["example-run"]
+    assert "exit status 1" in seen["try-alone"]
+    assert "Robot status: Motors: ON" in seen["try"]
+    assert "enable_motors does not answer" in seen["try-silent"]
+    assert seen["try-silent"].count("enable_motors: True") == 2
+
+
+def test_interfaces_from_the_task_to_the_verdicts(tmp_path):
+    seen = run("interfaces", tmp_path)
+    assert "ReachPoint" in seen["example-run"]
+    assert "'available': 'boolean'" in seen["try-use"]
+    assert "NavigateToPose.action builds" in seen["self-check"]
+    assert "✗" not in seen["self-check"]
+
+
+def test_cancellable_walk_on_the_live_robot(tmp_path):
+    seen = run("cancellable_walk", tmp_path, until="self-check-intro")
+    assert "2.00 m forward, 0.00 m to the left" in seen["example-frames"]
+    assert "goal 1 gives way" in seen["example-turns"]
+    assert "goal 2 has arrived" in seen["example-turns"]
+    assert "CANCELED" in seen["try-cancel"]
