@@ -53,6 +53,7 @@ class Battery:
 
     @property
     def is_empty(self) -> bool:
+        """Whether no charge is left."""
         return self.percentage <= 0.0
 
     def set_percentage(self, percentage: float) -> None:

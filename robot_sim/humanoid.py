@@ -147,6 +147,7 @@ class Humanoid:
 
     @property
     def may_rest(self) -> bool:
+        """Whether its physics may be left out while it only stands; setting this wakes it."""
         return self._rest.allowed
 
     @may_rest.setter

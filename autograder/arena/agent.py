@@ -1,6 +1,6 @@
-"""The arena's trusted process: starts the robot and the student's node, carries out one scenario, reports what it saw.
+"""The arena's trusted process: it carries out one scenario and reports what it saw.
 
-:mod:`.host` forks it for each scenario.
+It starts the robot and the student's node. `autograder.arena.host` forks it for each scenario.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""What the middleware says about who is there. Every participant writes into it, so nothing of it is believed.
+"""The ROS graph: which nodes, topics and services there are. Any participant can write into it, so it is not trusted.
 
-Questions are asked by the names of topics and services, which costs the same however many nodes there are and whatever
-they are called. A question that fails has an empty answer, and :meth:`Graph.inspect` records what was odd.
+The graph is asked by the names of topics and services, which costs the same however many nodes there are and whatever
+they are called. A question that fails has an empty answer, and `Graph.inspect` records what was odd.
 """
 
 from __future__ import annotations

@@ -52,7 +52,7 @@ class ScenarioSpec:
 
     @classmethod
     def from_json(cls, content: bytes) -> ScenarioSpec:
-        """Read what :meth:`to_json` returned."""
+        """Read what `to_json` returned."""
         fields = json.loads(content)
         files = {name: base64.b64decode(text) for name, text in fields.pop("files").items()}
         return cls(**fields, files=files)

@@ -1,13 +1,13 @@
-"""What the author of a check writes: a function over transcripts, its docstring as title.
+'''What the author of a check writes: a function over transcripts, with its title as docstring.
 
 server_appears = standard.server_appears("the action walk_to", points=1, on=WALK)
 
 @check(points=2, on=WALK, needs=server_appears)
 def arrives_at_the_goal(walk: Transcript) -> None:
-    \"""The robot ends within 0.10 m of the goal\"""
+    """The robot ends within 0.10 m of the goal"""
     ...
     raise Failure(expected="…", observed="…", help="…", at=walk.goal("goal").result.t)
-"""
+'''
 
 from __future__ import annotations
 
@@ -93,7 +93,12 @@ class Check:
     hidden: bool = False
 
     def run(self, transcripts: Sequence[Transcript]) -> None:
-        """Judge; a :class:`Failure` says what is wrong."""
+        """Judge the transcripts.
+
+        Raises:
+            Failure: the submission is at fault.
+            CannotBeJudged: the record does not let anybody judge it.
+        """
         self.judge(*transcripts)
 
 

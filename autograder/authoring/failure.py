@@ -4,9 +4,14 @@ from __future__ import annotations
 
 
 class Failure(Exception):
-    """A fault of the submission: expected, observed, when (arena s), and one next step in plain words.
+    """A fault of the submission.
 
-    `see` is the lesson it points to, such as "02_services#m9-why"; without one it is the check's.
+    Args:
+        expected: what the check asks for.
+        observed: what the submission did instead.
+        help: one next step in plain words; reports print it in the line "next".
+        at: when it happened, s on the arena's clock.
+        see: the lesson it points to, such as "02_services#m9-why"; by default it is the check's.
     """
 
     def __init__(
@@ -27,6 +32,6 @@ class CannotBeJudged(Exception):
 def expect(
     condition: bool, *, expected: str, observed: str, help: str, at: float | None = None, see: str = ""
 ) -> None:
-    """Raise a :class:`Failure` unless the condition holds."""
+    """Raise a `Failure` unless the condition holds."""
     if not condition:
         raise Failure(expected=expected, observed=observed, help=help, at=at, see=see)

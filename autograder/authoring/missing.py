@@ -30,7 +30,7 @@ class Missing(Failure):
 def unseen(run: Transcript, what: str) -> Exception:
     """Return what to raise when a step of the scenario is missing: `what` says it as a sentence without its end.
 
-    A :class:`Failure` where the submission itself is the reason, else :class:`CannotBeJudged`.
+    That is a `Failure` where the submission itself is the reason, else `CannotBeJudged`.
     """
     return _blamed(run, what, why_the_robot_was_held_up(run) or why_it_went_no_further(run))
 

@@ -16,7 +16,11 @@ if TYPE_CHECKING:  # calls and goals of a transcript ask here themselves
 
 
 def require_ready(run: Transcript) -> None:
-    """The endpoints the scenario used were offered in time; a :class:`Failure` says what was offered instead."""
+    """Require that the endpoints the scenario uses were offered in time.
+
+    Raises:
+        Failure: they were not; it says what was offered instead.
+    """
     absent = run.first(ev.NodeNotReady)
     if absent is None:
         require_started(run)

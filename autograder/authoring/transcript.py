@@ -168,8 +168,16 @@ class Transcript:
         return self.truth[bisect_left(times, start) : bisect_right(times, end)] or [self.robot_at(end)]
 
     def told(self, do: str, *, before: float = math.inf, **arguments: Any) -> ev.RobotCommanded:
-        """Return the last command of the scenario to the robot that took effect `before` a time (s), with some of
-        its arguments; there must be one.
+        """Return the last command `do` of the scenario that the robot carried out before a time.
+
+        Args:
+            do: the command, as `robot_sim.ros.scenario_control` names it.
+            before: s on the arena's clock.
+            arguments: those of the command's arguments that must have these values.
+
+        Raises:
+            Failure: there was none, because of the submission.
+            CannotBeJudged: there was none, for another reason.
         """
         wanted = {"do": do, **arguments}
         for event in reversed(self.all(ev.RobotCommanded)):

@@ -28,10 +28,15 @@ class NotGraded(Exception):
 
 @dataclass(frozen=True)
 class ArenaRun:
-    """What to run: the files of a submission, a scenario with its inputs, and how fast the arena's clock shall go.
+    """What to run: the files of a submission, a scenario with its inputs, and the speed of the arena's clock.
 
-    `cold` starts the student's program in a new interpreter, as at home; else one that waits may become it.
-    `measured` says that its phases are.
+    Attributes:
+        exercise, files: the submission.
+        scenario, seed: what is done to it, with the inputs that the seed draws.
+        scale: the arena's clock runs so much faster than real time.
+        kind: how the arena is isolated; None: as well as this machine can.
+        cold: start the program in a new interpreter, as at home; otherwise a waiting one may become it.
+        measured: record what each phase costs.
     """
 
     exercise: Exercise
@@ -49,7 +54,13 @@ def run_in_arena(
 ) -> Transcript:
     """Carry out the scenario in one of the submission's `arenas`, or in one for it alone.
 
-    Raises :class:`NotGraded` when the arena failed. `stop` ends the arena early.
+    Args:
+        run: what to run.
+        stop: when it is set, the arena ends early.
+        arenas: those of this submission.
+
+    Raises:
+        NotGraded: the arena failed.
     """
     if arenas is None:
         with SubmissionArenas(run.exercise.scenario_file, run.kind) as arenas:

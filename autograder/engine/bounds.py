@@ -27,7 +27,11 @@ PLURALS: Mapping[str, str] = {
 
 
 def require_bounded(run: Transcript, scenario: Scenario) -> None:
-    """Everything that the student's processes sent was read; a :class:`Failure` says what was too much."""
+    """Require that everything the student's processes sent was read.
+
+    Raises:
+        Failure: it was not; it says what was too much.
+    """
     _require_no_flood_of_nodes(run)
     _require_nothing_too_large(run)
     _require_nothing_dropped(run, scenario)

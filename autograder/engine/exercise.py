@@ -66,7 +66,7 @@ class Exercise:
 def exercises_folder() -> Path:
     """Return the folder of exercises that this process works with.
 
-    It is what :func:`use_exercises_of` was given, the clone's solutions/, or, in a student's copy, checks/.
+    That is the folder given to `use_exercises_of`, else solutions/ of the clone, or checks/ of a student's copy.
     """
     if given := os.environ.get(FOLDER_VARIABLE):
         return Path(given)
@@ -77,7 +77,8 @@ def exercises_folder() -> Path:
 def use_exercises_of(folder: Path) -> None:
     """Work with the exercises of this folder from here on, in this process and those it starts.
 
-    Raises :class:`UnusableExercise` when the folder holds none.
+    Raises:
+        UnusableExercise: the folder holds none.
     """
     if not _names_in(folder):
         raise UnusableExercise(f"{folder} holds no exercise; expected {folder}/<exercise>/{CHECKS}.py")
@@ -92,7 +93,8 @@ def exercise_names() -> list[str]:
 def file_names(exercise: str) -> tuple[str, ...]:
     """Return the names of the files a student writes: one program, unless the exercise's __init__.py lists FILES.
 
-    Raises :class:`UnknownExercise` naming those there are.
+    Raises:
+        UnknownExercise: there is none of that name; the message lists those there are.
     """
     return getattr(exercise_module(exercise), "FILES", (f"{exercise}.py",))
 
@@ -103,9 +105,11 @@ def scenario_file(exercise: str) -> Path:
 
 
 def load_exercise(name: str, *, hidden: bool) -> Exercise:
-    """Load an exercise with or without its hidden checks; raises :class:`UnknownExercise` naming those there are.
+    """Load an exercise with or without its hidden checks.
 
-    Raises :class:`UnusableExercise` for what its author has to mend.
+    Raises:
+        UnknownExercise: there is none of that name; the message lists those there are.
+        UnusableExercise: its author has something to fix.
     """
     # It takes time to import, and whoever asks for names only does not need it.
     from autograder.authoring.checks import checks_in
@@ -125,7 +129,9 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
 def exercise_module(exercise: str, module: str = "") -> ModuleType:
     """Import a module of an exercise's folder, or, without a name, the folder as a package.
 
-    Raises :class:`UnknownExercise`, and :class:`UnusableExercise` when it cannot be imported.
+    Raises:
+        UnknownExercise: there is no such exercise.
+        UnusableExercise: the module cannot be imported.
     """
     folder = exercises_folder()
     if exercise not in _names_in(folder):

@@ -51,14 +51,24 @@ def grade(
     arenas: SubmissionArenas | None = None,
     first_alone: bool = False,
 ) -> Grade:
-    """Grade a submission with `jobs` arenas at a time, one a core.
+    """Grade a submission.
 
-    `report` gets each verdict as soon as it is known, `look_again` each check that failed once, `evidence` the
-    transcripts that a check was judged on, `running` the scenarios that run now whenever that changes. `arenas` are
-    this submission's, when one has been opened ahead; they are closed. `first_alone` runs nothing beside the first
-    scenario: somebody waits for the first verdict.
+    Args:
+        submission: what is graded.
+        exercise: its checks, visible and hidden.
+        seed: draws the inputs of the scenarios.
+        jobs: how many arenas run at a time.
+        scale: of every arena's clock; None: what the machine can bear.
+        isolation: of the arenas; None: the best this machine has.
+        report: gets each verdict as soon as it is known.
+        look_again: gets each check that failed once and is now retried.
+        evidence: gets the transcripts that a check was judged on.
+        running: gets the scenarios that run, whenever they change.
+        arenas: of this submission, if one was opened ahead; they are closed at the end.
+        first_alone: run nothing beside the first scenario, as somebody waits for the first verdict.
 
-    Raises :class:`HiddenChecksRefused` for hidden checks where arenas cannot be isolated.
+    Raises:
+        HiddenChecksRefused: there are hidden checks, and arenas cannot be isolated here.
     """
     isolation = isolation or available_isolation()
     if not isolation.trusted and any(check.hidden for check in exercise.checks):

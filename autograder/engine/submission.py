@@ -44,7 +44,11 @@ def place_of_work(exercise: str, folder: Path) -> Path | None:
 
 
 def read_submission(path: Path, exercise: str, student: str = "you") -> Submission:
-    """Read a notebook, the file itself, or a folder with the files; raises :class:`UnusableSubmission`."""
+    """Read a notebook, the file itself, or a folder with the files.
+
+    Raises:
+        UnusableSubmission: there is nothing that can be read.
+    """
     names = file_names(exercise)
     if not path.exists():
         hint = f"; run the cell that begins %%writefile {path.name}" if path.name in names else ""

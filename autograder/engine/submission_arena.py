@@ -45,7 +45,8 @@ class ArenaEnded(Exception):
 class SubmissionArena:
     """A started arena for the scenarios of one file.
 
-    Raises :class:`.isolation.bubblewrap.SandboxError` when it cannot start.
+    Raises:
+        SandboxError: it cannot start.
     """
 
     def __init__(self, scenario_file: Path, kind: Kind) -> None:
@@ -78,8 +79,14 @@ class SubmissionArena:
     def carry_out(self, spec: ScenarioSpec, deadline: float, stop: threading.Event | None) -> bytes:
         """Carry out a scenario and return its events, one JSON object a line.
 
-        Raises :class:`ArenaEnded` when the arena ends before that: at the `deadline` (s), when `stop` is set, at more
-        events than fit into a report, or by itself.
+        Args:
+            spec: the scenario.
+            deadline: s of real time after which the arena is ended.
+            stop: when it is set, the arena is ended.
+
+        Raises:
+            ArenaEnded: the arena ended before the scenario: at the deadline, because of `stop`, because it sent more
+                events than fit into a report, or by itself.
         """
         self.scenarios += 1
         self._process.allow(deadline)

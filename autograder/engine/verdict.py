@@ -83,6 +83,6 @@ class Grade:
 
     @classmethod
     def from_json(cls, record: dict[str, Any]) -> Grade:
-        """Read back what :meth:`to_json` returned."""
+        """Read back what `to_json` returned."""
         checks = [CheckVerdict(**check) for check in record["checks"]]
         return cls(record["exercise"], record["student"], record["isolation"], checks, record["reason"])

@@ -16,10 +16,11 @@ LATEST_COMMAND = 1.5  # s on it until a command of the scenario takes effect
 
 
 def require_whole(run: Transcript, scenario: Scenario) -> None:
-    """The scenario came to its end, the robot did as it was told and its time went on.
+    """Require that the scenario came to its end, and that the robot carried out every command and never stood still.
 
-    A :class:`~autograder.authoring.failure.Failure` where the submission is the reason why not, else
-    :class:`~autograder.authoring.failure.CannotBeJudged`.
+    Raises:
+        Failure: it did not, because of the submission.
+        CannotBeJudged: it did not, for another reason.
     """
     if run.first(ev.ScenarioEnded) is None:
         raise held_up(run, f"the record breaks off at {run.end:.1f} s")

@@ -12,11 +12,12 @@ from ros_runtime.workarounds.gl_backend import open_context
 
 
 def snapshot(humanoid: Humanoid, width: int = 640, height: int = 480, *, camera: str = "track") -> np.ndarray:
-    """One RGB picture (height, width, 3), uint8, of the robot where it is.
+    """Return one RGB picture (height, width, 3), uint8, of the robot where it is.
 
     Args:
         humanoid: the robot to draw.
-        width, height: px.
+        width: of the picture, px.
+        height: of the picture, px.
         camera: "track" (from the front right, follows the robot), "side", "front" or "head_camera".
 
     Raises:

@@ -18,6 +18,8 @@ from ros_runtime.angles import wrap
 
 
 class Phase(Enum):
+    """What the feet are doing."""
+
     STAND = "stand"
     SHIFT = "shift"  # both feet stand, the DCM moves to where the first step begins
     STEP = "step"
@@ -63,11 +65,12 @@ class Gait:
         return self._command is None and self._step is None
 
     def update(self, sensed: Sensing, cop_shift: tuple[float, float], dt: float) -> BalanceTask:
-        """Advance by one tick of `dt` (s).
+        """Advance by one tick.
 
         Args:
             sensed: the robot now.
             cop_shift: offset (m) of the CoP the whole body last produced from the one it was asked for.
+            dt: length of the tick, s.
         """
         if self._step is not None and self._step.has_landed(sensed):
             self._touch_down(self._step.swing_side, sensed)

@@ -18,10 +18,11 @@ def error(robot: ev.RobotTruth, goal: Goal) -> tuple[float, float]:
 
 
 def yaw(orientation: Quaternion) -> float:
-    """Yaw (rad) of a quaternion x, y, z, w (REP-103)."""
+    """Return the yaw (rad) of a quaternion x, y, z, w (REP-103)."""
     x, y, z, w = orientation.x, orientation.y, orientation.z, orientation.w
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 
 def wrap(angle: float) -> float:
+    """Return an angle (rad) in [-π, π)."""
     return (angle + math.pi) % (2 * math.pi) - math.pi
