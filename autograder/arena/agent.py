@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.phases import Phase, Phases
-from autograder.arena.punctuality import Punctuality
 from autograder.arena.robots import Robots
 from autograder.arena.scenario_file import scenarios_in
 from autograder.arena.scenario_spec import ScenarioSpec
+from autograder.arena.scheduling_monitor import SchedulingMonitor
 from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
 from autograder.isolation.warm_interpreter import WarmInterpreter
@@ -107,10 +107,10 @@ def _perform(
     from autograder.arena.spinning import keep_spinning
     from autograder.arena.stage import NodeMissing, Stage
 
-    punctuality = Punctuality(log, student, spec.scale)
+    monitor = SchedulingMonitor(log, student, spec.scale)
 
     def speed_up() -> None:
-        punctuality.begin()
+        monitor.begin()
         clock.run_at(spec.scale)
         phases.end("settling")
 
@@ -128,7 +128,7 @@ def _perform(
         stage = Stage(node, stranger, log, simulator, student, phases, speed_up)
     threading.Thread(target=keep_spinning, args=(executor, log), daemon=True).start()
     # a robot says itself how late it is
-    watch = punctuality.watch() if spec.timed and not simulator else nullcontext()
+    watch = monitor.watch() if spec.timed and not simulator else nullcontext()
     with suppress(NodeMissing), watch:  # what is missing is recorded already
         scenario(stage, **spec.params)
     stage.close()

@@ -14,7 +14,7 @@ from autograder.arena.student import Student
 PERIOD = 0.1  # s on the arena's clock
 
 
-class Punctuality:
+class SchedulingMonitor:
     """Records how late the arena's own process is woken, and how long the student's gets no processor."""
 
     def __init__(self, log: ArenaLog, student: Student, scale: float) -> None:
@@ -31,7 +31,7 @@ class Punctuality:
     def watch(self) -> Iterator[None]:
         """Sleep over and over beside the scenario, and record by how much each sleep was longer that set a record."""
         over = threading.Event()
-        threading.Thread(target=self._sleep, args=(over,), name="punctuality", daemon=True).start()
+        threading.Thread(target=self._sleep, args=(over,), name="scheduling monitor", daemon=True).start()
         try:
             yield
         finally:
