@@ -55,7 +55,7 @@ class Host:
         number = next(self._numbers)
         phases = self._prepare(spec)
         interpreter = self._interpreter if spec.warm else None
-        domain = _FIRST_DOMAIN + number % _DOMAINS if spec.own_network else None
+        domain = _FIRST_DOMAIN + number % _DOMAINS if spec.private_network else None
         gc.freeze()  # the forks go on sharing what there is now
         agent = multiprocessing.get_context("fork").Process(
             target=carry_out,

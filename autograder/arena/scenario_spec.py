@@ -25,7 +25,7 @@ class ScenarioSpec:
         parameters: ROS parameters for it.
         student_paths: what it may see of the machine beside the system.
         warm: an interpreter that waits may become the program.
-        own_network: the arena has a network, and so all ROS domains, for itself.
+        private_network: the arena has a network, and so all ROS domains, for itself.
         measured: its phases are recorded.
     """
 
@@ -42,7 +42,7 @@ class ScenarioSpec:
     parameters: Mapping[str, Any]
     student_paths: Sequence[str]
     warm: bool
-    own_network: bool
+    private_network: bool
     measured: bool
 
     def to_json(self) -> bytes:

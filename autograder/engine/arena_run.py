@@ -93,7 +93,7 @@ def _specification(run: ArenaRun, params: dict[str, Any], scale: float, is_isola
         parameters=scenario.parameters,
         student_paths=[str(path) for path in student_paths()],
         warm=not run.cold,
-        own_network=is_isolated,
+        private_network=is_isolated,
         measured=run.measured,
     )
 
