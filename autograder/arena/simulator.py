@@ -33,10 +33,10 @@ class Simulator:
         self.process.start()
         os.close(truth_write)
         os.close(control_read)
-        self._thread = threading.Thread(target=self._read_truth, args=(truth_read,), daemon=True)
+        self._thread = threading.Thread(target=self._read_ground_truth, args=(truth_read,), daemon=True)
 
     def listen(self) -> None:
-        """Begin to take in the truth."""
+        """Begin to read the ground truth."""
         self._thread.start()
 
     def command(self, command: Mapping[str, Any]) -> None:
@@ -49,12 +49,12 @@ class Simulator:
         return self.process.is_alive()
 
     def stop(self) -> None:
-        """End the process and read the truth to its end."""
+        """End the process and read the ground truth to its end."""
         self.process.kill()  # what it has written stays in the pipe
         self.process.join()
         self._thread.join(5)
 
-    def _read_truth(self, fd: int) -> None:
+    def _read_ground_truth(self, fd: int) -> None:
         with os.fdopen(fd, "rb") as lines:
             for line in lines:
                 if not line.endswith(b"\n"):

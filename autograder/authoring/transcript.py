@@ -31,7 +31,7 @@ class Transcript:
     scenario: str
     params: Mapping[str, Any]
     events: Sequence[Any]
-    truth: Sequence[ev.RobotTruth] = field(repr=False)
+    ground_truth: Sequence[ev.RobotTruth] = field(repr=False)
     scale: float = 1.0
 
     @classmethod
@@ -42,9 +42,9 @@ class Transcript:
         ordered = sorted(events, key=lambda event: event.t)
         origin = ordered[0].t if ordered else 0.0
         shifted = [replace(event, t=event.t - origin) for event in ordered]
-        truth = [event for event in shifted if isinstance(event, ev.RobotTruth)]
+        ground_truth = [event for event in shifted if isinstance(event, ev.RobotTruth)]
         others = [event for event in shifted if not isinstance(event, ev.RobotTruth)]
-        return cls(scenario, dict(params), others, truth, scale)
+        return cls(scenario, dict(params), others, ground_truth, scale)
 
     def all(self, kind: type[E]) -> list[E]:
         """Return every event of one type, in order."""
@@ -159,13 +159,13 @@ class Transcript:
     def robot_at(self, t: float) -> ev.RobotTruth:
         """Return the robot at time `t` (s): the last sample not later, or the first there is."""
         self._require_samples(t, t)
-        return self.truth[max(0, bisect_right(self._truth_times, t) - 1)]
+        return self.ground_truth[max(0, bisect_right(self._sample_times, t) - 1)]
 
     def robot_between(self, start: float, end: float) -> Sequence[ev.RobotTruth]:
         """Return the samples from `start` to `end` (s), both included; there must be some from end to end."""
         self._require_samples(start, end)
-        times = self._truth_times
-        return self.truth[bisect_left(times, start) : bisect_right(times, end)] or [self.robot_at(end)]
+        times = self._sample_times
+        return self.ground_truth[bisect_left(times, start) : bisect_right(times, end)] or [self.robot_at(end)]
 
     def told(self, do: str, *, before: float = math.inf, **arguments: Any) -> ev.RobotCommanded:
         """Return the last command `do` of the scenario that the robot carried out before a time.
@@ -186,11 +186,11 @@ class Transcript:
         raise unseen(self, f"the robot did not get the command {do}")
 
     @cached_property
-    def _truth_times(self) -> list[float]:
-        return [sample.t for sample in self.truth]
+    def _sample_times(self) -> list[float]:
+        return [sample.t for sample in self.ground_truth]
 
     def _require_samples(self, start: float, end: float) -> None:
-        times = self._truth_times
+        times = self._sample_times
         if not times or times[0] > start + LONGEST_GAP or times[-1] < end - LONGEST_GAP:
             raise unseen(self, f"nothing is known of the robot at {end:.1f} s")
 

@@ -17,8 +17,8 @@ def lateness(transcript: Transcript) -> float:
     """
     ready = transcript.first(ev.NodeReady)
     since = ready.t + 1.0 if ready else 0.0
-    lags = [robot.lag for robot in transcript.truth if robot.t >= since]
-    if not transcript.truth:
+    lags = [robot.lag for robot in transcript.ground_truth if robot.t >= since]
+    if not transcript.ground_truth:
         lags = [woken.late for woken in transcript.all(ev.WokenLate)]
         lags += [starved.seconds * OVERLOADED / STARVED for starved in transcript.all(ev.Starved)]
     return max(lags, default=0.0)

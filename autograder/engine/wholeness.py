@@ -36,9 +36,9 @@ def _require_the_robots_time(run: Transcript) -> None:
     ready = run.first(ev.NodeReady)
     ended = run.first(ev.ScenarioEnded)
     start, end = ready.t if ready else 0.0, ended.t if ended else run.end
-    times = [start, *(robot.t for robot in run.truth if start < robot.t < end), end]
+    times = [start, *(robot.t for robot in run.ground_truth if start < robot.t < end), end]
     silence, since = max((later - earlier, earlier) for earlier, later in pairwise(times))
-    if not run.truth or silence > LONGEST_SILENCE:
+    if not run.ground_truth or silence > LONGEST_SILENCE:
         raise held_up(run, f"the robot's time stood still for {silence:.1f} s from {since:.1f} s on")
 
 

@@ -87,7 +87,7 @@ def _arrow(event: object) -> Arrow | None:
 
 def _robot(transcript: Transcript) -> Iterator[Arrow]:
     mode: int | None = None
-    for robot in transcript.truth:
+    for robot in transcript.ground_truth:
         if robot.mode != mode:
             mode = robot.mode
             yield Arrow(robot.t, ROBOT, ROBOT, MODES.get(mode, str(mode)))

@@ -44,7 +44,7 @@ def scenarios_of(exercise: str) -> dict[str, Scenario]:
 
 def write(path: Path, transcript: Transcript) -> None:
     """Keep a transcript."""
-    events = sorted([*transcript.events, *transcript.truth], key=lambda event: event.t)
+    events = sorted([*transcript.events, *transcript.ground_truth], key=lambda event: event.t)
     head = {"params": transcript.params, "scale": transcript.scale}
     lines = [json.dumps(head), *(json.dumps(event.model_dump()) for event in events)]
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -74,7 +74,9 @@ def ended_prefixes(transcript):
 def cut(transcript, number) -> Transcript:
     events = list(transcript.events[:number])
     end = events[-1].t if events else 0.0
-    return replace(transcript, events=events, truth=[robot for robot in transcript.truth if robot.t <= end])
+    return replace(
+        transcript, events=events, ground_truth=[robot for robot in transcript.ground_truth if robot.t <= end]
+    )
 
 
 def without_one(transcript):
@@ -86,7 +88,7 @@ def without_one(transcript):
 def without_a_kind(transcript):
     for kind in sorted({event.kind for event in transcript.events}):
         yield f"without any {kind}", lacking(transcript, kind)
-    yield "without any robot", replace(transcript, truth=[])
+    yield "without any robot", replace(transcript, ground_truth=[])
 
 
 def lacking(transcript, kind):
