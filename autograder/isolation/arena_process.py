@@ -44,7 +44,7 @@ class ArenaReport:
     """How an arena ended.
 
     `nothing_survives` is the kernel's word that every process of the arena is gone (with namespaces), or
-    the warden's (without).
+    the reaper's (without).
     """
 
     ended: Ended

@@ -22,7 +22,7 @@ from autograder.isolation.warm_interpreter import first_process
 from ros_runtime.project import PROJECT
 from ros_runtime.ros_domain import NoDomainLeft, ReservedDomain
 
-_END_TIMEOUT = 10.0  # s for the kernel, or the warden, to end every process
+_END_TIMEOUT = 10.0  # s for the kernel, or the reaper, to end every process
 
 
 class RunningArena:
@@ -36,7 +36,7 @@ class RunningArena:
 
     def end(self) -> bool:
         """End every process; True when it is certain that they are gone."""
-        if self._gentle:  # the warden sweeps when told to; ended by force it would leave orphans
+        if self._gentle:  # the reaper sweeps when told to; ended by force it would leave orphans
             self.process.terminate()
         else:
             with suppress(ProcessLookupError):
@@ -48,7 +48,7 @@ class RunningArena:
         if not ended_within(self.end_pidfd, _END_TIMEOUT):
             self.process.kill()
             return False
-        return not self._gentle or self.process.wait() >= 0  # a warden ended by a signal did not sweep
+        return not self._gentle or self.process.wait() >= 0  # a reaper ended by a signal did not sweep
 
 
 def start_with_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
@@ -71,7 +71,7 @@ def start_with_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
 
 
 def start_without_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
-    """Start the arena as ordinary processes under a warden, on a ROS domain of its own."""
+    """Start the arena as ordinary processes under a reaper, on a ROS domain of its own."""
     folder = Path(tempfile.mkdtemp(prefix="arena-"))
     stack.callback(shutil.rmtree, folder, ignore_errors=True)
     try:
@@ -81,10 +81,10 @@ def start_without_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
     stack.callback(domain.release)
     network = {"ROS_DOMAIN_ID": str(domain.domain_id)}
     ready, tell = os.pipe()
-    warden = [sys.executable, "-S", "-E", "-m", "autograder.isolation.warden", str(os.getpid()), str(tell)]
+    reaper = [sys.executable, "-S", "-E", "-m", "autograder.isolation.reaper", str(os.getpid()), str(tell)]
     try:
         process = subprocess.Popen(
-            [*warden, str(folder), *spec.command],
+            [*reaper, str(folder), *spec.command],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -96,7 +96,7 @@ def start_without_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
         os.close(tell)
     with open(ready, "rb") as said:
         if not said.read():
-            raise SandboxError(f"the arena's warden did not start: {process.communicate()[1].decode()}")
+            raise SandboxError(f"the arena's reaper did not start: {process.communicate()[1].decode()}")
     pidfd = os.pidfd_open(process.pid)
     stack.callback(os.close, pidfd)
     _write_stdin(process, spec.stdin)

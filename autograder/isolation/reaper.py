@@ -4,7 +4,7 @@ Orphans of the command become children of this process, so it can end them all: 
 when it is told to (SIGTERM), and when the process that started it dies. Its exit status is the
 command's, 128 + n after signal n.
 
-Run as `python -S -E -m autograder.isolation.warden PARENT READY FOLDER COMMAND…`, where PARENT is the id of the
+Run as `python -S -E -m autograder.isolation.reaper PARENT READY FOLDER COMMAND…`, where PARENT is the id of the
 process that starts it, READY the descriptor it tells when it can be relied on, and FOLDER where the command runs.
 """
 
