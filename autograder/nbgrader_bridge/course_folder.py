@@ -22,7 +22,7 @@ RECORDS = "records"  # the folder with one JSON file a student, which VerdictOut
 _BRIDGE = "autograder.nbgrader_bridge"
 # Stock nbgrader begins with Execute, which runs the student's cells with the grader's rights. Nothing here runs a cell.
 AUTOGRADE_PREPROCESSORS = [
-    f"{_BRIDGE}.verdict_outputs.VerdictOutputs",
+    f"{_BRIDGE}.cell_points.VerdictOutputs",
     "nbconvert.preprocessors.ClearMetadataPreprocessor",
     "nbgrader.preprocessors.LimitOutput",
     "nbgrader.preprocessors.SaveAutoGrades",

@@ -8,7 +8,7 @@ from nbformat import NotebookNode
 from nbgrader.api import Gradebook
 from nbgrader.preprocessors import NbGraderPreprocessor
 
-from autograder.nbgrader_bridge.verdict_outputs import UNJUDGED
+from autograder.nbgrader_bridge.cell_points import UNJUDGED
 
 
 class UnjudgedCells(NbGraderPreprocessor):
