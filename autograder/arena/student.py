@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.scenario_spec import ScenarioSpec
-from autograder.arena.student_watch import StudentWatch
+from autograder.arena.student_limits_monitor import StudentLimitsMonitor
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.student_process import StudentProcess, start_student
 from autograder.isolation.warm_interpreter import WarmInterpreter
@@ -35,7 +35,7 @@ class Student:
         self._clock = clock
         self._interpreter = interpreter
         self._process: StudentProcess | None = None
-        self._watch: StudentWatch | None = None
+        self._watch: StudentLimitsMonitor | None = None
         self._closing = threading.Event()
 
     def start(self, arguments: Sequence[str] = ()) -> None:
@@ -98,7 +98,7 @@ class Student:
             on_line=self._on_line,
             on_exit=self._on_exit,
         )
-        self._watch = StudentWatch(self._process, self._log, self._clock, StudentLimits())
+        self._watch = StudentLimitsMonitor(self._process, self._log, self._clock, StudentLimits())
 
     def _on_line(self, t: float, stream: str, text: str) -> None:
         self._log.append(ev.NodeOutput(t=t, stream="stderr" if stream == "stderr" else "stdout", text=text))

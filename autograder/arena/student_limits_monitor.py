@@ -15,7 +15,7 @@ from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, real_monoton
 PERIOD = 0.1  # s of real time between two looks, each of which reads some files for every process
 
 
-class StudentWatch:
+class StudentLimitsMonitor:
     """A thread beside the scenario. A memory bomb then ends itself and not the arena, so its run can be judged."""
 
     def __init__(
@@ -29,7 +29,7 @@ class StudentWatch:
         self._cpu = 0.0
         self._peak = 0.0
         self._starved: dict[int, float] = {}
-        threading.Thread(target=self._watch, name="student watch", daemon=True).start()
+        threading.Thread(target=self._watch, name="student limits", daemon=True).start()
 
     def report(self) -> None:
         """Record what has been used until now."""
