@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from autograder.authoring.blame import Cause, why_it_went_no_further, why_the_robot_was_held_up
 from autograder.authoring.failure import CannotBeJudged, Failure
+from autograder.authoring.root_cause import Cause, why_it_went_no_further, why_the_robot_was_held_up
 
 if TYPE_CHECKING:  # a transcript asks here itself
     from autograder.authoring.transcript import Transcript
@@ -32,15 +32,15 @@ def unseen(run: Transcript, what: str) -> Exception:
 
     That is a `Failure` where the submission itself is the reason, else `CannotBeJudged`.
     """
-    return _blamed(run, what, why_the_robot_was_held_up(run) or why_it_went_no_further(run))
+    return _raised_for(run, what, why_the_robot_was_held_up(run) or why_it_went_no_further(run))
 
 
 def held_up(run: Transcript, what: str) -> Exception:
     """Return what to raise when the robot did not do its part, which the end of a node is no reason for."""
-    return _blamed(run, what, why_the_robot_was_held_up(run))
+    return _raised_for(run, what, why_the_robot_was_held_up(run))
 
 
-def _blamed(run: Transcript, what: str, cause: Cause | None) -> Exception:
+def _raised_for(run: Transcript, what: str, cause: Cause | None) -> Exception:
     if cause is None:
         return CannotBeJudged(f"{run.scenario}: {what}")
     return Failure(

@@ -10,8 +10,8 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
-from autograder.authoring.blame import why_the_robot_was_held_up
 from autograder.authoring.checks import Check, Scenario
+from autograder.authoring.root_cause import why_the_robot_was_held_up
 from autograder.authoring.transcript import Transcript
 from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.engine.clock_scale import ClockScale

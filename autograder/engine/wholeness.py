@@ -5,9 +5,9 @@ from __future__ import annotations
 from itertools import pairwise
 
 from autograder.authoring import events as ev
-from autograder.authoring.blame import why_the_robot_was_held_up
 from autograder.authoring.checks import Scenario
 from autograder.authoring.missing import held_up
+from autograder.authoring.root_cause import why_the_robot_was_held_up
 from autograder.authoring.transcript import Transcript
 from autograder.engine.lateness import OVERLOADED, lateness
 

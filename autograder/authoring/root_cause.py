@@ -10,7 +10,7 @@ from autograder.authoring import events as ev
 if TYPE_CHECKING:  # a transcript asks here itself
     from autograder.authoring.transcript import Transcript
 
-HOG = 0.8  # processors a submission may keep busy before what comes late is its own doing
+BUSY_PROCESSORS = 0.8  # processors a submission may keep busy before what comes late is its own doing
 
 _ENDED = "An exception in a callback ends rclpy.spin() and with it the node: find it in the log below."
 _RETURNED = "main() returned before everything was done: look at what it waits for."
@@ -36,13 +36,13 @@ def why_it_went_no_further(run: Transcript) -> Cause | None:
 
 def why_the_robot_was_held_up(run: Transcript) -> Cause | None:
     """Return what the submission did to the robot's time: messages it had to refuse, or no processor left for it."""
-    return _refused(run) or _hogging(run)
+    return _refused(run) or _busy(run)
 
 
-def hogs_the_machine(run: Transcript) -> bool:
+def keeps_processors_busy(run: Transcript) -> bool:
     """Whether the submission itself kept the processors busy: then it is judged as it is."""
     usage = run.first(ev.NodeUsage)
-    return usage is not None and usage.cpu > HOG * usage.wall
+    return usage is not None and usage.cpu > BUSY_PROCESSORS * usage.wall
 
 
 def _killed(run: Transcript) -> Cause | None:
@@ -100,9 +100,9 @@ def _size(count: int) -> str:
     return f"{count / 1e6:.1f} MB" if count >= 1e5 else f"{count / 1e3:.1f} kB"
 
 
-def _hogging(run: Transcript) -> Cause | None:
+def _busy(run: Transcript) -> Cause | None:
     usage = run.first(ev.NodeUsage)
-    if usage is None or not hogs_the_machine(run):
+    if usage is None or not keeps_processors_busy(run):
         return None
     return Cause(
         f"your program kept the processors busy: {usage.cpu:.1f} s of processor time in {usage.wall:.1f} s",
