@@ -14,7 +14,7 @@ from autograder.engine.submission import place_of_work, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.running import RunningLine
-from autograder.report.table import grade_table, print_beginning, print_second_look, print_verdict
+from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict
 
 NOTEBOOK_WIDTH = 104  # characters; JupyterLab shows as many beside its file browser on 1280 pixels
 
@@ -68,16 +68,16 @@ def check_aloud(
             with line.aside():
                 print_verdict(console, verdict)
 
-        def look_again(check: Check) -> None:
+        def retrying(check: Check) -> None:
             with line.aside():
-                print_second_look(console, check)
+                print_retry(console, check)
 
         result = grade(
             submission,
             loaded,
             jobs=jobs,
             report=report,
-            look_again=look_again,
+            retrying=retrying,
             running=line.show,
             arenas=arenas,
             first_alone=True,

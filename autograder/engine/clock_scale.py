@@ -30,7 +30,7 @@ class ClockScale:
         self._asked = asked
         self._was_late = False
 
-    def of_the_first_look(self, scenario: Scenario) -> float:
+    def first_scale(self, scenario: Scenario) -> float:
         """Return the scale to run a scenario at."""
         if self._asked:
             return self._asked
@@ -38,7 +38,7 @@ class ClockScale:
         may_be_fast = usual > 1 and scenario.is_light and not self._was_late
         return FAST if may_be_fast and _load_per_core() < BUSY else usual
 
-    def of_the_second_look(self, first: float, was_strained: bool) -> float:
+    def retry_scale(self, first: float, was_strained: bool) -> float:
         """Return the scale for a scenario that was run at scale `first`: a lower one if the machine was strained."""
         if was_strained:
             return next((slower for slower in SLOWER if slower < first), 1.0)

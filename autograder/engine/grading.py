@@ -27,7 +27,7 @@ STRAINED = 0.15  # s the simulator may be late in the second look at a failure
 
 Report = Callable[[CheckVerdict], None]
 Running = Callable[[Sequence[Scenario]], None]
-LookAgain = Callable[[Check], None]
+Retrying = Callable[[Check], None]
 Runs = dict[Scenario, Future[Transcript]]
 Evidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
 
@@ -45,7 +45,7 @@ def grade(
     scale: float | None = None,
     isolation: Isolation | None = None,
     report: Report = lambda verdict: None,
-    look_again: LookAgain = lambda check: None,
+    retrying: Retrying = lambda check: None,
     evidence: Evidence = lambda verdict, transcripts: None,
     running: Running = lambda scenarios: None,
     arenas: SubmissionArenas | None = None,
@@ -61,7 +61,7 @@ def grade(
         scale: of every arena's clock; None: what the machine can bear.
         isolation: of the arenas; None: the best this machine has.
         report: gets each verdict as soon as it is known.
-        look_again: gets each check that failed once and is now retried.
+        retrying: gets each check that failed once and is now retried.
         evidence: gets the transcripts that a check was judged on.
         running: gets the scenarios that run, whenever they change.
         arenas: of this submission, if one was opened ahead; they are closed at the end.
@@ -81,7 +81,7 @@ def grade(
         ClockScale(scale),
         isolation,
         report,
-        look_again,
+        retrying,
         evidence,
         running,
         arenas,
@@ -100,7 +100,7 @@ class _Session:
         scale: ClockScale,
         isolation: Isolation,
         report: Report,
-        look_again: LookAgain,
+        retrying: Retrying,
         evidence: Evidence,
         running: Running,
         arenas: SubmissionArenas,
@@ -111,7 +111,7 @@ class _Session:
         self._scale = scale
         self._isolation = isolation
         self._report = report
-        self._look_again = look_again
+        self._retrying = retrying
         self._evidence = evidence
         self._running = running
         self._arenas = arenas
@@ -119,7 +119,7 @@ class _Session:
         self._stop = threading.Event()
         self._verdicts: dict[str, CheckVerdict] = {}
         self._first: Runs = {}
-        self._second: Runs = {}
+        self._retries: Runs = {}
         self._failed_once: set[str] = set()
 
     def run(self, jobs: int, first_alone: bool = False) -> Grade:
@@ -146,8 +146,8 @@ class _Session:
                 continue
             if check.id not in self._failed_once and _are_done(check.on, self._first):
                 self._judge(check, self._first)
-            if check.id in self._failed_once and _are_done(check.on, self._second):
-                self._judge(check, self._second)
+            if check.id in self._failed_once and _are_done(check.on, self._retries):
+                self._judge(check, self._retries)
 
     def _start(self, pool: ThreadPoolExecutor, jobs: int) -> list[Future[Transcript]]:
         """Keep `jobs` arenas busy, first with what is certainly needed; returns those that run."""
@@ -157,14 +157,14 @@ class _Session:
                 break
             if scenario in runs:  # several checks want it
                 continue
-            look = self._look_first if runs is self._first else self._look_again_at
-            runs[scenario] = pool.submit(look, scenario)
+            attempt = self._run_first if runs is self._first else self._retry
+            runs[scenario] = pool.submit(attempt, scenario)
             running[runs[scenario]] = scenario
         self._running(list(running.values()))
         return list(running)
 
     def _runs(self) -> list[tuple[Scenario, Future[Transcript]]]:
-        return [*self._first.items(), *self._second.items()]
+        return [*self._first.items(), *self._retries.items()]
 
     def _wanted(self) -> list[tuple[Scenario, Runs]]:
         """Scenarios to run and where their transcripts go: those whose checks' needs are met come first."""
@@ -173,24 +173,22 @@ class _Session:
         for check in self._exercise.checks:
             if check.id in self._verdicts:
                 continue
-            runs = self._second if check.id in self._failed_once else self._first
+            runs = self._retries if check.id in self._failed_once else self._first
             met = all(need in self._verdicts for need in check.needs)
             wanted = certain if met else possible
             wanted += [(scenario, runs) for scenario in check.on if scenario not in runs]
         return certain + possible
 
-    def _look_first(self, scenario: Scenario) -> Transcript:
+    def _run_first(self, scenario: Scenario) -> Transcript:
         """The first scenario of an exercise starts the program cold, as at home; the others need not wait for that."""
         cold = scenario is self._scenarios[0]
-        return self._run(scenario, self._scale.of_the_first_look(scenario), OVERLOADED, cold)
+        return self._run(scenario, self._scale.first_scale(scenario), OVERLOADED, cold)
 
-    def _look_again_at(self, scenario: Scenario) -> Transcript:
+    def _retry(self, scenario: Scenario) -> Transcript:
         """No point is lost but by what the program does when it is started cold, with the machine keeping up."""
         first = self._first[scenario].result()
         was_strained = lateness(first) > STRAINED
-        return self._run(
-            scenario, self._scale.of_the_second_look(first.scale, was_strained), STRAINED, cold=True
-        )
+        return self._run(scenario, self._scale.retry_scale(first.scale, was_strained), STRAINED, cold=True)
 
     def _run(self, scenario: Scenario, scale: float, tolerated: float, cold: bool) -> Transcript:
         """Run a scenario, again at a lower scale when the simulator was more than `tolerated` s late.
@@ -236,7 +234,7 @@ class _Session:
         verdict = judge(check, transcripts)
         if verdict.status != "passed" and runs is self._first:
             self._failed_once.add(check.id)
-            self._look_again(check)
+            self._retrying(check)
             return
         self._evidence(verdict, transcripts)
         self._conclude(verdict)

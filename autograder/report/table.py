@@ -41,7 +41,7 @@ def print_verdict(console: Console, verdict: CheckVerdict) -> None:
         console.print(Padding.indent(reason, 4))
 
 
-def print_second_look(console: Console, check: Check) -> None:
+def print_retry(console: Console, check: Check) -> None:
     """Print that a check failed once and is repeated."""
     console.print(Text(f"… {check.title}: failed once, looking again", "dim"))
 

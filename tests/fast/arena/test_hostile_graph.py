@@ -70,7 +70,7 @@ def test_a_graph_that_cannot_be_read_is_empty_and_recorded_once() -> None:
     graph.inspect()
     reasons = [event["reason"] for event in kept.events]
     assert "UnicodeDecodeError" in reasons[0]
-    assert len(reasons) == 2  # the second look has failed again
+    assert len(reasons) == 2  # the retry has failed, too
     assert len(reasons[0]) < 300
 
 

@@ -23,20 +23,20 @@ def load(monkeypatch):
 
 
 def test_a_robot_that_has_to_move_goes_at_the_usual_scale(load):
-    assert ClockScale().of_the_first_look(WALK) == USUAL
+    assert ClockScale().first_scale(WALK) == USUAL
 
 
 @pytest.mark.parametrize("scenario", LIGHT, ids=["a robot that rests", "no robot"])
 def test_without_a_robot_to_move_an_idle_machine_goes_faster_and_a_busy_one_does_not(load, scenario):
-    assert ClockScale().of_the_first_look(scenario) == FAST
+    assert ClockScale().first_scale(scenario) == FAST
     load(4.0)
-    assert ClockScale().of_the_first_look(scenario) == USUAL
+    assert ClockScale().first_scale(scenario) == USUAL
 
 
 def test_after_an_arena_was_late_the_others_go_at_the_usual_scale(load):
     scale = ClockScale()
     scale.was_late()
-    assert scale.of_the_first_look(LIGHT[0]) == USUAL
+    assert scale.first_scale(LIGHT[0]) == USUAL
 
 
 @pytest.mark.parametrize(
@@ -44,17 +44,17 @@ def test_after_an_arena_was_late_the_others_go_at_the_usual_scale(load):
     [(FAST, False, USUAL), (FAST, True, USUAL), (USUAL, False, USUAL), (USUAL, True, 2.0), (2.0, True, 1.0)],
 )
 def test_no_point_is_lost_at_a_fast_scale(load, first, was_strained, second):
-    assert ClockScale().of_the_second_look(first, was_strained) == second
+    assert ClockScale().retry_scale(first, was_strained) == second
 
 
 def test_a_scale_that_was_asked_for_is_kept(load):
     scale = ClockScale(3.0)
-    assert scale.of_the_first_look(LIGHT[0]) == scale.of_the_second_look(3.0, was_strained=False) == 3.0
+    assert scale.first_scale(LIGHT[0]) == scale.retry_scale(3.0, was_strained=False) == 3.0
 
 
 def test_where_no_process_can_follow_a_clock_all_run_at_the_walls(load, monkeypatch):
     monkeypatch.setattr(clock_scale, "library_path", lambda: None)
-    assert {ClockScale().of_the_first_look(scenario) for scenario in (WALK, *LIGHT)} == {1.0}
+    assert {ClockScale().first_scale(scenario) for scenario in (WALK, *LIGHT)} == {1.0}
 
 
 def test_an_arena_that_is_late_is_tried_at_every_slower_scale(load):

@@ -198,7 +198,7 @@ def test_a_failure_counts_only_if_it_is_seen_twice(monkeypatch, marks, status):
     assert len(ran) == min(len(marks), 2)
 
 
-def test_the_first_scenario_and_every_second_look_start_the_program_cold(monkeypatch, two_checks):
+def test_the_first_scenario_and_every_retry_start_the_program_cold(monkeypatch, two_checks):
     starts = []
 
     def run_in_arena(run, stop=None, arenas=None):
