@@ -68,7 +68,7 @@ def check_aloud(
             with line.aside():
                 print_verdict(console, verdict)
 
-        def retrying(check: Check) -> None:
+        def on_retry(check: Check) -> None:
             with line.aside():
                 print_retry(console, check)
 
@@ -77,7 +77,7 @@ def check_aloud(
             loaded,
             jobs=jobs,
             report=report,
-            retrying=retrying,
+            on_retry=on_retry,
             running=line.show,
             arenas=arenas,
             first_alone=True,

@@ -1,1 +1,1 @@
-"""What runs inside an arena: the agent, which carries out a scenario and reports what it saw. It judges nothing."""
+"""What runs inside an arena: the agent carries out a scenario and reports what it saw. It judges nothing."""

@@ -1,7 +1,7 @@
-"""The log of a scenario: the stage waits on it, and every event goes to the pipe that the controller reads.
+"""The log of a scenario: every event goes to the pipe that the controller reads, and the stage waits for events here.
 
-What students send is bounded here: how many events of a kind are kept, how long a text and how large an event may be,
-and how much all of them together. What is not kept is counted, and `ArenaLog.finish` says so.
+What students send is bounded: the number of events of a kind, the length of a text, the size of an event, and the size
+of all events together. Events beyond these limits are counted, and `ArenaLog.finish` records the counts.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from ros_runtime.record.event import Event, as_line, to_json
 from ros_runtime.record.event_log import EventLog
 from ros_runtime.recorded_client.conversation import NOBODYS
 
-MOST_OF_A_KIND = 5000  # events of one kind for one goal, call, …; no sound node comes near
+MOST_OF_A_KIND = 5000  # events of one kind for one goal, call, …; far more than a correct node sends
 MOST_OF: Mapping[str, int] = {
     ev.FeedbackReceived.kind: 1000,  # of one goal: 50 a second for the longest walk, ten times what is asked for
     ev.RequestReceived.kind: 500,  # of one service: each may be waited for
 }
 LARGEST_EVENT = 2**20  # bytes of JSON
 LARGEST_RECORD = 32 * 2**20  # bytes of what students send; the controller reads twice as much
-MOST_OF_NOBODYS = 500  # events of one kind that belong to no goal of the scenario's
+MOST_OF_NOBODYS = 500  # events of one kind that belong to no goal, call or service of the scenario
 
 
 @dataclass
@@ -52,7 +52,7 @@ class ArenaLog(EventLog):
         self._bytes = 0
 
     def append(self, event: Event) -> None:
-        """Write an event, and wake up whoever waits for it."""
+        """Write an event, and wake up the threads that wait for it."""
         fields, longest = cut_long_texts(to_json(event))
         line = as_line(event.kind, fields)
         if len(line) > LARGEST_EVENT:
@@ -72,10 +72,14 @@ class ArenaLog(EventLog):
         super().append(event)
 
     def admits(self, what: str, of: str) -> bool:
-        """Whether one more event of a kind that the student's processes cause is recorded; asked once for each.
+        """Return whether to record one more event of a kind; call it once for each event caused by the student.
 
-        `of` is the goal, call or service it belongs to, or NOBODYS: each has a number of its own, so that a flood of
-        one pushes out nothing of another. An event that is not admitted counts as dropped.
+        An event that is not admitted counts as dropped.
+
+        Args:
+            what: the kind of event.
+            of: the goal, call or service it belongs to, or NOBODYS. Each has a limit of its own, so that a flood for
+                one pushes out nothing of another.
         """
         now = time.monotonic()
         with self._counting:

@@ -1,4 +1,4 @@
-"""What students' nodes send, looked at before it is unpacked: how large it is, and whether it can be read at all."""
+"""Checks messages of students' nodes before they are unpacked: their size, and whether they can be read at all."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ LARGEST: Mapping[str, int] = {  # bytes; what the course's interfaces are used f
 
 
 class BoundedReading(Reading):
-    """Reads up to a size and a number; the rest is recorded as too large or dropped."""
+    """Reads messages up to a size and a number, and records the others as too large or dropped."""
 
     def __init__(self, log: ArenaLog) -> None:
         self._log = log
 
     def admits(self, what: str, of: str) -> bool:
-        """Whether one more event of a kind is read; `of` is the goal, call or service it belongs to, or NOBODYS."""
+        """Return whether to read one more event of a kind; `of` is the goal, call or service it is for, or NOBODYS."""
         return self._log.admits(what, of)
 
     def is_too_large(self, what: str, id: str, message: Any) -> bool:
-        """Whether a message is larger than is read; recorded when it is."""
+        """Return whether a message is too large to be read, and record it if so."""
         return self._has_too_many_bytes(what, id, size_of(message))
 
     def unpack(self, what: str, id: str, data: bytes, message_type: Any) -> Any | None:
@@ -55,9 +55,9 @@ class BoundedReading(Reading):
 
 
 def size_of(message: Any) -> int:
-    """Return about how many bytes a message has, from the lengths of its texts and lists: nothing is copied.
+    """Estimate the bytes of a message from the lengths of its texts and lists, without copying them.
 
-    A long list is counted by its length alone, so that this takes no longer for a large message.
+    Of a very long list only the length counts, so that a large message takes no longer.
     """
     if is_message(message):
         return sum(size_of(getattr(message, name)) for name in message.get_fields_and_field_types())

@@ -1,6 +1,6 @@
-"""The verbs of a scenario for a client: the servers follow a script, the student's program runs to its end.
+"""What a scenario for a client can do: offer scripted services and run the student's program to its end.
 
-As on the other stage nothing is judged here, and all durations are seconds on the arena's clock.
+Nothing is judged here, and all durations are seconds on the arena's clock, as in `stage.py`.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from autograder.arena.waiting import Waiting
 # s, on a clock that still runs at scale 1:
 APPEARING_TIMEOUT = 20.0  # for the student's node to appear
 MODULE_TIMEOUT = 150.0  # for work of ours in the student's sandbox, such as compiling
-MATCHING_TIMEOUT = 3.0  # for its clients to be seen, which some programs make only when they need them
+MATCHING_TIMEOUT = 3.0  # for its clients to be seen; some programs make them only when they need them
 SETTLING = 0.05  # for the program's own side of those connections
 # s, on the arena's clock:
 END_TIMEOUT = 25.0
 
 
 class ClientStage(Waiting):
-    """Servers that follow a script, and the student's program."""
+    """The scripted services of a scenario, and the student's program."""
 
     def __init__(
         self,
@@ -66,16 +66,16 @@ class ClientStage(Waiting):
         return service
 
     def wait_for_requests(self, service: ScriptedService, number: int, timeout: float) -> bool:
-        """Wait until a scripted service has had so many requests; False when time or program is over first."""
+        """Wait for so many requests to a scripted service; False if the time or the program is over first."""
         self.wait_until(lambda: service.requests >= number or self._student.has_exited(), timeout)
         return service.requests >= number
 
     # -- the student's program ----------------------------------------------------------------------------------------
 
     def start_program(self, arguments: Sequence[str] = ()) -> None:
-        """Run the student's program, and return when it has found the servers or there are none to find.
+        """Run the student's program, and return when it has found the servers, if there are any.
 
-        The clock is sped up from here on: looking for each other takes as long as the machine takes.
+        The clock is sped up only then, because discovery takes real time.
         """
         started = time.monotonic()
         self._student.start(arguments)
@@ -91,19 +91,19 @@ class ClientStage(Waiting):
     def run_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:
         """Run a module of ours on some of the student's files, in the student's sandbox, to its end.
 
-        For scenarios in which nothing is timed. When it takes too long, that is recorded as for a program.
+        Use it in scenarios in which nothing is timed. A module that takes too long is recorded like such a program.
         """
         self._student.start_module(module, arguments, files)
         self._wait_for_end(MODULE_TIMEOUT)
 
     def wait_for_end(self) -> None:
-        """Wait until the program has ended by itself; record it when it still runs."""
+        """Wait until the program has ended by itself; if it does not in time, record that."""
         self._wait_for_end(END_TIMEOUT)
 
     # -- helpers ------------------------------------------------------------------------------------------------------
 
     def _wait_for_matching(self) -> None:
-        """Wait until the program's clients are known here, and a moment for its own side; or for its first request."""
+        """Wait until the program's clients are discovered, and a moment longer for its own side, or for a request."""
 
         def is_needless() -> bool:
             return self._had_a_request() or self._student.has_exited()
@@ -124,5 +124,5 @@ class ClientStage(Waiting):
         return any(service.requests for service in self._services)
 
     def _has_appeared(self) -> bool:
-        """Whether there is a node beside ours, or none to be expected any more."""
+        """Return whether there is a node beside ours, or the program has ended."""
         return self._student.has_exited() or self._graph.has_another_node()

@@ -1,6 +1,6 @@
-"""What an arena can report, every time in seconds on the arena's own clock.
+"""The events that an arena can report; every time is in seconds on the arena's clock.
 
-Here stand the events of the arena itself; those of its client and of the simulator come from `ros_runtime.record`.
+The arena's own events are defined here; those of its clients and of the simulator are in `ros_runtime.record`.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from ros_runtime.record.ground_truth import (
 
 @dataclass(frozen=True, kw_only=True)
 class NodeStarted(Event):
-    """The student's process exists."""
+    """The student's process was started."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,7 +48,7 @@ class NodeReady(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class NodeNotReady(Event):
-    """They never were; `missing` names them, `offered` lists what the student's node does offer as 'name [type]'."""
+    """Endpoints never appeared: `missing` names them, `offered` lists what there is instead, as 'name [type]'."""
 
     missing: list[str]
     offered: list[str]
@@ -79,7 +79,7 @@ class NodeExited(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class NodeKilled(Event):
-    """The student's processes were ended because they used more than they may."""
+    """The student's processes were ended because they exceeded a limit."""
 
     reason: str
 
@@ -137,14 +137,14 @@ class WokenLate(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class Starved(Event):
-    """The student's program was ready to run and got no processor, for so many seconds of the arena's clock."""
+    """How long the student's program was ready to run and got no processor, s on the arena's clock."""
 
     seconds: float
 
 
 @dataclass(frozen=True, kw_only=True)
 class Mark(Event):
-    """A moment the scenario names, so that checks can refer to it."""
+    """A moment that the scenario names, so that checks can refer to it."""
 
     name: str
 
@@ -165,14 +165,14 @@ class ScenarioEnded(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class ScenarioFailed(Event):
-    """The scenario could not be carried out, for a reason that is not the student's."""
+    """The scenario could not be carried out, through no fault of the student's."""
 
     reason: str
 
 
 @dataclass(frozen=True, kw_only=True)
 class RecordDropped(Event):
-    """What the student's processes sent and was not kept: `count` events of the kind `what`.
+    """Events that the student's processes caused and that were not kept: `count` of the kind `what`.
 
     `seconds` is the time from the first event of that kind to the last one dropped.
     """
@@ -184,7 +184,7 @@ class RecordDropped(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class GraphFlooded(Event):
-    """The ROS graph held what no sound program puts there; `nodes` is how many nodes were seen in it."""
+    """The ROS graph held what no correct program puts there; `nodes` is the number of nodes in it."""
 
     nodes: int
     reason: str

@@ -21,10 +21,10 @@ from rclpy.validate_node_name import validate_node_name
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 
-MOST_NODES = 50  # a sound program has one or two
-MOST_ENDPOINTS = 100  # of one topic or service that are looked at one by one
+MOST_NODES = 50  # a correct program has one or two
+MOST_ENDPOINTS = 100  # of one topic or service that are inspected one by one
 MOST_SERVICES = 40  # that a report lists
-MOST_NAMES = 1000  # of nodes and services that are looked at one by one
+MOST_NAMES = 1000  # of nodes and services that are inspected one by one
 OF_EVERY_NODE = (
     "rcl_interfaces/",
     "type_description_interfaces/",
@@ -43,7 +43,7 @@ class Graph:
         self._failures: Counter[str] = Counter()
 
     def has_another_node(self) -> bool:
-        """Whether there is a node of rclpy beside ours."""
+        """Return whether there is a node of rclpy beside ours."""
         return self.count_publishers(EVERY_NODE_PUBLISHES) > 1
 
     def count_publishers(self, topic: str) -> int:
@@ -55,14 +55,14 @@ class Graph:
         return self._ask(lambda: self._node.count_clients(service), 0)
 
     def count_matchable_subscribers(self, topic: str) -> int:
-        """Count the subscriptions of a topic, but for those whose QoS no known publisher can serve."""
+        """Count the subscriptions of a topic, except those whose QoS no known publisher can serve."""
         count = self._ask(lambda: self._node.count_subscribers(topic), 0)
         if count > MOST_ENDPOINTS or self.count_publishers(topic) > MOST_ENDPOINTS:
             return count
         return self._ask(lambda: self._count_matchable(topic), count)
 
     def owners_of(self, service: str) -> list[str]:
-        """Return the full names of the nodes that offer a service, as far as they are names."""
+        """Return the full names of the nodes that offer a service, without invalid ones."""
         if self._ask(lambda: self._node.count_services(service), 0) > MOST_ENDPOINTS:
             return []
         # a server is whoever listens to the topic of the requests
@@ -75,7 +75,7 @@ class Graph:
         return [f"{namespace.rstrip('/')}/{name}" for namespace, name in nodes if _is_known(namespace, name)]
 
     def offered(self) -> list[str]:
-        """Return the services somebody offers as 'name [type]', without those that every node has; not all of many."""
+        """Return the first services on offer as 'name [type]', without those that every node has."""
         nothing: list[tuple[str, list[str]]] = []
         found = self._ask(self._node.get_service_names_and_types, nothing)
         names = [
@@ -88,7 +88,7 @@ class Graph:
         return sorted(offered) + ([f"and up to {more:,} more"] if more else [])
 
     def inspect(self) -> None:
-        """Record it when there is in the graph what no sound program puts there."""
+        """Record what is in the graph that no correct program puts there."""
         nobody: list[tuple[str, str]] = []
         nodes = self._ask(self._node.get_node_names_and_namespaces, nobody)
         invalid = [name for name, namespace in nodes[:MOST_NAMES] if not _is_valid(namespace, name)]
@@ -113,7 +113,7 @@ class Graph:
         return self._ask(lambda: self._node.count_services(service), 0) > 0
 
     def _ask(self, question: Callable[[], T], otherwise: T) -> T:
-        """Ask the middleware; where that fails, whatever way, count the failure."""
+        """Ask the middleware; if that fails in any way, count the failure and return `otherwise`."""
         try:
             return question()
         except (
@@ -129,7 +129,7 @@ def _serves(offered: QoSProfile, wanted: QoSProfile) -> bool:
 
 
 def _is_known(namespace: str, name: str) -> bool:
-    """Whether these are names, and not the middleware's word for a node it has not heard of yet."""
+    """Return whether these are valid names, and not the middleware's placeholder for an unknown node."""
     return not name.startswith("_NODE_NAME_UNKNOWN") and _is_valid(namespace, name)
 
 

@@ -1,11 +1,11 @@
-"""The first process of an arena: it imports everything and builds the robot once, and forks an agent for each scenario.
+"""The first process of an arena: it imports everything, builds the robot once, and forks an agent for each scenario.
 
-Run as `python -m autograder.arena.host SOCKET`; where programs may start warm,
-`ros_runtime/workarounds/warm_start/first_process.py` goes on as that, which has loaded rclpy and forked the waiting
-interpreter.
-Every order is the specification of a scenario and the pipe its events go to; it is answered when no process of the
-scenario is left. The clock's library is preloaded into this process, but only its forks follow a clock, each the one of
-its scenario.
+It runs as `python -m autograder.arena.host SOCKET`. If programs may start warm,
+`ros_runtime/workarounds/warm_start/first_process.py` has loaded rclpy and forked the waiting interpreter, and then
+continues as this program.
+
+An order is the specification of a scenario and the pipe for its events; it is answered when no process of the scenario
+is left. The clock's library is preloaded into this process, but only its forks follow a clock, that of their scenario.
 """
 
 from __future__ import annotations
@@ -47,11 +47,11 @@ class Host:
         self._interpreter = WarmInterpreter.in_this_arena()
         self._numbers = count()
         self._stopwatch = STOPWATCH
-        # what a scenario's processes leave behind becomes ours, to be ended
+        # orphans of a scenario become our children, and we end them
         ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 
     def carry_out(self, spec: ScenarioSpec, events_fd: int) -> None:
-        """Carry out one scenario in processes of its own, on a ROS domain of its own; returns when they have ended."""
+        """Carry out one scenario in processes and on a ROS domain of its own; return when they have ended."""
         number = next(self._numbers)
         phases = self._prepare(spec)
         interpreter = self._interpreter if spec.warm else None
@@ -67,7 +67,7 @@ class Host:
         self._end_what_is_left()
 
     def _prepare(self, spec: ScenarioSpec) -> list[Phase]:
-        """Import and build what the scenario needs and is not there yet; returns what the arena's beginning cost."""
+        """Import and build what the scenario needs, unless it is there; return what that cost."""
         import_everything(spec)
         phases = [INTERPRETER, self._stopwatch.lap("imports")]
         if spec.robot_options is not None:

@@ -1,4 +1,4 @@
-"""Texts and lists from untrusted processes, cut to what a transcript can hold; what was cut says how long it was."""
+"""Cuts texts and lists from untrusted processes to what a transcript can hold, and notes how long they were."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Longest:
 
     @property
     def was_cut(self) -> bool:
-        """Whether anything was longer than is kept."""
+        """Whether anything was cut."""
         return self.length > self.limit
 
 
@@ -35,7 +35,7 @@ def _cut(value: Any, longest: Longest) -> Any:
     if isinstance(value, list | tuple):
         longest.length = max(longest.length, len(value))
         if len(value) > LONGEST:
-            return []  # what is left has to be a list still
+            return []  # it has to stay a list
         return [_cut(each, longest) for each in value]
     return value
 

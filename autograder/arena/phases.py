@@ -1,4 +1,4 @@
-"""What each phase of a scenario costs, for `course bench --arena`: wall time, and processor time of all the arena."""
+"""Measures each phase of a scenario for `course bench --arena`: wall time, and processor time of the whole arena."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ Phase = tuple[str, float, float]  # name, wall s, processor s
 
 
 def since_start(name: str) -> Phase:
-    """Return the phase from the start of this process until now; of earlier processes only the processor time."""
+    """Return the phase from the start of this process until now; earlier processes count by processor time only."""
     with open("/proc/self/stat") as stat:
         started = int(stat.read().rpartition(")")[2].split()[19]) / os.sysconf("SC_CLK_TCK")
     return (name, time.clock_gettime(time.CLOCK_BOOTTIME) - started, _processor_seconds())
 
 
 class Stopwatch:
-    """Measures one phase after the other, of every process that is seen in this process's /proc."""
+    """Measures one phase after the other, over every process in this process's /proc."""
 
     def __init__(self) -> None:
         self._wall, self._cpu = real_monotonic_ns(), _processor_seconds()

@@ -1,4 +1,4 @@
-"""The robot as a scenario has it: what it is told, and waiting for what it does."""
+"""The robot as a scenario uses it: commands, and waiting for their effects."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class RobotTrouble(Exception):
 
 
 class Robot:
-    """Commands reach the simulator by a pipe, so no topic is used and no node can be in the way."""
+    """The robot of a scenario. Commands go to the simulator by a pipe, so no node can interfere."""
 
     def __init__(self, simulator: Simulator, log: ArenaLog) -> None:
         self._simulator = simulator
@@ -25,13 +25,13 @@ class Robot:
 
     @property
     def state(self) -> ev.RobotTruth:
-        """The robot as the simulator has it, at most 20 ms old."""
+        """The simulator's state of the robot, at most 20 ms old."""
         latest = self._log.last(ev.RobotTruth)
         if latest is None:
             raise RobotTrouble("the simulator has said nothing yet")
         return latest
 
-    # -- what it is told ----------------------------------------------------------------------------------------------
+    # -- commands -----------------------------------------------------------------------------------------------------
 
     def push(self, impulse: Sequence[float]) -> None:
         """Push the torso (N·s in odom)."""
@@ -54,42 +54,42 @@ class Robot:
         self._command("move_joints", positions=dict(positions), duration=duration)
 
     def report_arm(self, side: str) -> None:
-        """Say where elbow and hand of the arm "l" or "r" are."""
+        """Have the simulator report where elbow and hand of the arm "l" or "r" are."""
         self._command("report_arm", side=side)
 
     def connect_battery_sensor(self, connected: bool = True) -> None:
-        """Begin, or cease, to publish battery_state."""
+        """Begin, or stop, publishing battery_state."""
         self._command("battery_sensor", connected=connected)
 
     def connect_joint_sensors(self, connected: bool = True) -> None:
-        """Begin, or cease, to publish joint_states."""
+        """Begin, or stop, publishing joint_states."""
         self._command("joint_sensors", connected=connected)
 
     def reverse_joint_states(self) -> None:
-        """Publish joint_states in the reverse order."""
+        """List the joints of joint_states in reverse order from now on."""
         self._command("joint_states", reversed=True)
 
     def publish_robot_state(self) -> None:
-        """Begin to publish robot_state."""
+        """Begin publishing robot_state."""
         self._command("robot_state", published=True)
 
     # -- waiting ------------------------------------------------------------------------------------------------------
 
     def wait_for(self, condition: Callable[[ev.RobotTruth], Any], timeout: float = TIMEOUT) -> bool:
-        """Wait for a condition on its state; False when `timeout` s are over first."""
+        """Wait for a condition on its state; return False if `timeout` s are over first."""
         return self._wait_until(lambda: condition(self.state), timeout)
 
     def wait_for_commands(self) -> bool:
-        """Wait until every command has taken effect, and what it asked for has been reported."""
-        return self._wait_until(self._has_obeyed, TIMEOUT)
+        """Wait until every command has taken effect."""
+        return self._wait_until(self._commands_took_effect, TIMEOUT)
 
     def wait_for_published(self, kind: type[ev.Event], number: int = 1) -> bool:
-        """Wait until every command has taken effect, and then for `number` messages (BatteryPublished, …) more."""
+        """Wait until every command has taken effect, then for `number` more messages (BatteryPublished, …)."""
         self.wait_for_commands()
         enough = self._log.count(kind) + number
         return self._wait_until(lambda: self._log.count(kind) >= enough, TIMEOUT)
 
-    def _has_obeyed(self) -> bool:
+    def _commands_took_effect(self) -> bool:
         return self._log.count(ev.RobotCommanded) >= self._log.count(ev.CommandSent)
 
     def _wait_until(self, condition: Callable[[], Any], timeout: float) -> bool:

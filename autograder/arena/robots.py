@@ -1,4 +1,4 @@
-"""Robots that are built once and never move: each scenario's simulator is a fork that begins with a fresh one."""
+"""Robots that are built once and then forked: each scenario's simulator begins with a fresh copy."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from typing import Any
 
 
 class Robots:
-    """One robot for each way a scenario asks for it. Where none does, the simulator is not even imported."""
+    """One robot for each set of options that a scenario asks for. Without one the simulator is not even imported."""
 
     def __init__(self) -> None:
         self._built: dict[tuple[str, ...], Any] = {}
 
     def build(self, options: Sequence[str]) -> None:
-        """Build the robot for these options of `python -m robot_sim`, unless it is there."""
+        """Build the robot for these options of `python -m robot_sim`, unless it was built before."""
         from robot_sim.ros.serve import build_humanoid, parse_options
 
         key = tuple(options)
@@ -21,7 +21,7 @@ class Robots:
             self._built[key] = build_humanoid(parse_options(options))
 
     def serve(self, options: Sequence[str], *more: str) -> None:
-        """Run the robot, with `more` options that do not concern its body, until this process is told to end."""
+        """Run the robot until this process is told to end; `more` are options that do not concern its body."""
         from robot_sim.ros.serve import parse_options, serve_robot
 
         serve_robot(parse_options([*options, *more]), self._built[tuple(options)])

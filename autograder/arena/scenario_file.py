@@ -1,4 +1,4 @@
-"""The scenarios of an exercise: one file, of which the arena knows nothing but where it lies."""
+"""Loads the scenarios of an exercise from its one file; the arena knows only the path."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ NAME = "scenarios_of_the_exercise"
 
 @cache
 def scenarios_in(path: str) -> ModuleType:
-    """Run the file, once in this process and its forks, and return it as a module."""
+    """Import the file, once in this process and its forks, and return the module."""
     spec = importlib.util.spec_from_file_location(NAME, path)
     assert spec
     assert spec.loader

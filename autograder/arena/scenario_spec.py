@@ -1,4 +1,4 @@
-"""What an arena is told about a scenario: the one type that controller, host, agent and student's side share."""
+"""The specification of a scenario, which controller, host, agent and the student's side share."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from typing import Any, Literal
 
 @dataclass(frozen=True)
 class ScenarioSpec:
-    """A scenario and whom it is carried out on.
+    """A scenario and the submission it is carried out on.
 
     Attributes:
         scenario_file, scenario: the module's path, and the function in it.
         params: the function's arguments, as JSON has them.
-        scale: how much faster than real time the arena's clock runs once student and robot have found each other.
+        scale: how much faster than real time the arena's clock runs after discovery.
         timed: whether deadlines are judged, so that lateness counts.
-        namespace: of robot and student.
-        robot_options: of the simulator; None: there is no robot.
+        namespace: ROS namespace of robot and student.
+        robot_options: options of the simulator; None: there is no robot.
         student: a "node" is started before the scenario, a "program" by it.
         files: what the student wrote, by name; `program` is the name of the one that is run.
-        parameters: ROS parameters for it.
-        student_paths: what it may see of the machine beside the system.
+        parameters: ROS parameters of the program.
+        student_paths: what the program may see of the machine beside the system.
         warm: an interpreter that waits may become the program.
         private_network: the arena has a network, and so all ROS domains, for itself.
-        measured: its phases are recorded.
+        measured: record what each phase costs.
     """
 
     scenario_file: str

@@ -1,4 +1,4 @@
-"""What a busy machine takes from those who keep deadlines in an arena without a robot, which would tell it itself."""
+"""Measures scheduling delays in an arena without a robot; a robot reports its own lateness."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ class SchedulingMonitor:
         self._starved_before = 0.0
 
     def begin(self) -> None:
-        """From here on the arena's clock runs at its scale, and waiting for a processor counts."""
+        """Count the student's waiting for a processor from now on."""
         self._starved_before = self._student.starved()
 
     @contextmanager
     def watch(self) -> Iterator[None]:
-        """Sleep over and over beside the scenario, and record by how much each sleep was longer that set a record."""
+        """Measure while the scenario runs: sleep again and again, and record each new longest delay."""
         over = threading.Event()
         threading.Thread(target=self._sleep, args=(over,), name="scheduling monitor", daemon=True).start()
         try:

@@ -1,4 +1,4 @@
-"""A service that follows a script, well or badly, for a student's client to deal with."""
+"""A scripted service, good or faulty, that a student's client has to deal with."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ from autograder.arena.bounded_reading import BoundedReading
 
 @dataclass(frozen=True)
 class Reply:
-    """What one request gets: a response `after` s on the arena's clock; None is an empty one."""
+    """The reply to one request: a response, None for an empty one, sent `after` s on the arena's clock."""
 
     response: Any = None
     after: float = 0.0
 
 
 SILENCE = None
-"""In place of a Reply: the request is taken and never answered."""
+"""Stands for a Reply: the request is taken and never answered."""
 
 
 class ScriptedService:
     """Offers one service. The first request gets the first of `replies`, and so on; the last one is repeated.
 
-    `server` names it in the transcript, where two offer the same service.
+    `server` names it in the transcript, since two servers may offer the same service.
     """
 
     def __init__(
@@ -61,11 +61,11 @@ class ScriptedService:
 
     @property
     def requests(self) -> int:
-        """How many requests it has had."""
+        """The number of requests it has had."""
         return self._log.count(ev.RequestReceived, service=self.name, server=self._server)
 
     def withdraw(self) -> None:
-        """Stop to exist, with whatever request is being worked on."""
+        """Destroy the service, together with any request it is working on."""
         self._log.append(ev.ServiceWithdrawn(service=self.name, server=self._server))
         self._node.destroy_service(self._service)
 
@@ -88,7 +88,7 @@ class ScriptedService:
         return response
 
     def _send_if_anybody_waits(self, response: Any, header: Any) -> None:
-        """Send a response; a client that has left, or a server withdrawn meanwhile, is no reason to stop serving."""
+        """Send a response, unless the client has left or the service was withdrawn meanwhile."""
         with suppress(RuntimeError):  # what rclpy's own errors are
             self._send(response, header)
 

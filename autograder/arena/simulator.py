@@ -17,16 +17,23 @@ from autograder.arena.robots import Robots
 
 
 class Simulator:
-    """Forks the simulator and appends what it says to the log.
+    """Forks the simulator and appends its reports to the log.
 
-    Make it while this process has one thread, and call `listen` then.
+    Make it while this process has only one thread, then call `listen`.
     """
 
     def __init__(self, log: ArenaLog, robots: Robots, namespace: str, options: Sequence[str]) -> None:
         truth_read, truth_write = os.pipe()
         control_read, self._control = os.pipe()
         self._log = log
-        more = ("--namespace", namespace, "--truth-fd", str(truth_write), "--control-fd", str(control_read))
+        more = (
+            "--namespace",
+            namespace,
+            "--ground-truth-fd",
+            str(truth_write),
+            "--control-fd",
+            str(control_read),
+        )
         self.process = multiprocessing.get_context("fork").Process(
             target=_simulate, args=(robots, options, more)
         )
@@ -45,7 +52,7 @@ class Simulator:
         os.write(self._control, json.dumps(command).encode() + b"\n")
 
     def is_running(self) -> bool:
-        """Whether the process is alive."""
+        """Return whether the process is alive."""
         return self.process.is_alive()
 
     def stop(self) -> None:
@@ -70,4 +77,4 @@ def _simulate(robots: Robots, options: Sequence[str], more: Sequence[str]) -> No
     try:
         robots.serve(options, *more)
     finally:
-        os._exit(1)  # nobody ends it in this way
+        os._exit(1)  # only reached when serving failed

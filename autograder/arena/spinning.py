@@ -1,4 +1,4 @@
-"""Spinning that goes on when rclpy raises: a message that cannot be read must not stop the one who records."""
+"""Spinning that goes on when rclpy raises: a message that cannot be read must not stop the recording."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ FROM_OUTSIDE = (RuntimeError, UnicodeError, MemoryError)  # rclpy's own errors a
 
 
 def keep_spinning(executor: Executor, log: ArenaLog) -> None:
-    """Spin until the context is shut down. What cannot be read is counted; an error of ours makes the run void."""
+    """Spin until the context is shut down; count unreadable messages, and fail the scenario at an error of ours."""
     while executor.context.ok():
         try:
             executor.spin_once()

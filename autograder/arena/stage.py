@@ -1,8 +1,8 @@
 """The stage of a server: the robot, the student's node, and a client of its services and actions.
 
-A scenario makes its clients, opens the stage, and then calls, sends goals and does things to the robot. All durations
-are seconds on the arena's clock. A scenario never judges: when an answer does not come, that is recorded as unanswered
-and the scenario goes on, so that a check can say what was missing.
+A scenario makes its clients, opens the stage, and then calls services, sends goals and commands the robot. All
+durations are seconds on the arena's clock. A scenario never judges: if an answer does not come, the stage records it as
+unanswered and the scenario goes on, so that a check can say what was missing.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ from ros_runtime.recorded_client.service_client import ServiceClient
 
 # s, on a clock that still runs at scale 1:
 READY_TIMEOUT = 20.0  # for the node to offer what is asked for
-COMPANY_TIMEOUT = 5.0  # for the rest of it, once the node offers anything
+COMPANY_TIMEOUT = 5.0  # for the rest, once the node offers anything
 MATCHING_TIMEOUT = 10.0  # for robot and node to find each other's topics
-REACHING_TIMEOUT = 1.0  # a sound node may be slow to answer anything yet, a faulty one never does
+REACHING_TIMEOUT = 1.0  # a correct node may be slow at first, a faulty one never answers
 MOST_REACHED = 4  # nodes
-LOOKING = 0.1  # between two looks at all that is offered
+LOOKING = 0.1  # between two queries of all services on offer
 SETTLING = 0.05  # for the node's own side of those connections
 # s, on the arena's clock:
 CLEAN_EXIT_TIMEOUT = 5.0
@@ -44,11 +44,11 @@ STRANGER = "stranger"  # another client of the same actions
 
 
 class NodeMissing(Exception):
-    """The student's endpoints never appeared; there is nothing left for the scenario to do."""
+    """The student's endpoints never appeared, so the scenario ends."""
 
 
 class Parameters:
-    """Clients of get_parameters and set_parameters of the node that offers a service; there once the stage is open."""
+    """Clients of get_parameters and set_parameters of the node that offers a service; set when the stage opens."""
 
     get: ServiceClient
     set: ServiceClient
@@ -91,7 +91,7 @@ class Stage(Waiting):
         return client
 
     def action(self, name: str, action_type: Any) -> ActionClient:
-        """Make a client of one of the student's actions; another node, the STRANGER, may ask to cancel, too."""
+        """Make a client of one of the student's actions, which can also cancel as another node, the STRANGER."""
         others = {STRANGER: self._stranger}
         client = ActionClient(self._node, name, action_type, self._conversation, others)
         self._actions.append(client)
@@ -103,7 +103,7 @@ class Stage(Waiting):
         return self._parameters[-1]
 
     def open(self) -> None:
-        """Wait until the student's services and actions and the robot are there; the clock is sped up from here on.
+        """Wait until the robot and the student's services and actions are there; then speed up the clock.
 
         Raises:
             NodeMissing: the services and actions do not come.
@@ -144,7 +144,7 @@ class Stage(Waiting):
         return self._robot is None or self._log.last(ev.RobotTruth) is not None
 
     def _wait_for_endpoints(self, started: float) -> None:
-        """Return when the student's endpoints are there; record what is missing when they do not come."""
+        """Wait for the student's endpoints; if they do not come, record what is missing."""
         first_offer: float | None = None
         next_look = started
         while missing := self._missing():
@@ -161,7 +161,7 @@ class Stage(Waiting):
             time.sleep(POLLING)
 
     def _connect(self, parameters: Parameters) -> None:
-        """Find the node whose parameters they are; where there is none, they never come."""
+        """Make the clients for the node that offers the service; if there is none, they never match."""
         self.poll_until(lambda: self._graph.owners_of(parameters.service), MATCHING_TIMEOUT)
         owner = next(iter(self._graph.owners_of(parameters.service)), parameters.service)
         parameters.get = self.service(f"{owner}/get_parameters", GetParameters)
@@ -173,7 +173,7 @@ class Stage(Waiting):
         return services + [name for action in self._actions for name in action.unmatched(count)]
 
     def _robot_and_node_are_connected(self) -> bool:
-        """Whether the robot has found every subscriber and publisher of its topics that it can be matched with."""
+        """Return whether the robot has discovered every subscriber and publisher that its topics can match."""
         if self._robot is None:
             return True
         peers, graph = self._log.last(ev.RobotPeers), self._graph
@@ -185,7 +185,7 @@ class Stage(Waiting):
         )
 
     def _reach_node(self) -> None:
-        """Exchange messages with the student's node, so that its answers are not lost on a client it does not know."""
+        """Exchange messages with the student's node, so that no answer is lost on a client it has not discovered."""
         services = [service.name for service in self._services]
         services += [f"{action.name}/_action/send_goal" for action in self._actions]
         owners = dict.fromkeys(owner for service in services for owner in self._graph.owners_of(service))

@@ -1,4 +1,4 @@
-"""The student's program in an arena: started once, watched, ended with the arena."""
+"""The student's program in an arena: started once, monitored, and ended with the scenario."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from ros_runtime.workarounds.scaled_clock.clock import ScaledClock
 
 
 class Student:
-    """Runs the files of a submission in the student's sandbox and records output and end.
+    """Runs the files of a submission in the student's sandbox and records output and exit.
 
-    `interpreter` waits to become the program; without one a new interpreter is started, as at home.
+    `interpreter` is one that waits to become the program; without it a new one is started, as at home.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class Student:
         self._start(["-m", module, *arguments], files)
 
     def has_exited(self) -> bool:
-        """Whether the program was started and has ended."""
+        """Return whether the program was started and has ended."""
         return self.returncode is not None
 
     @property
@@ -64,7 +64,7 @@ class Student:
         self._running.interrupt()
 
     def wait(self, timeout: float) -> int | None:
-        """Wait for the end; returns the exit status, or None after `timeout` s."""
+        """Wait for the end and return the exit status, or None after `timeout` s."""
         return self._running.wait(timeout)
 
     def starved(self) -> float:
@@ -72,7 +72,7 @@ class Student:
         return self._watch.starved() if self._watch else 0.0
 
     def close(self) -> None:
-        """Record what has been used, and end the program."""
+        """Record the resources used, and end the program."""
         self._closing.set()
         if self._process and self._watch:
             self._watch.report()

@@ -1,4 +1,4 @@
-"""Watches what the student's processes use: ends them above the memory limit, adds up their processor time."""
+"""Enforces the memory limit of a student's processes and adds up their processor time."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from autograder.isolation.process_tree import cpu_seconds, resident_mib, seconds
 from autograder.isolation.student_process import StudentProcess
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, real_monotonic_ns
 
-PERIOD = 0.1  # s of real time between two looks, each of which reads some files for every process
+PERIOD = 0.1  # s of real time between two measurements, which read some files of every process
 
 
 class StudentLimitsMonitor:
-    """A thread beside the scenario. A memory bomb then ends itself and not the arena, so its run can be judged."""
+    """A thread that ends the student's processes above the limit, before a memory bomb ends the arena."""
 
     def __init__(
         self, student: StudentProcess, log: ArenaLog, clock: ScaledClock, limits: StudentLimits
@@ -32,13 +32,13 @@ class StudentLimitsMonitor:
         threading.Thread(target=self._watch, name="student limits", daemon=True).start()
 
     def report(self) -> None:
-        """Record what has been used until now."""
+        """Record the resources used so far."""
         self._look()
         wall = (real_monotonic_ns() - self._started) / 1e9
         self._log.append(ev.NodeUsage(cpu=self._cpu, wall=wall, peak_memory_mib=self._peak))
 
     def starved(self) -> float:
-        """Return how long (s of real time) its processes have waited for a processor until now."""
+        """Return how long (s of real time) the processes have waited for a processor so far."""
         return sum(self._starved.values())
 
     def _watch(self) -> None:

@@ -1,4 +1,4 @@
-"""What every stage has: time on the arena's clock, and waiting for things to happen."""
+"""What every stage can do: wait, on the arena's clock, for time to pass or something to happen."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from autograder.arena.graph import Graph
 FLOOD = 50  # messages within…
 QUIET = 0.25  # s of the arena's clock are more than any sound node sends
 FLOODED = 15.0  # s of it are waited for the end of a flood
-POLLING = 0.005  # s between two looks at what nobody notifies us of, such as changes of the graph
+POLLING = 0.005  # s between two polls of what sends no notification, such as the graph
 
 
 class Waiting:
-    """Waits for what the log says; all durations are seconds on the arena's clock."""
+    """Waits for time or for events in the log; all durations are seconds on the arena's clock."""
 
     def __init__(self, graph: Graph, log: ArenaLog) -> None:
         self._graph = graph
@@ -30,11 +30,11 @@ class Waiting:
             time.sleep(left)
 
     def wait_until(self, condition: Callable[[], Any], timeout: float) -> bool:
-        """Wait for a condition on the log; False when the time is over first."""
+        """Wait for a condition on the log; return False if the time is over first."""
         return self._log.wait_until(condition, timeout)
 
     def poll_until(self, condition: Callable[[], Any], timeout: float) -> bool:
-        """Wait for a condition of which nobody is notified; False when the time is over first."""
+        """Poll a condition that is not about the log; return False if the time is over first."""
         deadline = time.monotonic() + timeout
         while not condition():
             if time.monotonic() > deadline:
@@ -43,13 +43,13 @@ class Waiting:
         return True
 
     def close(self) -> None:
-        """The scenario is over: take in what was sent before, and record what there was too much of."""
+        """End the scenario: record what is still on its way, and what exceeded a limit."""
         self._take_in_the_rest()
         self._graph.inspect()
         self._log.finish()
 
     def _take_in_the_rest(self) -> None:
-        """Wait until nothing is left of a flood: behind it may stand in line what convicts the node."""
+        """Wait until a flood is read: the evidence against the node may be queued behind it."""
         deadline = time.monotonic() + FLOODED
         before = self._log.received
         while True:

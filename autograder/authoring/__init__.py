@@ -1,1 +1,1 @@
-"""What authors of exercises write in: checks, scenarios, transcripts, failures, and the checks that everybody owes."""
+"""What authors of exercises use: checks, scenarios, transcripts, failures, and checks that fit every server."""

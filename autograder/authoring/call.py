@@ -11,7 +11,7 @@ from autograder.authoring.failure import Failure
 from autograder.authoring.fields import expect_field
 from autograder.authoring.readiness import require_alive
 
-if TYPE_CHECKING:  # a transcript makes these
+if TYPE_CHECKING:  # which imports this module
     from autograder.authoring.transcript import Transcript
 
 _BUSY = (
@@ -22,7 +22,7 @@ _BUSY = (
 
 @dataclass(frozen=True)
 class Call:
-    """One service call. What is asked of its answer fails with a reason when none came."""
+    """One service call. Requirements on its answer fail with a reason if none came."""
 
     name: str
     sent: ev.ServiceCalled
@@ -46,7 +46,7 @@ class Call:
 
     @property
     def answered(self) -> ev.ServiceAnswered:
-        """Its answer, which must have come while it was waited for."""
+        """Its answer, which must have come while the scenario waited for it."""
         if self.answer is not None:
             return self.answer
         require_alive(self.run)
@@ -65,7 +65,7 @@ class Call:
         return self.answer.t - self.sent.t if self.answer else math.inf
 
     def expect(self, path: str, value: Any, *, because: str, help: str, see: str = "") -> None:
-        """A field of the response has a value, `because` of what the robot or the request was."""
+        """Require that a field of the response has a value, `because` of what the robot or the request was."""
         expect_field(self.response, path, value, because=because, help=help, at=self.answered.t, see=see)
 
 

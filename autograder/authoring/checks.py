@@ -44,10 +44,17 @@ Inputs = Mapping[str, Any] | Callable[[random.Random], Mapping[str, Any]]
 class Scenario:
     """A stimulus by name, with its inputs: fixed, or drawn from a seeded generator when the submission is graded.
 
-    `robot` are options of the simulator, None where no robot is needed. A 'node' of the student's is started beside it
-    and stays; a 'program' is started by the scenario and ends by itself. `parameters` are ROS parameters given to
-    either at its start. Where nothing is `timed` (compiling, answers to a quiz) the clock is not sped up, and no
-    machine is too busy to judge it. Each Scenario object is run once a submission, however many checks judge it.
+    Each Scenario object is run once for a submission, however many checks judge it.
+
+    Attributes:
+        name: of the function in the exercise's scenarios.py.
+        inputs: its arguments, or a function that draws them from a generator.
+        robot: options of the simulator; None: the scenario needs no robot.
+        student: a 'node' is started before the scenario and stays; a 'program' is started by it and ends by itself.
+        namespace: ROS namespace of robot and student.
+        parameters: ROS parameters that the student's program is started with.
+        timed: whether deadlines are judged. If not (compiling, a quiz), the clock is not sped up, and a run counts
+            however busy the machine is.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Questions that every client is asked: did it end, with which status, in time, and what did it say?"""
+"""Requirements on any client: that it ended in time, with which status, and what it printed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from autograder.authoring.missing import Missing, ordinal, unseen
 from autograder.authoring.readiness import require_within_limits
 from autograder.authoring.transcript import Transcript
 
-SLACK = 2.0  # s on the arena's clock for start and shutdown: 0.4 s of wall time at scale 5, on a busy machine
+SLACK = 2.0  # s on the arena's clock for start and shutdown: 0.4 s of real time at scale 5, on a busy machine
 
 
 def require_end(run: Transcript, within: float) -> ev.NodeExited:

@@ -1,4 +1,4 @@
-"""What a check raises: the submission is at fault, or the record does not let anybody judge it."""
+"""What a check raises: the submission is at fault, or it cannot be judged."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Failure(Exception):
 
 
 class CannotBeJudged(Exception):
-    """The arena did not do what the scenario says, and nothing of the submission's explains it: no grade."""
+    """The arena did not do what the scenario says, and not because of the submission: there is no grade."""
 
 
 def expect(

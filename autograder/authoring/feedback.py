@@ -1,4 +1,4 @@
-"""Feedback of a goal: its rate, its gaps, and that there is any."""
+"""Requirements on the feedback of a goal: that there is any, its rate and its gaps."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ ARRIVING = 0.5  # s more that the last message may be older than the result
 
 
 def require_feedback(goal: Goal) -> None:
-    """The goal was accepted, and there was feedback on it."""
+    """Require that the goal was accepted and that there was feedback on it."""
     goal.require_accepted()
     expect(
         len(goal.feedback) > 0,
@@ -27,7 +27,7 @@ def require_feedback(goal: Goal) -> None:
 
 
 def require_good_feedback_rate(goal: Goal) -> None:
-    """Feedback came at 3-10 Hz on average without a gap over 1 s, from the answer to the result."""
+    """Require feedback at 3-10 Hz on average without a gap over 1 s, from the answer to the result."""
     goal.require_accepted()
     start = goal.answer.t if goal.answer else goal.sent.t
     times = [feedback.t for feedback in goal.feedback if goal.result is None or feedback.t <= goal.result.t]
@@ -51,7 +51,7 @@ def require_good_feedback_rate(goal: Goal) -> None:
 
 
 def end_of_feedback(goal: Goal) -> float:
-    """When (s) feedback may end: at the result; with the last message where the scenario saw that none comes."""
+    """Return when (s) feedback may end: at the result, or with the last message if no result came."""
     if goal.result:
         return goal.result.t
     if goal.run.given_up("result", goal.name) and goal.feedback:

@@ -1,4 +1,4 @@
-"""Fields of ROS messages compared with what they should be; what was observed is what they are."""
+"""Compares fields of ROS messages with expected values."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ LONGEST = 200  # characters of a text that are shown
 def expect_field(
     message: Any, path: str, value: Any, *, because: str, help: str, at: float | None = None, see: str = ""
 ) -> None:
-    """A field of a message has a value: `path` names it, such as "battery.percentage"; NaN is compared as a value.
+    """Require a value of a message's field: `path` is its name, such as "battery.percentage"; NaN equals NaN.
 
     Raises:
-        Failure: it has another; what it has is what was observed.
+        Failure: it has another value, which is what was observed.
     """
     observed = reduce(getattr, path.split("."), message)
     expect(
@@ -33,7 +33,7 @@ def expect_field(
 
 
 def same(observed: Any, value: Any) -> bool:
-    """Whether two values of a field are the same; numbers may differ by the rounding of a float32."""
+    """Return whether two values of a field are equal; numbers may differ by the rounding of a float32."""
     if _is_number(observed) and _is_number(value):
         both_nan = math.isnan(observed) and math.isnan(value)
         return both_nan or math.isclose(observed, value, rel_tol=ROUNDING, abs_tol=ROUNDING)

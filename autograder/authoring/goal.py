@@ -1,4 +1,4 @@
-"""The life of one goal as its client saw it, and what every exercise may ask of it."""
+"""One goal as its client saw it, and what every exercise may require of it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from autograder.authoring.fields import expect_field
 from autograder.authoring.missing import unseen
 from autograder.authoring.readiness import require_alive
 
-if TYPE_CHECKING:  # a transcript makes these
+if TYPE_CHECKING:  # which imports this module
     from autograder.authoring.transcript import Transcript
 
 SUCCEEDED, CANCELED, ABORTED = (
@@ -23,7 +23,7 @@ SUCCEEDED, CANCELED, ABORTED = (
     GoalStatus.STATUS_CANCELED,
     GoalStatus.STATUS_ABORTED,
 )
-LISTENED = 1.2  # s after a result in which a scenario has to listen for what may not come any more
+LISTENED = 1.2  # s after a result for which a scenario has to listen for feedback that must not come
 ON_ITS_WAY = 0.3  # s a message may be overtaken by the result
 
 _NAMES = {
@@ -79,7 +79,7 @@ class Cancel:
     run: Transcript = field(repr=False)
 
     def require_agreed(self, goal: Goal) -> None:
-        """The server agreed to cancel the goal."""
+        """Require that the server agreed to cancel the goal."""
         if self.answer is None:
             require_alive(self.run)
             raise Failure(
@@ -103,7 +103,7 @@ class Cancel:
 
 @dataclass(frozen=True)
 class Goal:
-    """One goal. What is asked of its answer or result fails with a reason when there is none."""
+    """One goal. Requirements on its answer or result fail with a reason if there is none."""
 
     name: str
     sent: ev.GoalSent
@@ -125,7 +125,7 @@ class Goal:
         return self.result.status if self.result else None
 
     def require_accepted(self, help: str = _ACCEPT) -> Goal:
-        """The server accepted it."""
+        """Require that the server accepted it."""
         if self.answer is None:
             require_alive(self.run)
             raise Failure(
@@ -141,7 +141,7 @@ class Goal:
         return self
 
     def require_rejected(self, *, because: str, help: str) -> None:
-        """The server rejected it."""
+        """Require that the server rejected it."""
         if self.answer is None:
             require_alive(self.run)
         expect(
@@ -153,7 +153,7 @@ class Goal:
         )
 
     def require_result(self, status: int) -> ev.ResultReceived:
-        """It ended with a status (SUCCEEDED, CANCELED, ABORTED); returns the result."""
+        """Require that it ended with a status (SUCCEEDED, CANCELED, ABORTED), and return the result."""
         if self.result is None:
             require_alive(self.run)
             raise Failure(
@@ -173,7 +173,7 @@ class Goal:
         return self.result
 
     def require_canceled(self, request: Cancel | None = None) -> ev.CancelSent:
-        """It was accepted, the request to cancel it (the last one) agreed to, and it ended CANCELED."""
+        """Require that it was accepted, that its (last) cancel request was granted, and that it ended CANCELED."""
         self.require_accepted()
         request = request or self.run.cancels_of(self.name)[-1]  # earlier ones may have overtaken their goal
         request.require_agreed(self)
@@ -181,7 +181,7 @@ class Goal:
         return request.sent
 
     def require_silence_afterwards(self) -> None:
-        """No feedback came after the result, and the scenario listened for some."""
+        """Require that no feedback came after the result, while the scenario listened for it."""
         if self.result is None or self.run.end < self.result.t + LISTENED:
             raise unseen(self.run, f"nobody listened for feedback after the result of “{self.name}”")
         end = self.result.t
@@ -195,7 +195,7 @@ class Goal:
         )
 
     def expect(self, path: str, value: Any, *, because: str, help: str, see: str = "") -> None:
-        """A field of its result, which must be there, has a value."""
+        """Require that a field of its result, which must be there, has a value."""
         assert self.result, "ask for its result first"
         expect_field(self.result.result, path, value, because=because, help=help, at=self.result.t, see=see)
 

@@ -1,4 +1,4 @@
-"""The lesson that a failure points to: CHAPTER#cell, as in docs/coverage.md, or an address of the author's own."""
+"""The lesson that a failure points to: CHAPTER#cell, as in docs/coverage.md, or a URL of the author's."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def in_words(see: str) -> str:
 
 
 def is_there(see: str) -> bool:
-    """Whether there is such a cell; an address is taken as it is."""
+    """Return whether there is such a cell; an address is not looked up."""
     chapter, _, cell = see.partition("#")
     return "://" in see or cell in _headings(chapter)
 

@@ -1,4 +1,4 @@
-"""What a check raises when something it asks about is not in the record: absence of evidence never passes."""
+"""What a check raises if something it asks about is not in the record: absence of evidence never passes."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 from autograder.authoring.failure import CannotBeJudged, Failure
 from autograder.authoring.root_cause import Cause, why_it_went_no_further, why_the_robot_was_held_up
 
-if TYPE_CHECKING:  # a transcript asks here itself
+if TYPE_CHECKING:  # which imports this module
     from autograder.authoring.transcript import Transcript
 
 _FIRST_OF_ALL = "Find out what your node did just before: the log below shows what it printed, with times."
 
 
 class Missing(Failure):
-    """Something never happened between grader and student's program, and why: 'it was never asked, because …'."""
+    """Something between grader and student's program never happened: 'it was never asked, because …'."""
 
     def __init__(self, run: Transcript, *, expected: str, never: str) -> None:
         cause = why_it_went_no_further(run) or why_the_robot_was_held_up(run)
@@ -28,7 +28,7 @@ class Missing(Failure):
 
 
 def unseen(run: Transcript, what: str) -> Exception:
-    """Return what to raise when a step of the scenario is missing: `what` says it as a sentence without its end.
+    """Return what to raise if a step of the scenario is missing; `what` is a sentence without its full stop.
 
     That is a `Failure` where the submission itself is the reason, else `CannotBeJudged`.
     """
@@ -36,7 +36,7 @@ def unseen(run: Transcript, what: str) -> Exception:
 
 
 def held_up(run: Transcript, what: str) -> Exception:
-    """Return what to raise when the robot did not do its part, which the end of a node is no reason for."""
+    """Return what to raise if the robot did not do its part; a node that ended does not explain that."""
     return _raised_for(run, what, why_the_robot_was_held_up(run))
 
 

@@ -1,6 +1,6 @@
-"""The first questions about any run: was the student's node there at all, and did it keep running?
+"""The first requirements on any run: the student's node appeared, and kept running.
 
-The engine asks whether it was there before every check.
+The engine asks before every check whether it appeared.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from autograder.authoring import events as ev
 from autograder.authoring.failure import Failure
 from autograder.authoring.missing import unseen
 
-if TYPE_CHECKING:  # calls and goals of a transcript ask here themselves
+if TYPE_CHECKING:  # whose calls and goals import this module
     from autograder.authoring.transcript import Transcript
 
 
@@ -50,13 +50,13 @@ def require_ready(run: Transcript) -> None:
 
 
 def require_started(run: Transcript) -> None:
-    """The student's program was started at all, which is ours to do."""
+    """Require that the student's program was started, which is the arena's task."""
     if run.first(ev.NodeStarted) is None:
         raise unseen(run, "the student's program was never started")
 
 
 def require_within_limits(run: Transcript) -> None:
-    """The student's processes were not ended for using too much."""
+    """Require that the student's processes were not ended for exceeding a limit."""
     killed = run.first(ev.NodeKilled)
     if killed:
         raise Failure(
@@ -68,7 +68,7 @@ def require_within_limits(run: Transcript) -> None:
 
 
 def require_alive(run: Transcript) -> None:
-    """The student's process did not die while the scenario ran."""
+    """Require that the student's process did not end while the scenario ran."""
     require_within_limits(run)
     exited = run.first(ev.NodeExited)
     if exited and run.first(ev.NodeSignalled) is None:

@@ -1,4 +1,4 @@
-"""A topic of the robot that a server listens to: what its last message was when a request came."""
+"""A topic of the robot that a server subscribes to, and its last message when a request came."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from autograder.authoring.transcript import Transcript
 
 E = TypeVar("E", bound=ev.Event)
 
-# s a message may be on its way: 0.2 s of wall time at scale 5, 0.1 s at scale 10. Scenarios wait a little longer.
+# s a message may be on its way: 0.2 s of real time at scale 5, 0.1 s at scale 10. Scenarios wait a little longer.
 DELIVERY = 1.0
 
 _OLDER = (
@@ -27,9 +27,14 @@ _INVENTED = "Do not compute or invent values: answer with the whole message that
 def last_messages(call: Call, kind: type[E], *, since: float | None = None) -> list[E]:
     """Return what may be 'the last message' at a server that answered `call`, oldest first.
 
-    That is the newest at the request, what it may not have taken the place of yet, since it was still on its way, and
-    what came before the answer. A message sent after `since` (s) must have had the time to arrive: it is the stimulus.
-    Without `since` it is one after the first that the node heard, which it may keep.
+    The messages begin with the last one that had certainly arrived at the request, and end with the last one before
+    the answer: those in between may have been on their way. One published after `since` must have arrived for certain:
+    it is the stimulus.
+
+    Args:
+        call: the request and its answer.
+        kind: the event that records a message.
+        since: s; None: when the first message was published that the node must have received.
     """
     run, answered = call.run, call.answered
     since = _first_heard(run, kind) if since is None else since
@@ -41,7 +46,7 @@ def last_messages(call: Call, kind: type[E], *, since: float | None = None) -> l
 
 
 def require_nothing_published(call: Call, kind: type[ev.Event], what: str) -> None:
-    """The robot had published no message of a topic, `what` in words, until the answer."""
+    """Require that the robot published no message of a topic, `what` in words, before the answer."""
     if any(message.t <= call.answered.t for message in call.run.all(kind)):
         raise unseen(call.run, f"{what} was published too early")
 
@@ -50,8 +55,11 @@ def require_nothing_published(call: Call, kind: type[ev.Event], what: str) -> No
 class RobotTopic:
     """A topic whose messages an answer repeats.
 
-    `kind` is the event that records a message; `fields` are those that are compared, which the event and the answer
-    both have. `shows` is a format of them for people.
+    Attributes:
+        name: of the topic.
+        kind: the event that records a message.
+        fields: names of the fields to compare, which event and answer both have.
+        shows: a format string that shows these fields to people.
     """
 
     name: str
@@ -67,10 +75,13 @@ class RobotTopic:
         since: float | None = None,
         advice: Callable[[Any, Any], str | None] = lambda answered, last: None,
     ) -> None:
-        """The part `answered` of the response is the last message there was when the request came.
+        """Require that an answer repeats the last message there was when the request came.
 
-        A message must have been published after `since` (s; None: after the first that the node heard). `advice` says
-        what to do where it knows the mistake from what was answered and the last message.
+        Args:
+            call: the request and its answer.
+            answered: the part of the response that repeats the message.
+            since: s; a message must have been published after it. None: after the first that the node received.
+            advice: returns what to do, given `answered` and the last message, if it recognises the mistake.
         """
         recent = last_messages(call, self.kind, since=since)
         if any(self._agree(answered, message) for message in recent):
@@ -94,6 +105,6 @@ class RobotTopic:
 
 
 def _first_heard(run: Transcript, kind: type[ev.Event]) -> float:
-    """When (s) the first message was published that the node must have heard."""
+    """Return when (s) the first message was published that the node must have received."""
     ready = run.first(ev.NodeReady)
     return min((message.t for message in run.all(kind) if ready and message.t > ready.t), default=0.0)

@@ -1,4 +1,4 @@
-"""What the submission did that explains why something is missing from the record."""
+"""The root cause of a gap in the record, if the submission caused it."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 from autograder.authoring import events as ev
 
-if TYPE_CHECKING:  # a transcript asks here itself
+if TYPE_CHECKING:  # which imports this module
     from autograder.authoring.transcript import Transcript
 
-BUSY_PROCESSORS = 0.8  # processors a submission may keep busy before what comes late is its own doing
+BUSY_PROCESSORS = 0.8  # processors; a submission that keeps more of them busy caused what comes late itself
 
 _ENDED = "An exception in a callback ends rclpy.spin() and with it the node: find it in the log below."
 _RETURNED = "main() returned before everything was done: look at what it waits for."
@@ -22,7 +22,7 @@ _WAITS = (
 
 @dataclass(frozen=True)
 class Cause:
-    """Why, as the end of a sentence that begins with “because”; what to do about it; when it was (s)."""
+    """A reason that follows “because” in a sentence, what to do about it, and when it happened (s)."""
 
     words: str
     help: str
@@ -30,17 +30,17 @@ class Cause:
 
 
 def why_it_went_no_further(run: Transcript) -> Cause | None:
-    """Return what ended the conversation with the student's program: its end, or an answer that never came."""
+    """Return why the scenario went no further: the student's program ended, or did not answer."""
     return _killed(run) or _exited(run) or _unanswered(run)
 
 
 def why_the_robot_was_held_up(run: Transcript) -> Cause | None:
-    """Return what the submission did to the robot's time: messages it had to refuse, or no processor left for it."""
+    """Return how the submission held up the robot: with messages it had to refuse, or by busy processors."""
     return _refused(run) or _busy(run)
 
 
 def keeps_processors_busy(run: Transcript) -> bool:
-    """Whether the submission itself kept the processors busy: then it is judged as it is."""
+    """Return whether the submission itself kept the processors busy; such a run is judged as it is."""
     usage = run.first(ev.NodeUsage)
     return usage is not None and usage.cpu > BUSY_PROCESSORS * usage.wall
 

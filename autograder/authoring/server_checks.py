@@ -1,4 +1,4 @@
-"""Questions that every server is asked, whatever it serves."""
+"""Requirements on any server."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _REASONS = {
 def require_clean_exit(run: Transcript) -> None:
     """SIGINT ended the process with status 0.
 
-    Output is not judged: rclpy prints tracebacks of its own when Ctrl-C meets one of its threads.
+    Output is not judged: rclpy prints tracebacks of its own if Ctrl-C interrupts one of its threads.
     """
     require_within_limits(run)
     signalled = run.first(ev.NodeSignalled)

@@ -1,4 +1,4 @@
-"""Checks that every server owes, whatever it serves: one line each in an exercise's checks.
+"""Checks that fit every server: one line each in an exercise's checks.
 
 server_appears = standard.server_appears("get_battery_status", points=1, on=INTERRUPT)
 ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)
@@ -18,14 +18,14 @@ Needs = Check | Sequence[Check]
 
 
 def server_appears(what: str, *, points: int, on: Scenario, see: str = "") -> Check:
-    """The node offers `what`, in words; `on` is best the shortest scenario, as this verdict is waited for."""
+    """Make the check that the node offers `what`; choose the shortest scenario, as this verdict comes first."""
     return named_check(
         "server_appears", f"The node offers {what}", require_ready, points=points, on=on, see=see
     )
 
 
 def ends_cleanly(*, points: int, on: Scenario, needs: Needs, see: str = "") -> Check:
-    """Ctrl-C ends the node with exit status 0; the scenario presses it."""
+    """Make the check that Ctrl-C, which the scenario presses, ends the node with exit status 0."""
     title = "Ctrl-C ends the node with exit status 0"
     return named_check("ends_cleanly", title, require_clean_exit, points=points, on=on, needs=needs, see=see)
 
@@ -40,7 +40,7 @@ def named_check(
     needs: Needs = (),
     see: str = "",
 ) -> Check:
-    """Make a check of a function that asks something of a run."""
+    """Make a check of a function that requires something of a run."""
 
     def judge(run: Transcript) -> None:
         require(run)

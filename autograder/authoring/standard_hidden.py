@@ -1,4 +1,4 @@
-"""Checks that every server owes and that students do not see: one line each in an exercise's hidden checks.
+"""Checks that fit every server and that students do not see: one line each in an exercise's hidden checks.
 
 The students' copy of the engine is without this module.
 """
@@ -19,7 +19,7 @@ _FROM_MEMORY = "Answer from memory: the callback must not sleep or wait for the 
 def answers_every_request(
     requests: int, *, points: int, on: Scenario, needs: Needs, within: float = 2.0, help: str = _FROM_MEMORY
 ) -> Check:
-    """All `requests` of the scenario, many at once, are answered, each `within` so many s."""
+    """Make the check that all `requests` of the scenario, many at once, are answered within so many s."""
 
     def judge(run: Transcript) -> None:
         latencies = [call.latency for call in require_calls(run, requests)]
@@ -37,6 +37,6 @@ def answers_every_request(
 def works_in_any_namespace(
     does: str, require: Callable[[Transcript], Any], *, points: int, on: Scenario, needs: Needs
 ) -> Check:
-    """Started in another namespace it does the same, which `require` asks of the run, and `does` says in words."""
+    """Make the check that the node does the same in another namespace: `require` tests it, `does` names it."""
     title = f"Started in another namespace, it {does} there"
     return named_check("works_in_any_namespace", title, require, points=points, on=on, needs=needs)

@@ -1,7 +1,7 @@
-"""Everything one arena saw, on one time axis, with the questions checks ask of it.
+"""Everything that one arena recorded, on one time axis, with the questions that checks ask.
 
-What a check asks for and is not there is a failure with a reason (`Missing`), or, where the arena did not do its part,
-no grade (`CannotBeJudged`).
+If something that a check asks for is missing, that is a failure with a reason (`Missing`). If the arena did not do its
+part, there is no grade (`CannotBeJudged`).
 """
 
 from __future__ import annotations
@@ -21,12 +21,20 @@ from autograder.authoring.missing import Missing, unseen
 E = TypeVar("E")
 A = TypeVar("A", ev.GoalAnswered, ev.ResultReceived, ev.CancelAnswered, ev.ServiceAnswered)
 
-LONGEST_GAP = 0.5  # s between what is asked about the robot and the nearest sample; it is sampled at 50 Hz
+LONGEST_GAP = 0.5  # s from a moment asked about to the nearest sample of the robot; there are 50 a second
 
 
 @dataclass(frozen=True)
 class Transcript:
-    """The events of one arena, in order of time; `params` are the scenario's inputs."""
+    """The events of one arena, in order of time.
+
+    Attributes:
+        scenario: its name.
+        params: the scenario's inputs.
+        events: all events but the robot's samples.
+        ground_truth: the simulator's state of the robot, at 50 Hz.
+        scale: how much faster than real time the arena's clock ran.
+    """
 
     scenario: str
     params: Mapping[str, Any]
@@ -62,7 +70,7 @@ class Transcript:
         return sorted_out
 
     def mark(self, name: str) -> float:
-        """Return the time (s) of a moment the scenario named."""
+        """Return the time (s) of a moment that the scenario named."""
         for mark in self.all(ev.Mark):
             if mark.name == name:
                 return mark.t
@@ -71,7 +79,7 @@ class Transcript:
     # -- actions ------------------------------------------------------------------------------------------------------
 
     def goal(self, name: str) -> Goal:
-        """Return the life of one goal, which must have been sent."""
+        """Return one goal, which must have been sent."""
         sent = next((event for event in self.all(ev.GoalSent) if event.goal == name), None)
         if sent is None:
             raise Missing(
@@ -100,7 +108,7 @@ class Transcript:
         ]
 
     def cancels_of(self, goal: str) -> list[Cancel]:
-        """Return the requests to cancel one goal (none named: every goal), of which there must be one."""
+        """Return the requests to cancel one goal ("": every goal); there must be at least one."""
         requests = [cancel for cancel in self.cancels if cancel.sent.goal == goal]
         if not requests:
             which = f"the goal “{goal}”" if goal else "every goal"
@@ -138,7 +146,7 @@ class Transcript:
         )
 
     def given_up(self, what: str, name: str) -> ev.Unanswered | None:
-        """Return when the scenario stopped to wait for the answer to a call, goal, cancel or result."""
+        """Return when the scenario stopped waiting for the answer to a call, goal, cancel or result, if it did."""
         return next(
             (event for event in self.all(ev.Unanswered) if (event.what, event.id) == (what, name)), None
         )
@@ -146,7 +154,7 @@ class Transcript:
     # -- scripted services --------------------------------------------------------------------------------------------
 
     def requests(self, service: str) -> list[Request]:
-        """Return the requests that a scripted service got, whichever of its servers, in order."""
+        """Return the requests to a scripted service, on any of its servers, in order."""
         received = {event.request: event for event in reversed(self.all(ev.RequestReceived))}
         return [
             Request(event, self._one(ev.ReplySent, "request", name))
@@ -216,7 +224,7 @@ class Transcript:
         return self.events[-1].t if self.events else 0.0
 
     def _in_time(self, kind: type[A], key: str, value: str, *, of: str) -> A | None:
-        """Return the answer to something, unless the scenario had stopped to wait for it and gone on."""
+        """Return the answer to something, unless the scenario had stopped waiting for it."""
         given_up = self.given_up(of, value)
         answer = self._one(kind, key, value)
         return None if answer is None or (given_up and answer.t > given_up.t) else answer

@@ -11,7 +11,7 @@ from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.authoring import events as ev
 from autograder.authoring.checks import Scenario
 from autograder.authoring.transcript import Transcript
-from autograder.engine.clock_scale import USUAL
+from autograder.engine.clock_scale import USUAL, scale_of
 from autograder.engine.exercise import Exercise
 from autograder.engine.submission_arena import ArenaEnded, student_paths
 from autograder.engine.submission_arenas import SubmissionArenas
@@ -66,7 +66,7 @@ def run_in_arena(
         with SubmissionArenas(run.exercise.scenario_file, run.kind) as arenas:
             return run_in_arena(run, stop, arenas)
     params = run.scenario.draw(run.seed)
-    scale = run.scale if run.scenario.timed else 1.0
+    scale = scale_of(run.scenario, run.scale)
     deadline = STARTUP_ALLOWANCE + LONGEST_SCENARIO / scale
     try:
         with arenas.one() as arena:

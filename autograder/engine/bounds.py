@@ -1,6 +1,6 @@
-"""Did the student's processes send more than is read? Then what was seen is not the whole, and that is the failure.
+"""Limits on what a student's processes send; a submission that exceeds them fails, as its record is incomplete.
 
-The engine asks it before every check, so that nothing passes because its evidence was flooded away.
+The engine asks before every check, so that no flood of messages can push out evidence and let a check pass.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from autograder.authoring.checks import Failure, Scenario
 from autograder.authoring.missing import held_up
 from autograder.authoring.transcript import Transcript
 
-# What stands in a record, in the words of a report.
+# Kinds of events in the words of a report.
 PLURALS: Mapping[str, str] = {
     ev.FeedbackReceived.kind: "feedback messages",
     ev.StatusSeen.kind: "changes of a goal's status",
@@ -79,7 +79,7 @@ def _require_nothing_dropped(run: Transcript, scenario: Scenario) -> None:
 
 
 def _size(count: int) -> str:
-    """A number of bytes in the unit people would say it in."""
+    """Return a number of bytes in a readable unit."""
     if count < 1024:
         return f"{count} bytes"
     return f"{count / 1024:.0f} KiB" if count < 2**20 else f"{count / 2**20:.1f} MiB"

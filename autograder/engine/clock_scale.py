@@ -1,7 +1,7 @@
-"""How much faster than the wall an arena's clock runs: as fast as the machine can bear, and never where it counts.
+"""How much faster than real time an arena's clock runs.
 
-A walking robot takes most of a core at the usual scale. Where there is no robot, or one that rests, an idle machine
-can go faster; a second look, which is what costs points, never does.
+A walking robot takes most of a core at the usual scale. Without a robot, or with one that rests, an idle machine can go
+faster. A retry never does, because only a retry costs points.
 """
 
 from __future__ import annotations
@@ -23,15 +23,20 @@ def highest_scale() -> float:
     return USUAL if library_path() else 1.0
 
 
+def scale_of(scenario: Scenario, wanted: float) -> float:
+    """Return the scale to run a scenario at, which is 1 if nothing in it is timed."""
+    return wanted if scenario.timed else 1.0
+
+
 class ClockScale:
-    """The scales of one grading; `asked` for one, it is used throughout."""
+    """The scales of one grading; if one is `asked` for, every run uses it."""
 
     def __init__(self, asked: float | None = None) -> None:
         self._asked = asked
         self._was_late = False
 
     def first_scale(self, scenario: Scenario) -> float:
-        """Return the scale to run a scenario at."""
+        """Return the scale of a scenario's first run."""
         if self._asked:
             return self._asked
         usual = highest_scale()
@@ -39,17 +44,17 @@ class ClockScale:
         return FAST if may_be_fast and _load_per_core() < BUSY else usual
 
     def retry_scale(self, first: float, was_strained: bool) -> float:
-        """Return the scale for a scenario that was run at scale `first`: a lower one if the machine was strained."""
+        """Return the scale to retry a scenario that ran at scale `first`: a lower one if the machine was strained."""
         if was_strained:
             return next((slower for slower in SLOWER if slower < first), 1.0)
         return first if self._asked else min(first, USUAL)
 
     def attempts(self, scale: float) -> Sequence[float]:
-        """Return the scales to try one after the other while an arena is late or fails, the lowest one twice."""
+        """Return the scales to try, one after the other, while an arena is late or fails; the lowest comes twice."""
         return (scale, *(slower for slower in SLOWER if slower < scale), 1.0)
 
     def was_late(self) -> None:
-        """From now on no arena goes faster than usual."""
+        """Let no arena go faster than usual from now on."""
         self._was_late = True
 
 

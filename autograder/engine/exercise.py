@@ -59,7 +59,7 @@ class Exercise:
         return self.folder / SCENARIO_FILE
 
     def max_score(self) -> int:
-        """The points of all its checks."""
+        """Return the points of all its checks."""
         return sum(check.points for check in self.checks)
 
 
@@ -111,7 +111,7 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
         UnknownExercise: there is none of that name; the message lists those there are.
         UnusableExercise: its author has something to fix.
     """
-    # It takes time to import, and whoever asks for names only does not need it.
+    # Imported late: it takes time, and a command that lists names does not need it.
     from autograder.authoring.checks import checks_in
 
     folder = exercises_folder() / name
@@ -159,7 +159,7 @@ def _names_in(folder: Path) -> list[str]:
 
 
 def _package(folder: Path) -> str:
-    """Return a package's name of the folder's own, under which its exercises can be imported."""
+    """Return the name of the package, one for each folder, under which its exercises can be imported."""
     name = f"exercises_{hashlib.sha256(str(folder.resolve()).encode()).hexdigest()[:12]}"
     if name not in sys.modules:
         package = ModuleType(name, f"The exercises in {folder}.")
@@ -169,7 +169,7 @@ def _package(folder: Path) -> str:
 
 
 def _require_sound_checks(exercise: Exercise) -> None:
-    """Each check has an id of its own and needs only checks that come before it."""
+    """Require that each check has an id of its own and needs only checks that come before it."""
     seen: set[str] = set()
     for check in exercise.checks:
         if check.id in seen:
@@ -182,7 +182,7 @@ def _require_sound_checks(exercise: Exercise) -> None:
 
 
 def _require_scenarios(exercise: Exercise) -> None:
-    """The scenarios of the checks are there, in a module that can be imported where nothing else of its folder is."""
+    """Require that the scenarios of the checks exist, in a module that imports nothing from its folder."""
     path = exercise.scenario_file
     try:
         tree = ast.parse(path.read_text(encoding="utf-8"), str(path))

@@ -1,7 +1,7 @@
-"""Grades one submission: runs the scenarios its checks need, judges the transcripts, settles every check.
+"""Grades one submission: runs the scenarios that its checks need, judges the transcripts, gives each check a verdict.
 
-A failure costs points only when it is seen twice, in two arenas: middleware and machines have bad moments too, and a
-fault of the submission shows every time.
+A failed check is retried in a second arena and costs points only if it fails again: middleware and machines have bad
+moments, but a fault of the submission shows every time.
 """
 
 from __future__ import annotations
@@ -17,17 +17,15 @@ from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.engine.clock_scale import ClockScale
 from autograder.engine.exercise import Exercise
 from autograder.engine.judging import judge, verdict_on
-from autograder.engine.lateness import OVERLOADED, lateness
+from autograder.engine.lateness import OVERLOADED, STRAINED, lateness
 from autograder.engine.submission import Submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.availability import Isolation, available_isolation
 
-STRAINED = 0.15  # s the simulator may be late in the second look at a failure
-
 Report = Callable[[CheckVerdict], None]
 Running = Callable[[Sequence[Scenario]], None]
-Retrying = Callable[[Check], None]
+OnRetry = Callable[[Check], None]
 Runs = dict[Scenario, Future[Transcript]]
 Evidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
 
@@ -45,7 +43,7 @@ def grade(
     scale: float | None = None,
     isolation: Isolation | None = None,
     report: Report = lambda verdict: None,
-    retrying: Retrying = lambda check: None,
+    on_retry: OnRetry = lambda check: None,
     evidence: Evidence = lambda verdict, transcripts: None,
     running: Running = lambda scenarios: None,
     arenas: SubmissionArenas | None = None,
@@ -61,7 +59,7 @@ def grade(
         scale: of every arena's clock; None: what the machine can bear.
         isolation: of the arenas; None: the best this machine has.
         report: gets each verdict as soon as it is known.
-        retrying: gets each check that failed once and is now retried.
+        on_retry: gets each check that failed once and is now retried.
         evidence: gets the transcripts that a check was judged on.
         running: gets the scenarios that run, whenever they change.
         arenas: of this submission, if one was opened ahead; they are closed at the end.
@@ -81,7 +79,7 @@ def grade(
         ClockScale(scale),
         isolation,
         report,
-        retrying,
+        on_retry,
         evidence,
         running,
         arenas,
@@ -90,7 +88,7 @@ def grade(
 
 
 class _Session:
-    """The state of one grading: transcripts by scenario, of the first look and the second; verdicts by check."""
+    """The state of one grading: transcripts by scenario, of first runs and of retries, and verdicts by check."""
 
     def __init__(
         self,
@@ -100,7 +98,7 @@ class _Session:
         scale: ClockScale,
         isolation: Isolation,
         report: Report,
-        retrying: Retrying,
+        on_retry: OnRetry,
         evidence: Evidence,
         running: Running,
         arenas: SubmissionArenas,
@@ -111,7 +109,7 @@ class _Session:
         self._scale = scale
         self._isolation = isolation
         self._report = report
-        self._retrying = retrying
+        self._on_retry = on_retry
         self._evidence = evidence
         self._running = running
         self._arenas = arenas
@@ -150,7 +148,7 @@ class _Session:
                 self._judge(check, self._retries)
 
     def _start(self, pool: ThreadPoolExecutor, jobs: int) -> list[Future[Transcript]]:
-        """Keep `jobs` arenas busy, first with what is certainly needed; returns those that run."""
+        """Keep `jobs` arenas busy, first with what is certainly needed, and return the runs."""
         running = {run: scenario for scenario, run in self._runs() if not run.done()}
         for scenario, runs in self._wanted():
             if len(running) >= jobs:
@@ -167,7 +165,7 @@ class _Session:
         return [*self._first.items(), *self._retries.items()]
 
     def _wanted(self) -> list[tuple[Scenario, Runs]]:
-        """Scenarios to run and where their transcripts go: those whose checks' needs are met come first."""
+        """Return the scenarios to run and where their transcripts go, first those whose checks' needs are met."""
         certain: list[tuple[Scenario, Runs]] = []
         possible: list[tuple[Scenario, Runs]] = []
         for check in self._exercise.checks:
@@ -180,20 +178,20 @@ class _Session:
         return certain + possible
 
     def _run_first(self, scenario: Scenario) -> Transcript:
-        """The first scenario of an exercise starts the program cold, as at home; the others need not wait for that."""
+        """Run a scenario for the first time; only the first one of an exercise starts the program cold, as at home."""
         cold = scenario is self._scenarios[0]
         return self._run(scenario, self._scale.first_scale(scenario), OVERLOADED, cold)
 
     def _retry(self, scenario: Scenario) -> Transcript:
-        """No point is lost but by what the program does when it is started cold, with the machine keeping up."""
+        """Run a scenario again, cold and at a scale that the machine bears, since now points can be lost."""
         first = self._first[scenario].result()
         was_strained = lateness(first) > STRAINED
         return self._run(scenario, self._scale.retry_scale(first.scale, was_strained), STRAINED, cold=True)
 
     def _run(self, scenario: Scenario, scale: float, tolerated: float, cold: bool) -> Transcript:
-        """Run a scenario, again at a lower scale when the simulator was more than `tolerated` s late.
+        """Run a scenario, and again at a lower scale if the simulator was more than `tolerated` s late.
 
-        At scale 1 a run counts if it can be judged at all. After an arena's failure the scenario is run again, too.
+        At scale 1 a run counts if it can be judged at all. A scenario is also run again after its arena failed.
         """
         problem: NotGraded | None = None
         for attempt_scale in self._scale.attempts(scale):
@@ -225,7 +223,7 @@ class _Session:
         raise problem or NotGraded("no attempt was made")
 
     def _judge(self, check: Check, runs: Runs) -> None:
-        """Judge a check on one look; its verdict stands unless it is one that is no pass, seen for the first time."""
+        """Judge a check on first runs or retries; on first runs only a pass is a verdict, the rest is retried."""
         try:
             transcripts = [runs[scenario].result() for scenario in check.on]
         except NotGraded as error:
@@ -234,7 +232,7 @@ class _Session:
         verdict = judge(check, transcripts)
         if verdict.status != "passed" and runs is self._first:
             self._failed_once.add(check.id)
-            self._retrying(check)
+            self._on_retry(check)
             return
         self._evidence(verdict, transcripts)
         self._conclude(verdict)

@@ -1,4 +1,4 @@
-"""From a check and the transcripts it asks for to its verdict: a pure function."""
+"""Judges a check on the transcripts it asks for: a pure function."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def judge(check: Check, transcripts: Sequence[Transcript]) -> CheckVerdict:
         )
     except CannotBeJudged as trouble:
         return verdict_on(check, "error", help=f"Not graded: {trouble}", log=log)
-    except Exception:  # a check that breaks is our fault, and must not cost the student anything
+    except Exception:  # a check that breaks is our fault and must cost the student nothing
         trace = traceback.format_exc()
         return verdict_on(check, "error", help=f"Not graded: the check itself failed.\n{trace}", log=log)
     return verdict_on(check, "passed", points=check.points, log=log)
@@ -78,7 +78,7 @@ def verdict_on(
 
 
 def _require_evidence(check: Check, transcripts: Sequence[Transcript]) -> None:
-    """Each run began with the student's program, and its record is whole."""
+    """Require that each run began with the student's program and that its record is complete."""
     for scenario, transcript in zip(check.on, transcripts, strict=True):
         if scenario.student == "node":
             require_ready(transcript)
@@ -89,6 +89,6 @@ def _require_evidence(check: Check, transcripts: Sequence[Transcript]) -> None:
 
 
 def _log(transcript: Transcript) -> str:
-    """The last lines the student's process printed, with their times."""
+    """Return the last lines that the student's process printed, with their times."""
     lines = [f"{event.t:7.2f} s  {event.text}" for event in transcript.all(ev.NodeOutput)][-LOG_LINES:]
     return "\n".join(lines)

@@ -1,10 +1,11 @@
-"""How far an arena was behind its clock: what a busy machine takes from a run."""
+"""How far an arena was behind its clock, which happens on a busy machine."""
 
 from __future__ import annotations
 
 from autograder.authoring import events as ev
 from autograder.authoring.transcript import Transcript
 
+STRAINED = 0.15  # s the simulator may be late in a retry
 OVERLOADED = 0.5  # s the simulator may be late before a run is not judged at all
 STARVED = 1.0  # s a student's program may wait for a processor before a run without a robot is not judged
 
@@ -12,8 +13,8 @@ STARVED = 1.0  # s a student's program may wait for a processor before a run wit
 def lateness(transcript: Transcript) -> float:
     """Return how far (s, arena's clock) the simulator was behind at worst, once the node was ready.
 
-    Without a robot, by how much the arena's own process overslept, or in proportion how long the program had no
-    processor.
+    Without a robot it is the longest delay of the arena's own wake-ups or, if that is more, a share of the time for
+    which the program had no processor.
     """
     ready = transcript.first(ev.NodeReady)
     since = ready.t + 1.0 if ready else 0.0

@@ -36,7 +36,7 @@ class Submission:
 
 
 def place_of_work(exercise: str, folder: Path) -> Path | None:
-    """Return an exercise's program in a folder; the folder where several files are written; None when none is there."""
+    """Return an exercise's program in a folder, or the folder if it has several files; None if there is none."""
     names = file_names(exercise)
     if not any((folder / name).exists() for name in names):
         return None
@@ -93,7 +93,7 @@ def sources_from_notebook(text: str, names: tuple[str, ...], path: Path) -> dict
 
 
 def _written_by(cell: str, name: str) -> str | None:
-    """What the cell writes into the file of that name, None when it does not."""
+    """Return what the cell writes into the file of that name; None if it does not."""
     magic = re.match(rf"\s*%%writefile\s+(?:\./)?{re.escape(name)}\s*\n", cell)
     return cell[magic.end() :] if magic else None
 

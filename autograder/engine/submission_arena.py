@@ -1,7 +1,7 @@
-"""The arena of one submission, as the controller has it: scenarios go in one after another, their events come out.
+"""The controller's handle of an arena: it sends scenarios one after another and gets their events back.
 
-Nothing of one submission is seen by another, because no arena serves two. Within an arena each scenario has processes,
-a ROS domain and a working folder of its own, and begins when nothing of the one before is left.
+No submission sees anything of another, because no arena serves two. Within an arena each scenario has processes, a ROS
+domain and a working folder of its own, and begins after everything of the one before has ended.
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ class SubmissionArena:
         return report
 
     def close(self) -> None:
-        """End it, with all that is in it. Harmless when it has ended."""
+        """End the arena with everything in it; do nothing if it has ended."""
         self._orders.close()
         self._process.kill()
 
@@ -138,7 +138,7 @@ class SubmissionArena:
 
 
 def ros_paths() -> list[Path]:
-    """What any ROS process needs to see: Python with its packages, and a sourced ROS 2 where there is one."""
+    """Return what any ROS process needs to see: Python with its packages, and a sourced ROS 2 if there is one."""
     sourced = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     return [
         *python_read_only_paths(),
@@ -147,12 +147,12 @@ def ros_paths() -> list[Path]:
 
 
 def student_paths() -> Sequence[Path]:
-    """What a student's program may see of this machine beside the system."""
+    """Return what a student's program may see of this machine beside the system."""
     return (*ros_paths(), PROJECT / "ros_runtime")
 
 
 def _trusted_paths() -> list[Path]:
-    """What any arena may see of the project: no checks, no solutions, no other submissions."""
+    """Return what any arena may see of the project: no checks, no solutions, no other submissions."""
     grader = PROJECT / "autograder"
     return [
         PROJECT / "ros_runtime",

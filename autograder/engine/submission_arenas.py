@@ -1,4 +1,4 @@
-"""The arenas of one submission: as many as scenarios run at a time, opened when they are needed."""
+"""The arenas of one submission: one for each scenario that runs at a time, opened when needed."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from autograder.isolation.bubblewrap import SandboxError
 
 
 class SubmissionArenas:
-    """A context manager; what it has opened ends with it. `scenario_file` is that of the submission's exercise.
+    """A pool of arenas as a context manager, which closes all arenas it has opened.
 
-    Where there are no namespaces an arena serves one scenario: what is left of it cannot be told from the next.
+    Without namespaces an arena serves one scenario, because leftovers of one could not be told from the next.
     """
 
     def __init__(self, scenario_file: Path, kind: Kind | None = None) -> None:
@@ -30,7 +30,7 @@ class SubmissionArenas:
         self._lock = threading.Lock()
 
     def open_ahead(self) -> None:
-        """Begin to open an isolated arena, while this process is busy with something else; unless none is wanted."""
+        """Begin to open an isolated arena in the background, unless isolation is switched off."""
         if os.environ.get(ISOLATION_VARIABLE) == Kind.NONE:
             return
         with ThreadPoolExecutor(1) as pool:
@@ -70,7 +70,7 @@ class SubmissionArenas:
             return self._idle.pop() if self._idle else None
 
     def _take_the_one_ahead(self) -> None:
-        """Wait for the arena that is being opened; where that fails, the next one says why."""
+        """Wait for the arena that is being opened; if that fails, the next one will say why."""
         with self._lock, suppress(SandboxError):
             ahead, self._ahead = self._ahead, None
             if ahead:

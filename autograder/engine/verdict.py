@@ -1,4 +1,4 @@
-"""The one record of what a submission earned, from which every report is made."""
+"""The record of what a submission earned; every report is made from it."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Grade:
 
     @property
     def all_passed(self) -> bool:
-        """Whether every check passed."""
+        """Whether the submission was graded and every check passed."""
         return self.status == "graded" and all(check.status == "passed" for check in self.checks)
 
     def to_json(self) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Is the record of a run whole? The engine asks it before every check: absence of evidence never passes."""
+"""Is the record of a run complete? The engine asks before every check: absence of evidence never passes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from autograder.authoring.root_cause import why_the_robot_was_held_up
 from autograder.authoring.transcript import Transcript
 from autograder.engine.lateness import OVERLOADED, lateness
 
-LONGEST_SILENCE = 1.5  # s on the arena's clock without a word from the simulator
+LONGEST_SILENCE = 1.5  # s on the arena's clock without a report of the simulator
 LATEST_COMMAND = 1.5  # s on it until a command of the scenario takes effect
 
 
@@ -26,13 +26,13 @@ def require_whole(run: Transcript, scenario: Scenario) -> None:
         raise held_up(run, f"the record breaks off at {run.end:.1f} s")
     if scenario.robot is not None:
         _require_the_robots_time(run)
-        _require_obedience(run)
+        _require_effects(run)
         if lateness(run) > OVERLOADED and why_the_robot_was_held_up(run):
             raise held_up(run, f"the robot fell {lateness(run):.1f} s behind its time")
 
 
 def _require_the_robots_time(run: Transcript) -> None:
-    """The simulator said something all the time from the node's appearance on."""
+    """Require that the simulator reported all the time since the node was ready."""
     ready = run.first(ev.NodeReady)
     ended = run.first(ev.ScenarioEnded)
     start, end = ready.t if ready else 0.0, ended.t if ended else run.end
@@ -42,8 +42,8 @@ def _require_the_robots_time(run: Transcript) -> None:
         raise held_up(run, f"the robot's time stood still for {silence:.1f} s from {since:.1f} s on")
 
 
-def _require_obedience(run: Transcript) -> None:
-    """Each command of the scenario took effect, soon, and in the order of sending."""
+def _require_effects(run: Transcript) -> None:
+    """Require that each command of the scenario took effect soon, and in the order of sending."""
     effects = run.all(ev.RobotCommanded)
     for sent in run.all(ev.CommandSent):
         effect = next((effect for effect in effects if effect.command == sent.command), None)

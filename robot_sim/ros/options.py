@@ -19,7 +19,8 @@ class RobotOptions:
         view: show it in a browser, served at `port` (0: the first free from 8080 on).
         robot: name of a real robot to look at instead.
         scene, crouch, seed: which humanoid stands where, how, and with which noise.
-        truth_fd, control_fd: descriptors of the arena's pipes; with the latter the robot is graded and /sim absent.
+        ground_truth_fd, control_fd: descriptors of the arena's pipes; with control_fd the robot is graded and /sim is
+            absent.
         battery_sensor_unplugged, joint_sensors_unplugged, robot_state_unpublished: faults it begins with.
         may_rest: it is not integrated while it stands still and nothing is asked of its body.
     """
@@ -32,7 +33,7 @@ class RobotOptions:
     scene: str = "flat"
     crouch: bool = False
     seed: int = 0
-    truth_fd: int | None = None
+    ground_truth_fd: int | None = None
     control_fd: int | None = None
     battery_sensor_unplugged: bool = False
     joint_sensors_unplugged: bool = False
@@ -66,7 +67,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--scene", choices=tuple(SCENES), default="flat")
     parser.add_argument("--crouch", action="store_true", help="begin in a crouch instead of standing")
     parser.add_argument("--seed", type=int, default=0, help="seed of the sensors' noise (default 0)")
-    parser.add_argument("--truth-fd", type=int, help=argparse.SUPPRESS)
+    parser.add_argument("--ground-truth-fd", type=int, help=argparse.SUPPRESS)
     parser.add_argument("--control-fd", type=int, help=argparse.SUPPRESS)
     parser.add_argument("--battery-sensor-unplugged", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--joint-sensors-unplugged", action="store_true", help=argparse.SUPPRESS)

@@ -72,7 +72,7 @@ def serve_robot(
 
     if options.robot:
         return _show_other_robot(options.robot, options.port, goes_on)
-    ground_truth = GroundTruthWriter(options.truth_fd) if options.truth_fd is not None else None
+    ground_truth = GroundTruthWriter(options.ground_truth_fd) if options.ground_truth_fd is not None else None
     control = ScenarioControl(options.control_fd) if options.control_fd is not None else None
     humanoid = humanoid or build_humanoid(options)
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)

@@ -18,8 +18,7 @@ from autograder.audit.proof import enough_to_catch
 from autograder.authoring.transcript import Transcript
 from autograder.engine.arena_run import ArenaRun, run_in_arena
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise
-from autograder.engine.grading import STRAINED
-from autograder.engine.lateness import lateness
+from autograder.engine.lateness import STRAINED, lateness
 from autograder.engine.submission_arenas import SubmissionArenas
 
 # One that passes everything, and a few that go wrong in different ways: an answer that is wrong, one that never comes,

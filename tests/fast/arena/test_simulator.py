@@ -32,7 +32,7 @@ class Obedient:
         given = dict(zip(more[::2], more[1::2], strict=True))
         command = json.loads(os.read(int(given["--control-fd"]), 1000))
         taken = {"kind": "command", "command": command}
-        os.write(int(given["--truth-fd"]), json.dumps(taken).encode() + b"\nno end of a line")
+        os.write(int(given["--ground-truth-fd"]), json.dumps(taken).encode() + b"\nno end of a line")
         time.sleep(60)
 
 

@@ -26,7 +26,7 @@ sys.exit(os.waitstatus_to_exitcode(os.waitpid(robot, 0)[1]))
 def test_a_forked_robot_reports_obeys_and_ends_at_sigterm():
     truth_read, truth_write = os.pipe()
     control_read, control_write = os.pipe()
-    pipes = ("--truth-fd", str(truth_write), "--control-fd", str(control_read))
+    pipes = ("--ground-truth-fd", str(truth_write), "--control-fd", str(control_read))
     with subprocess.Popen(
         [sys.executable, "-c", BUILD_FORK_AND_SERVE, *pipes, "--scene", "flat", "--seed", "5"],
         env={**os.environ, **ros_environment(domain_id=next(DOMAINS))},

@@ -56,7 +56,7 @@ def robot():
     """A robot whose joint sensors are unplugged."""
     truth_read, truth_write = os.pipe()
     control_read, control_write = os.pipe()
-    fds = ("--truth-fd", str(truth_write), "--control-fd", str(control_read))
+    fds = ("--ground-truth-fd", str(truth_write), "--control-fd", str(control_read))
     with running_robot("--joint-sensors-unplugged", *fds, pass_fds=(truth_write, control_read)) as listener:
         os.close(truth_write)
         os.close(control_read)
