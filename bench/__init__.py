@@ -1,1 +1,1 @@
-"""What the toolkit costs, whether it stays fair, and how well the robot moves: measured and printed, never a test."""
+"""Measures what the toolkit costs, whether grading is fair, and how well the robot moves; nothing here is a test."""

@@ -1,4 +1,4 @@
-"""The tables of `course bench`: what a user waits for, how fair the arenas are, what the live picture costs."""
+"""The tables of `course bench`: waiting times, fairness of the arenas, and the cost of the live picture."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ from ros_runtime.project import PROJECT
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 EXERCISE = "cancellable_walk"
-THREADED = "correct/threads_and_sleep"  # the sound server that every machine must treat fairly
+THREADED = "correct/threads_and_sleep"  # the correct server that must pass on every machine
 
 
 def bench_overview(
     console: Console, *, runs: int, scales: Sequence[float], jobs: int, with_robot: bool
 ) -> None:
-    """Measure everything once and print each table when it is there.
+    """Measure everything once and print each table as soon as it is complete.
 
     Args:
         console: where to print.
-        runs: how often the sound server walks at each scale.
+        runs: how often the correct server walks at each scale.
         scales: of the arena's clock; none: real time and the highest one.
         jobs: how many arenas run at a time.
         with_robot: whether the robot's quick trials run, too.
@@ -80,7 +80,7 @@ def _launcher_seconds() -> float:
 
 
 def _seconds_of_verdicts(submission: Submission, exercise: Exercise, jobs: int) -> list[float]:
-    """Grade once; return when each verdict came (s from the start)."""
+    """Grade once and return the time of each verdict (s from the start)."""
     seconds: list[float] = []
     started = time.monotonic()
 
@@ -134,7 +134,7 @@ def _fairness_cells(results: Sequence[FairRun]) -> tuple[str, str, str, str]:
 
 
 def _live_picture(console: Console) -> Table | str:
-    """What `lab.watch_robot()` gives and costs, or why there is no picture."""
+    """Return the rate and cost of `lab.watch_robot()`, or why there is no picture."""
     try:
         with console.status("a robot is watched while it walks …"), redirect_stdout(io.StringIO()):
             cost = view_cost()
@@ -156,7 +156,7 @@ def _live_picture(console: Console) -> Table | str:
 
 
 def _seconds(action: Callable[[], object], repeats: int = 3) -> float:
-    """The shortest of a few runs: the machine's noise only ever adds."""
+    """Return the shortest of a few runs, because a machine's noise only adds time."""
     taken = []
     for _ in range(repeats):
         started = time.monotonic()

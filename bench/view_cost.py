@@ -1,4 +1,4 @@
-"""What the robot's live picture gives and what it costs, measured as a notebook would meet it."""
+"""Measures the rate and the cost of the robot's live picture, as a notebook shows it."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class ViewCost:
 def view_cost(seconds: float = 5.0, rounds: int = 3) -> ViewCost:
     """Start the robot, let it walk in a circle, and measure for `seconds` without and with the picture, in turns.
 
-    In turns, because whatever else the machine does then weighs on both alike. It ends the lab's session.
+    In turns, because then other load on the machine affects both alike. It ends the lab's session.
 
     Raises:
         NoOpenGLError: this machine cannot draw; the message says what to install.
@@ -101,7 +101,7 @@ def view_cost(seconds: float = 5.0, rounds: int = 3) -> ViewCost:
 
 
 def _watch() -> set[bytes]:
-    """Begin to watch; the pictures that come, each different one once."""
+    """Begin to watch, and return a list that gets each new picture once."""
     view = watch_robot()
     if isinstance(view, ipywidgets.Label):
         raise NoOpenGLError(view.value)
@@ -117,7 +117,7 @@ def _measure(clock: _SimulatedTime, seconds: float) -> Load:
 
 
 def _now(clock: _SimulatedTime) -> Load:
-    """All that has been used until now."""
+    """Return the resources used so far."""
     return Load(time.monotonic(), clock.seconds, robot_process().cpu_time(), time.process_time())
 
 

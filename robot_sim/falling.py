@@ -1,4 +1,4 @@
-"""When the robot counts as fallen."""
+"""Decides whether the robot has fallen."""
 
 from __future__ import annotations
 
@@ -14,5 +14,5 @@ class FallThresholds:
 
 
 def has_fallen(height: float, up: float, thresholds: FallThresholds) -> bool:
-    """Whether a robot lies, given the height (m) of its pelvis and `up`, the z component of its torso's up-vector."""
+    """Return whether a robot with its pelvis at a height (m) has fallen; `up` is z of its torso's up-vector."""
     return height < thresholds.base_height or up < thresholds.up

@@ -168,7 +168,7 @@ class Humanoid:
             self._set_actuation(False)
 
     def _is_idle(self) -> bool:
-        """Whether it stands without a command."""
+        """Return whether it stands without a command."""
         return (
             self.motors_enabled
             and self._estimate is None
@@ -204,7 +204,7 @@ class Humanoid:
         self._follow(Goal(x, y, yaw))
 
     def stop(self) -> None:
-        """Come to a stand with the feet side by side; takes a step or two."""
+        """Come to a stand with the feet side by side, in a step or two."""
         self._follow(None)
 
     def set_motor_power(self, on: bool) -> None:
@@ -334,12 +334,12 @@ class Humanoid:
         return self.mode is Mode.STANDING and self._walker.gait.goal_reached
 
     def base_pose(self) -> BasePose:
-        """Pose of base_link in the odom frame."""
+        """Return the pose of base_link in the odom frame."""
         w, x, y, z = self.data.qpos[3:7].tolist()
         return BasePose(self.data.qpos[:3].copy(), np.array([x, y, z, w]), yaw_of(x, y, z, w))
 
     def base_velocity(self) -> BaseVelocity:
-        """Velocity of base_link, in base_link."""
+        """Return the velocity of base_link, in base_link."""
         to_body = np.empty(4)
         linear = np.empty(3)
         mujoco.mju_negQuat(to_body, self.data.qpos[3:7])
@@ -347,11 +347,11 @@ class Humanoid:
         return BaseVelocity(linear, self.data.qvel[3:6].copy())
 
     def up(self) -> float:
-        """The z component of the torso's up-vector: 1 upright, 0 lying."""
+        """Return the z component of the torso's up-vector: 1 upright, 0 lying."""
         return float(self._torso_rotation[8])
 
     def joint_state(self) -> JointState:
-        """Positions, velocities and efforts of the actuated joints."""
+        """Return positions, velocities and efforts of the actuated joints."""
         return JointState(
             tuple(ACTUATED_JOINTS),
             self.data.qpos[self._joint_positions],
@@ -360,7 +360,7 @@ class Humanoid:
         )
 
     def object_poses(self) -> dict[str, ObjectPose]:
-        """The objects of the scene, by name."""
+        """Return the poses of the scene's objects, by name."""
         poses = {}
         for name in OBJECTS[self.scene]:
             body = self.data.body(name)
@@ -368,7 +368,7 @@ class Humanoid:
         return poses
 
     def imu(self) -> ImuSample:
-        """The inertial sensor in the pelvis."""
+        """Return a sample of the inertial sensor in the pelvis."""
         return self._imu.read()
 
     # Helpers

@@ -6,7 +6,7 @@ import math
 
 
 def yaw_of(x: float, y: float, z: float, w: float) -> float:
-    """The heading (rad, -π to π) of a unit quaternion in ROS' order."""
+    """Return the heading (rad, -π to π) of a unit quaternion in ROS' order."""
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 

@@ -23,7 +23,7 @@ _SETUP_FILE_VARIABLES = (
 def ros_environment(
     *, domain_id: int | None = None, localhost_only: bool = False, log_directory: Path | None = None
 ) -> dict[str, str]:
-    """The variables to add to a process's environment, be that empty or a copy of ours.
+    """Return the variables to add to a process's environment, be that empty or a copy of ours.
 
     `domain_id` (0 to 101) separates systems on one network, `localhost_only` keeps discovery on this machine,
     and `log_directory` takes the log files, which go to ~/.ros/log otherwise: give it where there is no home.
@@ -55,17 +55,17 @@ def ros_environment(
 
 
 def python_for_ros() -> str:
-    """The interpreter that has rclpy and the interfaces: this one."""
+    """Return the interpreter that has rclpy and the interfaces: this one."""
     return sys.executable
 
 
 def uses_wheels() -> bool:
-    """Whether rclpy comes from the wheels on PyPI rather than from a sourced ROS installation."""
+    """Return whether rclpy comes from the wheels on PyPI rather than from a sourced ROS installation."""
     return _wheels_site_packages() is not None
 
 
 def _library_variables() -> dict[str, str]:
-    """Where the loader finds ROS's libraries.
+    """Return where the loader finds ROS's libraries.
 
     The wheels set LD_LIBRARY_PATH by starting the interpreter a second time (20 ms); they skip that when they
     find their mark, so path and mark are set together. A sourced installation has set everything already.
@@ -81,7 +81,7 @@ def _library_variables() -> dict[str, str]:
 
 @cache
 def _wheels_site_packages() -> Path | None:
-    """The directory the wheels are installed in, if the rclpy that gets imported is theirs."""
+    """Return the directory the wheels are installed in, if the rclpy that gets imported is theirs."""
     rclpy, bootstrapper = find_spec("rclpy"), find_spec("ros_wheels_bootstrapper")
     if rclpy is None or rclpy.origin is None or bootstrapper is None or bootstrapper.origin is None:
         return None

@@ -15,7 +15,7 @@ _TYPE_NAME = re.compile(
 
 
 def is_message(value: Any) -> bool:
-    """Whether this is a ROS message."""
+    """Return whether this is a ROS message."""
     return hasattr(value, "get_fields_and_field_types")
 
 

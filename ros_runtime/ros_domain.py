@@ -48,7 +48,7 @@ class ReservedDomain:
 
 
 def loopback_variables() -> dict[str, str]:
-    """The variables that keep a process's nodes on 127.0.0.1, and let them find each other on a busy machine."""
+    """Return the variables that keep a process's nodes on 127.0.0.1, and let them find each other on a busy machine."""
     return {"FASTRTPS_DEFAULT_PROFILES_FILE": str(LOOPBACK_ONLY)}
 
 

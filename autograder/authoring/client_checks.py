@@ -13,7 +13,7 @@ SLACK = 2.0  # s on the arena's clock for start and shutdown: 0.4 s of real time
 
 
 def require_end(run: Transcript, within: float) -> ev.NodeExited:
-    """The program ended by itself within so many seconds of its node's appearance."""
+    """Require that the program ended by itself within so many seconds of its node's appearance."""
     require_within_limits(run)
     started = run.first(ev.NodeReady) or run.first(ev.NodeStarted)
     if started is None:
@@ -38,7 +38,7 @@ def require_end(run: Transcript, within: float) -> ev.NodeExited:
 
 
 def require_success(run: Transcript, within: float) -> None:
-    """The program ended with status 0, in time."""
+    """Require that the program ended with status 0, in time."""
     exited = require_end(run, within)
     expect(
         exited.returncode == 0,
@@ -51,7 +51,7 @@ def require_success(run: Transcript, within: float) -> None:
 
 
 def require_failure(run: Transcript, within: float, statuses: tuple[int, ...], because: str) -> None:
-    """The program ended in time with one of the statuses and said so on stderr, in words and not by a traceback."""
+    """Require that the program ended in time with one of the statuses and a message, not a traceback, on stderr."""
     exited = require_end(run, within)
     wanted = " or ".join(map(str, statuses))
     expect(
@@ -80,7 +80,7 @@ def require_failure(run: Transcript, within: float, statuses: tuple[int, ...], b
 
 
 def require_requests(run: Transcript, service: str, number: int) -> list[Request]:
-    """The client sent exactly so many requests to a service."""
+    """Require that the client sent exactly so many requests to a service."""
     requests = run.requests(service)
     expect(
         len(requests) == number,
@@ -93,7 +93,7 @@ def require_requests(run: Transcript, service: str, number: int) -> list[Request
 
 
 def require_offered(run: Transcript, service: str, servers: int = 1, service_type: str = "") -> None:
-    """The grader offered a service, with so many servers in all and of one type: what the client had to deal with."""
+    """Require that the grader offered a service, with so many servers in all and of one type."""
     offered = [
         event
         for event in run.all(ev.ServiceOffered)
@@ -104,7 +104,7 @@ def require_offered(run: Transcript, service: str, servers: int = 1, service_typ
 
 
 def require_withdrawn(run: Transcript, service: str) -> ev.ServiceWithdrawn:
-    """The grader's server died while it worked on a request of the client, which must have come."""
+    """Require that the grader's server died while it worked on the client's request."""
     requests = run.requests(service)
     if not requests:
         raise Missing(run, expected=f"a request to {service}", never=f"{service} was never asked")

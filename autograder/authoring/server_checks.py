@@ -37,7 +37,7 @@ _REASONS = {
 
 
 def require_clean_exit(run: Transcript) -> None:
-    """SIGINT ended the process with status 0.
+    """Require that SIGINT ended the process with status 0.
 
     Output is not judged: rclpy prints tracebacks of its own if Ctrl-C interrupts one of its threads.
     """

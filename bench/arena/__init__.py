@@ -1,1 +1,1 @@
-"""What arenas, gradings and checks cost, and whether a sound program is treated fairly at every scale of the clock."""
+"""Measures what arenas, gradings and checks cost, and whether a correct program passes at every scale of the clock."""

@@ -1,4 +1,4 @@
-"""What arenas and whole gradings cost, of this version and of another, measured in turn in one run."""
+"""Measures what arenas and gradings cost, in this version and another, in turns."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ ARENAS = (
 
 
 class BenchFailed(Exception):
-    """A measured run did not come to its end."""
+    """A measured run failed."""
 
 
 @dataclass(frozen=True)
 class Version:
-    """A checkout with its environment; the code that measures is ours in each."""
+    """A checkout with its environment; this version's code measures every one."""
 
     project: Path = PROJECT
     python: Path = Path(sys.executable)
@@ -44,7 +44,7 @@ class Cost:
 
 @dataclass(frozen=True)
 class ArenaCost:
-    """One scenario in an arena that is open; `opening` is what the submission's first one takes more, once.
+    """The cost of one scenario in an open arena.
 
     `floor_s` is the scenario's own time over the scale of its clock, `robot_second_cpu_s` what the simulator uses for
     one second of the robot's time, None without a robot.
@@ -62,7 +62,7 @@ class ArenaCost:
 
 @dataclass(frozen=True)
 class SubmissionCost:
-    """A whole grading of the reference, hidden checks too."""
+    """The cost of grading the reference solution, with hidden checks."""
 
     exercise: str
     cpu_s: float
@@ -72,7 +72,7 @@ class SubmissionCost:
 
 @dataclass(frozen=True)
 class Costs:
-    """What was measured of one version."""
+    """What was measured for one version."""
 
     arenas: Sequence[ArenaCost] = ()
     submissions: Sequence[SubmissionCost] = ()
@@ -105,9 +105,11 @@ def measure(
     jobs: int = 2,
     progress: Callable[[str], None] = lambda what: None,
 ) -> list[Costs]:
-    """Measure each version; the best of several runs counts, because the noise of a machine only adds.
+    """Measure each version; the best of several runs counts, because a machine's noise only adds time.
 
-    Raises `BenchFailed`, and `CannotBeMeasured`.
+    Raises:
+        BenchFailed: a run failed.
+        CannotBeMeasured: this machine cannot count processor time.
     """
     arena_costs: list[list[ArenaCost]] = [[] for _ in versions]
     submission_costs: list[list[SubmissionCost]] = [[] for _ in versions]

@@ -1,4 +1,4 @@
-"""What each check of an exercise costs: the arenas it needs, and how long they take with one submission."""
+"""Measures what each check of an exercise costs: the arenas it needs, and how long they take."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from autograder.engine.submission import Submission
 
 @dataclass(frozen=True)
 class ArenaCost:
-    """One scenario's arena: what it took in all (wall s), and how long its clock went (arena s)."""
+    """One scenario's arena: its duration in real time (wall s) and on its clock (arena s)."""
 
     wall: float
     clock: float
@@ -23,7 +23,7 @@ class ArenaCost:
 
 @dataclass(frozen=True)
 class CheckCost:
-    """The arenas of one check. What several checks judge is run once a submission and counted at each of them."""
+    """The arenas of one check; an arena that several checks judge runs once and is counted for each."""
 
     check: Check
     arenas: tuple[ArenaCost, ...]
@@ -38,7 +38,7 @@ class ExerciseCost:
 
 
 def total(arenas: Sequence[ArenaCost]) -> ArenaCost:
-    """Return what arenas cost one after another."""
+    """Return what arenas cost that run one after another."""
     return ArenaCost(sum(arena.wall for arena in arenas), sum(arena.clock for arena in arenas))
 
 
@@ -52,7 +52,8 @@ def cost_of_checks(
 ) -> ExerciseCost:
     """Run every scenario of the exercise once, `jobs` at a time.
 
-    Raises `NotGraded` when an arena failed.
+    Raises:
+        NotGraded: an arena failed.
     """
     scenarios = list(dict.fromkeys(scenario for check in exercise.checks for scenario in check.on))
 

@@ -48,6 +48,6 @@ def bench_checks(console: Console, name: str, jobs: int) -> None:
 
 
 def _arenas(arenas: Sequence[ArenaCost]) -> tuple[str, str, str]:
-    """The cells that say how many arenas, and what they cost."""
+    """Return the cells with the number of arenas and what they cost."""
     cost = total(arenas)
     return str(len(arenas)), f"{cost.clock:.1f}", f"{cost.wall:.1f}"

@@ -1,4 +1,4 @@
-"""Does one sound server get the same verdicts and the same feedback rate every time, at any scale of the clock?"""
+"""Measures whether a correct server gets the same verdicts and feedback rate every time, at any scale of the clock."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def fairness_runs(
     jobs: int,
     progress: Callable[[FairRun], None] = lambda run: None,
 ) -> list[FairRun]:
-    """Carry out the scenario `runs` times at one scale and judge each run with every check that needs nothing else."""
+    """Run the scenario `runs` times at one scale; judge each run by the checks that need no other scenario."""
 
     def one(_index: int) -> FairRun:
         walk = ArenaRun(exercise, submission.files, scenario, 0, scale, cold=False)

@@ -1,4 +1,4 @@
-"""Runs one scenario, or grades one submission, again and again, and prints what each run cost as a JSON object a line.
+"""Runs a scenario or a grading again and again, and prints the cost of each run as a JSON object on a line.
 
 Run as `python measured_run.py TASK` in a process of its own, so that nothing else is counted, with any version of
 this package on the path: it uses what they have in common. TASK is JSON: the `project` whose reference solution is
@@ -26,7 +26,7 @@ try:
     from autograder.engine.exercise import Exercise, load_exercise
     from autograder.engine.grading import grade
     from autograder.engine.submission import Submission, read_submission
-except ImportError:  # as it was before the rooms were made
+except ImportError:  # as in older versions
     from autograder.exercise import Exercise, load_exercise  # type: ignore
     from autograder.grading import grade  # type: ignore
     from autograder.submission import Submission, read_submission  # type: ignore
@@ -48,7 +48,7 @@ def main() -> None:
 
 
 def _arenas(task: dict[str, Any], exercise: Exercise, submission: Submission) -> Iterator[dict[str, Any]]:
-    """Run a scenario; where an arena serves several, the first run opens it and is told apart."""
+    """Run a scenario again and again; if an arena serves several, the run that opens it is marked."""
     named = (s for check in exercise.checks for s in check.on if s.name == task["scenario"])
     run = arena_run.ArenaRun(exercise, submission.files, next(named))
     with _shared_arenas(exercise) as arenas:

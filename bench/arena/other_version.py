@@ -1,4 +1,4 @@
-"""Another commit of this project, set up in a folder of its own, to be measured beside this one."""
+"""Sets up another commit of this project in a folder of its own, to compare it with this one."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ FOLDER = PROJECT / "build" / "other_versions"
 
 
 def version_of(commit: str) -> Version:
-    """Return a commit's checkout with its environment, made when it is not there yet (some minutes, once).
+    """Return a commit's checkout with its environment; making it takes some minutes, once.
 
-    Raises `BenchFailed` for what is no commit, and where its set-up fails.
+    Raises:
+        BenchFailed: there is no such commit, or its set-up fails.
     """
     found = _run("git", "-C", str(PROJECT), "rev-parse", "--verify", "--quiet", f"{commit}^{{commit}}")
     if found.returncode:

@@ -1,6 +1,6 @@
-"""Counts the processor time of a process and of everything it starts, by a control group of the kernel's.
+"""Counts the processor time of a process and of everything it starts, by a control group of the kernel.
 
-Only root can make one, and nothing else is exact: what ends together with a sandbox is counted nowhere else.
+Only root can make one. Nothing else is exact, because processes that end with a sandbox are counted nowhere else.
 """
 
 from __future__ import annotations
@@ -25,9 +25,10 @@ class CannotBeMeasured(Exception):
 
 @contextmanager
 def metered_group() -> Iterator[tuple[Path, str]]:
-    """Yield a new control group, as the file that takes process ids and the one that says what they have used.
+    """Yield a new control group: the file that takes process ids and the file with their processor time.
 
-    Raises `CannotBeMeasured`.
+    Raises:
+        CannotBeMeasured: this machine or user cannot make one.
     """
     for place, meter in _PLACES:
         group = place / f"course-bench-{os.getpid()}-{time.monotonic_ns()}"

@@ -1,6 +1,6 @@
-"""Watches the simulator of an arena from outside, and tells what a second of the robot costs the processors.
+"""Watches the simulator of an arena from outside, and measures the processor time it uses per second.
 
-It stands alone, because it also watches other versions of this package.
+It imports nothing of this package, because it also watches other versions of it.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ _LATER_PART = 0.6  # of what was seen: before that it starts and is looked for
 
 
 class RobotWatch:
-    """A context manager around one run; `cpu_per_second` is for the later part of it."""
+    """A context manager around one run; `cpu_per_second` is about the later part of it."""
 
     def __enter__(self) -> RobotWatch:
         self._samples: list[tuple[float, float]] = []
@@ -32,7 +32,7 @@ class RobotWatch:
         self._thread.join()
 
     def cpu_per_second(self) -> float | None:
-        """Return the processor seconds it used per second of the wall; None without a simulator, or too short a run."""
+        """Return the processor seconds it used per real second; None without a simulator, or after too short a run."""
         later = self._samples[round(len(self._samples) * (1 - _LATER_PART)) :]
         if len(later) < 4:
             return None

@@ -24,9 +24,12 @@ def bench_arenas(
     runs: int,
     jobs: int,
 ) -> None:
-    """Measure, print, and write `json_file`. `against` is such a file, or a commit to measure as well.
+    """Measure, print, and write `json_file`; `against` is such a file, or a commit to measure, too.
 
-    Raises `BenchFailed`, `CannotBeMeasured` and, for a file of another format, ValueError.
+    Raises:
+        BenchFailed: a run failed.
+        CannotBeMeasured: this machine cannot count processor time.
+        ValueError: the file has another format.
     """
     earlier = (
         Costs.from_json(json.loads(Path(against).read_text())) if against and Path(against).exists() else None
@@ -83,7 +86,7 @@ def _submissions_table(
 
 
 def _phases_table(arenas: Sequence[ArenaCost]) -> Table:
-    """The first phases are those of opening the arena; the waiting interpreter starts in parallel to the others."""
+    """Lay out the phases: first those of opening the arena, to which the waiting interpreter starts in parallel."""
     table = Table(title="By phase: CPU s / wall s", box=box.SIMPLE_HEAD, padding=(0, 0))
     table.add_column("")
     for arena in arenas:

@@ -27,7 +27,7 @@ DISTANCE = 1.5  # m, from the table's edge region where the robot starts
 
 
 def cases(quick: bool) -> list[tuple[float, float, float]]:
-    """Where the cup stands (x, y) m, and how far to the side (m) the robot stops before the table."""
+    """Return where the cup stands, (x, y) m, and how far (m) to the side the robot stops at the table."""
     chance = random.Random(SEED)
     return [
         (chance.uniform(0.31, 0.36), chance.uniform(-0.24, -0.10), chance.uniform(-0.02, 0.02))
@@ -36,7 +36,7 @@ def cases(quick: bool) -> list[tuple[float, float, float]]:
 
 
 def run(case: tuple[float, float, float]) -> Run:
-    """One walk with the cup."""
+    """Carry the cup once."""
     x, y, offset = case
     clock = Clock()
     humanoid = Humanoid("table")
@@ -49,7 +49,7 @@ def run(case: tuple[float, float, float]) -> Run:
 
 
 def _carry_out(grasp: Grasp, offset: float) -> tuple[str, dict[str, float]]:
-    """Returns what went wrong, or "", and the figures."""
+    """Do it, and return what went wrong, or "", and the figures."""
     robot = grasp.robot
     table = float(grasp.cup()[2])
     if not _walk(robot, 0.03, offset, 0.0):
@@ -81,7 +81,7 @@ def _walk(robot: Humanoid, x: float, y: float, yaw: float) -> bool:
 
 
 def summarize(runs: Sequence[Run]) -> list[Summary]:
-    """One row."""
+    """Return one row."""
     error, slip = values_of(runs, "error_m"), values_of(runs, "slip_m")
     return [
         summary(

@@ -1,4 +1,4 @@
-"""Crouch and rise, at a commanded rate and in phases, be pushed in the midst of it, walk on."""
+"""Crouch and rise, at a commanded rate and in phases, be pushed meanwhile, walk on."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ WAY = (HeightPhase.SHIFTING, HeightPhase.LOWERING, HeightPhase.RISING, HeightPha
 
 
 def cases(quick: bool) -> list[tuple[str, float, float, float]]:
-    """Kind, height (m) of the crouch, direction (rad) of the push and its moment (s after the rise is asked for)."""
+    """Return kind, height (m) of the crouch, direction (rad) of the push, and its moment (s after the rise)."""
     runs = 4 if quick else 24
     chance = random.Random(SEED)
     places = [(chance.uniform(0.45, 0.52), chance.uniform(-math.pi, math.pi)) for _ in range(runs)]
@@ -44,7 +44,7 @@ def cases(quick: bool) -> list[tuple[str, float, float, float]]:
 
 
 def run(case: tuple[str, float, float, float]) -> Run:
-    """One crouch, one rise, and half a metre's walk."""
+    """Crouch, rise, and walk half a metre."""
     kind, height, direction, moment = case
     clock = Clock()
     humanoid = Humanoid()
@@ -76,7 +76,7 @@ def _rise_at_a_rate(humanoid: Humanoid, height: float, push: Sequence[float]) ->
 def _rise_in_phases(
     humanoid: Humanoid, height: float, push: Sequence[float], moment: float
 ) -> tuple[str, dict[str, float]]:
-    """Crouch, rise and be pushed on the way; what was amiss, the seconds spent in each phase, the shifts `again`."""
+    """Crouch, rise and be pushed; return the problem, the seconds in each phase, and the repeated shifts."""
     simulate(humanoid, 0.5)
     times = dict.fromkeys((phase.value for phase in WAY), 0.0)
     crouch = humanoid.crouch_to(height)
@@ -91,7 +91,7 @@ def _rise_in_phases(
 def _watch(
     humanoid: Humanoid, change: HeightChange, times: dict[str, float], until: float = math.inf
 ) -> float:
-    """Step until a change has ended; adds up the time of its phases and counts how often it had to shift anew."""
+    """Step until a change has ended; add up the time of its phases and count how often it shifted again."""
     again = 0
     while not change.phase.is_last and humanoid.time < until:
         before = change.phase
@@ -102,7 +102,7 @@ def _watch(
 
 
 def summarize(runs: Sequence[Run]) -> list[Summary]:
-    """One row for each kind."""
+    """Return one row for each kind."""
     titles = {
         RATE: f"crouch, {IMPULSE[RATE]:g} N·s, rise, walk on",
         PHASES: "crouch and stand up in phases, walk on",

@@ -1,4 +1,4 @@
-"""Walk and be pushed with the state estimated from IMU, encoders and contacts instead of the simulator's truth."""
+"""Walk and be pushed with the state estimated from IMU, encoders and contacts instead of the ground truth."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ GOAL, PUSHED = "goal", "push"
 
 
 def cases(quick: bool) -> list[tuple[str, float, float, float, int]]:
-    """What is tried, a goal (x m, y m, yaw rad) or a push (x, y N·s, moment s), and the seed of the sensors."""
+    """Return kind, goal (x m, y m, yaw rad) or push (x, y N·s, moment s), and the seed of the sensors."""
     chance = random.Random(SEED)
     runs = 3 if quick else 32
     goals = [
@@ -44,7 +44,7 @@ def cases(quick: bool) -> list[tuple[str, float, float, float, int]]:
 
 
 def run(case: tuple[str, float, float, float, int]) -> Run:
-    """One walk."""
+    """Walk once."""
     kind, x, y, other, seed = case
     clock = Clock()
     humanoid = Humanoid(seed=seed, estimates_state=True)
@@ -64,7 +64,7 @@ def run(case: tuple[str, float, float, float, int]) -> Run:
 
 
 def summarize(runs: Sequence[Run]) -> list[Summary]:
-    """One row for the goals, one for the pushes."""
+    """Return one row for the goals and one for the pushes."""
     goals = [run for run in runs if run.case[0] == GOAL]
     pushes = [run for run in runs if run.case[0] == PUSHED]
     error = values_of(goals, "error_m")

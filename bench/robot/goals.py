@@ -28,7 +28,7 @@ TIME_LIMIT = 30.0  # s
 
 
 def cases(quick: bool) -> list[tuple[float, float, float]]:
-    """Goals (x, y, yaw) within 2 m to each side, any heading."""
+    """Return goals (x m, y m, yaw rad) within 2 m to each side, with any heading."""
     chance = random.Random(SEED)
     return [
         (chance.uniform(-2, 2), chance.uniform(-2, 2), chance.uniform(-math.pi, math.pi))
@@ -64,7 +64,7 @@ def run(goal: tuple[float, float, float]) -> Run:
 
 
 def summarize(runs: Sequence[Run]) -> list[Summary]:
-    """One row."""
+    """Return one row."""
     error, yaw_error = values_of(runs, "error_m"), values_of(runs, "yaw_error_rad")
     return [
         summary(

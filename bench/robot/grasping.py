@@ -1,4 +1,4 @@
-"""Taking the cup from the table and putting it down, as the trials do it: each step tells whether it worked."""
+"""Taking the cup from the table and putting it down, for the trials; each step returns whether it worked."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Grasp:
         self._hand = robot.hands[SIDE]
 
     def cup(self) -> np.ndarray:
-        """Where the cup is, (3,) m."""
+        """Return where the cup is, (3,) m."""
         return self.robot.object_poses()["cup"].position
 
     def get_ready(self) -> None:
@@ -75,7 +75,7 @@ class Grasp:
         simulate(self.robot, 0.4)
 
     def holds(self) -> bool:
-        """Both fingers feel the cup."""
+        """Return whether both fingers feel the cup."""
         return self._hand.grip_force > 1.0
 
     def slip(self) -> Callable[[], float]:
@@ -84,7 +84,7 @@ class Grasp:
         return lambda: float(np.linalg.norm(self._cup_in_hand() - before))
 
     def put_down(self, x: float, y: float, height: float) -> tuple[float, str]:
-        """Put the cup down at (x, y, height) m; returns how far (m) it stands from there, and what is wrong or ""."""
+        """Put the cup down at (x, y, height) m; return how far (m) from there it stands, and what is wrong or ""."""
         self._place(x, y, height)
         simulate(self.robot, 0.5)
         cup = self.robot.object_poses()["cup"].position
@@ -94,7 +94,7 @@ class Grasp:
         return error, f"placed {error:.3f} m away" if error > PLACED_WITHIN else ""
 
     def _place(self, x: float, y: float, height: float) -> None:
-        """Put the cup down with its centre at (x, y, height) m, correcting by where it is seen to be."""
+        """Put the cup down with its centre at (x, y, height) m, corrected by its measured place."""
         self.heading = self._heading_for(x, y)
         above = np.array([x, y, height + LIFT]) + self.grip_point() - self.cup()
         self.move_to(above, speed=0.2, within=0.01)
@@ -117,7 +117,7 @@ class Grasp:
         turned: float = math.inf,
         until: Callable[[], bool] | None = None,
     ) -> bool:
-        """Move the grip point to `position` (3,) m; returns whether it came `within` (m) in time."""
+        """Move the grip point to `position` (3,) m; return whether it came `within` (m) in time."""
         cos, sin = math.cos(self.heading), math.sin(self.heading)
         rotation = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]) @ FINGERS_FORWARD
         x, y, z = position.tolist()
@@ -130,11 +130,11 @@ class Grasp:
         return simulate(self.robot, limit, until=there)
 
     def grip_point(self) -> np.ndarray:
-        """Where the fingers meet, (3,) m."""
+        """Return where the fingers meet, (3,) m."""
         return self.robot.data.site(f"{SIDE.letter}_grip").xpos.copy()
 
     def _heading_for(self, x: float, y: float) -> float:
-        """Half of the bearing from the shoulder: the wrist turns less than for a hand that points straight away."""
+        """Return half of the bearing from the shoulder, which turns the wrist less than the whole bearing."""
         shoulder = self.robot.data.body(f"{SIDE.letter}_shoulder_pitch_link").xpos
         return 0.5 * math.atan2(y - shoulder[1], x - shoulder[0])
 

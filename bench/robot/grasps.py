@@ -26,7 +26,7 @@ HOLD = 2.0  # s
 
 
 def cases(quick: bool) -> list[tuple[float, float, float, float]]:
-    """Places (x, y) m of the cup at first and at last."""
+    """Return places (x, y) m of the cup, before and after."""
     chance = random.Random(SEED)
     return [
         (
@@ -40,7 +40,7 @@ def cases(quick: bool) -> list[tuple[float, float, float, float]]:
 
 
 def run(case: tuple[float, float, float, float]) -> Run:
-    """One cup."""
+    """Move one cup."""
     from_x, from_y, to_x, to_y = case
     clock = Clock()
     humanoid = Humanoid("table")
@@ -53,7 +53,7 @@ def run(case: tuple[float, float, float, float]) -> Run:
 
 
 def _carry_out(grasp: Grasp, to_x: float, to_y: float, height: float) -> tuple[str, dict[str, float]]:
-    """Returns what went wrong, or "", and the figures."""
+    """Do it, and return what went wrong, or "", and the figures."""
     robot = grasp.robot
     grasp.get_ready()
     if not grasp.approach():
@@ -74,7 +74,7 @@ def _carry_out(grasp: Grasp, to_x: float, to_y: float, height: float) -> tuple[s
 
 
 def summarize(runs: Sequence[Run]) -> list[Summary]:
-    """One row."""
+    """Return one row."""
     error, slip = values_of(runs, "error_m"), values_of(runs, "slip_m")
     return [
         summary(

@@ -1,4 +1,4 @@
-"""Ask for far more velocity than the robot can walk, each way, and stop: what it does then are its limits."""
+"""Measure the walking limits: ask for far more velocity than the robot can walk, each way, and stop."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ WITHIN = 0.1  # of the limit
 
 
 def cases(quick: bool) -> list[str]:
-    """The directions."""
+    """Return the directions."""
     return list(REFERENCE)
 
 
@@ -58,7 +58,7 @@ def _distance(start, end) -> float:
 
 
 def summarize(runs: Sequence[Run]) -> list[Summary]:
-    """One row."""
+    """Return one row."""
     measured = "; ".join(
         f"{way} {run.values['speed']:.2f} {UNITS.get(way, 'm/s')}, stops after {run.values['stop_m']:.2f} m"
         for run in runs

@@ -1,4 +1,4 @@
-"""Push the torso from anywhere, standing and walking, and from the side, where a walk is weakest."""
+"""Push the torso from any direction, standing and walking, and from the side, where walking is weakest."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ REFERENCE = {  # survivals of 32 for gait, impulse in N·s
 
 
 def cases(quick: bool) -> list[tuple[str, int, int]]:
-    """Gait, impulse (N·s) and seed."""
+    """Return gait, impulse (N·s) and seed."""
     return [
         (gait, impulse, seed)
         for gait, impulse in REFERENCE
@@ -33,7 +33,7 @@ def cases(quick: bool) -> list[tuple[str, int, int]]:
 
 
 def run(case: tuple[str, int, int]) -> Run:
-    """One push at a random moment from a random direction; survived when still up four seconds later."""
+    """Push once at a random moment from a random direction; the robot survives if it is up four seconds later."""
     gait, impulse, seed = case
     clock = Clock()
     chance = random.Random(seed)
@@ -58,7 +58,7 @@ def run(case: tuple[str, int, int]) -> Run:
 
 
 def summarize(runs: Sequence[Run]) -> list[Summary]:
-    """One row for each gait and impulse."""
+    """Return one row for each gait and impulse."""
     rows = []
     for (gait, impulse), of_32 in REFERENCE.items():
         group = [run for run in runs if run.case[:2] == (gait, impulse)]

@@ -19,7 +19,7 @@ CLOSE = 0.01  # m
 
 
 def cases(quick: bool) -> list[tuple[float, float, float]]:
-    """Places (x, y, z) m within reach of the right shoulder, in front of the body."""
+    """Return places (x, y, z) m within reach of the right shoulder, in front of the body."""
     chance = random.Random(SEED)
     places: list[tuple[float, float, float]] = []
     while len(places) < (6 if quick else 41):
@@ -30,7 +30,7 @@ def cases(quick: bool) -> list[tuple[float, float, float]]:
 
 
 def run(place: tuple[float, float, float]) -> Run:
-    """One place."""
+    """Reach for one place."""
     clock = Clock()
     humanoid = Humanoid()
     simulate(humanoid, 0.4)
@@ -48,7 +48,7 @@ def run(place: tuple[float, float, float]) -> Run:
 
 
 def summarize(runs: Sequence[Run]) -> list[Summary]:
-    """One row."""
+    """Return one row."""
     error = values_of(runs, "error_m")
     row = summary(
         "reach ≤ 0.55 m from the shoulder, waist turning",

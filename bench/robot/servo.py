@@ -34,7 +34,7 @@ Twist = tuple[float, float, float]
 
 
 def cases(quick: bool) -> list[tuple[str, int, Pose]]:
-    """Style, rate and goal (base_link in odom) within 2 m, any heading."""
+    """Return style, rate and goal (base_link in odom) within 2 m, with any heading."""
     chance = random.Random(SEED)
     goals = []
     for _ in range(3 if quick else 30):
@@ -87,7 +87,7 @@ def run(case: tuple[str, int, Pose]) -> Run:
 
 
 def pose_error(humanoid: Humanoid, goal: Pose) -> Pose:
-    """The goal as seen from base_link: forward and left (m), turn (rad)."""
+    """Return the goal as seen from base_link: forward and left (m), turn (rad)."""
     pose = humanoid.base_pose()
     dx, dy = goal[0] - pose.position[0], goal[1] - pose.position[1]
     cos, sin = math.cos(pose.yaw), math.sin(pose.yaw)
@@ -95,13 +95,13 @@ def pose_error(humanoid: Humanoid, goal: Pose) -> Pose:
 
 
 def holonomic(error: Pose) -> Twist:
-    """Every component proportional to its error."""
+    """Return a velocity with every component proportional to its error."""
     forward, left, turn = error
     return clamp(0.8 * forward, -0.2, 0.4), clamp(0.8 * left, -0.12, 0.12), clamp(turn, -0.45, 0.45)
 
 
 class TurnWalkTurn:
-    """Face the goal in place, walk to it, turn to its heading; once reached, small errors are let be."""
+    """Face the goal in place, walk to it, turn to its heading; ignore small errors once there."""
 
     def __init__(self) -> None:
         self._there = False
@@ -121,7 +121,7 @@ class TurnWalkTurn:
 
 
 def summarize(runs: Sequence[Run]) -> list[Summary]:
-    """One row for each style and rate."""
+    """Return one row for each style and rate."""
     rows = []
     for style in STYLES:
         for rate in RATES:

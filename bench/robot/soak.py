@@ -10,7 +10,7 @@ from robot_sim.humanoid import Humanoid
 
 
 def cases(quick: bool) -> list[tuple[int, float]]:
-    """Seed and length (simulated s)."""
+    """Return seed and length (simulated s)."""
     return [(300 + index, 45.0 if quick else 600.0) for index in range(2 if quick else 4)]
 
 
@@ -57,7 +57,7 @@ def _command_at_random(humanoid: Humanoid, chance: random.Random) -> str:
 
 
 def summarize(runs: Sequence[Run]) -> list[Summary]:
-    """One row."""
+    """Return one row."""
     falls = sum(int(run.values["falls"]) for run in runs)
     minutes = sum(run.values["minutes"] for run in runs)
     return [

@@ -17,7 +17,7 @@ PROVEN = {STANDING: 44, WALKING: 39}  # what this controller can reach
 
 
 def cases(quick: bool) -> list[tuple[str, float]]:
-    """What to time, and for how long (simulated s)."""
+    """Return what to time, and for how long (simulated s)."""
     length = 10.0 if quick else 60.0
     return [(BARE, length), (STANDING, length), (WALKING, length)]
 
@@ -39,7 +39,7 @@ def run(case: tuple[str, float]) -> Run:
 
 
 def _time_bare_physics(humanoid: Humanoid, length: float) -> float:
-    """Processor seconds for mj_step alone, stood up again every 0.25 s because nothing keeps it standing."""
+    """Return the processor seconds of mj_step alone; the robot is reset every 0.25 s, as nothing balances it."""
     steps = round(0.25 / humanoid.timestep)
     size = dimensions_of(humanoid.model)
     cpu = 0.0
@@ -52,7 +52,7 @@ def _time_bare_physics(humanoid: Humanoid, length: float) -> float:
 
 
 def summarize(runs: Sequence[Run]) -> list[Summary]:
-    """One row for each."""
+    """Return one row for each."""
     rows = []
     bare = next(run for run in runs if run.case == BARE)
     for run in runs:

@@ -27,7 +27,7 @@ ALLOWED = 2.0  # s
 
 
 def cases(quick: bool) -> list[int]:
-    """Seeds."""
+    """Return seeds."""
     return [FIRST_SEED + index for index in range(12 if quick else 60)]
 
 
@@ -68,7 +68,7 @@ def run(seed: int) -> Run:
 
 
 def summarize(runs: Sequence[Run]) -> list[Summary]:
-    """One row."""
+    """Return one row."""
     settling, travel = values_of(runs, "settling_s"), values_of(runs, "travel_m")
     return [
         summary(

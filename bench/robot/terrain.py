@@ -24,7 +24,7 @@ REFERENCE = {  # runs of 24 that arrive, for slopes in degrees and bumps in m
 
 
 def cases(quick: bool) -> list[tuple[str, float, int]]:
-    """Kind of floor, how steep (degrees) or high (m), and a seed."""
+    """Return kind of floor, slope (degrees) or height (m), and a seed."""
     return [(kind, size, seed) for kind, size in REFERENCE for seed in range(2 if quick else 24)]
 
 
@@ -44,7 +44,7 @@ def run(case: tuple[str, float, int]) -> Run:
 
 
 def strewn(chance: random.Random, height: float) -> tuple[tuple[float, float, float], ...]:
-    """Bumps everywhere but under the feet."""
+    """Return bumps everywhere but under the feet."""
     reach = DISTANCE + 0.5
     places = [
         (chance.uniform(-reach, reach), chance.uniform(-reach, reach))
@@ -54,7 +54,7 @@ def strewn(chance: random.Random, height: float) -> tuple[tuple[float, float, fl
 
 
 def summarize(runs: Sequence[Run]) -> list[Summary]:
-    """One row for each floor."""
+    """Return one row for each floor."""
     rows = []
     for (kind, size), of_24 in REFERENCE.items():
         group = [run for run in runs if run.case[:2] == (kind, size)]

@@ -79,14 +79,15 @@ class Clock:
         self._start = time.process_time()
 
     def read(self) -> float:
-        """Seconds since it was made."""
+        """Return the processor seconds since it was made."""
         return time.process_time() - self._start
 
 
 def simulate(humanoid: Humanoid, seconds: float, until: Callable[[], bool] | None = None) -> bool:
     """Step for `seconds` of simulated time, or `until` something is true (asked every 20 ms).
 
-    Returns whether it ended that way; a fall ends it as well.
+    Returns:
+        Whether `until` became true; a fall ends the simulation as well.
     """
     every = max(1, round(0.02 / humanoid.timestep))
     for tick in range(1, round(seconds / humanoid.timestep) + 1):
@@ -100,18 +101,18 @@ def simulate(humanoid: Humanoid, seconds: float, until: Callable[[], bool] | Non
 
 
 def has_fallen(humanoid: Humanoid) -> bool:
-    """True when the robot lies on the floor."""
+    """Return whether the robot lies on the floor."""
     return humanoid.mode is Mode.FALLEN
 
 
 def base_speed(humanoid: Humanoid) -> float:
-    """Speed of base_link in space, m/s."""
+    """Return the speed of base_link in space, m/s."""
     x, y, z = humanoid.data.qvel[:3].tolist()
     return math.sqrt(x * x + y * y + z * z)
 
 
 def feet_midpoint(humanoid: Humanoid) -> tuple[float, float]:
-    """Midway between the soles, where `walk_to` brings the robot: (x, y) m, odom frame."""
+    """Return the point midway between the soles, which `walk_to` brings to its goal: (x, y) m, odom frame."""
     left, right = (humanoid.data.site(f"{side.letter}_sole").xpos.tolist() for side in SIDES)
     return (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
 
@@ -123,7 +124,7 @@ def run_of(
     note: str,
     values: dict[str, float] | None = None,
 ) -> Run:
-    """The run of a case that has ended now; a fall is noted before anything else."""
+    """Return the run of a case that ends now; a fall is noted before anything else."""
     note = "fell" if has_fallen(humanoid) else note
     return Run(
         case=tuple(part if isinstance(part, str) else round(part, 3) for part in case),
@@ -142,7 +143,7 @@ def summary(
     reference: str,
     met: bool,
 ) -> Summary:
-    """A row from runs; the counts, the factor and the failures are theirs."""
+    """Return the row of these runs, with their counts, real-time factor and failures."""
     cpu = sum(run.cpu for run in runs)
     return Summary(
         title=title,
@@ -157,15 +158,15 @@ def summary(
 
 
 def values_of(runs: Sequence[Run], name: str) -> list[float]:
-    """A measured value of the successful runs; [NaN] when there are none."""
+    """Return one measured value of each successful run; [NaN] if there are none."""
     return [run.values[name] for run in runs if run.success] or [math.nan]
 
 
 def mean(values: Sequence[float]) -> float:
-    """Arithmetic mean."""
+    """Return the arithmetic mean."""
     return sum(values) / len(values)
 
 
 def all_succeeded(runs: Sequence[Run]) -> bool:
-    """Whether every run succeeded."""
+    """Return whether every run succeeded."""
     return all(run.success for run in runs)

@@ -96,7 +96,7 @@ class JointPath:
         return self._waypoints[-1].time
 
     def at(self, time: float) -> list[float]:
-        """Positions (n,) rad at `time` (s), which must not go back; after the end, those of the end."""
+        """Return the positions (n,) rad at `time` (s), which must not go back; after the end, those of the end."""
         while self._segment < len(self._waypoints) - 2 and time > self._waypoints[self._segment + 1].time:
             self._segment += 1
         before, after = self._waypoints[self._segment : self._segment + 2]
@@ -120,7 +120,7 @@ class JointPath:
 
 
 def _hermite(s: float, span: float, q0: float, q1: float, v0: float, v1: float) -> float:
-    """The cubic of length `span` (s) at its share `s`."""
+    """Return the cubic of length `span` (s) at its share `s`."""
     a = 2 * (q0 - q1) + span * (v0 + v1)
     b = 3 * (q1 - q0) - span * (2 * v0 + v1)
     return q0 + s * (span * v0 + s * (b + s * a))

@@ -88,7 +88,7 @@ class Reach:
         return float(np.linalg.norm(rotation_vector(self._rotation(), self._target.rotation)))
 
     def joint_velocities(self, reference: np.ndarray) -> np.ndarray:
-        """Velocities (n,) rad/s of the joints, which are at `reference` (n,) rad, for the next tick."""
+        """Return the velocities (n,) rad/s for the next tick of the joints, which are at `reference` (n,) rad."""
         mujoco.mj_jacSite(self._model, self._data, self._jacobian[:3], self._jacobian[3:], self._grip)
         jacobian, velocity = self._task()
         relax = self._parameters.relaxation * (self._relaxed - reference)
@@ -102,7 +102,7 @@ class Reach:
         return velocities / fastest if fastest > 1 else velocities
 
     def _task(self) -> tuple[np.ndarray, np.ndarray]:
-        """The Jacobian and the wanted velocity of the task: position, and rotation if one is given."""
+        """Return the Jacobian and the wanted velocity of the task: position, and rotation if one is given."""
         weight = self._parameters.rotation_weight
         linear = self._linear_velocity()
         if self._target.rotation is None:
@@ -130,7 +130,7 @@ class Reach:
 
 
 def rotation_vector(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """The rotation (3,) rad, world frame, that turns rotation matrix `start` (3, 3) into `end` (3, 3)."""
+    """Return the rotation (3,) rad, world frame, that turns rotation matrix `start` (3, 3) into `end` (3, 3)."""
     quaternion, vector = np.empty(4), np.empty(3)
     mujoco.mju_mat2Quat(quaternion, (end @ start.T).ravel())
     mujoco.mju_quat2Vel(vector, quaternion, 1.0)

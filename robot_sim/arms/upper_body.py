@@ -23,7 +23,7 @@ class UpperBodyParameters:
     reach: ReachParameters = field(default_factory=ReachParameters)
 
     def speed_limit(self, joint: str) -> float:
-        """The fastest a joint may move, rad/s."""
+        """Return the highest speed of a joint, rad/s."""
         part = joint.partition("_")[0]
         return {"waist": self.waist_speed, "head": self.head_speed}.get(part, self.arm_speed)
 

@@ -1,4 +1,4 @@
-"""What the robot walks on: a plane, level unless told otherwise, with or without bumps."""
+"""The floor that the robot walks on: a plane, level by default, with or without bumps."""
 
 from __future__ import annotations
 

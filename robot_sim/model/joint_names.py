@@ -16,17 +16,17 @@ HEAD = ("head_pan", "head_tilt")
 
 
 def leg_joints(side: Side) -> list[str]:
-    """The six leg joints of a side, hip to ankle."""
+    """Return the names of the six leg joints of a side, hip to ankle."""
     return [f"{side.letter}_{joint}" for joint in LEG]
 
 
 def arm_joints(side: Side) -> list[str]:
-    """The seven arm joints of a side, shoulder to wrist."""
+    """Return the names of the seven arm joints of a side, shoulder to wrist."""
     return [f"{side.letter}_{joint}" for joint in ARM]
 
 
 def finger_joints(side: Side) -> list[str]:
-    """The two sliding fingers of a hand."""
+    """Return the names of the two sliding fingers of a hand."""
     return [f"{side.letter}_{joint}" for joint in FINGERS]
 
 

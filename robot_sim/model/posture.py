@@ -24,7 +24,7 @@ MIRRORED = {"shoulder_roll", "shoulder_yaw", "wrist_yaw", "wrist_roll"}
 
 
 def natural_posture(size: Dimensions) -> dict[str, float]:
-    """Every joint's position (rad, fingers m) in stance: knees bent, arms hanging, looking ahead."""
+    """Return every joint's position (rad, fingers m) in stance: knees bent, arms hanging, looking ahead."""
     posture = dict.fromkeys(UPPER_BODY_JOINTS, 0.0)
     hip_height = size.stance_height - size.ankle_height
     knee = 2 * math.acos(math.hypot(hip_height, HIPS_AHEAD) / (size.thigh + size.shank))
@@ -39,7 +39,7 @@ def natural_posture(size: Dimensions) -> dict[str, float]:
 
 
 def on_side(side: Side, joint: str, angle: float) -> float:
-    """The angle (rad) of an arm's joint that mirrors `angle` of the left arm's."""
+    """Return the angle (rad) of an arm's joint that mirrors `angle` of the left arm's."""
     return -angle if side is Side.RIGHT and joint in MIRRORED else angle
 
 

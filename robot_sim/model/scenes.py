@@ -1,4 +1,4 @@
-"""What stands around the robot: nothing, a table with a cup, or a stand that holds it by the chest."""
+"""The scenes of the robot: a flat floor, a table with a cup, or a stand that holds it by the chest."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ OBJECTS = {"flat": (), "table": ("cup",), "stand": ()}  # what can be taken, by 
 
 
 def scene_file(scene: str) -> Path:
-    """The MJCF file of a scene ("flat", "table" or "stand"), the robot in it.
+    """Return the MJCF file of a scene ("flat", "table" or "stand") with the robot in it.
 
     Raises:
         ValueError: the scene is not known; the message lists the known ones.

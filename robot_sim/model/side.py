@@ -28,7 +28,7 @@ class Side(IntEnum):
 
     @classmethod
     def of_letter(cls, letter: str) -> Side:
-        """The side of "l" or "r".
+        """Return the side of "l" or "r".
 
         Raises:
             ValueError: it is another letter.

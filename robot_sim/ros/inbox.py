@@ -1,7 +1,7 @@
-"""The messages of one subscription, to whose topic anybody may publish anything.
+"""The messages of one subscription; any node may publish anything on its topic.
 
-Bytes are checked before they become objects, and only so many messages and bytes a second are: a node that publishes
-more or larger ones than any sane node would is refused, and cannot hold the robot up.
+Bytes are checked before they become objects, and the number of messages and bytes a second is limited: a node that
+publishes too many, or too large, messages is refused and cannot hold the robot up.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ class Inbox:
         self._next_report = 0.0
 
     def process_arrived(self, now: float) -> None:
-        """Process what has arrived by simulated time `now` (s), as much as is due; of the rest the newest ones wait."""
+        """Process the messages that arrived by simulated time `now` (s), up to the limit; the newest others wait."""
         if now < self._latest:  # as at a reset
             self._latest = self._next_report = now
         passed, self._latest = now - self._latest, now
@@ -90,7 +90,7 @@ class Inbox:
         return self._messages >= 1 and self._bytes > 0
 
     def _open(self, data: bytes) -> tuple[str, Any]:
-        """Why a message is refused, or "" and the message."""
+        """Return why a message is refused, or "" and the message."""
         if len(data) > self._most_bytes:
             return f"more than {self._most_bytes} bytes", None
         try:

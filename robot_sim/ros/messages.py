@@ -11,12 +11,12 @@ from rclpy.publisher import Publisher
 
 
 def floats(values: np.ndarray) -> array[float]:
-    """Numbers in the type that a message takes without checking each."""
+    """Return numbers in the type that a message takes without checking each."""
     return array("d", values.tobytes())
 
 
 def has_subscribers(publisher: Publisher) -> bool:
-    """Whether anybody subscribes; without subscribers no message is made."""
+    """Return whether a publisher has subscribers; without them no message needs to be made."""
     return publisher.get_subscription_count() > 0
 
 

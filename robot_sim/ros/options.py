@@ -17,12 +17,12 @@ class RobotOptions:
         rtf: simulated seconds a second; 0: as fast as it can.
         namespace: of the node.
         view: show it in a browser, served at `port` (0: the first free from 8080 on).
-        robot: name of a real robot to look at instead.
+        robot: name of a real robot to show instead.
         scene, crouch, seed: which humanoid stands where, how, and with which noise.
         ground_truth_fd, control_fd: descriptors of the arena's pipes; with control_fd the robot is graded and /sim is
             absent.
-        battery_sensor_unplugged, joint_sensors_unplugged, robot_state_unpublished: faults it begins with.
-        may_rest: it is not integrated while it stands still and nothing is asked of its body.
+        battery_sensor_unplugged, joint_sensors_unplugged, robot_state_unpublished: faults at the start.
+        may_rest: physics is not integrated while the robot stands still without a command.
     """
 
     rtf: float = 1.0
@@ -42,7 +42,7 @@ class RobotOptions:
 
 
 def parse_options(arguments: Sequence[str] | None = None) -> RobotOptions:
-    """The options of a command line, this process's unless given; a wrong option ends the process with a message."""
+    """Read the options from a command line, by default this process's; a wrong one ends it with a message."""
     return RobotOptions(**vars(_parser().parse_args(arguments)))
 
 

@@ -8,9 +8,9 @@ TOLERANCE = 1e-6  # s: sums of timesteps and of periods that mean the same time 
 
 
 class PeriodicJobs:
-    """Jobs that are called at a rate (Hz) of simulated time each; a late call is made once, not caught up on.
+    """Jobs, each called at a rate (Hz) of simulated time; a late call is made once, missed ones never.
 
-    When time has gone back, as at a reset, every job is due at once.
+    If time has gone back, as at a reset, every job is due at once.
 
     Attributes:
         next_due: simulated time (s) at which the next job is due.

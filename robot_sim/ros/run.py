@@ -96,6 +96,6 @@ def run(
 
 
 def _steps_until(due: float, humanoid: Humanoid) -> int:
-    """How many steps to make until simulated time `due` (s), or until commands are to be processed."""
+    """Return how many steps to make until simulated time `due` (s), or until commands are to be processed."""
     seconds = min(due - humanoid.time, LONGEST_CYCLE)
     return max(1, math.ceil((seconds - TOLERANCE) / humanoid.timestep))

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["RobotOptions", "build_humanoid", "parse_options", "serve_robot"]
 
 CROUCH = 0.45  # m, height of the pelvis
-LONGEST_SETTLING = 10.0  # s, simulated, until a robot that may rest does, if ever it does
+LONGEST_SETTLING = 10.0  # s, simulated, in which a robot that may rest comes to rest, if it can
 
 
 def build_humanoid(options: RobotOptions, built: Humanoid | None = None) -> Humanoid:

@@ -43,5 +43,5 @@ class Services:
                 self._rest_until = started + SHARE * (time.monotonic() - started)
 
     def spin_executor(self) -> None:
-        """Do whatever else is due on the node, such as events of its publishers."""
+        """Process the node's other events, such as those of its publishers."""
         self._executor.spin_once(timeout_sec=0)

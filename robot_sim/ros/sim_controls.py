@@ -43,7 +43,7 @@ class SimControls:
         self.inboxes = [Inbox(node.create_subscription(Vector3, "/sim/push", self._push, 10))]
 
     def steps_due(self, most: int) -> int:
-        """How many steps to make now: `most`; while paused, as many of them as were requested."""
+        """Return how many steps to make now: `most`; while paused, as many of them as were requested."""
         if not self.paused:
             return most
         steps = min(most, self._steps_left)
@@ -51,7 +51,7 @@ class SimControls:
         return steps
 
     def take_reset(self) -> bool:
-        """Whether a reset was requested since the last call."""
+        """Return whether a reset was requested since the last call."""
         wanted, self._reset_wanted = self._reset_wanted, False
         return wanted
 

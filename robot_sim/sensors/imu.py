@@ -50,7 +50,7 @@ class Imu:
         self.accelerometer_bias = self._parameters.accelerometer_bias * bias[3:]
 
     def read(self) -> ImuSample:
-        """The present sample."""
+        """Return the present sample."""
         tick = round(self._data.time / self._timestep)
         noise = np.random.default_rng((self._seed, tick)).normal(size=6)
         return ImuSample(

@@ -73,7 +73,7 @@ class StateEstimate:
         self._compute()
 
     def _loads(self) -> list[float]:
-        """The contact forces (N) of the feet; 0 for one that bears too little to stand still."""
+        """Return the contact forces (N) of the feet; 0 for one that bears too little to stand still."""
         loads = [float(self._measured.sensordata[touch]) for touch in self._touches]
         return [load if load > self._parameters.contact_force else 0.0 for load in loads]
 

@@ -35,7 +35,7 @@ class View:
     """A renderer of one robot; `close()` it, because an open OpenGL context outlives its object.
 
     Args:
-        humanoid: whom to draw.
+        humanoid: the robot to draw.
         width, height: of the pictures, px.
         shadows: draw them; without a graphics card they take most of the time.
 
@@ -59,7 +59,7 @@ class View:
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._renderer)
 
     def picture(self, camera: str = "track") -> np.ndarray:
-        """The robot now, RGB (height, width, 3), uint8, through one of the model's cameras.
+        """Draw the robot as it is now, RGB (height, width, 3), uint8, through one of the model's cameras.
 
         Raises:
             ValueError: the model has no such camera; the message lists its cameras.

@@ -28,7 +28,7 @@ class WebView:
     can be reached from this machine only.
 
     Args:
-        robot: whom to show.
+        robot: the robot to show.
         port: where to listen; 0 takes the first free one from 8080 on.
 
     Raises:
@@ -61,7 +61,7 @@ class WebView:
 
 
 def _following_camera(model: mujoco.MjModel) -> mujoco.MjvCamera:
-    """A camera in front of the robot that goes along with it and can be turned."""
+    """Return a camera in front of the robot that follows it and can be turned."""
     camera = mujoco.MjvCamera()
     camera.type = mujoco.mjtCamera.mjCAMERA_TRACKING
     free = int(model.jnt_type.argmin())  # mjJNT_FREE is 0, the least: a floating base has the first of them

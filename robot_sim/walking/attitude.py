@@ -8,7 +8,7 @@ Vector = tuple[float, float, float]
 
 
 def upright_error(rotation: Sequence[float], cos_yaw: float, sin_yaw: float) -> Vector:
-    """The rotation vector (rad, world frame, small angles) from `rotation` to upright with the given yaw.
+    """Return the rotation vector (rad, world frame, small angles) from `rotation` to upright with the given yaw.
 
     ½ vee(E - Eᵀ) of E = R_wanted Rᵀ: its length is the sine of the angle.
     """
@@ -21,7 +21,7 @@ def upright_error(rotation: Sequence[float], cos_yaw: float, sin_yaw: float) -> 
 
 
 def to_body(rotation: Sequence[float], vector: Vector) -> Vector:
-    """A world vector in the frame of the body with this rotation."""
+    """Return a world vector in the frame of the body with this rotation."""
     x, y, z = vector
     return (
         rotation[0] * x + rotation[3] * y + rotation[6] * z,
@@ -31,7 +31,7 @@ def to_body(rotation: Sequence[float], vector: Vector) -> Vector:
 
 
 def to_world(rotation: Sequence[float], vector: Vector) -> Vector:
-    """A vector of the body with this rotation in the world frame."""
+    """Return a vector of the body with this rotation in the world frame."""
     x, y, z = vector
     return (
         rotation[0] * x + rotation[1] * y + rotation[2] * z,

@@ -47,11 +47,11 @@ class BalanceGains:
             raise ValueError("max_torque is 0; expected more, or nothing holds the robot upright")
 
     def roll_torque(self, error: float, rate: float) -> float:
-        """N·m about the roll axis for a tilt `error` (rad) that is to go and a `rate` (rad/s)."""
+        """Return the torque (N·m) about the roll axis for a tilt error (rad) to remove and a rate (rad/s)."""
         return clamp(self.kp_roll * error - self.kd_roll * rate, -self.max_torque, self.max_torque)
 
     def pitch_torque(self, error: float, rate: float) -> float:
-        """N·m about the pitch axis for a tilt `error` (rad) that is to go and a `rate` (rad/s)."""
+        """Return the torque (N·m) about the pitch axis for a tilt error (rad) to remove and a rate (rad/s)."""
         return clamp(self.kp_pitch * error - self.kd_pitch * rate, -self.max_torque, self.max_torque)
 
 
@@ -70,7 +70,7 @@ class Trunk:
 
 
 def default_gains(trunk: Trunk, balance: BalanceParameters) -> BalanceGains:
-    """The gains that the walking controller was tuned with."""
+    """Return the gains that the walking controller was tuned with."""
     return BalanceGains(
         kp_pitch=balance.tilt_stiffness * trunk.pitch_inertia + trunk.topple,
         kd_pitch=balance.tilt_damping * trunk.pitch_inertia,
@@ -81,7 +81,7 @@ def default_gains(trunk: Trunk, balance: BalanceParameters) -> BalanceGains:
 
 
 def trunk_of(model: mujoco.MjModel) -> Trunk:
-    """The trunk of a robot in its model's reference posture.
+    """Return the trunk of a robot in its model's reference posture.
 
     Steiner's theorem over the bodies: I = Σ (R I_c Rᵀ + m (r² 1 - r rᵀ)).
     """
@@ -103,7 +103,7 @@ def trunk_of(model: mujoco.MjModel) -> Trunk:
 
 
 def _ancestors(model: mujoco.MjModel, body: int) -> list[int]:
-    """The body itself and those it hangs on, the world excepted."""
+    """Return the body and all bodies above it in the tree, without the world."""
     chain = []
     while body > 0:
         chain.append(body)

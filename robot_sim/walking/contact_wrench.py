@@ -29,7 +29,7 @@ class ContactWrench(NamedTuple):
 def contact_wrench(
     base_rows: Sequence[float], sensed: Sensing, mass: float, limits: BalanceParameters
 ) -> ContactWrench:
-    """The wrench that makes the base move as wanted.
+    """Return the wrench that makes the base move as wanted.
 
     The CoP is the point of the floor about which the moment has no horizontal part: P. Sardain, G. Bessonnet,
     "Forces acting on a biped robot. Center of pressure - zero moment point", IEEE Transactions on Systems,
@@ -69,7 +69,7 @@ class LoadSplit:
     def foot_wrench(
         self, side: Side, wrench: ContactWrench, left_share: float, sensed: Sensing, shift: Point
     ) -> tuple[float, ...] | None:
-        """The force (N) and moment (N·m) about the sole's centre, world frame; None for a foot without load.
+        """Return the force (N) and moment (N·m) about the sole's centre, world frame; None for a foot without load.
 
         Both CoPs have the same offset from their soles' centres: the one of the total CoP from the load-
         weighted mean of the centres, and `shift` (m) of this foot.

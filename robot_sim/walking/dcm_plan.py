@@ -18,24 +18,24 @@ Point = tuple[float, float]
 
 
 def dcm_after(dcm: Point, cop: Point, omega: float, duration: float) -> Point:
-    """Where the DCM (m) will be after `duration` (s) with the CoP held still."""
+    """Return where the DCM (m) will be after `duration` (s) with the CoP held still."""
     growth = math.exp(omega * duration)
     return cop[0] + growth * (dcm[0] - cop[0]), cop[1] + growth * (dcm[1] - cop[1])
 
 
 def dcm_before(dcm: Point, cop: Point, omega: float, duration: float) -> Point:
-    """Where the DCM (m) must be `duration` (s) earlier with the CoP held still."""
+    """Return where the DCM (m) must be `duration` (s) earlier with the CoP held still."""
     return dcm_after(dcm, cop, omega, -duration)
 
 
 def cop_to_reach(goal: Point, dcm: Point, omega: float, duration: float) -> Point:
-    """The constant CoP (m) that brings the DCM to `goal` in `duration` (s)."""
+    """Return the constant CoP (m) that brings the DCM to `goal` in `duration` (s)."""
     growth = math.exp(omega * duration)
     return (goal[0] - growth * dcm[0]) / (1 - growth), (goal[1] - growth * dcm[1]) / (1 - growth)
 
 
 def dcm_at_touchdown(footsteps: Sequence[Footstep], omega: float, duration: float) -> Point:
-    """The DCM (m) wanted when the first of `footsteps` lands, each step lasting `duration` (s).
+    """Return the DCM (m) wanted when the first of `footsteps` lands, each step lasting `duration` (s).
 
     Backward recursion from rest: at the end the DCM is midway between the last two feet.
     """
@@ -47,7 +47,7 @@ def dcm_at_touchdown(footsteps: Sequence[Footstep], omega: float, duration: floa
 
 
 def time_to_reach(goal: float, dcm: float, cop: float, omega: float) -> float:
-    """The time (s) in which the DCM runs from `dcm` to `goal` on one axis, both on one side of the CoP.
+    """Return the time (s) in which the DCM runs from `dcm` to `goal` on one axis, both on one side of the CoP.
 
     The closed form behind step timing adaptation: M. Khadiv, A. Herzog, S. A. A. Moosavian, L. Righetti,
     "Step timing adjustment: a step toward generating robust gaits", IEEE-RAS Humanoids, 2016.

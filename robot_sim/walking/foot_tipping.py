@@ -23,7 +23,7 @@ class TippingParameters:
 def cop_against_tipping(
     sole: Sequence[float], slope: Point, spin: Sequence[float], parameters: TippingParameters
 ) -> Point:
-    """How far (m, along x and y of the world) to move the CoP of a foot so that its sole lies down again.
+    """Return how far (m, along x and y of the world) to move the CoP of a foot so that its sole lies down again.
 
     Where less than the whole sole is supported, a CoP beyond the edge of the support turns the foot over that edge: its
     normal leans the way the CoP is off. The CoP is moved the other way, by how far and how fast the normal leans.

@@ -41,7 +41,7 @@ Command = Goal | Velocity | None  # None: stand
 def plan_footsteps(
     command: Command, stance: Footstep, stance_side: Side, gait: GaitParameters, limits: StepLimits
 ) -> list[Footstep]:
-    """The next `gait.planned_steps` footsteps, the first one by the foot that is not `stance_side`.
+    """Return the next `gait.planned_steps` footsteps, the first one by the foot that is not `stance_side`.
 
     The centre of the body (half the feet's width inward of the stance foot) is moved as the command wants, as
     far as the limits of a step allow; the swing foot lands half the width outward of the centre.

@@ -102,7 +102,7 @@ class Gait:
         sensed: Sensing,
         cop_shift: tuple[float, float],
     ) -> BalanceTask:
-        """The task that brings the DCM to (x, y): p = ξ + k (ξ - ξ_ref) gives ξ̇ = -ω k (ξ - ξ_ref)."""
+        """Return the task that brings the DCM to (x, y): p = ξ + k (ξ - ξ_ref) gives ξ̇ = -ω k (ξ - ξ_ref)."""
         dcm_x, dcm_y = sensed.dcm
         cop = dcm_x + gain * (dcm_x - x), dcm_y + gain * (dcm_y - y)
         return BalanceTask(self._support.between_feet(cop, sensed, cop_shift), yaw)
@@ -136,7 +136,7 @@ class Gait:
         return None
 
     def _first_stance(self, sensed: Sensing) -> Side:
-        """The foot to stand on first: the one away from where the body goes."""
+        """Return the foot to stand on first: the one away from where the body goes."""
         left = turn = 0.0
         if isinstance(self._command, Velocity):
             left, turn = self._command.vy, self._command.wz
@@ -180,7 +180,7 @@ class Gait:
         self._begin_step(self._gait.duration, self._gait.double_support, sensed)
 
     def _can_stand(self, sensed: Sensing) -> bool:
-        """Whether the feet are side by side and the DCM is near enough to their middle to be held there."""
+        """Return whether the feet are side by side and the DCM is near enough to their middle to be held there."""
         gait = self._gait
         centre = Frame(*sensed.feet_centre)
         forward, left = centre.local(*sensed.dcm)

@@ -131,7 +131,7 @@ class HeightChange:
         self.phase, self._fulfilled = phase, 0.0
 
     def _lasts(self, condition: bool, dt: float) -> bool:
-        """Whether a condition has been true for long enough without a break."""
+        """Return whether a condition has been true for long enough without a break."""
         self._fulfilled = self._fulfilled + dt if condition else 0.0
         return self._fulfilled >= self._parameters.hold
 
@@ -141,11 +141,11 @@ class HeightChange:
         return self._sensed.pelvis[2] - self._sensed.ground
 
     def _error(self) -> float:
-        """The target's distance, m."""
+        """Return the distance to the target height, m."""
         return self._target - self._measured_height()
 
     def _offset(self) -> float:
-        """How far the DCM is from the middle of the feet, m."""
+        """Return how far the DCM is from the middle of the feet, m."""
         x, y, _ = self._sensed.feet_centre
         return math.hypot(self._sensed.dcm[0] - x, self._sensed.dcm[1] - y)
 
@@ -153,7 +153,7 @@ class HeightChange:
         return math.hypot(*self._sensed.base_velocity[:3])
 
     def _is_balanced(self) -> bool:
-        """Whether both feet stand, bear about the same, and the weight rests between them."""
+        """Return whether both feet stand, bear about the same, and the weight rests between them."""
         loads = self._sensed.foot_loads
         even = min(loads) >= self._parameters.least_load_share * sum(loads) > 0
         return self._walker.stands and even and self._offset() < self._parameters.balanced
@@ -170,7 +170,7 @@ class HeightChange:
         )
 
     def _state(self) -> str:
-        """The measured state, for a message."""
+        """Return the measured state, for a message."""
         return (
             f"{'both feet stand' if self._walker.stands else 'the feet step'}, the weight is "
             f"{1000 * self._offset():.0f} mm off their middle, the pelvis {1000 * abs(self._error()):.0f} mm from its "

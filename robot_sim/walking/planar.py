@@ -6,7 +6,7 @@ import math
 
 
 def clamp(value: float, low: float, high: float) -> float:
-    """The nearest number to `value` in [low, high]."""
+    """Return the nearest number to `value` in [low, high]."""
     return low if value < low else high if value > high else value
 
 
@@ -24,16 +24,16 @@ class Frame:
         self.cos, self.sin = math.cos(yaw), math.sin(yaw)
 
     def local(self, x: float, y: float) -> tuple[float, float]:
-        """The point (x, y), m, seen in this frame."""
+        """Return the point (x, y), m, seen in this frame."""
         dx, dy = x - self.x, y - self.y
         return self.cos * dx + self.sin * dy, (self.cos * dy - self.sin * dx) * self.mirror
 
     def world(self, forward: float, side: float) -> tuple[float, float]:
-        """The point (forward, side), m, of this frame seen in the world."""
+        """Return the point (forward, side), m, of this frame seen in the world."""
         side *= self.mirror
         return self.x + self.cos * forward - self.sin * side, self.y + self.sin * forward + self.cos * side
 
     def clamped(self, x: float, y: float, half_length: float, half_width: float) -> tuple[float, float]:
-        """The point of the box ±half_length × ±half_width (m) around this frame nearest to (x, y)."""
+        """Return the point of the box ±half_length × ±half_width (m) around this frame nearest to (x, y)."""
         forward, side = self.local(x, y)
         return self.world(clamp(forward, -half_length, half_length), clamp(side, -half_width, half_width))

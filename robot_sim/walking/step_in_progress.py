@@ -65,7 +65,7 @@ class StepInProgress:
         self.dcm_at_touchdown = dcm_at_touchdown
 
     def has_landed(self, sensed: Sensing) -> bool:
-        """Whether the swing foot bears load, or is long overdue."""
+        """Return whether the swing foot bears load, or is long overdue."""
         if not self.in_swing:
             return False
         gait = self._parameters.gait
@@ -170,6 +170,6 @@ class StepInProgress:
         )
 
     def _floor_at(self, place: Footstep, sensed: Sensing) -> float:
-        """Height (m) of the floor where a foot shall land, from where the other stands."""
+        """Return the height (m) of the floor where the foot will land, inferred from the stance foot."""
         x, y, height = sensed.soles[self.stance_side]
         return height + sensed.slope[0] * (place.x - x) + sensed.slope[1] * (place.y - y)

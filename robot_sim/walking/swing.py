@@ -39,7 +39,7 @@ def swing_reference(
     overdue: float,
     slope: tuple[float, float],
 ) -> SwingReference:
-    """The reference of a foot at `progress` (0 to 1) of its swing, which passes at `rate` (1/s).
+    """Return the reference of a foot at `progress` (0 to 1) of its swing, which advances at `rate` (1/s).
 
     Horizontally a quintic with zero speed and acceleration at both ends; vertically a bump of `step_height`
     (m). A landing that moves while the foot is in the air bends the rest of the path. When touchdown is

@@ -108,7 +108,7 @@ class WholeBody:
             self._ctrl[self._motors[side]] = np.minimum(np.maximum(torque, low), high)
 
     def _inverse_dynamics(self, task: BalanceTask, sensed: Sensing, dt: float) -> np.ndarray:
-        """Generalized forces (nv,) of the motion that the task asks for, contact forces left out."""
+        """Return the generalized forces (nv,) of the motion that the task asks for, contact forces left out."""
         model, data = self._model, self._data
         for side, sole in enumerate(self._soles):
             mujoco.mj_jacSite(model, data, *self._halves[side], sole)
@@ -141,7 +141,7 @@ class WholeBody:
         return self._forces
 
     def _base_acceleration(self, task: BalanceTask, sensed: Sensing, dt: float) -> list[float]:
-        """Linear (m/s², world) and angular (rad/s², base_link) acceleration wanted of the base.
+        """Return the linear (m/s², world) and angular (rad/s², base_link) acceleration wanted of the base.
 
         Horizontally the linear inverted pendulum: c̈ = ω² (c - p). Height and attitude are held by PD; the trunk
         is an inverted pendulum too, whose topple the gains have to overcome.
@@ -166,7 +166,7 @@ class WholeBody:
         ]
 
     def _slew_yaw(self, yaw: float, dt: float) -> float:
-        """The heading reference, led to `yaw` (rad) at a limited rate because it jumps at touchdown."""
+        """Move the heading reference to `yaw` (rad) at a limited rate because it jumps at touchdown."""
         if self._yaw is None:
             self._yaw = yaw
         most = self._balance.yaw_rate * dt
@@ -174,7 +174,7 @@ class WholeBody:
         return self._yaw
 
     def _foot_acceleration(self, task: BalanceTask, sensed: Sensing) -> np.ndarray:
-        """Accelerations (2, 6) wanted of the soles, world frame: come to rest, or follow the swing."""
+        """Return the accelerations (2, 6) wanted of the soles, world frame: come to rest, or follow the swing."""
         velocity = (self._rows @ self._velocity).reshape(2, 6)
         self._sole_spin = velocity[:, 3:].tolist()
         acceleration = -self._balance.stance_damping * velocity
@@ -220,5 +220,5 @@ class WholeBody:
 
 
 def _consecutive(indices: list[int]) -> slice:
-    """The slice of indices that follow one another: a slice of an array is a view, a list makes a copy."""
+    """Return consecutive indices as a slice: a slice of an array is a view, a list makes a copy."""
     return slice(indices[0], indices[-1] + 1)

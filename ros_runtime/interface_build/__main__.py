@@ -56,7 +56,7 @@ def _report(package: BuiltPackage) -> dict[str, Any]:
 
 
 def _problems(problems: Sequence[Problem]) -> dict[str, Any]:
-    """What is wrong with definitions, in a few lines of readable length."""
+    """Return what is wrong with definitions, in a few lines of readable length."""
     shown = [
         asdict(
             replace(

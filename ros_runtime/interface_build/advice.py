@@ -46,7 +46,7 @@ class Finding(NamedTuple):
 
 
 def name_is_reserved(name: str) -> bool:
-    """Whether a field of this name would not compile, or could not be written as `message.name`."""
+    """Return whether a field of this name would not compile, or could not be written as `message.name`."""
     return name in C_AND_CPP.split() or keyword.iskeyword(name)
 
 
@@ -93,7 +93,7 @@ def explain_type(field_type: Any, package: str, known: KnownTypes) -> Finding | 
 
 
 def _explain_spelling(type_name: str, known: KnownTypes) -> Finding | None:
-    """What is wrong with the first word of a line, as a word."""
+    """Return what is wrong with the first word of a line, as a word."""
     bare, bracket, size = type_name.partition("[")
     parts = bare.split("/")
     if bracket and not re.fullmatch(r"(<=)?\d*\]", size):
@@ -116,7 +116,7 @@ def _explain_spelling(type_name: str, known: KnownTypes) -> Finding | None:
 
 
 def _meant(name: str, known: KnownTypes) -> str:
-    """The type that somebody probably meant who wrote `name` without a package, or with a wrong one."""
+    """Return the type that somebody probably meant who wrote `name` without a package, or with a wrong one."""
     if name.lower() in PRIMITIVE_TYPES:
         return name.lower()
     if packages := known.packages_with(name):
@@ -125,7 +125,7 @@ def _meant(name: str, known: KnownTypes) -> str:
 
 
 def _similar(word: str, words: Any) -> str:
-    """The word of `words` that was probably meant, or ""."""
+    """Return the word of `words` that was probably meant, or ""."""
     return next(iter(get_close_matches(word, list(words), n=1, cutoff=0.75)), "")
 
 

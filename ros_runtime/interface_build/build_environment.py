@@ -38,7 +38,7 @@ def sourced_prefixes(environ: Mapping[str, str]) -> list[Path]:
 
 
 def ros_build(environ: Mapping[str, str]) -> RosBuild:
-    """The ROS 2 that a build started with `environ` uses.
+    """Return the ROS 2 that a build started with `environ` uses.
 
     Raises RuntimeError when ROS 2 is neither sourced nor among the build requirements.
     """
@@ -61,7 +61,7 @@ def _from_apt(environ: Mapping[str, str], prefixes: list[Path]) -> RosBuild:
 
 
 def _from_wheels(environ: Mapping[str, str]) -> RosBuild:
-    """The wheels unpack a whole ROS prefix around site-packages; the build tools must be told so."""
+    """Return the ROS of the wheels, which unpack a whole prefix around site-packages."""
     generators = find_spec("rosidl_cmake")
     if generators is None or generators.origin is None:
         raise RuntimeError(

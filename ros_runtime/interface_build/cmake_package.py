@@ -100,5 +100,5 @@ def _run(command: list[str], environment: Mapping[str, str], output: TextIO, log
 
 
 def _files(folder: Path) -> list[Path]:
-    """The files that decide a build's outcome, in a fixed order."""
+    """Return the files that decide a build's outcome, in a fixed order."""
     return sorted(path for path in folder.rglob("*") if path.is_file() and "__pycache__" not in path.parts)

@@ -115,12 +115,12 @@ class _Reader:
             self._check_sections()
 
     def definition(self) -> Definition:
-        """The interface, where there is no problem."""
+        """Return the interface, where there is no problem."""
         parts = dict(zip(PARTS[self._kind], self._sections, strict=True))
         return Definition(self._path, self._kind, self._path.stem, parts, frozenset(self._uses))
 
     def _lines(self) -> list[str]:
-        """The lines of the file; none where it is too large to be looked at line by line."""
+        """Return the lines of the file; none where it is too large to be looked at line by line."""
         size = self._path.stat().st_size
         if size > LARGEST_FILE:
             self._complain(0, "", f"it has {size:,} bytes", f"at most {LARGEST_FILE:,}")
@@ -167,7 +167,7 @@ class _Reader:
                 self._keep(element)
 
     def _dislike(self, element: Field | Constant) -> Finding | None:
-        """What rosidl's parser lets pass and the build does not."""
+        """Return what rosidl's parser lets pass and the build does not."""
         if isinstance(element, Constant):
             return None
         if name_is_reserved(element.name):

@@ -26,9 +26,9 @@ class KnownTypes:
         return KnownTypes({**self.packages, package: frozenset(messages)})
 
     def has(self, package: str, message: str) -> bool:
-        """Whether there is such a message."""
+        """Return whether there is such a message."""
         return message in self.packages.get(package, ())
 
     def packages_with(self, message: str) -> list[str]:
-        """The packages that have a message of this name."""
+        """Return the packages that have a message of this name."""
         return sorted(package for package, messages in self.packages.items() if message in messages)

@@ -32,14 +32,14 @@ class BuiltPackage:
     is_new: bool
 
     def variables(self, environ: Mapping[str, str]) -> dict[str, str]:
-        """What to set in the environment `environ` of a process that is to import the package."""
+        """Return what to set in the environment `environ` of a process that is to import the package."""
         return {
             "PYTHONPATH": self._put_first(self.prefix / PYTHON_LIB, environ.get("PYTHONPATH", "")),
             "LD_LIBRARY_PATH": self._put_first(self.prefix / "lib", environ.get("LD_LIBRARY_PATH", "")),
         }
 
     def is_importable_here(self) -> bool:
-        """Whether this process can import it; not so when it has imported another build of the package before."""
+        """Return whether this process can import it, which fails after an import of another build."""
         imported = getattr(sys.modules.get(self.name), "__file__", None)
         return imported is None or Path(imported).is_relative_to(self.prefix)
 

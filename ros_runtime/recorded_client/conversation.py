@@ -21,11 +21,11 @@ class Reading:
     """Turns what servers send into messages, whatever its size and number."""
 
     def admits(self, what: str, of: str) -> bool:
-        """Whether one more event of a kind is read; `of` is the goal, call or service it belongs to, or NOBODYS."""
+        """Return whether to read one more event of a kind; `of` is the goal, call or service it is for, or NOBODYS."""
         return True
 
     def is_too_large(self, what: str, id: str, message: Any) -> bool:
-        """Whether an answer is larger than is read."""
+        """Return whether an answer is too large to be read."""
         return False
 
     def unpack(self, what: str, id: str, data: bytes, message_type: Any) -> Any | None:
@@ -74,6 +74,6 @@ class Conversation:
         return False
 
     def has_come(self, kind: type[Event], what: str, **named: str) -> bool:
-        """Whether an answer is in the log, or was too large to be read."""
+        """Return whether an answer is in the log, or was too large to be read."""
         log, (id,) = self.log, named.values()
         return log.first(kind, **named) is not None or log.first(TooLarge, what=what, id=id) is not None

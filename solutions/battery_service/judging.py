@@ -1,4 +1,4 @@
-"""How an answer of the battery service is compared with what the robot published."""
+"""Compares an answer of the battery service with what the robot published."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SILENCE = 2.0  # s without a message after which a last message is old
 
 
 def require_last_message(call: Call, since: float | None = None) -> None:
-    """The answer holds the last battery_state when the request came; one was published after `since` (s)."""
+    """Require that the answer holds the last battery_state at the request, one published after `since` (s)."""
     call.expect(
         "available",
         True,
@@ -33,7 +33,7 @@ def require_last_message(call: Call, since: float | None = None) -> None:
 
 
 def require_at_each_level(run: Transcript) -> None:
-    """Each answer holds the last battery_state, after the battery was set to each of the scenario's levels (0..1)."""
+    """Require that each answer holds the last battery_state, at each level (0..1) that the scenario set."""
     for level in run.params["levels"]:
         call = run.call(f"at {level:g}")
         told = run.told("set_battery", before=call.sent.t, percentage=level)
@@ -44,7 +44,7 @@ def require_at_each_level(run: Transcript) -> None:
 
 
 def require_in_silence(call: Call) -> None:
-    """The answer holds the last message of a sensor that has been silent for a while."""
+    """Require that the answer holds the last message of a sensor that has been silent for a while."""
     stopped = call.run.told("battery_sensor", before=call.sent.t - SILENCE, connected=False)
     if any(stopped.t < message.t <= call.sent.t for message in call.run.all(ev.BatteryPublished)):
         raise unseen(call.run, "the battery sensor went on though it was unplugged")

@@ -99,7 +99,7 @@ def rejects_without_power(run: Transcript) -> None:
 
 
 def _require_power_cut(run: Transcript) -> None:
-    """The motors were off when the goal came, and the robot had said so."""
+    """Require that the motors were off when the goal came, and the robot had said so."""
     sent = run.goal("unpowered").sent
     run.told("motor_power", before=sent.t, on=False)
     powered = [robot for robot in run.robot_between(sent.t - KNOWN, sent.t) if robot.motors_enabled]

@@ -1,4 +1,4 @@
-"""What the server says about the robot, in feedback and results, compared with what the robot did."""
+"""Compares what the server reports about the robot, in feedback and results, with what the robot did."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from humanoid_interfaces.action import WalkTo
 from .planar import error, wrap, yaw
 
 REPORT_SLACK = 0.08  # m or rad, over what the robot moved while the message was made and delivered
-REPORT_AGE = 0.6  # s a reported pose may be old: odom's period, the feedback's period, delivery
+REPORT_AGE = 0.6  # s that a reported pose may be old: odom's period, the feedback's period, delivery
 STEP_SLACK = 3  # footsteps between robot_state's rate and the moment of the report
 
 
 def require_true_feedback(goal: Goal) -> None:
-    """Pose, distance and steps in the feedback are those of the robot at about that time."""
+    """Require that pose, distance and steps in the feedback are those of the robot at about that time."""
     require_feedback(goal)
     end_of_feedback(goal)  # until then it has to be true
     start = goal.run.robot_at(goal.sent.t).steps
@@ -51,7 +51,7 @@ def require_true_feedback(goal: Goal) -> None:
 
 
 def require_filled_result(goal: Goal) -> None:
-    """The result holds the pose and steps of the robot at the end."""
+    """Require that the result holds the pose and steps of the robot at the end."""
     end = goal.require_accepted().require_result(SUCCEEDED)
     recent, result = _recent(goal, end.t), end.result
     require_true_pose(result.final_pose, recent, "result.final_pose", end.t)
@@ -61,7 +61,7 @@ def require_filled_result(goal: Goal) -> None:
 
 
 def require_error_code(goal: Goal, name: str, *, because: str) -> None:
-    """The result names the reason."""
+    """Require that the result names the reason."""
     goal.expect(
         "error_code",
         getattr(WalkTo.Result, name),
@@ -71,7 +71,7 @@ def require_error_code(goal: Goal, name: str, *, because: str) -> None:
 
 
 def require_true_pose(stamped: PoseStamped, recent: Sequence[ev.RobotTruth], what: str, at: float) -> None:
-    """A reported pose is where the simulated robot was within the last moments, in frame odom."""
+    """Require that a reported pose is where the simulated robot was within the last moments, in frame odom."""
     position, frame = stamped.pose.position, stamped.header.frame_id.lstrip("/")
     expect(
         frame in ("odom", ""),
@@ -103,7 +103,7 @@ def require_true_pose(stamped: PoseStamped, recent: Sequence[ev.RobotTruth], wha
 def _require_true_steps(
     claimed: int, start: int, recent: Sequence[ev.RobotTruth], what: str, at: float
 ) -> None:
-    """Steps may be counted from the goal's start or from the robot's."""
+    """Require true steps, which may be counted from the goal's start or from the robot's."""
     least = recent[0].steps - start - STEP_SLACK
     most = recent[-1].steps + STEP_SLACK
     expect(

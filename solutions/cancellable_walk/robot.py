@@ -25,7 +25,7 @@ WATCHED = 3.5  # s after the cancel
 
 
 def require_arrival(goal: Goal) -> None:
-    """The goal succeeded, and by then the simulated robot was where the goal says."""
+    """Require that the goal succeeded, and by then the simulated robot was where the goal says."""
     result = goal.require_accepted(ACCEPT).require_result(SUCCEEDED)
     distance, turn = error(goal.run.robot_at(result.t), goal)
     expect(
@@ -40,7 +40,7 @@ def require_arrival(goal: Goal) -> None:
 
 
 def require_walking(run: Transcript, at: float) -> None:
-    """The robot walked shortly before a moment (s) of the scenario's: without that there is nothing to stop."""
+    """Require that the robot walked shortly before a moment (s) of the scenario; otherwise nothing has to stop."""
     expect(
         any(robot.mode == RobotState.WALKING for robot in run.robot_between(at - SHORTLY, at)),
         expected="the robot walking to its goal by then",
@@ -52,7 +52,7 @@ def require_walking(run: Transcript, at: float) -> None:
 
 
 def require_stopped(run: Transcript, since: float) -> None:
-    """From 2 s after `since` on the robot stands still and upright."""
+    """Require that the robot stands still and upright from 2 s after `since` on."""
     watched = run.robot_between(since + STOP_TIME, since + WATCHED)
     fastest = max(watched, key=lambda robot: robot.speed)
     expect(
@@ -82,7 +82,7 @@ def require_fall(run: Transcript) -> ev.RobotTruth:
 
 
 def require_upright(watched: Sequence[ev.RobotTruth]) -> None:
-    """The robot did not fall."""
+    """Require that the robot did not fall."""
     fallen = next((robot for robot in watched if robot.mode == RobotState.FALLEN or robot.up < 0.6), None)
     expect(
         fallen is None,

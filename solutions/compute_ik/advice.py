@@ -1,4 +1,4 @@
-"""Recognises a common mistake by what would have been right."""
+"""Recognises common mistakes: the answer would be right if read with the mistake in mind."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable
 from .two_link_arm import DEFAULT, TOLERANCE, Point, TwoLinkArm
 
 Reading = Callable[[float, float], tuple[float, float]]
-# Angles (shoulder, elbow) of common mistakes, read so that they are right, and what to do about it.
+# How to read the angles (shoulder, elbow) so that a common mistake becomes right, and what to do about it.
 _MISREADINGS: list[tuple[Reading, str]] = [
     (
         lambda shoulder, elbow: (math.radians(shoulder), math.radians(elbow)),

@@ -60,7 +60,7 @@ REAL_ARM = Scenario(
     },
     parameters={"upper_arm_length": ROBOTS_ARM.upper_arm, "forearm_length": ROBOTS_ARM.forearm},
 )
-# With a robot, which is late where the machine is: on a busy one Python takes seconds to end.
+# It has a robot, which notices a busy machine; on such a machine Python takes seconds to end.
 INTERRUPT = Scenario("interrupt", {"questions": {"within reach": [ask_for(0.4, 0.3)]}}, robot=RESTING)
 
 
@@ -125,7 +125,7 @@ def moves_the_real_hand(run: Transcript) -> None:
 
 
 def _arm_after(run: Transcript, reply: Reply) -> ev.ArmReported:
-    """Where the simulator says the arm was, once it had been moved to the answer's angles."""
+    """Return the arm in the simulator after it had been moved to the answer's angles."""
     for arm in run.all(ev.ArmReported):
         if arm.t > reply.at:
             if run.told("move_joints", before=arm.t).t < reply.at:
@@ -135,7 +135,7 @@ def _arm_after(run: Transcript, reply: Reply) -> ev.ArmReported:
 
 
 def _require_the_hand_there(run: Transcript, reply: Reply) -> None:
-    """What the simulator reported once the arm had come to rest."""
+    """Require that the hand was at the target when the arm had come to rest."""
     arm = _arm_after(run, reply)
     x, y = reply.target
     away = math.dist(arm.hand, (x, 0.0, y))

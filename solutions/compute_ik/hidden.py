@@ -126,7 +126,7 @@ def works_in_any_namespace(run: Transcript) -> None:
 
 
 def _arm_after_setting(run: Transcript) -> TwoLinkArm:
-    """The lengths the node has said it has: each new one that it took over, and the old one otherwise."""
+    """Return the lengths that the node reported: each new one that it accepted, else the old one."""
     results = run.call("set_parameters").response.results
     lengths = [DEFAULT.upper_arm, DEFAULT.forearm]
     for index, (result, new) in enumerate(zip(results, run.params["lengths"].values(), strict=False)):

@@ -1,4 +1,4 @@
-"""What is asked of an answer of the IK service: the right code, the hand at the target, the elbow on the right side."""
+"""Requirements on an answer of the IK service: the right code, the hand at the target, the elbow on the right side."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def replies(run: Transcript, group: str) -> list[Reply]:
 
 
 def require_code(reply: Reply, code: int, *, because: str, help: str) -> None:
-    """The answer has this error code."""
+    """Require that the answer has this error code."""
     expect(
         reply.error_code == code,
         expected=f"error_code {CODES[code]} ({code}) for {reply.question}: {because}",
@@ -88,7 +88,7 @@ def code_in_words(code: int) -> str:
 
 
 def require_refusal(reply: Reply, arm: TwoLinkArm = DEFAULT) -> None:
-    """The answer says that the target is out of reach."""
+    """Require that the answer says that the target is out of reach."""
     require_code(
         reply,
         Response.NO_IK_SOLUTION,
@@ -99,7 +99,7 @@ def require_refusal(reply: Reply, arm: TwoLinkArm = DEFAULT) -> None:
 
 
 def require_hit(reply: Reply, arm: TwoLinkArm = DEFAULT) -> None:
-    """The answer's angles bring the hand of `arm` to the target, on whichever side the elbow is."""
+    """Require that the answer's angles bring the hand of `arm` to the target, with the elbow on either side."""
     require_code(reply, Response.SUCCESS, because=_reach(reply, arm), help=_NOT_A_SUCCESS)
     missed_by = arm.misses(*reply.shoulder_and_elbow, reply.target)
     if missed_by <= TOLERANCE:
@@ -114,7 +114,7 @@ def require_hit(reply: Reply, arm: TwoLinkArm = DEFAULT) -> None:
 
 
 def require_side(reply: Reply, arm: TwoLinkArm = DEFAULT) -> None:
-    """The elbow is on the side asked for; judged only of targets ahead of the shoulder."""
+    """Require that the elbow is on the side asked for; judged only of targets ahead of the shoulder."""
     if reply.target[0] < AHEAD:
         return
     is_above = arm.elbow_is_above(reply.shoulder_and_elbow[0], reply.target)

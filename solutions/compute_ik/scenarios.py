@@ -60,7 +60,7 @@ def move_the_arm(stage: Stage, questions: Questions) -> None:
 
 
 def _ask(ik: ServiceClient, questions: Questions) -> bool:
-    """Ask until a question is not answered: whatever hangs or is dead then will not answer the next one either."""
+    """Ask until a question is not answered: a node that hangs or has died will not answer the next one either."""
     return all(
         ik.call(from_dict(ComputeIK.Request, request), as_=f"{group} {number}")
         for group, requests in questions.items()
@@ -85,7 +85,7 @@ def _move_to(stage: Stage, shoulder: float, elbow: float) -> None:
 
 
 def _joint_positions(shoulder: float, elbow: float) -> dict[str, float]:
-    """The arm's joints (rad) for planar angles.
+    """Return the positions (rad) of the arm's joints for planar angles.
 
     At 0 the robot's arm hangs, which is -90° in the plane; and its joints turn about y, which points to the left, so
     what is counter-clockwise in the plane (x forward, y up) is negative for them.
@@ -98,5 +98,5 @@ def _joint_positions(shoulder: float, elbow: float) -> dict[str, float]:
 
 
 def _one_turn(angle: float) -> float:
-    """The same angle between -π and π."""
+    """Return the same angle between -π and π."""
     return math.remainder(angle, 2 * math.pi)

@@ -33,7 +33,7 @@ class TwoLinkArm:
         return math.dist(self.hand_at(shoulder, elbow), target)
 
     def elbow_is_above(self, shoulder: float, target: Point) -> bool:
-        """Whether the elbow lies above the line from the shoulder to a point ahead of it (x > 0)."""
+        """Return whether the elbow lies above the line from the shoulder to a point ahead of it (x > 0)."""
         x, y = self.elbow_at(shoulder)
         return target[0] * y - target[1] * x > 0
 

@@ -1,4 +1,4 @@
-"""How a definition is judged: what the build reported about it."""
+"""Judges a definition by what the build reported about it."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from autograder.authoring.missing import unseen
 from autograder.authoring.readiness import require_within_limits
 from autograder.authoring.transcript import Transcript
 
-BUSY = 60.0  # s of processor time; a sound file is built with 25, so one that took more is what took so long
+BUSY = 60.0  # s of processor time; a correct file needs 25
 LONGEST = 300  # characters of what a verdict quotes
 
 
 def require_built(run: Transcript) -> dict[str, Any]:
-    """The file was built; returns its parts (request, response; goal, result, feedback) with fields and constants."""
+    """Require that the file was built, and return its parts (request, …, feedback) with fields and constants."""
     try:
         return _built(run)
     except (AttributeError, KeyError, TypeError, ValueError) as error:  # it comes from the student's sandbox
@@ -43,7 +43,7 @@ def _built(run: Transcript) -> dict[str, Any]:
 
 
 def require_fields(run: Transcript, part: str, wanted: Mapping[str, str]) -> None:
-    """One part of the definition has these fields (name → ROS type) and no others."""
+    """Require that one part of the definition has these fields (name → ROS type) and no others."""
     fields = _part(run, part)["fields"]
     for name, ros_type in wanted.items():
         expect(
@@ -69,7 +69,7 @@ def require_fields(run: Transcript, part: str, wanted: Mapping[str, str]) -> Non
 
 
 def require_constants(run: Transcript, part: str, ros_type: str, wanted: Mapping[str, int]) -> None:
-    """One part of the definition has these constants, of one type."""
+    """Require that one part of the definition has these constants, of one type."""
     constants = _part(run, part)["constants"]
     for name, value in wanted.items():
         observed = constants.get(name)
@@ -100,7 +100,11 @@ def _is_whole(part: Any) -> bool:
 
 
 def _report(run: Transcript) -> dict[str, Any]:
-    """Read what the build printed at its end; the student's failure where what the file asks for kept it from that."""
+    """Read what the build printed at its end.
+
+    Raises:
+        Failure: the file kept the build from coming to its end.
+    """
     try:
         return json.loads(run.output("stdout"))
     except ValueError:
@@ -110,7 +114,7 @@ def _report(run: Transcript) -> dict[str, Any]:
 
 
 def _require_time_for_it(run: Transcript) -> None:
-    """The build has not used more time than any sound file needs."""
+    """Require that the build has not used more time than any correct file needs."""
     usage = run.first(ev.NodeUsage)
     if usage and usage.cpu > BUSY:
         raise Failure(

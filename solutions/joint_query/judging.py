@@ -1,4 +1,4 @@
-"""How an answer of the joint query is compared with what was asked and with what the robot published."""
+"""Compares an answer of the joint query with the request and with what the robot published."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Positions = Mapping[str, float]  # rad, by the joint's name
 
 
 def require_posture(call: Call, posture: Positions) -> None:
-    """The scenario moved the joints, and published them where they are now, in time for the call."""
+    """Require that the scenario moved the joints, and published them where they are now, in time for the call."""
     told = call.run.told("move_joints", before=call.sent.t, positions=dict(posture))
     messages = last_messages(call, ev.JointsPublished, since=told.t)
     reached = _positions(messages[0])
@@ -41,7 +41,7 @@ def require_posture(call: Call, posture: Positions) -> None:
 
 
 def require_reversed(call: Call) -> None:
-    """The robot listed its joints in the other order, in time for the call."""
+    """Require that the robot listed its joints in the other order, in time for the call."""
     told = call.run.told("joint_states", before=call.sent.t, reversed=True)
     messages = last_messages(call, ev.JointsPublished, since=told.t)
     before = [message for message in call.run.all(ev.JointsPublished) if message.t <= told.t]
@@ -50,7 +50,7 @@ def require_reversed(call: Call) -> None:
 
 
 def listed(words: Sequence[str], most: int = 8) -> str:
-    """Join words, or say that there are none; of many only the first `most`, and nothing that moves a cursor."""
+    """Join at most `most` words, without control characters; say so if there are none."""
     shown = [word[:60] if word.isprintable() else repr(word[:60]) for word in words[:most]]
     rest = [f"and {len(words) - most} more"] if len(words) > most else []
     return ", ".join(shown + rest) or "no names"
@@ -69,7 +69,7 @@ def robot_joints(run: Transcript) -> list[str]:
 
 
 def require_success(call: Call) -> None:
-    """It answered success, since every joint asked for exists."""
+    """Require that it answered success, since every joint asked for exists."""
     heard = call.run.first(ev.JointsPublished) is not None
     expect(
         call.response.success,
@@ -83,7 +83,7 @@ def require_success(call: Call) -> None:
 
 
 def require_refusal(call: Call, *, because: str, help: str) -> None:
-    """It answered success: false."""
+    """Require that it answered success: false."""
     expect(
         not call.response.success,
         expected=f"success: false for {listed(call.request.names)}, because {because}",
@@ -94,7 +94,7 @@ def require_refusal(call: Call, *, because: str, help: str) -> None:
 
 
 def require_names(call: Call) -> None:
-    """The answer lists the joints asked for, in the order of the request."""
+    """Require that the answer lists the joints asked for, in the order of the request."""
     names, wanted = call.response.joint_state.name, call.request.names
     expect(
         names == wanted,
@@ -109,7 +109,7 @@ def require_names(call: Call) -> None:
 
 
 def require_positions(call: Call) -> None:
-    """Every joint asked for is there, each with the position it has in one of the last messages of the robot."""
+    """Require every joint asked for, each with its position in one of the robot's last messages."""
     names, positions = call.response.joint_state.name, call.response.joint_state.position
     at, published = call.answered.t, call.run.all(ev.JointsPublished)
     expect(
@@ -145,7 +145,7 @@ def require_positions(call: Call) -> None:
 
 
 def _told(call: Call) -> float:
-    """When (s) the scenario last did something to the robot before a call; at the latest when the node was there."""
+    """Return when (s) the scenario last changed the robot before a call, or when the node appeared."""
     events = (*call.run.all(ev.NodeReady), *call.run.all(ev.RobotCommanded))
     return max((event.t for event in events if event.t < call.sent.t), default=0.0)
 

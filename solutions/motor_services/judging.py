@@ -1,4 +1,4 @@
-"""How answers of the motor services are compared with the motors of the simulated robot."""
+"""Compares answers of the motor services with the motors of the simulated robot."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _NOTHING_UNASKED = "Publish nothing unasked: motor_power only when a request is 
 
 
 def require_status(call: Call, on: bool) -> None:
-    """The answer says what the robot's motors are: they have been so for a while."""
+    """Require that the answer tells the state of the robot's motors, which has not changed for a while."""
     _require_motors_known(call, on)
     response, wanted = call.response, f"Motors: {_on_or_off(on).upper()}"
     expect(
@@ -32,13 +32,13 @@ def require_status(call: Call, on: bool) -> None:
 
 
 def require_status_after_a_change(call: Call, on: bool) -> None:
-    """The answer says what the motors are after the scenario, and not the node, has switched them."""
+    """Require that the answer tells the state of the motors after the scenario has switched them."""
     call.run.told("motor_power", before=call.sent.t - DELIVERY, on=on)
     require_status(call, on)
 
 
 def require_granted(call: Call) -> None:
-    """The request was answered with success, and the motors are soon as it asked."""
+    """Require that the request was answered with success, and that the motors soon follow it."""
     run, on = call.run, call.request.data
     expect(
         call.response.success,
@@ -61,7 +61,7 @@ def require_granted(call: Call) -> None:
 
 
 def require_switched(call: Call) -> None:
-    """The request was granted, and it changed something: before it the motors were the other way."""
+    """Require that the request was granted and changed the state of the motors."""
     on = call.request.data
     expect(
         call.run.robot_at(call.sent.t).motors_enabled is not on,
@@ -74,7 +74,7 @@ def require_switched(call: Call) -> None:
 
 
 def require_refused(call: Call) -> None:
-    """Power off was refused with a sentence, and the robot walked on."""
+    """Require that power off was refused with a sentence, and that the robot walked on."""
     answered = call.answered
     require_walking_as_told(call)
     call.expect(
@@ -95,7 +95,7 @@ def require_refused(call: Call) -> None:
 
 
 def require_walking_as_told(call: Call) -> None:
-    """The robot walked when the question came, and had for long enough that the node knew."""
+    """Require that the robot walked when the question came, and had for long enough that the node knew."""
     told = call.run.told("walk", before=call.sent.t - DELIVERY)
     watched = call.run.robot_between(call.sent.t - DELIVERY, call.sent.t)
     idle = next((robot for robot in watched if robot.mode != RobotState.WALKING), None)
@@ -109,7 +109,7 @@ def require_walking_as_told(call: Call) -> None:
 
 
 def require_standing_as_told(call: Call) -> None:
-    """The robot was told to stop, and stood when the question came, for long enough that the node knew."""
+    """Require that the robot was told to stop, and stood when the question came, for long enough that the node knew."""
     call.run.told("walk", before=call.sent.t - DELIVERY, velocity=[0.0, 0.0, 0.0])
     watched = call.run.robot_between(call.sent.t - DELIVERY, call.sent.t)
     expect(
@@ -122,7 +122,7 @@ def require_standing_as_told(call: Call) -> None:
 
 
 def require_walking_on(call: Call) -> None:
-    """The motors kept their power, and the robot still walks a while after the answer."""
+    """Require that the motors kept their power, and the robot still walks a while after the answer."""
     watched = call.run.robot_between(call.sent.t, call.answered.t + WATCHED)
     last = next((robot for robot in watched if not robot.motors_enabled), watched[-1])
     expect(
@@ -136,7 +136,7 @@ def require_walking_on(call: Call) -> None:
 
 
 def _require_motors_known(call: Call, on: bool) -> None:
-    """The motors were as they are for long enough that the node knew."""
+    """Require that the motors have not changed for long enough that the node knew."""
     watched = call.run.robot_between(call.sent.t - DELIVERY, call.sent.t)
     other = next((robot for robot in watched if robot.motors_enabled is not on), None)
     expect(
@@ -149,7 +149,7 @@ def _require_motors_known(call: Call, on: bool) -> None:
 
 
 def _next_question(call: Call) -> float:
-    """When the next request for the motors was sent (s): from then on they may change again."""
+    """Return when the next request for the motors was sent (s): from then on they may change again."""
     later = [other.sent.t for other in call.run.calls_to(call.service) if other.sent.t > call.sent.t]
     return min(later, default=math.inf)
 

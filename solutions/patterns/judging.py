@@ -1,4 +1,4 @@
-"""How answers are marked: a pattern and a reason for each situation, both right or no point."""
+"""Marks the answers: each situation needs the right pattern and the right reason."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def judge_of(situation: Situation) -> Callable[[Transcript], None]:
 
 
 def require_answers(run: Transcript) -> dict[int, tuple[str, str]]:
-    """The program printed one answer for each situation; returns pattern and reason by number."""
+    """Require one printed answer for each situation, and return pattern and reason by number."""
     require_success(run, WITHIN)
     found = [match for line in run.output("stdout").splitlines() if (match := _LINE.fullmatch(line))]
     answers = {int(match[1]): (match[2].lower(), match[3].lower()) for match in found}
@@ -63,7 +63,7 @@ def require_answers(run: Transcript) -> dict[int, tuple[str, str]]:
 
 
 def require_answer(run: Transcript, situation: Situation) -> None:
-    """One situation was answered with the right pattern for the right reason."""
+    """Require that one situation was answered with the right pattern for the right reason."""
     pattern, reason = require_answers(run)[situation.number]
     if (pattern, reason) == (situation.pattern, situation.reason):
         return

@@ -1,4 +1,4 @@
-"""How a run of the robot controller is judged."""
+"""Judges a run of the robot controller."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PREFIX = "Robot status: "
 
 
 def require_enabled_before_asked(run: Transcript) -> None:
-    """The motors were enabled, and get_status was asked after the answer."""
+    """Require that the motors were enabled, and get_status was asked after the answer."""
     for service in (ENABLE, STATUS):
         require_offered(run, service)
     requests = run.requests(ENABLE)
@@ -66,7 +66,7 @@ def require_enabled_before_asked(run: Transcript) -> None:
 
 
 def require_printed_status(run: Transcript, messages: Sequence[str]) -> None:
-    """The program succeeded, both services had answered it, and it printed one status, with one of the messages."""
+    """Require success, answers of both services, and one printed status with one of the messages."""
     require_success(run, WITHIN)
     printed = [
         line.rstrip() for line in run.output("stdout").splitlines() if line.startswith(PREFIX.rstrip())
@@ -91,7 +91,7 @@ def require_printed_status(run: Transcript, messages: Sequence[str]) -> None:
 
 
 def require_printed_second_answer(run: Transcript) -> None:
-    """Each service left the first request without an answer and answered the second, and the status was printed."""
+    """Require that each service answered only the second request, and that the status was printed."""
     require_printed_status(run, [run.params["status"]])
     for service in (ENABLE, STATUS):
         first, *others = run.requests(service)
@@ -106,7 +106,7 @@ def require_printed_second_answer(run: Transcript) -> None:
 
 
 def require_silence(run: Transcript, service: str, number: int) -> list[Request]:
-    """The client sent so many requests to a service that answered none of them."""
+    """Require that the client sent so many requests to a service that answered none of them."""
     require_offered(run, service)
     requests = require_requests(run, service, number)
     if any(request.reply for request in requests):
@@ -115,7 +115,7 @@ def require_silence(run: Transcript, service: str, number: int) -> list[Request]
 
 
 def require_pause(run: Transcript, after: float) -> None:
-    """Both services took their time (s) for the answer."""
+    """Require that both services took their time (s) for the answer."""
     for service in (ENABLE, STATUS):
         reply = require_reply(run, service)
         asked = next(request.received.t for request in run.requests(service) if request.reply == reply)

@@ -39,7 +39,7 @@ _LEAST_PATIENCE = 0.001  # s; a caller that never waits still lets the workers h
 
 
 def needs_repair(version: str) -> bool:
-    """Whether the MultiThreadedExecutor of this version of rclpy has the fault."""
+    """Return whether the MultiThreadedExecutor of this version of rclpy has the fault."""
     return FIRST_AFFECTED <= numbers(version) < FIRST_REPAIRED
 
 

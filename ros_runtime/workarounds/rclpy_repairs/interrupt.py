@@ -39,7 +39,7 @@ _WAITS_END_WITHIN = 1.0  # s that the interpreter's end is put off for threads t
 
 
 def needs_repair(version: str) -> bool:
-    """Whether this version of rclpy has the faults."""
+    """Return whether this version of rclpy has the faults."""
     return FIRST_AFFECTED <= numbers(version) < FIRST_UNKNOWN
 
 
@@ -112,7 +112,7 @@ def _spinning(spin_once: Callable[..., None], executors: ModuleType) -> Callable
 
 
 def _goes_down(context: Any) -> bool:
-    """Whether the context is shut down, or is about to be."""
+    """Return whether the context is shut down, or is about to be."""
     end = time.monotonic() + _CONTEXT_DOWN_WITHIN
     while context.ok():
         if time.monotonic() >= end:

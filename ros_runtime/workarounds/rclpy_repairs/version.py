@@ -12,7 +12,7 @@ PACKAGES = (
 
 
 def installed_version() -> str:
-    """The version of rclpy, as its metadata is named in the first folder of the path that has any.
+    """Return the version of rclpy, as its metadata is named in the first folder of the path that has any.
 
     importlib.metadata would tell as well, at 20 ms of imports for every ROS process that starts.
 

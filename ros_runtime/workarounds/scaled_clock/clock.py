@@ -38,7 +38,7 @@ _NOTICE_NS = 10_000_000
 
 
 def preload_variables() -> dict[str, str]:
-    """The variables of a process whose forks can `follow` a clock; empty where the library could not be built."""
+    """Return the variables of a process whose forks can `follow` a clock; empty if there is no library."""
     library = library_path()
     return {"LD_PRELOAD": str(library)} if library else {}
 
@@ -57,7 +57,7 @@ def follow(path: str | os.PathLike[str]) -> None:
 
 
 def library_path() -> Path | None:
-    """The preloaded library of this environment; None where it could not be built: all runs at scale 1."""
+    """Return the preloaded library of this environment; None if it could not be built, so all runs at scale 1."""
     path = Path(sys.prefix) / "lib" / "libscaled_clock.so"
     return path if path.exists() else None
 
@@ -109,7 +109,7 @@ class ScaledClock:
         return cls(path, page, library or library_path())
 
     def environment(self, base: Mapping[str, str] | None = None) -> dict[str, str]:
-        """The variables that make a process follow this clock; libraries that `base` preloads stay preloaded.
+        """Return the variables that make a process follow this clock; libraries that `base` preloads stay preloaded.
 
         Empty where the preloaded library could not be built.
         """
@@ -169,27 +169,27 @@ class ScaledClock:
         return bool(struct.unpack_from("=I", self._page, _FINAL_OFFSET)[0])
 
     def segments(self) -> list[Segment]:
-        """The clock's paces so far, oldest first; the newest may begin a few ms from now."""
+        """Return the clock's paces so far, oldest first; the newest may begin a few ms from now."""
         count = self._count()
         return [
             Segment(*_SEGMENT.unpack_from(self._page, _HEADER.size + i * _SEGMENT.size)) for i in range(count)
         ]
 
     def scaled_ns(self, real_ns: int) -> int:
-        """The arena's CLOCK_MONOTONIC, in ns, at an instant of the real one."""
+        """Return the arena's CLOCK_MONOTONIC, in ns, at an instant of the real one."""
         segment = next(
             (s for s in reversed(self.segments()) if s.real_start_ns <= real_ns), self.segments()[0]
         )
         return segment.scaled_start_ns + int((real_ns - segment.real_start_ns) * segment.scale)
 
     def real_ns(self, scaled_ns: int) -> int:
-        """The real CLOCK_MONOTONIC, in ns, at an instant of the arena's."""
+        """Return the real CLOCK_MONOTONIC, in ns, at an instant of the arena's."""
         segments = self.segments()
         segment = next((s for s in reversed(segments) if s.scaled_start_ns <= scaled_ns), segments[0])
         return segment.real_start_ns + int((scaled_ns - segment.scaled_start_ns) / segment.scale)
 
     def now(self) -> float:
-        """The arena's CLOCK_MONOTONIC, in s: what `time.monotonic()` gives a process that follows it."""
+        """Return the arena's CLOCK_MONOTONIC, in s: what `time.monotonic()` gives a process that follows it."""
         return self.scaled_ns(real_monotonic_ns()) * 1e-9
 
     def _count(self) -> int:
@@ -206,7 +206,7 @@ class Segment:
 
 
 def real_monotonic_ns() -> int:
-    """The real CLOCK_MONOTONIC, in ns, also in a process that itself follows a scaled clock."""
+    """Return the real CLOCK_MONOTONIC, in ns, also in a process that itself follows a scaled clock."""
     read = getattr(ctypes.CDLL(None), "scaled_clock_real_monotonic_ns", None)
     if read is None:
         return time.monotonic_ns()

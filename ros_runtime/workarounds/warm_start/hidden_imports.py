@@ -124,7 +124,7 @@ class _Finder:
 
 
 def _is_imported_as(name: str, module: Any) -> bool:
-    """Whether a module was found under this name; others, such as os.path, were put there by a module's own code."""
+    """Return whether a module was imported under this name; others, such as os.path, are put there by code."""
     spec = vars(module).get("__spec__") if isinstance(module, type(sys)) else None
     return spec is not None and spec.name == name
 
