@@ -80,7 +80,7 @@ def summarize(runs: Sequence[Run]) -> list[Summary]:
             f"state estimated: push {PUSH:g} N·s, walking",
             pushes,
             measured=f"{sum(run.success for run in pushes)}/{len(pushes)} stay up",
-            reference="31/32, as with the truth",
+            reference="31/32, as with the ground truth",
             met=sum(run.success for run in pushes) / len(pushes) >= 31 / 32,
         ),
     ]
