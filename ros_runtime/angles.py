@@ -11,5 +11,5 @@ def yaw_of(x: float, y: float, z: float, w: float) -> float:
 
 
 def wrap(angle: float) -> float:
-    """An angle (rad) brought into [-π, π)."""
+    """Return an angle (rad) in [-π, π)."""
     return (angle + math.pi) % (2 * math.pi) - math.pi

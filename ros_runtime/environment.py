@@ -8,7 +8,7 @@ from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
-# What a setup file of ROS exports and a process needs that is started with an empty environment.
+# Exported by a setup file of ROS, and needed by a process that starts with an empty environment.
 _SETUP_FILE_VARIABLES = (
     "AMENT_PREFIX_PATH",
     "CMAKE_PREFIX_PATH",
@@ -23,10 +23,12 @@ _SETUP_FILE_VARIABLES = (
 def ros_environment(
     *, domain_id: int | None = None, localhost_only: bool = False, log_directory: Path | None = None
 ) -> dict[str, str]:
-    """Return the variables to add to a process's environment, be that empty or a copy of ours.
+    """Return the variables to add to a process's environment, which may be empty or a copy of ours.
 
-    `domain_id` (0 to 101) separates systems on one network, `localhost_only` keeps discovery on this machine,
-    and `log_directory` takes the log files, which go to ~/.ros/log otherwise: give it where there is no home.
+    Args:
+        domain_id: 0 to 101; separates systems on one network.
+        localhost_only: keeps discovery on this machine.
+        log_directory: takes the log files, by default ~/.ros/log; needed if there is no home.
     """
     variables = {
         "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",

@@ -1,4 +1,4 @@
-"""Constants of messages, for code that judges or draws what happened and need not load ROS.
+"""Constants of messages, for code that judges or draws a record and need not load ROS.
 
 A test compares them with the messages themselves.
 """
@@ -30,6 +30,6 @@ class RobotMode(IntEnum):
 
 
 def name_of(constants: type[IntEnum], value: int) -> str:
-    """Return the name of a constant; of a value that has none, which anybody may have sent, the value as text."""
+    """Return the name of a constant, or the value as text if it has none, since a node may send any value."""
     names = {int(constant): constant.name for constant in constants}
     return names.get(value, str(value))

@@ -50,7 +50,8 @@ def to_dict(message: Any) -> dict[str, Any]:
 def from_dict(message_type: type, values: dict[str, Any]) -> Any:
     """Return a message of `message_type` with the given fields; those not given keep their defaults.
 
-    Raises AttributeError naming the fields there are when one is unknown.
+    Raises:
+        AttributeError: a field is unknown; the message names those there are.
     """
     message = message_type()
     fill(message, values)

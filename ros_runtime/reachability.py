@@ -1,4 +1,4 @@
-"""Wait until a node that has just appeared can be talked to."""
+"""Wait until a node that has just appeared answers requests."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ PATIENCE = 0.1  # s for one answer
 def wait_until_reachable(node: Node, name: str, gives_up: Callable[[], bool]) -> bool:
     """Ask a node for its parameters, again and again, until it answers.
 
-    Two nodes discover each other step by step: for a moment one knows the other and is not yet known, and whatever is
-    asked or answered in that moment is lost. A question for the parameters does no harm, so it is repeated.
+    Two nodes discover each other step by step. For a moment one knows the other and is not yet known, and any request
+    or answer in that moment is lost. A request for the parameters does no harm, so it is repeated.
 
     Args:
         node: asks; another thread spins it.
@@ -31,7 +31,7 @@ def wait_until_reachable(node: Node, name: str, gives_up: Callable[[], bool]) ->
 
 
 def wait_until_all_reachable(node: Node, names: Sequence[str], gives_up: Callable[[], bool]) -> set[str]:
-    """Ask several nodes at once, as `wait_until_reachable` asks one; returns the names of those that have answered."""
+    """Ask several nodes at once, as `wait_until_reachable` asks one; return the names of those that answered."""
     clients = {name: node.create_client(ListParameters, f"{name}/list_parameters") for name in names}
     reachable: set[str] = set()
     try:
@@ -51,7 +51,7 @@ def wait_until_all_reachable(node: Node, names: Sequence[str], gives_up: Callabl
 
 
 def _ask_once(clients: Mapping[str, Client]) -> set[str]:
-    """Ask all of them; returns the names of those that have answered in time."""
+    """Ask all of them; return the names of those that answered in time."""
     asked = {
         name: (client.call_async(ListParameters.Request()), threading.Event())
         for name, client in clients.items()

@@ -43,17 +43,17 @@ class ReservedDomain:
         raise NoDomainLeft(f"all {len(DOMAIN_IDS)} ROS domains are in use on this machine")
 
     def release(self) -> None:
-        """Let others have it."""
+        """Release the domain for other processes."""
         os.close(self._descriptor)
 
 
 def loopback_variables() -> dict[str, str]:
-    """Return the variables that keep a process's nodes on 127.0.0.1, and let them find each other on a busy machine."""
+    """Return the variables that keep nodes on 127.0.0.1 and let them find each other on a busy machine."""
     return {"FASTRTPS_DEFAULT_PROFILES_FILE": str(LOOPBACK_ONLY)}
 
 
 def _lock(path: Path) -> int | None:
-    """Return a descriptor that locks a file, or None when another process, of any user, has locked it."""
+    """Return a descriptor that locks a file; None if another process, of any user, has locked it."""
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
     except FileNotFoundError:

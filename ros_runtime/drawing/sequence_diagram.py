@@ -22,7 +22,7 @@ DASHES = {"request": "", "answer": ' stroke-dasharray="7 4"', "message": ' strok
 
 @dataclass(frozen=True)
 class Arrow:
-    """One thing said: at `time` (s) `sender` says `label` to `receiver` (the same name: to itself, a note)."""
+    """A message: at `time` (s) `sender` sends `label` to `receiver`, or, under the same name, makes a note."""
 
     time: float
     sender: str
@@ -34,9 +34,10 @@ class Arrow:
 def sequence_svg(arrows: Sequence[Arrow], *, title: str, participants: Sequence[str] | None = None) -> str:
     """Draw arrows in order of time; `participants` fixes the order of the lifelines (default: as they appear).
 
-    Requests are solid, answers dashed, messages dotted. A text alternative stands in for the drawing where it
-    cannot be seen.
-    Raises ValueError when there is nothing to draw.
+    Requests are solid, answers dashed, messages dotted. The drawing has a text alternative.
+
+    Raises:
+        ValueError: there is nothing to draw.
     """
     if not arrows:
         raise ValueError("a sequence diagram needs at least one arrow; nothing has happened yet")

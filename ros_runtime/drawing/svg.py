@@ -7,7 +7,7 @@ from html import escape
 
 
 def svg(parts: Iterable[str], *, width: int, height: int, title: str, words: str) -> str:
-    """Put SVG elements on a sheet of so many pixels. `words` say what can be seen, for those who cannot see it."""
+    """Put SVG elements on a sheet of so many pixels; `words` is the text alternative."""
     return "\n".join(
         [
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" role="img" '

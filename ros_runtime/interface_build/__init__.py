@@ -1,4 +1,4 @@
-"""Interface packages: read the definitions, say what is wrong with them, build them, import what was built.
+"""Interface packages: read definitions, report what is wrong with them, build them, import the result.
 
-Set-up builds humanoid_interfaces with it, from its path; whatever set-up uses may import the standard library alone.
+Set-up builds humanoid_interfaces with it, from its path; modules that set-up uses import only the standard library.
 """

@@ -51,7 +51,7 @@ def name_is_reserved(name: str) -> bool:
 
 
 def explain_line(text: str, complaint: str, known: KnownTypes) -> Finding:
-    """Why rosidl's parser refused a line with `complaint`."""
+    """Return why rosidl's parser refused a line with `complaint`."""
     type_name, _, rest = text.partition(" ")
     name, equals, value = (part.strip() for part in rest.partition("="))
     name = name.split(" ")[0]
@@ -77,7 +77,7 @@ def explain_line(text: str, complaint: str, known: KnownTypes) -> Finding:
 
 
 def explain_type(field_type: Any, package: str, known: KnownTypes) -> Finding | None:
-    """Why the build will not find the type of a field that is spelled correctly; None where it will."""
+    """Return why the build will not find the type of a correctly spelled field; None if it will."""
     if field_type.is_primitive_type():
         return _explain_spelling(field_type.type, known) if field_type.type in SPELLED else None
     wanted, name = field_type.pkg_name, field_type.type
@@ -93,7 +93,7 @@ def explain_type(field_type: Any, package: str, known: KnownTypes) -> Finding | 
 
 
 def _explain_spelling(type_name: str, known: KnownTypes) -> Finding | None:
-    """Return what is wrong with the first word of a line, as a word."""
+    """Return what is wrong with the spelling of a line's first word."""
     bare, bracket, size = type_name.partition("[")
     parts = bare.split("/")
     if bracket and not re.fullmatch(r"(<=)?\d*\]", size):
@@ -116,7 +116,7 @@ def _explain_spelling(type_name: str, known: KnownTypes) -> Finding | None:
 
 
 def _meant(name: str, known: KnownTypes) -> str:
-    """Return the type that somebody probably meant who wrote `name` without a package, or with a wrong one."""
+    """Return the type that was probably meant by `name`, which has no package or a wrong one."""
     if name.lower() in PRIMITIVE_TYPES:
         return name.lower()
     if packages := known.packages_with(name):
@@ -130,6 +130,6 @@ def _similar(word: str, words: Any) -> str:
 
 
 def _snake_case(name: str) -> str:
-    """NumSteps becomes num_steps."""
+    """Return a name in snake case: NumSteps becomes num_steps."""
     spaced = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
     return re.sub(r"_+", "_", re.sub(r"[^a-z0-9_]", "_", spaced)).strip("_0123456789") or "name"

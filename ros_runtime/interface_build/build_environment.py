@@ -19,9 +19,10 @@ PYTHON_LIB = f"lib/python{sys.version_info.major}.{sys.version_info.minor}/site-
 class RosBuild:
     """Where a build finds ROS 2.
 
-    python: interpreter that runs the interface generators.
-    environment: environment variables of CMake and everything it starts.
-    from_wheels: whether ROS 2 comes from PyPI.
+    Attributes:
+        python: interpreter that runs the interface generators.
+        environment: environment variables of CMake and everything it starts.
+        from_wheels: whether ROS 2 comes from PyPI.
     """
 
     python: Path
@@ -30,7 +31,7 @@ class RosBuild:
 
 
 def sourced_prefixes(environ: Mapping[str, str]) -> list[Path]:
-    """Prefixes of a sourced ROS 2 Jazzy whose rclpy fits this Python; empty where there is none."""
+    """Return the prefixes of a sourced ROS 2 Jazzy whose rclpy fits this Python; empty if there is none."""
     if environ.get("ROS_DISTRO") != "jazzy":
         return []
     prefixes = [Path(entry) for entry in environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
@@ -40,14 +41,15 @@ def sourced_prefixes(environ: Mapping[str, str]) -> list[Path]:
 def ros_build(environ: Mapping[str, str]) -> RosBuild:
     """Return the ROS 2 that a build started with `environ` uses.
 
-    Raises RuntimeError when ROS 2 is neither sourced nor among the build requirements.
+    Raises:
+        RuntimeError: ROS 2 is neither sourced nor among the build requirements.
     """
     prefixes = sourced_prefixes(environ)
     return _from_apt(environ, prefixes) if prefixes else _from_wheels(environ)
 
 
 def _from_apt(environ: Mapping[str, str], prefixes: list[Path]) -> RosBuild:
-    """As colcon would build: with the system's Python, which has the generators' requirements."""
+    """Return the sourced ROS, with the system's Python, which has the generators' requirements, as colcon uses it."""
     environment = {
         name: value for name, value in environ.items() if name not in ("VIRTUAL_ENV", "PYTHONHOME")
     }

@@ -1,4 +1,4 @@
-"""A limit of time for a build, in processor time: that is the same on a busy machine and on a quiet one."""
+"""A time limit for a build, in processor time, which is the same on a busy machine and on a quiet one."""
 
 from __future__ import annotations
 
@@ -8,21 +8,24 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, NoReturn
 
-GRACE = 5  # s in which the process itself can still say that it took too long
+GRACE = 5  # s in which the process itself can still report that it took too long
 
 
 class BuildTooLong(BaseException):
     """A process of the build has used all the processor time it may.
 
-    No Exception: it may come anywhere, also where every Exception of a parser is taken for the file's fault.
+    It is no Exception, because it may be raised where every Exception is blamed on the file.
     """
 
 
 @contextmanager
 def limit_processor_time(seconds: int | None) -> Iterator[None]:
-    """Let neither this process nor any that it starts use more than so many seconds of a processor; None: no limit.
+    """Limit the processor time (s) of this process and of each that it starts; None: no limit.
 
-    The limit stays on this process. Raises BuildTooLong where it was reached.
+    The limit stays on this process.
+
+    Raises:
+        BuildTooLong: the limit was reached.
     """
     if seconds is None:
         yield

@@ -24,7 +24,7 @@ LOG_TAIL_LINES = 40
 def built_prefix(
     source: Path, builds: Path, environ: Mapping[str, str], made_with: Sequence[Path] = ()
 ) -> Path:
-    """Folder under `builds` that holds, or will hold, the package built from `source` as it is now.
+    """Return the folder under `builds` for the package built from `source` as it is now.
 
     `made_with` are further files that decide the outcome, such as the lock of the tools' versions.
     """
@@ -36,10 +36,15 @@ def built_prefix(
 
 
 def build(source: Path, builds: Path, environ: Mapping[str, str], made_with: Sequence[Path] = ()) -> Path:
-    """Build the interface package in `source`; an earlier build of the same sources is used again.
+    """Build the interface package in `source`, unless there is a build of the same sources.
 
-    The folder `source` is called as the package. Returns the prefix with lib/, share/ and include/.
-    Raises RuntimeError with the end of the build's output when CMake fails or there is no C++ compiler.
+    The folder `source` has the package's name.
+
+    Returns:
+        The prefix, with lib/, share/ and include/.
+
+    Raises:
+        RuntimeError: CMake failed or there is no C++ compiler; the message ends with the build's output.
     """
     prefix = built_prefix(source, builds, environ, made_with)
     if prefix.is_dir():

@@ -1,4 +1,4 @@
-"""What stands in .msg, .srv and .action files, line by line, and what is wrong with it."""
+"""Reads .msg, .srv and .action files line by line, and reports what is wrong with them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ros_runtime.interface_build.advice import Finding, explain_line, explain_ty
 from ros_runtime.interface_build.known_types import KnownTypes
 
 SEPARATOR = "---"
-# A file with more than this is no interface, and checking it line by line or building it would take for ever.
+# A file with more than this is no interface, and checking it line by line or building it would take forever.
 LARGEST_FILE = 64 * 1024  # bytes
 MOST_LINES = 1000
 LONGEST_LINE = 500  # characters, a comment not counted
@@ -25,7 +25,7 @@ PARTS = {"msg": ("message",), "srv": ("request", "response"), "action": ("goal",
 
 @dataclass(frozen=True)
 class Problem:
-    """Why a definition cannot be built. `line` counts from 1 and is 0 where it is about the whole file."""
+    """Why a definition cannot be built; `line` counts from 1, and 0 means the whole file."""
 
     file: str
     line: int
@@ -68,7 +68,8 @@ class Definition:
 def read_definitions(source: Path, package: str, known: KnownTypes) -> list[Definition]:
     """Read every definition in `source` and its folders msg/, srv/ and action/.
 
-    Raises InvalidDefinitions with all that is wrong with them.
+    Raises:
+        InvalidDefinitions: something is wrong with them; it holds every problem.
     """
     places = [place for kind in PARTS for place in (f"*.{kind}", f"{kind}/*.{kind}")]
     files = sorted(path for place in places for path in source.glob(place) if path.is_file())
@@ -95,7 +96,7 @@ def _twice(files: Iterable[Path]) -> Iterator[Problem]:
 
 
 class _Reader:
-    """Reads one file; goes on after a problem, so that all of them are told at once."""
+    """Reads one file, and goes on after a problem, so that all problems are reported at once."""
 
     def __init__(self, path: Path, shown: str, package: str, known: KnownTypes) -> None:
         self.problems: list[Problem] = []
@@ -115,12 +116,12 @@ class _Reader:
             self._check_sections()
 
     def definition(self) -> Definition:
-        """Return the interface, where there is no problem."""
+        """Return the interface; call it if there is no problem."""
         parts = dict(zip(PARTS[self._kind], self._sections, strict=True))
         return Definition(self._path, self._kind, self._path.stem, parts, frozenset(self._uses))
 
     def _lines(self) -> list[str]:
-        """Return the lines of the file; none where it is too large to be looked at line by line."""
+        """Return the lines of the file; none if it is too large to be checked line by line."""
         size = self._path.stat().st_size
         if size > LARGEST_FILE:
             self._complain(0, "", f"it has {size:,} bytes", f"at most {LARGEST_FILE:,}")
@@ -149,7 +150,7 @@ class _Reader:
             self._read_element(number, text)
 
     def _read_element(self, number: int, text: str) -> None:
-        """A field or a constant. rosidl's own parser decides; we say in plain words what it did not like."""
+        """Read a field or a constant; rosidl's own parser decides, and its complaint is explained in plain words."""
         try:
             with redirect_stderr(io.StringIO()):
                 message = parse_message_string(self._package, "Line", text)
@@ -161,13 +162,13 @@ class _Reader:
                 self._complain(
                     number, text, f"there is a {element.name} already in this part", "another name"
                 )
-            elif finding := self._dislike(element):
+            elif finding := self._build_fault(element):
                 self._complain(number, text, *finding)
             else:
                 self._keep(element)
 
-    def _dislike(self, element: Field | Constant) -> Finding | None:
-        """Return what rosidl's parser lets pass and the build does not."""
+    def _build_fault(self, element: Field | Constant) -> Finding | None:
+        """Return a fault that rosidl's parser accepts and the build does not."""
         if isinstance(element, Constant):
             return None
         if name_is_reserved(element.name):

@@ -15,14 +15,14 @@ class KnownTypes:
 
     @classmethod
     def installed(cls, prefixes: Sequence[Path]) -> KnownTypes:
-        """Those that stand in share/<package>/msg of the prefixes."""
+        """Return the types in share/<package>/msg of the prefixes."""
         found: dict[str, frozenset[str]] = {}
         for folder in (folder for prefix in reversed(prefixes) for folder in prefix.glob("share/*/msg")):
             found[folder.parent.name] = frozenset(path.stem for path in folder.glob("*.msg"))
         return cls(found)
 
     def with_package(self, package: str, messages: Collection[str]) -> KnownTypes:
-        """These and the messages of one more package."""
+        """Return these types and those of one more package."""
         return KnownTypes({**self.packages, package: frozenset(messages)})
 
     def has(self, package: str, message: str) -> bool:

@@ -23,7 +23,7 @@ from ros_runtime.workarounds.late_libraries import load_on_import
 
 @dataclass(frozen=True)
 class BuiltPackage:
-    """A package that can be imported. `is_new`: it was built just now, in `seconds`, and not found from before."""
+    """A package that can be imported; `is_new` says that it was built just now, in `seconds`."""
 
     name: str
     prefix: Path
@@ -50,7 +50,7 @@ class BuiltPackage:
         importlib.invalidate_caches()
 
     def _put_first(self, path: Path, paths: str) -> str:
-        """A search path with `path` first, and without other builds of this package."""
+        """Return a search path with `path` first, and without other builds of this package."""
         others = [entry for entry in paths.split(os.pathsep) if entry]
         return os.pathsep.join([str(path), *filter(self._is_no_other_build, others)])
 

@@ -1,1 +1,1 @@
-"""What happened, as typed events: written where it happens, kept in a log that people wait on, read back elsewhere."""
+"""A record of typed events: written where they happen, kept in a log to wait on, and read back elsewhere."""

@@ -1,4 +1,4 @@
-"""What a client of services and actions sees: its requests and what comes back. Messages are ROS messages.
+"""The events of a client of services and actions: requests and what comes back. Messages are ROS messages.
 
 Each request, goal and cancel request has a name, by which its answer, feedback and result are found.
 """
@@ -90,9 +90,9 @@ class ResultReceived(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class TooLarge(Event):
-    """Something a student's program sent ("answer", "feedback", …) had more `bytes` than are read: the `limit`.
+    """A message of a student's program ("answer", "feedback", …) had more `bytes` than the `limit`, and was not read.
 
-    `id` names the call, goal or cancel request it belongs to, where it has one.
+    `id` names the call, goal or cancel request it belongs to, if any.
     """
 
     what: str

@@ -1,4 +1,4 @@
-"""Everything that has happened so far, and waiting for what has not."""
+"""A log of events, and waiting for an event in it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class EventLog:
         self._changed = threading.Condition()
 
     def append(self, event: Event) -> None:
-        """Add an event, and wake up whoever waits for it."""
+        """Add an event, and wake up the threads that wait for it."""
         with self._changed:
             self._events[type(event)].append(event)
             self._changed.notify_all()
@@ -34,12 +34,12 @@ class EventLog:
             return [event for event in self._events[kind] if _has(event, fields)]
 
     def first(self, kind: type[E], **fields: Any) -> E | None:
-        """Return the first of them, None when there is none."""
+        """Return the first of them, or None."""
         with self._changed:
             return next((event for event in self._events[kind] if _has(event, fields)), None)
 
     def last(self, kind: type[E]) -> E | None:
-        """Return the latest event of a type, None when there is none."""
+        """Return the latest event of a type, or None."""
         with self._changed:
             return self._events[kind][-1] if self._events[kind] else None
 
@@ -53,7 +53,7 @@ class EventLog:
             )
 
     def wait_until(self, condition: Callable[[], Any], timeout: float) -> bool:
-        """Wait until a condition on the log is true; False when `timeout` s are over first."""
+        """Wait until a condition on the log is true; return False if `timeout` s are over first."""
         deadline = time.monotonic() + timeout
         with self._changed:
             while not condition():

@@ -1,4 +1,4 @@
-"""What the simulator says of the robot and of itself, by a pipe that student code cannot reach."""
+"""The simulator's events about the robot and itself, by a pipe that student code cannot reach."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class RobotReady(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class RobotTruth(Event):
-    """The robot as the simulator has it (50 Hz): base_link in odom (m, rad), speed over ground (m/s).
+    """The simulator's state of the robot (50 Hz): base_link in odom (m, rad), speed over ground (m/s).
 
     `up` is 1 when upright; `mode` is of humanoid_interfaces/RobotState; `battery` is 0..1; `lag` is how far (s) the
     simulation was behind the clock.
@@ -79,7 +79,7 @@ class RobotCommanded(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class RobotRefused(Event):
-    """So many messages of a topic (the largest of so many bytes) the robot has not processed so far, and why."""
+    """How many messages of a topic the robot has refused so far, the bytes of the largest, and why."""
 
     topic: str
     count: int

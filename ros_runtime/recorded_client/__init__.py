@@ -1,1 +1,1 @@
-"""A client of services and actions that writes down all it sends and all that comes back, with handles to wait on."""
+"""A client of services and actions that records all it sends and receives, with handles to wait on."""

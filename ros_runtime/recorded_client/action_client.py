@@ -1,7 +1,7 @@
-"""An action's five endpoints used one by one, so that every request, answer and message is seen with its time.
+"""Uses an action's five endpoints one by one, so that every request, answer and message is recorded with its time.
 
-rclpy's ActionClient drops feedback after the result and hides answers to cancel requests; here nothing is dropped
-unsaid. Feedback and status come as bytes, because anybody may publish them, as much and as often as they like.
+rclpy's ActionClient drops feedback after the result and hides answers to cancel requests; here everything is recorded.
+Feedback and status are read as bytes, because any node may publish them, as much and as often as it likes.
 """
 
 from __future__ import annotations

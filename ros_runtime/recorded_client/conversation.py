@@ -1,4 +1,4 @@
-"""What the handles of one client share: the log, how what comes in is read, and when waiting is in vain."""
+"""What the handles of one client share: the log, the reading of messages, and when waiting is in vain."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ NOBODYS = "nobody's"  # what is published for goals that are not this client's
 
 
 class Reading:
-    """Turns what servers send into messages, whatever its size and number."""
+    """Unpacks what servers send, without limits of size and number."""
 
     def admits(self, what: str, of: str) -> bool:
         """Return whether to read one more event of a kind; `of` is the goal, call or service it is for, or NOBODYS."""
@@ -29,7 +29,7 @@ class Reading:
         return False
 
     def unpack(self, what: str, id: str, data: bytes, message_type: Any) -> Any | None:
-        """Return the message in serialized `data`; None when it is not read."""
+        """Return the message in serialized `data`; None if it is not read."""
         return deserialize_message(data, message_type)
 
 
@@ -65,7 +65,7 @@ class Conversation:
         has_come: Callable[[], Any],
         timeout: float,
     ) -> bool:
-        """Wait for an answer; when none comes within `timeout` s, or it is in vain to wait, write that down."""
+        """Wait for an answer; if none comes within `timeout` s, or waiting is in vain, record that."""
         started = time.monotonic()
         self.log.wait_until(lambda: has_come() or self.is_in_vain(), timeout)
         if has_come():

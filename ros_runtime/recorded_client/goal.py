@@ -29,11 +29,11 @@ class Cancel:
 
     @property
     def answer(self) -> CancelAnswered | None:
-        """The answer; None as long as there is none."""
+        """The answer; None before it comes."""
         return self._conversation.log.first(CancelAnswered, cancel=self.name)
 
     def wait(self, timeout: float = ANSWER_TIMEOUT) -> bool:
-        """Wait for the answer; returns whether it came."""
+        """Wait for the answer; return whether it came."""
         conversation = self._conversation
         return conversation.wait(
             "cancel",
@@ -66,7 +66,7 @@ class Goal:
 
     @property
     def result(self) -> ResultReceived | None:
-        """Its end: status and result message; None before that."""
+        """Status and result message; None before they come."""
         return self._log.first(ResultReceived, goal=self.name)
 
     @property
@@ -75,11 +75,11 @@ class Goal:
         return self._conversation.has_come(ResultReceived, "result", goal=self.name)
 
     def wait_for_answer(self, timeout: float = ANSWER_TIMEOUT) -> bool:
-        """Wait until it is accepted or rejected; returns whether it is either."""
+        """Wait until it is accepted or rejected; return whether it is either."""
         return self._conversation.wait("goal", self.name, lambda: self.accepted is not None, timeout)
 
     def wait_for_feedback(self, count: int = 1, timeout: float = RESULT_TIMEOUT) -> bool:
-        """Wait until `count` feedback messages have come; False when the goal or the time has ended first."""
+        """Wait for `count` feedback messages; return False if the goal or the time ends first."""
 
         def is_enough() -> bool:
             return self._log.count(FeedbackReceived, goal=self.name) >= count
@@ -90,7 +90,7 @@ class Goal:
         return is_enough()
 
     def wait_for_result(self, timeout: float = RESULT_TIMEOUT) -> bool:
-        """Wait for the end of an accepted goal; returns at once for one that was not accepted."""
+        """Wait for the end of the goal; return at once if it was not accepted."""
         if not self.accepted:
             return False
         return self._conversation.wait("result", self.name, lambda: self.has_ended, timeout)

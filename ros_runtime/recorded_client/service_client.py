@@ -23,12 +23,12 @@ class Call:
 
     @property
     def response(self) -> Any | None:
-        """The response; None as long as there is none."""
+        """The response; None before it comes."""
         answer = self._conversation.log.first(ServiceAnswered, call=self.name)
         return answer.response if answer else None
 
     def wait(self, timeout: float = ANSWER_TIMEOUT) -> bool:
-        """Wait for the answer; returns whether it came."""
+        """Wait for the answer; return whether it came."""
         conversation = self._conversation
         return conversation.wait(
             "call",
@@ -60,14 +60,14 @@ class ServiceClient:
         return call
 
     def call(self, request: Any = None, *, as_: str = "", timeout: float = ANSWER_TIMEOUT) -> bool:
-        """Send a request and wait for its answer; returns whether it came."""
+        """Send a request and wait for its answer; return whether it came."""
         return self.send(request, as_=as_).wait(timeout)
 
     def call_at_once(self, requests: Sequence[Any], *, times: int = 1) -> None:
-        """Send several requests without waiting in between, wait for the answers, and do that so many times.
+        """Send several requests without waiting in between, wait for the answers, and repeat that so many times.
 
         A service keeps its last 10 requests: more than that at once would be lost through no fault of the node. It ends
-        when an answer does not come.
+        if an answer does not come.
         """
         for _ in range(times):
             answered = [call.wait() for call in [self.send(request) for request in requests]]

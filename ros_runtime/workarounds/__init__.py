@@ -1,1 +1,1 @@
-"""Code that works around other people's: README.md says for each piece why, and how to remove it."""
+"""Workarounds for faults of other software; README.md says for each why it is there and how to remove it."""

@@ -1,4 +1,4 @@
-"""Open an OpenGL context without a screen, on whatever this machine has."""
+"""Open an OpenGL context without a screen, with any backend that this machine has."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Load a package's shared libraries when this process first imports the package, and no sooner.
 
-The loader reads LD_LIBRARY_PATH once, when the process starts; but a library that is loaded already it finds by name.
-A library is never unloaded. So this waits for the import: by then a build that was wrong may have been mended.
+The loader reads LD_LIBRARY_PATH only when the process starts, but finds a library that is already loaded by name.
+A library is never unloaded. So this waits for the import: by then a faulty build may have been repaired.
 """
 
 from __future__ import annotations

@@ -34,7 +34,7 @@ def launch_web_viewer(port: int, camera: mujoco.MjvCamera) -> tuple[ViewerHandle
         OSError: the port is taken.
         ImportError: this MuJoCo is older than 4.0 and has no web viewer.
     """
-    # Only now: these imports take half a second, and a robot that nobody looks at does not need them.
+    # Imported late: this takes half a second, and a robot that nobody watches does not need it.
     from mujoco.studio import launch_thread, viewer_protocol, web_viewer
 
     config = viewer_protocol.ViewerConfig(title="robot", gfx="web", http_port=port)
@@ -55,7 +55,7 @@ def launch_web_viewer(port: int, camera: mujoco.MjvCamera) -> tuple[ViewerHandle
 
 @contextmanager
 def _bound_to_loopback() -> Iterator[list[int]]:
-    """Let a viewer that is made meanwhile bind to loopback in silence; the list gets the port it has bound."""
+    """Make a viewer that starts meanwhile bind to loopback and print nothing; the list gets its port."""
     from mujoco.studio import web_viewer
     from mujoco.studio.web import web_server
 
@@ -71,7 +71,7 @@ def _bound_to_loopback() -> Iterator[list[int]]:
         return bound
 
     def say_nothing(_host: str, _port: int) -> None:
-        """The banner names addresses that this viewer is not bound to."""
+        """Print nothing: the banner names addresses that this viewer is not bound to."""
 
     with (
         _replaced(web_server, "bind_public_socket", bind_to_loopback),
@@ -82,7 +82,7 @@ def _bound_to_loopback() -> Iterator[list[int]]:
 
 @contextmanager
 def _replaced(module: ModuleType, name: str, replacement: object) -> Iterator[None]:
-    """Put something else in the place of a module's function, and the function back."""
+    """Replace a module's function, and restore it at the end."""
     original = getattr(module, name)
     setattr(module, name, replacement)
     try:

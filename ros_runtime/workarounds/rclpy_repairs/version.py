@@ -14,9 +14,10 @@ PACKAGES = (
 def installed_version() -> str:
     """Return the version of rclpy, as its metadata is named in the first folder of the path that has any.
 
-    importlib.metadata would tell as well, at 20 ms of imports for every ROS process that starts.
+    importlib.metadata tells the same, but costs every ROS process 20 ms of imports.
 
-    Raises LookupError where no rclpy is installed.
+    Raises:
+        LookupError: no rclpy is installed.
     """
     for package in PACKAGES:
         for folder in sys.path:

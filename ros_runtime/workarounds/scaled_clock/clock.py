@@ -1,6 +1,6 @@
 """The writing side of the scaled clock: make the page that an arena's processes share, and set its pace.
 
-    clock = ScaledClock.create(directory / "clock")     # starts at the pace of the wall
+    clock = ScaledClock.create(directory / "clock")     # starts at the pace of real time
     subprocess.Popen(..., env={**env, **clock.environment()})
     ...                                                 # the endpoints are matched
     clock.run_at(5.0)                                   # from here on five times faster, for all at once
@@ -46,7 +46,8 @@ def preload_variables() -> dict[str, str]:
 def follow(path: str | os.PathLike[str]) -> None:
     """Let this process follow the clock at `path`: a fork, with one thread so far, of one that has no clock yet.
 
-    Raises OSError when it cannot: the library is not preloaded, there is no page, or it is none of ours.
+    Raises:
+        OSError: the library is not preloaded, or there is no page, or it is not one of ours.
     """
     try:
         attach = ctypes.CDLL(None).scaled_clock_follow
@@ -74,8 +75,10 @@ class ScaledClock:
     def create(cls, path: str | os.PathLike[str], *, library: Path | None = None) -> ScaledClock:
         """Make the page file `path`, running at scale 1 and equal to the wall's clocks until `run_at`.
 
-        `library` is the preloaded library, `library_path()` unless given.
-        Raises FileExistsError if `path` exists.
+        `library` is the preloaded library, by default `library_path()`.
+
+        Raises:
+            FileExistsError: `path` exists.
         """
         now = real_monotonic_ns()
         offset = time.clock_gettime_ns(time.CLOCK_REALTIME) - time.clock_gettime_ns(time.CLOCK_MONOTONIC)
@@ -90,7 +93,9 @@ class ScaledClock:
     def open(cls, path: str | os.PathLike[str], *, library: Path | None = None) -> ScaledClock:
         """Join the clock at `path`. A page that this process may only read can be read, not set.
 
-        Raises OSError if there is none, ValueError if it is not a page of this version.
+        Raises:
+            OSError: there is none.
+            ValueError: it is not a page of this version.
         """
         path = Path(path).resolve()
         writable = os.access(path, os.W_OK)
@@ -111,7 +116,7 @@ class ScaledClock:
     def environment(self, base: Mapping[str, str] | None = None) -> dict[str, str]:
         """Return the variables that make a process follow this clock; libraries that `base` preloads stay preloaded.
 
-        Empty where the preloaded library could not be built.
+        They are empty if the preloaded library could not be built.
         """
         if self._library is None:
             return {}
@@ -119,15 +124,16 @@ class ScaledClock:
         return {"LD_PRELOAD": f"{self._library} {already}".rstrip(), PAGE_VARIABLE: str(self.path)}
 
     def run_at(self, scale: float, *, final: bool = True) -> None:
-        """Let the clock run `scale` times as fast as the wall, for all processes from the same instant on.
+        """Let the clock run `scale` times as fast as real time, for all processes from the same instant on.
 
         Returns when that instant has come, about 10 ms later. `final` promises that the pace stays: waits
-        then run undivided. Until then they wake every 10 ms to look at the page.
+        then run undivided. Until then they wake every 10 ms to read the page.
 
-        ROS nodes find each other in wall time. Speed up only 0.2 s after a client has found its server: the
+        ROS nodes discover each other in real time. Speed up only 0.2 s after a client has found its server: the
         server may not know the client yet, and would give up answering it ten times sooner at scale 10.
 
-        Raises RuntimeError where processes cannot follow, at a final clock and after 15 changes.
+        Raises:
+            RuntimeError: processes cannot follow, the clock is final, or it was changed 15 times.
         """
         if not 0.01 <= scale <= 100.0:
             raise ValueError(f"a clock cannot run {scale} times as fast as the wall; expected 0.01 to 100")
@@ -148,7 +154,7 @@ class ScaledClock:
             time.sleep(0.001)
 
     def _append(self, count: int, scale: float) -> int:
-        """Publish a segment that starts soon; returns its real start in ns."""
+        """Publish a segment that starts soon; return its real start in ns."""
         while True:
             start = real_monotonic_ns() + _NOTICE_NS
             where = _HEADER.size + count * _SEGMENT.size

@@ -16,8 +16,9 @@ SOURCE = Path(__file__).with_name("scaled_clock.c")
 def compile_library(target: Path) -> None:
     """Compile scaled_clock.c into the shared library `target`; $CC chooses the compiler (default: cc).
 
-    Raises OSError when there is no compiler and subprocess.CalledProcessError when it refuses the source, as
-    it does without glibc 2.30 or newer. Both mean the same to a caller: this machine runs at scale 1.
+    Raises:
+        OSError: there is no compiler, so this machine runs at scale 1.
+        subprocess.CalledProcessError: the compiler refuses the source, as it does before glibc 2.30; likewise.
     """
     compiler = os.environ.get("CC", "cc")
     flags = ["-std=c11", "-O2", "-Wall", "-Wextra", "-shared", "-fPIC", "-pthread"]

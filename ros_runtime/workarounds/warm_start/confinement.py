@@ -1,4 +1,4 @@
-"""Entering a sandbox that is already there, and giving up everything that a program in it may not have."""
+"""Enters an existing sandbox and gives up every privilege that a program in it may not have."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ class _FilterProgram(ctypes.Structure):
 def join_namespaces(pid: int) -> None:
     """Enter every namespace of a process but its network; the next fork is in its process namespace, too.
 
-    Raises OSError when the kernel does not let this process, which must have a single thread.
+    Raises:
+        OSError: the kernel does not permit it; this process must have a single thread.
     """
     target = os.pidfd_open(pid)
     try:

@@ -29,7 +29,7 @@ with Recording() as recording:
 
 
 def wait(orders: socket.socket, guard: ForkGuard) -> int:
-    """Wait for orders in a fork that has nothing else open; returns, in a fork of it, a program's exit status."""
+    """Wait for orders in a fork that has nothing else open; return, in a fork of it, a program's exit status."""
     here = orders.fileno()
     os.closerange(3, here)
     os.closerange(here + 1, os.sysconf("SC_OPEN_MAX"))
@@ -46,7 +46,7 @@ def wait(orders: socket.socket, guard: ForkGuard) -> int:
 
 
 def lead(descriptor: int, waiting: str) -> None:
-    """Go on as `python -m MODULE …` in the environment that is written there."""
+    """Go on as `python -m MODULE …` in the environment that the file holds."""
     with open(descriptor, encoding="utf-8") as file:
         program = json.load(file)
     os.environ.clear()

@@ -1,4 +1,4 @@
-"""Modules that are loaded and not seen: `import` finds them at once, and only what imports them finds them.
+"""Hides loaded modules until a program imports them, which then takes no time.
 
     with Recording() as recording:
         import rclpy.node
@@ -65,7 +65,7 @@ class Recording:
         return module
 
     def _note(self, imported: str) -> None:
-        """Note an import for the module that is being loaded: the nearest on the stack, whoever asked for it."""
+        """Note an import for the module that is being loaded, which is the nearest on the stack."""
         frame: FrameType | None = sys._getframe(2)
         while frame and frame.f_code.co_name != "<module>":
             frame = frame.f_back
@@ -75,7 +75,7 @@ class Recording:
 
 
 def hide(recording: Recording, before: Iterable[str]) -> None:
-    """Take every module out of sight that was loaded since `before` (names of modules)."""
+    """Hide every module that was loaded since `before` (names of modules)."""
     shown = set(before)
     hidden = {
         name: module

@@ -1,6 +1,6 @@
-"""Forking a process in which LTTng runs, which tracepoints of ROS bring along: its threads must begin anew in the fork.
+"""Forks a process in which LTTng runs, loaded by ROS's tracepoints: its threads must be started anew in the fork.
 
-The fork of a fork may be the one that goes on: it calls `after_in_child`, whatever lies between only waits.
+If a fork of a fork goes on, only that one calls `after_in_child`; the process between them just waits.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ _PREFIXES = ("ust_", "lttng_ust_")  # of the functions, before and since LTTng 2
 
 
 class ForkGuard:
-    """Does what liblttng-ust-fork does around a fork; nothing where LTTng is not loaded."""
+    """Does what liblttng-ust-fork does around a fork, or nothing if LTTng is not loaded."""
 
     def __init__(self) -> None:
         self._signals = ctypes.create_string_buffer(128)  # a sigset_t

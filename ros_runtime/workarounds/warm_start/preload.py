@@ -1,4 +1,4 @@
-"""What a waiting interpreter loads: what nearly every node needs, and nothing that starts a thread or a participant."""
+"""Loads what nearly every node needs, and nothing that starts a thread or a participant."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ LIBRARIES = (
 
 
 def preload() -> None:
-    """Load them. What is not installed is not missed before a program asks for it."""
+    """Load the modules, except those that are not installed."""
     for name in MODULES:
         with suppress(ImportError):
             importlib.import_module(name)

@@ -1,4 +1,4 @@
-"""Becoming a Python program: from here on this process is what `python FILE ARGUMENTS` would have been."""
+"""Turns this process into a Python program, as if it had been started by `python FILE ARGUMENTS`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from types import ModuleType
 
 
 def run_program(arguments: Sequence[str], environment: Mapping[str, str], folder: str) -> int:
-    """Run `arguments[0]` in `folder` as the main program; returns the status to end with, unless it ends by itself.
+    """Run `arguments[0]` in `folder` as the main program; return the exit status, unless it ends by itself.
 
     Tracebacks, SystemExit and Ctrl-C are the interpreter's own business, as they are for any program.
     """
@@ -61,7 +61,7 @@ def _empty_main() -> ModuleType:
 
 
 def _draw_new_seeds() -> None:
-    """Generators that are seeded when they are loaded would be the same in every fork; Python's own seeds itself."""
+    """Seed the generators that would otherwise be the same in every fork; Python's own does it itself."""
     for finder in sys.meta_path:
         hidden = getattr(finder, "_hidden", {})
         if random := hidden.get("numpy.random"):

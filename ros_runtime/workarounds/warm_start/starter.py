@@ -22,8 +22,8 @@ DESCRIPTORS = 5
 
 
 def wait_for_order(orders: socket.socket, guard: ForkGuard) -> dict:
-    """Serve orders; returns, with the order, in the process that is to become the program and in no other."""
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the kernel buries them
+    """Serve orders; return, with the order, only in the process that is to become the program."""
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the kernel reaps them
     while True:
         text, descriptors, _, _ = socket.recv_fds(orders, LONGEST_ORDER, DESCRIPTORS)
         if not text:
