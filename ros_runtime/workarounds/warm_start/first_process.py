@@ -19,6 +19,7 @@ with Recording() as recording:
     import json
     import os
     import runpy
+    import signal
     import socket
 
     from ros_runtime.workarounds.warm_start import WAITING
@@ -59,6 +60,7 @@ def lead(descriptor: int, waiting: str) -> None:
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # as in a terminal, also where a script started us
     with recording:
         preload()
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
