@@ -60,7 +60,8 @@ def lead(descriptor: int, waiting: str) -> None:
 
 
 if __name__ == "__main__":
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # as in a terminal, also where a script started us
+    # Ctrl-C does what it does in a terminal, also where a script started us.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     with recording:
         preload()
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)

@@ -22,7 +22,8 @@ from autograder.engine.exercise import exercise_names, load_exercise
 from autograder.engine.judging import judge
 
 EXERCISES = exercise_names()
-RUNS_OF = ("joints_published", "feedback_received", "battery_published", "robot_peers", "woken_late")  # of a row of these the ends are enough
+# Of a row of these the ends are enough.
+RUNS_OF = ("joints_published", "feedback_received", "battery_published", "robot_peers", "woken_late")
 ANSWERS = (
     *("service_answered", "goal_answered", "cancel_answered", "result_received", "reply_sent"),
     "arm_reported",
