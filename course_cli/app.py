@@ -6,6 +6,7 @@ To add a command, write course_cli/commands/<name>.py and a line in COMMANDS.
 
 from __future__ import annotations
 
+import signal
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -79,7 +80,12 @@ COMMANDS: dict[str, Command] = {
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command that `arguments` (default: the process's own) name, and exit with its status."""
+    """Run the command that `arguments` (default: the process's own) name, and exit with its status.
+
+    A program that a script starts in the background (`course grade … &`) ignores Ctrl-C, and so would all that it
+    starts, students' nodes among them; so Ctrl-C is put back to what it does in a terminal.
+    """
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     chosen = next((word for word in arguments if not word.startswith("-")), None)
     app(chosen)(args=list(arguments), prog_name="course")

@@ -47,20 +47,25 @@ def to_dict(message: Any) -> dict[str, Any]:
     return {name: _plain(getattr(message, name)) for name in message.get_fields_and_field_types()}
 
 
-def from_dict(message_type: type, values: dict[str, Any]) -> Any:
+def from_dict(message_type: type, values: dict[str, Any], *, strict: bool = False) -> Any:
     """Return a message of `message_type` with the given fields; those not given keep their defaults.
 
+    `strict` has rosidl check that each value fits its field, which it does not do by itself.
+
     Raises:
-        AttributeError: a field is unknown; the message names those there are.
+        AttributeError: there is no such field; it names those there are.
+        AssertionError: a value does not fit, in a strict message.
     """
     message = message_type()
-    fill(message, values)
+    fill(message, values, strict=strict)
     return message
 
 
-def fill(message: Any, values: dict[str, Any]) -> None:
+def fill(message: Any, values: dict[str, Any], *, strict: bool = False) -> None:
     """Set fields of a message in place from nested dicts."""
     fields = message.get_fields_and_field_types()
+    if strict:
+        message._check_fields = True
     for name, value in values.items():
         if name not in fields:
             raise AttributeError(
@@ -68,11 +73,12 @@ def fill(message: Any, values: dict[str, Any]) -> None:
             )
         current = getattr(message, name)
         if is_message(current):
-            fill(current, value)
+            fill(current, value, strict=strict)
         elif isinstance(current, float):
             setattr(message, name, float(value))
         elif isinstance(value, list) and value and isinstance(value[0], dict):
-            setattr(message, name, [from_dict(_element_type(message, name), element) for element in value])
+            element = _element_type(message, name)
+            setattr(message, name, [from_dict(element, each, strict=strict) for each in value])
         else:
             setattr(message, name, value)
 

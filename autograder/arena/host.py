@@ -89,6 +89,7 @@ class Host:
 
 def main() -> None:
     """Serve orders until the controller closes the socket."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # students' nodes inherit it, whoever started us
     orders = socket.socket(fileno=int(sys.argv[1]))
     preload()
     host = Host()

@@ -11,7 +11,7 @@ from autograder.arena.arena_log import ArenaLog
 from autograder.arena.graph import Graph
 
 FLOOD = 50  # messages within…
-QUIET = 0.25  # s of the arena's clock are more than any sound node sends
+QUIET = 0.25  # s of the arena's clock are more than any correct node sends
 FLOODED = 15.0  # s of it are waited for the end of a flood
 POLLING = 0.005  # s between two polls of what sends no notification, such as the graph
 

@@ -47,6 +47,6 @@ def _message_or_dict(value: dict[str, Any]) -> Any:
     if value.keys() != {"ros_type", "ros_fields"}:
         return value
     try:
-        return from_dict(message_type(value["ros_type"]), value["ros_fields"])
+        return from_dict(message_type(value["ros_type"]), value["ros_fields"], strict=True)
     except (AttributeError, AssertionError, TypeError) as error:
         raise ValueError(f"this is no {value['ros_type']}: {error}") from error

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from autograder.authoring.checks import Check, Scenario, check
+from autograder.authoring.feedback import require_feedback
 from autograder.authoring.readiness import require_ready
 from autograder.authoring.server_checks import require_clean_exit
 from autograder.authoring.transcript import Transcript
@@ -28,6 +29,21 @@ def ends_cleanly(*, points: int, on: Scenario, needs: Needs, see: str = "") -> C
     """Make the check that Ctrl-C, which the scenario presses, ends the node with exit status 0."""
     title = "Ctrl-C ends the node with exit status 0"
     return named_check("ends_cleanly", title, require_clean_exit, points=points, on=on, needs=needs, see=see)
+
+
+def feedback_ends_with_the_goal(
+    goal: str, *, points: int, on: Scenario, needs: Needs, see: str = ""
+) -> Check:
+    """Nothing comes after the end: no feedback of the goal of this name, once its result is there."""
+
+    def require(run: Transcript) -> None:
+        require_feedback(run.goal(goal))
+        run.goal(goal).require_silence_afterwards()
+
+    title = "After the result no more feedback comes"
+    return named_check(
+        "feedback_ends_with_the_goal", title, require, points=points, on=on, needs=needs, see=see
+    )
 
 
 def named_check(

@@ -63,7 +63,7 @@ def _arenas(task: dict[str, Any], exercise: Exercise, submission: Submission) ->
             phases = {
                 event.name: {"cpu_s": event.cpu, "wall_s": event.wall}
                 for event in transcript.events
-                if event.kind == "phase"
+                if type(event).__name__ == "PhaseEnded"  # which the oldest versions do not have
             }
             yield {
                 **_difference(before, after),

@@ -10,6 +10,7 @@ from ros_runtime.record.client_events import (
     FeedbackReceived,
     GoalAnswered,
     ResultReceived,
+    TooLarge,
 )
 from ros_runtime.recorded_client.conversation import Conversation
 
@@ -82,7 +83,8 @@ class Goal:
         """Wait for `count` feedback messages; return False if the goal or the time ends first."""
 
         def is_enough() -> bool:
-            return self._log.count(FeedbackReceived, goal=self.name) >= count
+            too_large = self._log.count(TooLarge, what="feedback", id=self.name)
+            return self._log.count(FeedbackReceived, goal=self.name) + too_large >= count
 
         self._log.wait_until(
             lambda: is_enough() or self.has_ended or self._conversation.is_in_vain(), timeout

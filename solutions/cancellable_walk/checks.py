@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario, check, expect
-from autograder.authoring.feedback import require_feedback, require_good_feedback_rate
+from autograder.authoring.feedback import require_good_feedback_rate
 from autograder.authoring.goal import ABORTED
 from autograder.authoring.transcript import Transcript
 
@@ -58,12 +58,9 @@ def feedback_is_true(run: Transcript) -> None:
     require_true_feedback(run.goal("walk"))
 
 
-@check(points=1, on=WALK, needs=[arrives, feedback_keeps_its_rate])
-def feedback_ends_with_the_goal(run: Transcript) -> None:
-    """After the result no more feedback comes"""
-    goal = run.goal("walk")
-    require_feedback(goal)
-    goal.require_silence_afterwards()
+feedback_ends_with_the_goal = standard.feedback_ends_with_the_goal(
+    "walk", points=1, on=WALK, needs=[arrives, feedback_keeps_its_rate]
+)
 
 
 @check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal)

@@ -13,7 +13,7 @@ from autograder.authoring.feedback import end_of_feedback, require_feedback
 from autograder.authoring.goal import SUCCEEDED, Goal
 from humanoid_interfaces.action import WalkTo
 
-from .planar import error, wrap, yaw
+from .planar import error, heading, turn
 
 REPORT_SLACK = 0.08  # m or rad, over what the robot moved while the message was made and delivered
 REPORT_AGE = 0.6  # s that a reported pose may be old: odom's period, the feedback's period, delivery
@@ -89,12 +89,10 @@ def require_true_pose(stamped: PoseStamped, recent: Sequence[ev.RobotTruth], wha
         "is set after it.",
         at=at,
     )
-    heading = yaw(stamped.pose.orientation)
-    turn = min(abs(wrap(heading - robot.yaw)) for robot in recent)
     expect(
-        turn <= 2 * REPORT_SLACK,
+        min(turn(robot, stamped.pose.orientation) for robot in recent) <= 2 * REPORT_SLACK,
         expected=f"{what} with yaw {recent[-1].yaw:.2f} rad",
-        observed=f"{heading:.2f} rad",
+        observed=f"{heading(stamped.pose.orientation):.2f} rad",
         help="Copy the whole orientation of odom's pose: x, y, z and w.",
         at=at,
     )

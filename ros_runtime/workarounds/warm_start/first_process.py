@@ -19,6 +19,7 @@ with Recording() as recording:
     import json
     import os
     import runpy
+    import signal
     import socket
 
     from ros_runtime.workarounds.warm_start import WAITING
@@ -59,6 +60,8 @@ def lead(descriptor: int, waiting: str) -> None:
 
 
 if __name__ == "__main__":
+    # Ctrl-C does what it does in a terminal, also where a script started us.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     with recording:
         preload()
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)

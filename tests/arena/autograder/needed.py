@@ -1,47 +1,48 @@
 """Without which kinds of events each check passes no sound submission: the evidence it stands on.
 
-ALWAYS are needed by all, 'robot' being the simulator's truth and 'node_ready' a server's appearance; where 'battery',
-'joints', 'arm' or 'command' stand, it is also the simulator who says that the stimulus took place.
+ALWAYS are needed by all, 'robot_truth' being the simulator's and 'node_ready' a server's appearance; where
+'battery_published', 'joints_published', 'arm_reported' or 'robot_commanded' stand, it is also the simulator who says
+that the stimulus took place.
 """
 
-ALWAYS = ("node_started", "node_ready", "robot", "scenario_ended")
+ALWAYS = ("node_started", "node_ready", "robot_truth", "scenario_ended")
 
 _ASKED = "service_called service_answered"
 _INTERRUPTED = "node_signalled node_exited"
 _ENDED = "node_output node_exited"
 _SERVED = f"{_ENDED} request_received reply_sent"
 _GOAL = "goal_sent goal_answered"
-_WALKED = f"{_GOAL} result"
+_WALKED = f"{_GOAL} result_received"
 _CANCELED = f"{_WALKED} cancel_sent cancel_answered"
 
 NEEDED = {
     "battery_service": {
         "server_appears": "",
-        "answers_with_the_last_message": f"{_ASKED} battery",
+        "answers_with_the_last_message": f"{_ASKED} battery_published",
         "says_when_it_knows_nothing": _ASKED,
-        "follows_the_battery": f"{_ASKED} battery command",
+        "follows_the_battery": f"{_ASKED} battery_published robot_commanded",
         "ends_cleanly": _INTERRUPTED,
-        "recovers_when_the_sensor_appears": f"{_ASKED} battery command",
-        "keeps_the_last_message": f"{_ASKED} battery command",
+        "recovers_when_the_sensor_appears": f"{_ASKED} battery_published robot_commanded",
+        "keeps_the_last_message": f"{_ASKED} battery_published robot_commanded",
         "answers_every_request": _ASKED,
-        "works_in_any_namespace": f"{_ASKED} battery",
+        "works_in_any_namespace": f"{_ASKED} battery_published",
     },
     "cancellable_walk": {
         "server_appears": "",
         "accepts_a_goal": _GOAL,
         "arrives": _WALKED,
         "fills_the_result": _WALKED,
-        "feedback_keeps_its_rate": f"{_WALKED} feedback",
-        "feedback_is_true": f"{_WALKED} feedback",
-        "feedback_ends_with_the_goal": f"{_WALKED} feedback",
+        "feedback_keeps_its_rate": f"{_WALKED} feedback_received",
+        "feedback_is_true": f"{_WALKED} feedback_received",
+        "feedback_ends_with_the_goal": f"{_WALKED} feedback_received",
         "rejects_a_wrong_frame": _GOAL,
         "rejects_nan": _GOAL,
-        "rejects_without_power": f"{_GOAL} command",
+        "rejects_without_power": f"{_GOAL} robot_commanded",
         "cancels_in_mid_stride": _CANCELED,
         "stops_when_canceled": "cancel_sent",
         "walks_again_after_a_cancel": f"{_WALKED} cancel_sent",
         "new_goal_preempts_the_old": _WALKED,
-        "aborts_when_the_robot_falls": f"{_WALKED} command",
+        "aborts_when_the_robot_falls": f"{_WALKED} robot_commanded",
         "ends_cleanly": _INTERRUPTED,
         "arrives_anywhere": _WALKED,
         "cancels_at_the_start": _CANCELED,
@@ -58,7 +59,7 @@ NEEDED = {
         "bends_the_elbow_as_asked": _ASKED,
         "says_what_is_out_of_reach": _ASKED,
         "refuses_other_frames": _ASKED,
-        "moves_the_real_hand": f"{_ASKED} command arm",
+        "moves_the_real_hand": f"{_ASKED} robot_commanded arm_reported",
         "ends_cleanly": _INTERRUPTED,
         "reaches_any_point": _ASKED,
         "refuses_what_is_no_number": _ASKED,
@@ -80,31 +81,31 @@ NEEDED = {
         "server_appears": "",
         "finds_the_joints": _ASKED,
         "keeps_the_order_asked": _ASKED,
-        "positions_are_the_robots": f"{_ASKED} joints",
-        "no_names_means_all": f"{_ASKED} joints",
-        "follows_the_robot": f"{_ASKED} joints command",
-        "names_every_unknown_joint": f"{_ASKED} joints",
+        "positions_are_the_robots": f"{_ASKED} joints_published",
+        "no_names_means_all": f"{_ASKED} joints_published",
+        "follows_the_robot": f"{_ASKED} joints_published robot_commanded",
+        "names_every_unknown_joint": f"{_ASKED} joints_published",
         "says_when_it_knows_nothing": _ASKED,
         "ends_cleanly": _INTERRUPTED,
-        "recovers_when_the_sensors_appear": f"{_ASKED} joints command",
-        "answers_in_any_posture": f"{_ASKED} joints command",
+        "recovers_when_the_sensors_appear": f"{_ASKED} joints_published robot_commanded",
+        "answers_in_any_posture": f"{_ASKED} joints_published robot_commanded",
         "answers_every_request": _ASKED,
-        "looks_joints_up_by_name": f"{_ASKED} joints command",
+        "looks_joints_up_by_name": f"{_ASKED} joints_published robot_commanded",
         "takes_no_joint_for_another": _ASKED,
-        "works_in_any_namespace": f"{_ASKED} joints",
+        "works_in_any_namespace": f"{_ASKED} joints_published",
     },
     "motor_services": {
         "server_appears": "",
         "tells_the_status": _ASKED,
-        "follows_the_robot": f"{_ASKED} command",
+        "follows_the_robot": f"{_ASKED} robot_commanded",
         "says_when_it_knows_nothing": _ASKED,
         "powers_off": _ASKED,
         "powers_on": _ASKED,
-        "refuses_off_while_walking": f"{_ASKED} command",
+        "refuses_off_while_walking": f"{_ASKED} robot_commanded",
         "ends_cleanly": _INTERRUPTED,
-        "refuses_however_it_walks": f"{_ASKED} command",
-        "refuses_nothing_else": f"{_ASKED} command",
-        "recovers_when_the_robot_speaks": f"{_ASKED} command",
+        "refuses_however_it_walks": f"{_ASKED} robot_commanded",
+        "refuses_nothing_else": f"{_ASKED} robot_commanded",
+        "recovers_when_the_robot_speaks": f"{_ASKED} robot_commanded",
         "answers_every_request": _ASKED,
         "works_in_any_namespace": _ASKED,
     },

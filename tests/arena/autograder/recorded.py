@@ -15,6 +15,7 @@ from autograder.authoring import events as ev
 from autograder.authoring.checks import Check, Scenario
 from autograder.authoring.transcript import Transcript
 from autograder.engine.exercise import load_exercise
+from ros_runtime.record.event import to_line
 
 FOLDER = Path(__file__).parent / "transcripts"
 
@@ -46,9 +47,9 @@ def write(path: Path, transcript: Transcript) -> None:
     """Keep a transcript."""
     events = sorted([*transcript.events, *transcript.ground_truth], key=lambda event: event.t)
     head = {"params": transcript.params, "scale": transcript.scale}
-    lines = [json.dumps(head), *(json.dumps(event.model_dump()) for event in events)]
+    lines = [json.dumps(head).encode(), *(to_line(event).rstrip() for event in events)]
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_bytes(gzip.compress("\n".join(lines).encode(), mtime=0))
+    path.write_bytes(gzip.compress(b"\n".join(lines), mtime=0))
 
 
 def read(path: Path, scenario: Scenario) -> Transcript:

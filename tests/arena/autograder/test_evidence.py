@@ -22,11 +22,18 @@ from autograder.engine.exercise import exercise_names, load_exercise
 from autograder.engine.judging import judge
 
 EXERCISES = exercise_names()
-RUNS_OF = ("joints", "feedback", "battery", "peers", "woken_late")  # of a row of these the ends are enough
-ANSWERS = ("service_answered", "goal_answered", "cancel_answered", "result", "reply_sent", "arm")
+# Of a row of these the ends are enough.
+RUNS_OF = ("joints_published", "feedback_received", "battery_published", "robot_peers", "woken_late")
+ANSWERS = (
+    *("service_answered", "goal_answered", "cancel_answered", "result_received", "reply_sent"),
+    "arm_reported",
+)
 DELAYS = (0.4, 2.0, 30.0)  # s
 # What a program does by itself. Without one of these a record is that of another program, and that may be a sound one.
-OWN_DOING = ("node_output", "node_exited", "node_killed", "request_received", "feedback", "status")
+OWN_DOING = (
+    *("node_output", "node_exited", "node_killed", "request_received"),
+    *("feedback_received", "status_seen"),
+)
 
 
 @cache
@@ -88,12 +95,12 @@ def without_one(transcript):
 def without_a_kind(transcript):
     for kind in sorted({event.kind for event in transcript.events}):
         yield f"without any {kind}", lacking(transcript, kind)
-    yield "without any robot", replace(transcript, ground_truth=[])
+    yield "without any robot_truth", replace(transcript, ground_truth=[])
 
 
 def lacking(transcript, kind):
     """Without a command that was never sent nobody waits for its effect."""
-    kinds = (kind, "command_sent") if kind == "command" else (kind,)
+    kinds = (kind, "command_sent") if kind == "robot_commanded" else (kind,)
     return replace(transcript, events=[event for event in transcript.events if event.kind not in kinds])
 
 
@@ -107,14 +114,14 @@ def delayed(transcript):
     for index in places(transcript):
         event = transcript.events[index]
         for delay in DELAYS:
-            late = event.model_copy(update={"t": event.t + delay})
+            late = replace(event, t=event.t + delay)
             others = [*transcript.events[:index], late, *transcript.events[index + 1 :]]
             events = sorted(others, key=lambda event: event.t)
             yield f"with {event.kind} {index} {delay} s late", replace(transcript, events=events)
 
 
 def flooded(transcript):
-    for kind in ("feedback", "status", "request_received", "service_answered", "woken_late"):
+    for kind in ("feedback_received", "status_seen", "request_received", "service_answered", "woken_late"):
         dropped = ev.RecordDropped(t=transcript.end, what=kind, count=1, seconds=1.0)
         yield f"with a flood of {kind}", replace(transcript, events=[*transcript.events, dropped])
 
@@ -219,7 +226,7 @@ def without_robot(case):
     """What is not needed where there is no robot, or no node."""
     robots = any(scenario.robot is not None for scenario in case.check.on)
     nodes = any(scenario.student == "node" for scenario in case.check.on)
-    return ({"robot"} if not robots else set()) | ({"node_ready"} if not nodes else set())
+    return ({"robot_truth"} if not robots else set()) | ({"node_ready"} if not nodes else set())
 
 
 def reference(exercise):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from typing import Any
 
 import pytest
@@ -10,6 +9,8 @@ import pytest
 pytest.importorskip("rclpy")
 
 from autograder.arena import client_stage as client_stage_module
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
 from autograder.arena.client_stage import ClientStage
 from autograder.arena.phases import Phases
 
@@ -39,43 +40,34 @@ class FakeStudent:
         return self._has_exited
 
 
-class Kept:
-    """Stands for a recorder."""
-
-    def __init__(self) -> None:
-        self.events: list[dict[str, Any]] = []
-
-    def record(self, kind: str, **fields: Any) -> None:
-        self.events.append({"kind": kind, **fields})
-
-
-def stage_of(*, has_exited: bool) -> tuple[ClientStage, Kept]:
-    kept: Any = Kept()
+def stage_of(log: ArenaLog, *, has_exited: bool) -> ClientStage:
     node: Any = FakeNode()
     student: Any = FakeStudent(has_exited)
-    phases = Phases(kept, wanted=False)
-    return ClientStage(node, kept, threading.Condition(), student, phases, lambda: None), kept
+    return ClientStage(node, log, student, Phases(log, wanted=False), lambda: None)
 
 
 def test_a_module_that_never_ends_is_recorded_and_the_scenario_goes_on(
-    monkeypatch: pytest.MonkeyPatch,
+    log: ArenaLog, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(client_stage_module, "MODULE_TIMEOUT", 0.01)
-    stage, kept = stage_of(has_exited=False)
+    stage = stage_of(log, has_exited=False)
     stage.run_module("any", [], [])
-    (event,) = kept.events
-    assert (event["kind"], event["what"], event["id"]) == ("unanswered", "end", "program")
+    (event,) = log.all(ev.Unanswered)
+    assert (event.what, event.id) == ("end", "program")
 
 
-def test_a_graph_that_cannot_be_read_is_no_node_and_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_graph_that_cannot_be_read_is_no_node_and_is_told(
+    log: ArenaLog, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(client_stage_module, "APPEARING_TIMEOUT", 0.01)
-    stage, kept = stage_of(has_exited=False)
+    stage = stage_of(log, has_exited=False)
     stage.start_program()
-    assert [event["kind"] for event in kept.events] == ["graph_flooded"]
+    assert log.count(ev.GraphFlooded) == 1
+    assert log.count(ev.NodeReady) == 0
 
 
-def test_a_program_that_has_ended_is_not_waited_for() -> None:
-    stage, kept = stage_of(has_exited=True)
+def test_a_program_that_has_ended_is_not_waited_for(log: ArenaLog) -> None:
+    stage = stage_of(log, has_exited=True)
     stage.start_program()
     stage.wait_for_end()
-    assert "unanswered" not in [event["kind"] for event in kept.events]
+    assert log.all(ev.Unanswered) == []

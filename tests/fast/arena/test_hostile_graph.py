@@ -8,17 +8,9 @@ import pytest
 
 pytest.importorskip("rclpy")
 
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
 from autograder.arena.graph import MOST_ENDPOINTS, MOST_NODES, MOST_SERVICES, Graph
-
-
-class Kept:
-    """Stands for a recorder."""
-
-    def __init__(self) -> None:
-        self.events: list[dict[str, Any]] = []
-
-    def record(self, kind: str, **fields: Any) -> None:
-        self.events.append({"kind": kind, **fields})
 
 
 class Endpoint(NamedTuple):
@@ -45,16 +37,16 @@ class FakeNode:
         return answer
 
 
-def graph_of(**answers: Any) -> tuple[Graph, Kept]:
-    kept = Kept()
-    return Graph(FakeNode(**answers), kept), kept  # type: ignore[arg-type]
+def graph_of(log: ArenaLog, **answers: Any) -> Graph:
+    return Graph(FakeNode(**answers), log)  # type: ignore[arg-type]
 
 
 BROKEN = UnicodeDecodeError("utf-8", b"\xff", 0, 1, "invalid start byte")
 
 
-def test_a_graph_that_cannot_be_read_is_empty_and_recorded_once() -> None:
-    graph, kept = graph_of(
+def test_a_graph_that_cannot_be_read_is_empty_and_recorded_once(log: ArenaLog) -> None:
+    graph = graph_of(
+        log,
         count_publishers=BROKEN,
         count_subscribers=BROKEN,
         count_services=BROKEN,
@@ -68,62 +60,62 @@ def test_a_graph_that_cannot_be_read_is_empty_and_recorded_once() -> None:
     assert graph.offered() == []
     graph.inspect()
     graph.inspect()
-    reasons = [event["reason"] for event in kept.events]
+    reasons = [event.reason for event in log.all(ev.GraphFlooded)]
     assert "UnicodeDecodeError" in reasons[0]
     assert len(reasons) == 2  # the retry has failed, too
     assert len(reasons[0]) < 300
 
 
-def test_an_ordinary_graph_is_not_recorded() -> None:
-    graph, kept = graph_of(get_node_names_and_namespaces=[("observer", "/robot"), ("walk_server", "/robot")])
+def test_an_ordinary_graph_is_not_recorded(log: ArenaLog) -> None:
+    graph = graph_of(log, get_node_names_and_namespaces=[("observer", "/robot"), ("walk_server", "/robot")])
     graph.inspect()
-    assert kept.events == []
+    assert log.all(ev.GraphFlooded) == []
 
 
 @pytest.mark.parametrize("name", ["no/name", "", "2nd", "a" * 300])
-def test_a_name_that_is_none_is_told(name: str) -> None:
-    graph, kept = graph_of(get_node_names_and_namespaces=[(name, "/robot")])
+def test_a_name_that_is_none_is_told(log: ArenaLog, name: str) -> None:
+    graph = graph_of(log, get_node_names_and_namespaces=[(name, "/robot")])
     graph.inspect()
-    (event,) = kept.events
-    assert (event["kind"], event["nodes"]) == ("graph_flooded", 1)
-    assert repr(name[:60]) in event["reason"]
+    (event,) = log.all(ev.GraphFlooded)
+    assert event.nodes == 1
+    assert repr(name[:60]) in event.reason
 
 
-def test_a_crowd_of_nodes_is_counted() -> None:
+def test_a_crowd_of_nodes_is_counted(log: ArenaLog) -> None:
     crowd = [(f"node_{number}", "/robot") for number in range(MOST_NODES + 30_000)]
-    graph, kept = graph_of(get_node_names_and_namespaces=crowd)
+    graph = graph_of(log, get_node_names_and_namespaces=crowd)
     graph.inspect()
-    assert kept.events[0]["reason"] == "there were 30,050 nodes"
+    assert log.all(ev.GraphFlooded)[0].reason == "there were 30,050 nodes"
 
 
-def test_the_owner_of_a_service_is_found_without_a_list_of_nodes() -> None:
+def test_the_owner_of_a_service_is_found_without_a_list_of_nodes(log: ArenaLog) -> None:
     servers = [Endpoint("walk_server"), Endpoint("walk_server"), Endpoint("root", "/")]
-    graph, _ = graph_of(get_subscriptions_info_by_topic=servers, get_node_names_and_namespaces=BROKEN)
+    graph = graph_of(log, get_subscriptions_info_by_topic=servers, get_node_names_and_namespaces=BROKEN)
     assert graph.owners_of("get_status") == ["/robot/walk_server", "/root"]
 
 
-def test_an_owner_without_a_name_is_nobody() -> None:
+def test_an_owner_without_a_name_is_nobody(log: ArenaLog) -> None:
     servers = [Endpoint("_NODE_NAME_UNKNOWN_", "_NODE_NAMESPACE_UNKNOWN_"), Endpoint("no/name")]
-    graph, _ = graph_of(get_subscriptions_info_by_topic=servers)
+    graph = graph_of(log, get_subscriptions_info_by_topic=servers)
     assert graph.owners_of("get_status") == []
 
 
-def test_thousands_of_servers_of_one_name_are_not_listed() -> None:
-    graph, _ = graph_of(count_services=MOST_ENDPOINTS + 1, get_subscriptions_info_by_topic=[Endpoint("a")])
+def test_thousands_of_servers_of_one_name_are_not_listed(log: ArenaLog) -> None:
+    graph = graph_of(log, count_services=MOST_ENDPOINTS + 1, get_subscriptions_info_by_topic=[Endpoint("a")])
     assert graph.owners_of("get_status") == []
 
 
-def test_of_thousands_of_services_some_are_listed_and_the_rest_counted() -> None:
+def test_of_thousands_of_services_some_are_listed_and_the_rest_counted(log: ArenaLog) -> None:
     services = [(f"/robot/service_{number:04}", ["std_srvs/srv/Trigger"]) for number in range(3000)]
-    graph, _ = graph_of(get_service_names_and_types=services, count_services=1)
+    graph = graph_of(log, get_service_names_and_types=services, count_services=1)
     *offered, more = graph.offered()
     assert len(offered) == MOST_SERVICES
     assert offered[0] == "/robot/service_0000 [std_srvs/srv/Trigger]"
     assert more == "and up to 2,960 more"
 
 
-def test_what_every_node_offers_and_what_nobody_offers_is_not_listed() -> None:
+def test_what_every_node_offers_and_what_nobody_offers_is_not_listed(log: ArenaLog) -> None:
     parameters = ("/robot/a/get_parameters", ["rcl_interfaces/srv/GetParameters"])
     wanted = ("/robot/get_status", ["std_srvs/srv/Trigger"])
-    assert graph_of(get_service_names_and_types=[parameters], count_services=1)[0].offered() == []
-    assert graph_of(get_service_names_and_types=[wanted], count_services=0)[0].offered() == []
+    assert graph_of(log, get_service_names_and_types=[parameters], count_services=1).offered() == []
+    assert graph_of(log, get_service_names_and_types=[wanted], count_services=0).offered() == []

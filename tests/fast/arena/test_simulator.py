@@ -4,25 +4,14 @@ from __future__ import annotations
 
 import json
 import os
-import threading
 import time
 from collections.abc import Sequence
-from typing import Any
 
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
+from autograder.arena.robot import Robot
 from autograder.arena.simulator import Simulator
-
-
-class Kept:
-    """Stands for a recorder."""
-
-    def __init__(self) -> None:
-        self.events: list[dict[str, Any]] = []
-
-    def record(self, kind: str, **fields: Any) -> None:
-        self.events.append({"kind": kind, **fields})
-
-    def forward(self, line: bytes) -> None:
-        self.events.append(json.loads(line))
+from ros_runtime.record.event import to_line
 
 
 class Obedient:
@@ -31,23 +20,20 @@ class Obedient:
     def serve(self, options: Sequence[str], *more: str) -> None:
         given = dict(zip(more[::2], more[1::2], strict=True))
         command = json.loads(os.read(int(given["--control-fd"]), 1000))
-        taken = {"kind": "command", "command": command}
-        os.write(int(given["--ground-truth-fd"]), json.dumps(taken).encode() + b"\nno end of a line")
+        taken = to_line(ev.RobotCommanded(command=command))
+        os.write(int(given["--ground-truth-fd"]), taken + b"no end of a line")
         time.sleep(60)
 
 
-def test_a_command_is_recorded_as_sent_and_waits_to_be_obeyed() -> None:
-    kept, changed = Kept(), threading.Condition()
-    simulator = Simulator(kept, changed, Obedient(), "/robot", ())  # type: ignore[arg-type]
-    simulator.command("set_battery", percentage=0.35)
-    assert not simulator.has_obeyed()
+def test_a_command_is_recorded_as_sent_and_when_it_takes_effect(log: ArenaLog) -> None:
+    simulator = Simulator(log, Obedient(), "/robot", ())  # type: ignore[arg-type]
+    robot = Robot(simulator, log)
+    robot.set_battery(0.35)
+    assert log.all(ev.RobotCommanded) == []
     simulator.listen()
-    with changed:
-        assert changed.wait_for(simulator.has_obeyed, 20)
-    simulator.stop()
+    assert robot.wait_for_commands()
     command = {"do": "set_battery", "percentage": 0.35}
-    assert kept.events == [
-        {"kind": "command_sent", "command": command},
-        {"kind": "command", "command": command},
-    ]
+    assert [event.command for event in log.all(ev.CommandSent)] == [command]
+    assert [event.command for event in log.all(ev.RobotCommanded)] == [command]
+    simulator.stop()
     assert not simulator.is_running()

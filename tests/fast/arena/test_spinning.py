@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
 pytest.importorskip("rclpy")
 
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
 from autograder.arena.spinning import keep_spinning
 
 
@@ -27,33 +28,20 @@ class Executor:
             raise error
 
 
-class Kept:
-    """Stands for a recorder."""
-
-    def __init__(self) -> None:
-        self.dropped: list[str] = []
-        self.recorded: list[str] = []
-
-    def drop(self, kind: str) -> None:
-        self.dropped.append(kind)
-
-    def record(self, kind: str, **fields: Any) -> None:
-        self.recorded.append(f"{kind}: {fields['reason']}")
+def spin(log: ArenaLog, *errors: Exception | None) -> Executor:
+    executor = Executor(*errors)
+    keep_spinning(executor, log)  # type: ignore[arg-type]
+    log.finish()
+    return executor
 
 
-def spin(*errors: Exception | None) -> tuple[Executor, Kept]:
-    executor, kept = Executor(*errors), Kept()
-    keep_spinning(executor, kept)  # type: ignore[arg-type]
-    return executor, kept
-
-
-def test_messages_that_cannot_be_read_are_counted_and_the_next_one_is_taken() -> None:
-    executor, kept = spin(RuntimeError("failed to deserialize"), None, MemoryError(), None)
+def test_messages_that_cannot_be_read_are_counted_and_the_next_one_is_taken(log: ArenaLog) -> None:
+    executor = spin(log, RuntimeError("failed to deserialize"), None, MemoryError(), None)
     assert executor.rounds == 4
-    assert kept.dropped == ["unreadable", "unreadable"]
+    assert [(event.what, event.count) for event in log.all(ev.RecordDropped)] == [("unreadable", 2)]
 
 
-def test_an_error_of_ours_makes_the_run_void() -> None:
-    executor, kept = spin(AttributeError("no field"), None)
+def test_an_error_of_ours_makes_the_run_void(log: ArenaLog) -> None:
+    executor = spin(log, AttributeError("no field"), None)
     assert executor.rounds == 1
-    assert kept.recorded == ["scenario_failed: AttributeError: no field"]
+    assert [event.reason for event in log.all(ev.ScenarioFailed)] == ["AttributeError: no field"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterator
 from itertools import chain, repeat
 from typing import Any
@@ -16,7 +15,7 @@ from autograder.arena.waiting import FLOODED, QUIET, Waiting
 
 
 class Kept:
-    """Stands for a recorder that has received so many messages at each look."""
+    """Stands for a log and a graph: the log has received so many messages at each look."""
 
     def __init__(self, received: Iterator[int]) -> None:
         self._received = received
@@ -51,8 +50,8 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def close(received: Iterator[int]) -> list[str]:
     kept = Kept(received)
-    recorder: Any = kept
-    Waiting(recorder, recorder, threading.Condition()).close()
+    stand_in: Any = kept
+    Waiting(stand_in, stand_in).close()
     return kept.steps
 
 
@@ -76,7 +75,7 @@ def test_a_flood_without_end_is_recorded() -> None:
 @pytest.mark.usefixtures("clock")
 def test_a_condition_that_nobody_tells_of_is_looked_at_until_the_time_is_over() -> None:
     kept: Any = Kept(iter([]))
-    waiting = Waiting(kept, kept, threading.Condition())
+    waiting = Waiting(kept, kept)
     looks = iter([False, False, True])
     assert waiting.poll_until(lambda: next(looks), 1.0)
     assert not waiting.poll_until(lambda: False, 1.0)

@@ -12,6 +12,9 @@ from autograder.authoring.checks import CannotBeJudged, Failure, Scenario
 from autograder.authoring.transcript import Transcript
 from autograder.engine.bounds import require_bounded
 from autograder.engine.exercise import exercise_module
+from humanoid_interfaces.action import WalkTo
+from humanoid_interfaces.srv import GetBatteryStatus
+from ros_runtime.record.event import to_line
 
 JUDGING = exercise_module("interfaces", "judging")
 LONGEST, require_built, require_fields = JUDGING.LONGEST, JUDGING.require_built, JUDGING.require_fields
@@ -40,7 +43,7 @@ def test_a_run_of_which_everything_was_read_is_bounded() -> None:
 
 
 def test_dropped_feedback_is_the_students_failure_with_all_numbers() -> None:
-    dropped = ev.RecordDropped(t=9.0, what="feedback", count=600, seconds=4.2)
+    dropped = ev.RecordDropped(t=9.0, what=ev.FeedbackReceived.kind, count=600, seconds=4.2)
     failure = failure_of(bounded, run_with(*feedback("walk", 50), dropped))
     assert failure.observed == "it sent 650 feedback messages in 4.2 s; 50 of them are read"
     assert failure.at == 9.0
@@ -60,14 +63,40 @@ def test_a_flooded_graph_is_told_in_its_own_words_cut_to_a_readable_length() -> 
     assert len(failure.observed) == 300
 
 
+@pytest.mark.parametrize(
+    ("line", "complaint"),
+    [
+        (b'{"kind": "mark", "name": "here"}', "a time t"),
+        (b'{"kind": "confession", "t": 1.0}', "no kind of event 'confession'"),
+        (b'{"kind": "mark", "t": "now", "name": "here"}', "valid number"),
+        (b'{"kind": "mark", "t": 1.0, "name": "here", "more": 1}', "more"),
+        (
+            b'{"kind": "mark", "t": 1.0, "name": {"ros_type": "os/msg/Path", "ros_fields": {}}}',
+            "no message type",
+        ),
+        (
+            b'{"kind": "mark", "t": 1.0, "name": {"ros_type": "std_msgs/msg/String", "ros_fields": {"data": 1}}}',
+            "this is no std_msgs/msg/String",
+        ),
+        (b"[]", "an object"),
+        (b"{", "Expecting"),
+    ],
+)
+def test_a_line_that_is_no_event_is_refused_with_the_reason(line: bytes, complaint: str) -> None:
+    with pytest.raises(ValueError, match=complaint):
+        ev.parse_event(line)
+
+
 def test_every_event_of_a_recorders_can_be_read_back() -> None:
     for event in (
-        ev.RecordDropped(t=1.0, what="feedback", count=1, seconds=0.1),
+        ev.RecordDropped(t=1.0, what=ev.FeedbackReceived.kind, count=1, seconds=0.1),
         ev.TooLarge(t=1.0, what="answer", id="", bytes=2, limit=1),
         ev.GraphFlooded(t=1.0, nodes=0, reason="none"),
         ev.CommandSent(t=1.0, command={"do": "push"}),
+        ev.ServiceAnswered(t=1.0, call="once", response=GetBatteryStatus.Response(available=True)),
+        ev.GoalSent(t=1.0, goal="walk", action="walk_to", request=WalkTo.Goal(max_velocity=0.5)),
     ):
-        assert ev.parse_event(event.model_dump_json()) == event
+        assert ev.parse_event(to_line(event)) == event
 
 
 # -- a definition's build ---------------------------------------------------------------------------------------------

@@ -4,8 +4,11 @@ import math
 
 import pytest
 
+from autograder.authoring import events as ev
 from autograder.authoring.checks import Failure
+from autograder.authoring.transcript import Transcript
 from autograder.engine.exercise import exercise_module
+from humanoid_interfaces.srv import ComputeIK
 
 JUDGING = exercise_module("compute_ik", "judging")
 Reply, require_hit, require_side = JUDGING.Reply, JUDGING.require_hit, JUDGING.require_side
@@ -17,7 +20,13 @@ INSIDE = DIRECTION - SHOULDER  # the triangle's angle at the shoulder
 
 
 def reply(shoulder, elbow, *, target=TARGET, elbow_up=False, error_code=1):
-    return Reply(target, "shoulder", elbow_up, error_code, shoulder, elbow, 1.0)
+    request = ComputeIK.Request(elbow_up=elbow_up)
+    request.target.header.frame_id = "shoulder"
+    request.target.point.x, request.target.point.y = target
+    response = ComputeIK.Response(error_code=error_code, shoulder=shoulder, elbow=elbow)
+    asked = ev.ServiceCalled(t=0.5, call="ask", service="compute_ik", request=request)
+    answered = ev.ServiceAnswered(t=1.0, call="ask", response=response)
+    return Reply(Transcript.from_events("ask", {}, [asked, answered]).call("ask"))
 
 
 @pytest.mark.parametrize("turns", [0, 1, -3])

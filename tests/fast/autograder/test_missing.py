@@ -1,6 +1,9 @@
 """What is missing from a transcript is said in a sentence, with the reason where there is one."""
 
+from dataclasses import replace
+
 import pytest
+from std_srvs.srv import Trigger
 
 from autograder.authoring import events as ev
 from autograder.authoring.checks import Check, Scenario
@@ -11,11 +14,11 @@ from autograder.engine.judging import judge
 from autograder.engine.wholeness import require_whole
 
 BEGINNING = (ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0))
-ASKED = ev.ServiceCalled(t=2.0, call="call 1", service="get_status", request={})
-ANSWERED = ev.ServiceAnswered(t=2.1, call="call 1", response={"success": True})
+ASKED = ev.ServiceCalled(t=2.0, call="first", service="get_status", request=Trigger.Request())
+ANSWERED = ev.ServiceAnswered(t=2.1, call="first", response=Trigger.Response(success=True))
 RAISED = ev.NodeOutput(t=3.0, stream="stderr", text="RuntimeError: no motors")
 EXITED = ev.NodeExited(t=3.1, returncode=1)
-GIVEN_UP = ev.Unanswered(t=7.0, what="call", id="call 1", waited=5.0)
+GIVEN_UP = ev.Unanswered(t=7.0, what="call", id="first", waited=5.0)
 BUSY = ev.NodeUsage(t=9.0, cpu=9.0, wall=9.5, peak_memory_mib=30)
 REFUSED = ev.RobotRefused(
     t=4.0,
@@ -39,10 +42,9 @@ def transcript(*events, until=10.0, robot_until=10.0):
 
 def test_a_question_that_was_never_asked_since_the_node_had_ended():
     with pytest.raises(Missing) as missing:
-        transcript(ASKED, ANSWERED, RAISED, EXITED).call("get_status", 2)
+        transcript(ASKED, ANSWERED, RAISED, EXITED).call("second")
     assert (
-        missing.value.observed
-        == "get_status was never asked a second time, because the node had ended at 3.1 s: "
+        missing.value.observed == "the request “second” was never sent, because the node had ended at 3.1 s: "
         "RuntimeError: no motors"
     )
     assert "the log below" in missing.value.help
@@ -66,14 +68,14 @@ def test_a_question_that_was_never_asked_since_the_node_had_ended():
 )
 def test_the_reason_is_the_first_thing_that_went_wrong(events, because):
     with pytest.raises(Missing) as missing:
-        transcript(*events).call("get_status", 2)
+        transcript(*events).call("second")
     assert missing.value.observed.endswith(f"because {because}")
 
 
 @pytest.mark.parametrize(
     ("ask", "never"),
     [
-        (lambda run: run.call("get_status", 1), "get_status was never asked"),
+        (lambda run: run.call("first"), "the request “first” was never sent"),
         (lambda run: run.goal("walk"), "the goal “walk” was never sent"),
         (lambda run: run.cancels_of("walk"), "nobody asked to cancel the goal “walk”"),
         (lambda run: run.cancels_of(""), "nobody asked to cancel every goal"),
@@ -87,8 +89,8 @@ def test_every_query_for_what_never_happened_is_a_failure_of_the_submission(ask,
 
 
 def test_an_answer_that_came_when_nobody_waited_any_more_is_none():
-    run = transcript(ASKED, GIVEN_UP, ANSWERED.model_copy(update={"t": 7.01}))
-    assert run.call("get_status", 1).answer is None
+    run = transcript(ASKED, GIVEN_UP, replace(ANSWERED, t=7.01))
+    assert run.call("first").answer is None
 
 
 def test_an_event_that_is_there_twice_counts_once():
@@ -174,8 +176,8 @@ def check_that(judge_run):
 
 def test_a_verdict_of_each_kind():
     whole = transcript(ASKED, ANSWERED)
-    assert judge(check_that(lambda run: run.call("get_status", 1)), [whole]).points == 2
-    failed = judge(check_that(lambda run: run.call("get_status", 2)), [whole])
+    assert judge(check_that(lambda run: run.call("first")), [whole]).points == 2
+    failed = judge(check_that(lambda run: run.call("second")), [whole])
     assert (failed.status, failed.points, failed.robot_time) == ("failed", 0, 10.0)
     unclear = judge(check_that(lambda run: run.told("push")), [whole])
     assert (unclear.status, unclear.help) == (

@@ -41,7 +41,7 @@ def test_an_arm_is_reported_from_its_shoulder_with_x_ahead_and_z_up(side, pitch,
     positions = {f"{side}_{joint}": 0.0 for joint in STRAIGHT}
     positions |= {f"{side}_shoulder_pitch": pitch, f"{side}_elbow": bend}
     arm = arm_after({"do": "move_joints", "positions": positions, "duration": 1.0}, side)
-    assert (arm["kind"], arm["side"]) == ("arm", side)
+    assert (arm["kind"], arm["side"]) == ("arm_reported", side)
     # The elbow stops 0.02 rad before its end at 0, which is 6 mm at the hand.
     assert arm["elbow"] == pytest.approx(elbow, abs=0.007)
     assert arm["hand"] == pytest.approx(hand, abs=0.007)

@@ -39,10 +39,10 @@ def test_a_forked_robot_reports_obeys_and_ends_at_sigterm():
         robot = int(parent.stdout.readline())
         with os.fdopen(truth_read) as lines:
             records = map(json.loads, lines)
-            assert next(records)["kind"] == "ready"
+            assert next(records)["kind"] == "robot_ready"
             os.write(control_write, b'{"do": "motor_power", "on": false}\n')
-            assert any(record["kind"] == "command" for record in records)
-            assert not next(r for r in records if r["kind"] == "robot")["motors_enabled"]
+            assert any(record["kind"] == "robot_commanded" for record in records)
+            assert not next(r for r in records if r["kind"] == "robot_truth")["motors_enabled"]
             os.kill(robot, signal.SIGTERM)
             for _ in records:  # to the end of the pipe
                 pass

@@ -41,7 +41,7 @@ class Pipes:
 
     def joints_told(self):
         with self._arrived:
-            return [record for record in self.records if record["kind"] == "joints"]
+            return [record for record in self.records if record["kind"] == "joints_published"]
 
     def _read(self, truth_fd):
         with os.fdopen(truth_fd, "rb") as lines:

@@ -5,23 +5,30 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterator
+from math import isnan, nan
 from typing import Any
 
 import pytest
-from autograder.arena.recorder import MOST_OF, MOST_OF_NOBODYS, NOBODYS, Recorder
 
-from autograder.arena import recorder as recorder_module
+pytest.importorskip("rclpy")
+
+from sensor_msgs.msg import BatteryState, JointState
+from std_msgs.msg import String, UInt8MultiArray
+
+from autograder.arena import arena_log as arena_log_module
+from autograder.arena.arena_log import MOST_OF, MOST_OF_NOBODYS, ArenaLog
 from autograder.arena.long_texts import LONGEST
 from autograder.authoring import events as ev
+from ros_runtime.recorded_client.conversation import NOBODYS
 
 
 class Recording:
-    """A recorder, and the events it has written into its file."""
+    """A log, and the events it has written into its file."""
 
     def __init__(self, path: Any) -> None:
         self._path = path
         self._fd = os.open(path, os.O_CREAT | os.O_WRONLY)
-        self.recorder = Recorder(self._fd)
+        self.log = ArenaLog(self._fd)
 
     def events(self) -> list[Any]:
         return [ev.parse_event(line) for line in self._path.read_bytes().splitlines()]
@@ -29,9 +36,9 @@ class Recording:
     def of(self, kind: type) -> list[Any]:
         return [event for event in self.events() if isinstance(event, kind)]
 
-    def feedback(self, goal: str, of: str = "", **fields: Any) -> None:
-        if self.recorder.admits("feedback", of or goal):
-            self.recorder.record("feedback", goal=goal, feedback=fields)
+    def feedback(self, goal: str, message: Any = None, of: str = "") -> None:
+        if self.log.admits(ev.FeedbackReceived.kind, of or goal):
+            self.log.append(ev.FeedbackReceived(goal=goal, feedback=message or String()))
 
     def close(self) -> None:
         os.close(self._fd)
@@ -46,7 +53,7 @@ def recording(tmp_path: Any) -> Iterator[Recording]:
 
 def test_a_flood_of_feedback_for_nobodys_goals_pushes_out_no_other(recording: Recording) -> None:
     for _ in range(MOST_OF_NOBODYS + 600):
-        recording.feedback("unknown 0000", NOBODYS)
+        recording.feedback("unknown 0000", of=NOBODYS)
     recording.feedback("walk")
     assert recording.of(ev.FeedbackReceived)[-1].goal == "walk"
 
@@ -55,29 +62,29 @@ def test_what_is_dropped_is_recorded_with_its_number_and_time(
     recording: Recording, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     now = iter(range(10**6))
-    monkeypatch.setattr(recorder_module.time, "monotonic", lambda: float(next(now)))
-    for _ in range(MOST_OF["feedback"] + 600):
+    monkeypatch.setattr(arena_log_module.time, "monotonic", lambda: float(next(now)))
+    for _ in range(MOST_OF[ev.FeedbackReceived.kind] + 600):
         recording.feedback("walk")
-    recording.recorder.finish()
+    recording.log.finish()
     (dropped,) = recording.of(ev.RecordDropped)
-    assert (dropped.what, dropped.count) == ("feedback", 600)
-    assert dropped.seconds > MOST_OF["feedback"]
+    assert (dropped.what, dropped.count) == (ev.FeedbackReceived.kind, 600)
+    assert dropped.seconds > MOST_OF[ev.FeedbackReceived.kind]
 
 
 def test_nothing_is_said_when_nothing_was_dropped(recording: Recording) -> None:
     recording.feedback("walk")
-    recording.recorder.finish()
+    recording.log.finish()
     assert recording.of(ev.RecordDropped) == []
 
 
 def test_all_that_students_send_together_stays_below_a_budget(
     recording: Recording, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(recorder_module, "LARGEST_RECORD", 10_000)
+    monkeypatch.setattr(arena_log_module, "LARGEST_RECORD", 10_000)
     for number in range(100):
-        recording.feedback(f"goal {number}", text="x" * 1000)
-    recording.recorder.record("mark", name="the scenario's own events are kept")
-    recording.recorder.finish()
+        recording.feedback(f"goal {number}", String(data="x" * 1000))
+    recording.log.append(ev.Mark(name="the scenario's own events are kept"))
+    recording.log.finish()
     kept = len(recording.of(ev.FeedbackReceived))
     assert 0 < kept < 12
     assert recording.of(ev.RecordDropped)[0].count == 100 - kept
@@ -85,31 +92,36 @@ def test_all_that_students_send_together_stays_below_a_budget(
 
 
 def test_a_long_text_is_cut_and_says_how_long_it_was(recording: Recording) -> None:
-    recording.feedback("walk", frame="x" * 1_234_567)
+    recording.feedback("walk", String(data="x" * 1_234_567))
     (feedback,) = recording.of(ev.FeedbackReceived)
-    assert feedback.feedback["frame"] == "x" * LONGEST + "…[cut: 1,234,567 characters]"
+    assert feedback.feedback.data == "x" * LONGEST + "…[cut: 1,234,567 characters]"
     assert recording.of(ev.TooLarge)[0].bytes == 1_234_567
 
 
-def test_a_long_list_is_recorded_by_its_length(recording: Recording) -> None:
-    recording.feedback("walk", poses=[0] * 60_000)
+def test_a_long_list_is_recorded_as_empty_and_by_its_length(recording: Recording) -> None:
+    recording.feedback("walk", UInt8MultiArray(data=bytes(60_000)))
     (feedback,) = recording.of(ev.FeedbackReceived)
-    assert feedback.feedback["poses"] == "…[cut: 60,000 elements]"
-    assert len(recording.of(ev.TooLarge)) == 1
+    assert len(feedback.feedback.data) == 0
+    assert recording.of(ev.TooLarge)[0].bytes == 60_000
 
 
 def test_an_event_that_is_large_for_all_that_is_not_written(recording: Recording) -> None:
-    recording.feedback("walk", texts=["x" * LONGEST] * 200)
+    recording.feedback("walk", JointState(name=["x" * LONGEST] * 200))
     (large,) = recording.events()
-    assert (large.kind, large.what) == ("too_large", "feedback")
+    assert (large.kind, large.what) == ("too_large", ev.FeedbackReceived.kind)
 
 
 def test_half_a_character_does_not_break_the_report(recording: Recording) -> None:
-    recording.recorder.record("node_output", stream="stdout", text="\ud83d naïve")
+    recording.log.append(ev.NodeOutput(stream="stdout", text="\ud83d naïve"))
     assert recording.of(ev.NodeOutput)[0].text == "? naïve"
 
 
 def test_a_line_is_json_whatever_is_in_it(recording: Recording) -> None:
-    recording.feedback("walk", text='"}\n{', number=float("nan"))
+    message = BatteryState(serial_number='"}\n{', voltage=nan, cell_voltage=[1.5, nan])
+    recording.feedback("walk", message)
     (line,) = recording._path.read_bytes().splitlines()
-    assert json.loads(line)["feedback"]["text"] == '"}\n{'
+    assert json.loads(line)["kind"] == "feedback_received"
+    (feedback,) = recording.of(ev.FeedbackReceived)
+    assert feedback.feedback.serial_number == '"}\n{'
+    assert isnan(feedback.feedback.voltage)
+    assert feedback.feedback.cell_voltage[0] == 1.5
