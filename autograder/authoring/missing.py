@@ -32,15 +32,15 @@ def unseen(run: Transcript, what: str) -> Exception:
 
     That is a `Failure` where the submission itself is the reason, else `CannotBeJudged`.
     """
-    return _raised_for(run, what, why_the_robot_was_held_up(run) or why_it_went_no_further(run))
+    return _exception_for(run, what, why_the_robot_was_held_up(run) or why_it_went_no_further(run))
 
 
 def held_up(run: Transcript, what: str) -> Exception:
     """Return what to raise if the robot did not do its part; a node that ended does not explain that."""
-    return _raised_for(run, what, why_the_robot_was_held_up(run))
+    return _exception_for(run, what, why_the_robot_was_held_up(run))
 
 
-def _raised_for(run: Transcript, what: str, cause: Cause | None) -> Exception:
+def _exception_for(run: Transcript, what: str, cause: Cause | None) -> Exception:
     if cause is None:
         return CannotBeJudged(f"{run.scenario}: {what}")
     return Failure(

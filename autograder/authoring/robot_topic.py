@@ -37,7 +37,7 @@ def last_messages(call: Call, kind: type[E], *, since: float | None = None) -> l
         since: s; None: when the first message was published that the node must have received.
     """
     run, answered = call.run, call.answered
-    since = _first_heard(run, kind) if since is None else since
+    since = _first_received(run, kind) if since is None else since
     published = [message for message in run.all(kind) if message.t <= answered.t]
     arrived = [message for message in published if message.t <= call.sent.t - DELIVERY]
     if not arrived or arrived[-1].t <= since:
@@ -104,7 +104,7 @@ class RobotTopic:
         return self.shows.format(**{name: getattr(message, name) for name in self.fields})
 
 
-def _first_heard(run: Transcript, kind: type[ev.Event]) -> float:
+def _first_received(run: Transcript, kind: type[ev.Event]) -> float:
     """Return when (s) the first message was published that the node must have received."""
     ready = run.first(ev.NodeReady)
     return min((message.t for message in run.all(kind) if ready and message.t > ready.t), default=0.0)
