@@ -139,7 +139,7 @@ def _perform(
 
 
 def _bare_node(name: str, namespace: str) -> Node:
-    """Make a node without services of its own: nobody asks for them, and everybody would have to discover them."""
+    """Make a node without services of its own, which every other node would have to discover."""
     import rclpy
 
     return rclpy.create_node(name, namespace=namespace, start_parameter_services=False, enable_rosout=False)

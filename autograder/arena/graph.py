@@ -51,7 +51,7 @@ class Graph:
         return self._ask(lambda: self._node.count_publishers(topic), 0)
 
     def count_clients(self, service: str) -> int:
-        """Count the clients of a service, of whatever type."""
+        """Count the clients of a service, of any type."""
         return self._ask(lambda: self._node.count_clients(service), 0)
 
     def count_matchable_subscribers(self, topic: str) -> int:

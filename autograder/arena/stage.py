@@ -98,7 +98,7 @@ class Stage(Waiting):
         return client
 
     def parameters_of(self, service: ServiceClient) -> Parameters:
-        """Make clients of the parameters of the node that offers a service, whatever that node is called."""
+        """Make clients of the parameters of the node that offers a service, whatever its name."""
         self._parameters.append(Parameters(service.name))
         return self._parameters[-1]
 

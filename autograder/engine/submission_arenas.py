@@ -50,7 +50,7 @@ class SubmissionArenas:
 
     @contextmanager
     def one(self) -> Iterator[SubmissionArena]:
-        """Lend an arena that nobody uses; after an exception it is closed and not used again."""
+        """Lend an idle arena; after an exception it is closed and not used again."""
         arena = self._take() or SubmissionArena(self._scenario_file, self._kind or available_isolation().kind)
         try:
             yield arena

@@ -1,4 +1,4 @@
-"""What an arena is asked to be."""
+"""The specification of an arena: what it runs, sees and may use."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 
 from autograder.isolation.limits import ArenaLimits
 
-ISOLATION_VARIABLE = "COURSE_ISOLATION"  # inside an arena: its kind; outside: the kind a person insists on
+ISOLATION_VARIABLE = "COURSE_ISOLATION"  # inside an arena: its kind; outside: the kind the user asks for
 
 
 class Kind(str, Enum):

@@ -65,7 +65,7 @@ def _step_down(paths: list[str], staging: str) -> None:
 
 
 def _unused_id() -> int:
-    """Return a user id nobody else has now: this process's id, in a range that nobody hands out.
+    """Return an unused user id: this process's id, in a range that no system assigns.
 
     The kernel counts some resources by user, and a user may signal its own processes: no two arenas share
     one.

@@ -1,11 +1,11 @@
-"""Runs a command where there are no namespaces, and leaves nothing of it behind.
+"""Runs a command and ends every process it leaves behind, on machines without namespaces.
 
 Orphans of the command become children of this process, so it can end them all: when the command has ended,
-when it is told to (SIGTERM), and when the process that started it dies. Its exit status is the
+at SIGTERM, and when the process that started it dies. Its exit status is the
 command's, 128 + n after signal n.
 
 Run as `python -S -E -m autograder.isolation.reaper PARENT READY FOLDER COMMAND…`, where PARENT is the id of the
-process that starts it, READY the descriptor it tells when it can be relied on, and FOLDER where the command runs.
+process that starts it, READY the descriptor it writes to when it is ready, and FOLDER where the command runs.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def _run(folder: str, command: list[str]) -> int:
 
 
 def _sweep() -> None:
-    """End everything below this process. What forks faster than it is ended is stopped first."""
+    """End everything below this process; stop the processes first, so that they cannot fork faster than they end."""
     me = os.getpid()
     while below := descendants(me):
         for number in (signal.SIGSTOP, signal.SIGKILL):

@@ -129,7 +129,7 @@ class HumanoidNode(Node):
         return self._periodic_jobs.next_due
 
     def publish_due(self) -> None:
-        """Publish whatever is due at the simulated time, and the robot's state as soon as it changes."""
+        """Publish what is due at the simulated time, and the robot's state as soon as it changes."""
         self._stop_on_stale_command()
         if self._announcement() != self._last_announced:
             self._publish_robot_state()

@@ -1,4 +1,4 @@
-"""Build a folder of somebody's definitions into a package, and let processes import it."""
+"""Builds a folder of a student's definitions into a package, and lets processes import it."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ from .two_link_arm import DEFAULT, TwoLinkArm
 
 
 def _anywhere_then_other_lengths(random: Random) -> dict[str, Any]:
-    """Points all around the shoulder; then others, all within reach whichever of the two lengths is taken over.
+    """Draw points all around the shoulder, then others that stay within reach if only one new length is accepted.
 
     The last one, 0.10 m away, is only within reach as long as both lengths are the old ones.
     """

@@ -24,10 +24,10 @@ SEEN = (
         "topic",
         "a",
         {
-            "service": "Twenty questions a second from every listener, for numbers that flow anyway?",
-            "action": "There is no goal here that could be reached or given up.",
-            "b": "Sensor data need not arrive every time: the next sample is 50 ms away.",
-            "c": "On the contrary: they flow whether anybody asks or not, and that is what decides.",
+            "service": "Every listener would have to send twenty requests a second for numbers that flow anyway.",
+            "action": "An action needs a goal that can be reached or cancelled, and there is none here.",
+            "b": "A lost sample does no harm: the next one comes 50 ms later.",
+            "c": "The robot sends the angles whether anybody asks or not, and that decides it.",
         },
     ),
     Situation(
@@ -36,10 +36,10 @@ SEEN = (
         "service",
         "b",
         {
-            "topic": "A topic has no way to say no: whoever publishes “off” never learns that it was refused.",
-            "action": "Nothing lasts here: it is done, or refused, at once. There is nothing to watch or to cancel.",
-            "a": "How often it happens decides nothing. Whether the caller needs the answer does.",
-            "c": "No service is carried out for certain: the server can die before the work. It can only be answered.",
+            "topic": "A topic carries no answer: the program that publishes “off” never learns that the robot refused.",
+            "action": "The robot does it or refuses it at once, so there is nothing to watch or to cancel.",
+            "a": "How often it happens does not matter. What matters is whether the caller needs an answer.",
+            "c": "No pattern guarantees that the work is done: the server can die before it.",
         },
     ),
     Situation(
@@ -48,10 +48,10 @@ SEEN = (
         "action",
         "c",
         {
-            "topic": "Who hears whether it arrived? And how is one walk among others called off?",
-            "service": "Its caller would be blocked for half a minute, see nothing, and could not stop it.",
-            "a": "A long way is no reason, a short one none against: may it have to be stopped or watched?",
-            "b": "An action has an answer, too, but that is what it shares with a service.",
+            "topic": "A topic tells the caller neither that the robot arrived nor how to cancel this walk.",
+            "service": "The caller would wait for half a minute, see no progress, and could not stop the robot.",
+            "a": "The distance does not matter. Ask whether the caller may have to stop or watch the walk.",
+            "b": "A service tells that as well. What else can only an action do?",
         },
     ),
     Situation(
@@ -60,9 +60,9 @@ SEEN = (
         "topic",
         "a",
         {
-            "service": "An answer to each of twenty commands a second would come when the next one is long on its way.",
-            "action": "A velocity has no end that could be reached.",
-            "b": "Commands go by topics, services or actions: what it is called decides nothing.",
+            "service": "Twenty commands a second need no answers: the next command comes before you could use one.",
+            "action": "A velocity is no goal: it is never reached.",
+            "b": "Topics, services and actions all carry commands, so the word does not decide it.",
             "c": "A lost command does no harm: the next one comes 50 ms later, and silence means stop.",
         },
     ),
@@ -72,10 +72,10 @@ SEEN = (
         "service",
         "b",
         {
-            "topic": "Whose answer is whose? On a topic nothing ties an answer to the question it belongs to.",
-            "action": "It is computed in less than a millisecond: nobody can watch or cancel that.",
-            "a": "Mathematics can stand behind any of the three.",
-            "c": "A topic can carry a frame and units as well.",
+            "topic": "On a topic nothing connects an answer with its question: whose answer is it?",
+            "action": "The robot computes it in less than a millisecond, so there is nothing to watch or to cancel.",
+            "a": "All three patterns can carry the result of a calculation.",
+            "c": "A message on a topic can have a frame, too.",
         },
     ),
     Situation(
@@ -84,10 +84,10 @@ SEEN = (
         "action",
         "a",
         {
-            "topic": "Nobody would learn that the cup has slipped.",
-            "service": "While it is under way nobody could stop the arm, and the caller would not know how far it is.",
-            "b": "A number in an answer fits a service as well.",
-            "c": "Two seconds or twenty: what decides is that it goes on and can be stopped on the way.",
+            "topic": "A topic does not tell the caller that the cup has slipped.",
+            "service": "The caller could not stop the arm on the way, and would not see how far it is.",
+            "b": "The answer of a service can hold a number, too.",
+            "c": "The duration does not matter. What matters is that it can fail on the way and can be stopped.",
         },
     ),
 )

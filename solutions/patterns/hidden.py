@@ -14,10 +14,10 @@ UNSEEN = (
         "topic",
         "b",
         {
-            "service": "Everybody would have to ask again and again to notice a fall; told is sooner.",
-            "action": "A state is no task: nobody set it as a goal.",
-            "a": "A topic that is seldom published is a topic all the same.",
-            "c": "Safety does not decide it: what is needed is that everybody hears of it without asking.",
+            "service": "Every program would have to ask again and again to notice a fall; a topic tells it at once.",
+            "action": "An action needs a goal, and a state is none.",
+            "a": "A topic may carry few messages: how often it changes does not decide it.",
+            "c": "Safety alone does not decide it: every program must get the mode without asking.",
         },
     ),
     Situation(
@@ -26,10 +26,10 @@ UNSEEN = (
         "service",
         "c",
         {
-            "topic": "It would listen to twenty messages a second to use one an hour, in another order than it wants.",
-            "action": "The answer is there at once: nothing to watch, nothing to cancel.",
-            "a": "Where they flow they go by topic; here one question has one answer, in the asker's own order.",
-            "b": "How rare it is decides nothing.",
+            "topic": "It would receive twenty messages a second to use one an hour, and in another order than it needs.",
+            "action": "The answer comes at once, so there is nothing to watch or to cancel.",
+            "a": "A stream of sensor data is a topic, but here one question gets one answer, in its own order.",
+            "b": "How often it happens does not decide it.",
         },
     ),
     Situation(
@@ -38,10 +38,10 @@ UNSEEN = (
         "action",
         "b",
         {
-            "topic": "Then nobody is told whether the step was made, or called off in time.",
-            "service": "A service cannot be cancelled, however short it is: the foot would come down.",
-            "a": "Under a second is a rule of thumb for services, and no more.",
-            "c": "What the legs are has no part in it.",
+            "topic": "A topic does not tell the operator whether the step was made or cancelled in time.",
+            "service": "A service cannot be cancelled, however short it is, so the robot would finish the step.",
+            "a": "“Less than a second” is only a rule of thumb for services.",
+            "c": "Which part of the robot moves does not decide it.",
         },
     ),
     Situation(
@@ -50,9 +50,9 @@ UNSEEN = (
         "topic",
         "c",
         {
-            "service": "Each display would pull every picture by itself, and the camera would answer twice.",
-            "action": "There is no goal, and no end.",
-            "a": "The size of a message decides nothing about the pattern.",
+            "service": "Each display would have to request every picture, and the camera would answer twice.",
+            "action": "An action needs a goal and an end, and there is neither.",
+            "a": "The size of a message does not decide the pattern.",
             "b": "A display that misses one picture shows the next.",
         },
     ),
@@ -62,10 +62,10 @@ UNSEEN = (
         "service",
         "a",
         {
-            "topic": "The new value could be impossible, and the sender would never know.",
-            "action": "It is set at once; there is nothing in between.",
-            "b": "That it is one number decides nothing.",
-            "c": "It concerns walking, and is none: nothing moves because of it.",
+            "topic": "The value may be impossible, and a topic would not tell the sender.",
+            "action": "The robot sets it at once, so there is nothing to watch or to cancel.",
+            "b": "All three patterns can carry one number.",
+            "c": "It is about walking, but the robot does not move because of it.",
         },
     ),
     Situation(
@@ -74,10 +74,10 @@ UNSEEN = (
         "action",
         "c",
         {
-            "topic": "The phases could go by a topic. But who asks for it, and learns how it ended?",
+            "topic": "A topic could show the phases, but it does not tell the caller how the motion ended.",
             "service": "The answer would come at the end, and the display would stay empty until then.",
-            "a": "It does not fail more often than other things, and every pattern has ways to fail.",
-            "b": "Many joints move in many ways: what decides is progress, and that it may have to be stopped.",
+            "a": "A service can report a failure, too.",
+            "b": "How many joints move does not matter. What matters is that a display needs the progress.",
         },
     ),
 )
