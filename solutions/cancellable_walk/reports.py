@@ -108,7 +108,7 @@ def _require_true_steps(
         least <= claimed <= most,
         expected=f"{what} about {recent[-1].steps - start}",
         observed=f"{claimed}",
-        help="Take it from robot_state.steps, less what it was when the goal was accepted.",
+        help="Take robot_state.steps, and subtract its value at the time the goal was accepted.",
         at=at,
     )
 

@@ -35,7 +35,7 @@ def require_posture(call: Call, posture: Positions) -> None:
         abs(away[name]) <= MOVED,
         expected=f"the robot's {name} at {posture[name]:.2f} rad, where it was told to be",
         observed=f"it is {abs(away[name]):.2f} rad off",
-        help="Publish nothing: whoever answers questions about the joints must not move them.",
+        help="Publish nothing: a node that answers questions about the joints must not move them.",
         at=messages[0].t,
     )
 

@@ -26,9 +26,9 @@ UNSEEN = (
         "service",
         "c",
         {
-            "topic": "It would receive twenty messages a second to use one an hour, and in another order than it needs.",
+            "topic": "It would receive twenty messages a second to use one an hour, and in the wrong order.",
             "action": "The answer comes at once, so there is nothing to watch or to cancel.",
-            "a": "A stream of sensor data is a topic, but here one question gets one answer, in its own order.",
+            "a": "Sensor data is often a topic, but here one question gets one answer, in its own order.",
             "b": "How often it happens does not decide it.",
         },
     ),

@@ -50,8 +50,8 @@ def require_enabled_before_asked(run: Transcript) -> None:
         bool(asked),
         expected="a request to get_status after enable_motors was answered",
         observed="none",
-        help="The answer arrived, but nobody took it: whoever waits for a future must let the node spin, and a "
-        "callback that waits keeps its own node from spinning.",
+        help="The answer arrived, but the node did not take it: spin the node while you wait for a future, and do not "
+        "wait in a callback, which keeps the node from spinning.",
         at=run.end,
     )
     reply = require_reply(run, ENABLE)
