@@ -1,4 +1,4 @@
-"""What a check raises: the submission is at fault, or it cannot be judged."""
+"""What a check raises: a failure, whose `help` is the "next" line of reports, or that there can be no grade."""
 
 from __future__ import annotations
 
