@@ -99,8 +99,8 @@ def test_its_inertial_sensor_is_as_noisy(heard):
 
 def test_its_battery_drains_as_fast(heard):
     def rate(messages):
-        charge = vectors(messages, "percentage")[:, 0]
-        return (charge[-1] - charge[0]) / (len(charge) - 1)
+        """From one message to the next; on a busy machine one may be lost."""
+        return np.median(np.diff(vectors(messages, "percentage")[:, 0]))
 
     resting, integrated = heard["battery_state"]
     assert rate(resting) < 0
