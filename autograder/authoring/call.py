@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from autograder.authoring import events as ev
 from autograder.authoring.failure import Failure
 from autograder.authoring.fields import expect_field
 from autograder.authoring.readiness import require_alive
-
-if TYPE_CHECKING:  # which imports this module
-    from autograder.authoring.transcript import Transcript
+from autograder.authoring.robot_record import RobotRecord
 
 _BUSY = (
     "The callback must return the response at once: it may not wait, sleep or call another service while the node has "
@@ -27,7 +25,7 @@ class Call:
     name: str
     sent: ev.ServiceCalled
     answer: ev.ServiceAnswered | None  # None: never, or too late
-    run: Transcript = field(repr=False)
+    run: RobotRecord = field(repr=False)
 
     @property
     def service(self) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
@@ -12,11 +12,9 @@ from action_msgs.srv import CancelGoal
 from autograder.authoring import events as ev
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.fields import expect_field
-from autograder.authoring.missing import unseen
+from autograder.authoring.missing import Missing, unseen
 from autograder.authoring.readiness import require_alive
-
-if TYPE_CHECKING:  # which imports this module
-    from autograder.authoring.transcript import Transcript
+from autograder.authoring.robot_record import RobotRecord
 
 SUCCEEDED, CANCELED, ABORTED = (
     GoalStatus.STATUS_SUCCEEDED,
@@ -76,7 +74,7 @@ class Cancel:
 
     sent: ev.CancelSent
     answer: ev.CancelAnswered | None
-    run: Transcript = field(repr=False)
+    run: RobotRecord = field(repr=False)
 
     def require_agreed(self, goal: Goal) -> None:
         """Require that the server agreed to cancel the goal."""
@@ -112,7 +110,7 @@ class Goal:
     statuses: Sequence[ev.StatusSeen]
     cancels: Sequence[Cancel]
     result: ev.ResultReceived | None
-    run: Transcript = field(repr=False)
+    run: RobotRecord = field(repr=False)
 
     @property
     def request(self) -> Any:
@@ -123,6 +121,11 @@ class Goal:
     def status(self) -> int | None:
         """The final status (action_msgs/GoalStatus), None without a result."""
         return self.result.status if self.result else None
+
+    @property
+    def requests_to_cancel(self) -> Sequence[Cancel]:
+        """The requests to cancel it, of which there must be at least one."""
+        return require_cancels(self.run, self.cancels, f"the goal “{self.name}”")
 
     def require_accepted(self, help: str = _ACCEPT) -> Goal:
         """Require that the server accepted it."""
@@ -175,7 +178,7 @@ class Goal:
     def require_canceled(self, request: Cancel | None = None) -> ev.CancelSent:
         """Require that it was accepted, that its (last) cancel request was granted, and that it ended CANCELED."""
         self.require_accepted()
-        request = request or self.run.cancels_of(self.name)[-1]  # earlier ones may have overtaken their goal
+        request = request or self.requests_to_cancel[-1]  # earlier ones may have overtaken their goal
         request.require_agreed(self)
         self.require_result(CANCELED)
         return request.sent
@@ -202,3 +205,14 @@ class Goal:
     def _no_answer(self) -> str:
         given_up = self.run.given_up("goal", self.name)
         return f"no answer to the goal within {given_up.waited if given_up else self.run.end - self.sent.t:.0f} s"
+
+
+def require_cancels(run: RobotRecord, cancels: Sequence[Cancel], which: str) -> Sequence[Cancel]:
+    """Return the requests to cancel `which` goal, in words; there must be at least one."""
+    if not cancels:
+        raise Missing(
+            run,
+            expected=f"a server that gets as far as the request to cancel {which}",
+            never=f"nobody asked to cancel {which}",
+        )
+    return cancels

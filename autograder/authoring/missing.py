@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from autograder.authoring.failure import CannotBeJudged, Failure
+from autograder.authoring.record import Record
 from autograder.authoring.root_cause import Cause, why_it_went_no_further, why_the_robot_was_held_up
-
-if TYPE_CHECKING:  # which imports this module
-    from autograder.authoring.transcript import Transcript
 
 _FIRST_OF_ALL = "Find out what your node did just before: the log below shows what it printed, with times."
 
@@ -16,7 +12,7 @@ _FIRST_OF_ALL = "Find out what your node did just before: the log below shows wh
 class Missing(Failure):
     """Something between grader and student's program never happened: 'it was never asked, because …'."""
 
-    def __init__(self, run: Transcript, *, expected: str, never: str) -> None:
+    def __init__(self, run: Record, *, expected: str, never: str) -> None:
         cause = why_it_went_no_further(run) or why_the_robot_was_held_up(run)
         why = cause.words if cause else f"the scenario went no further than {run.end:.1f} s"
         super().__init__(
@@ -27,7 +23,7 @@ class Missing(Failure):
         )
 
 
-def unseen(run: Transcript, what: str) -> Exception:
+def unseen(run: Record, what: str) -> Exception:
     """Return what to raise if a step of the scenario is missing; `what` is a sentence without its full stop.
 
     That is a `Failure` where the submission itself is the reason, else `CannotBeJudged`.
@@ -35,12 +31,12 @@ def unseen(run: Transcript, what: str) -> Exception:
     return _exception_for(run, what, why_the_robot_was_held_up(run) or why_it_went_no_further(run))
 
 
-def held_up(run: Transcript, what: str) -> Exception:
+def held_up(run: Record, what: str) -> Exception:
     """Return what to raise if the robot did not do its part; a node that ended does not explain that."""
     return _exception_for(run, what, why_the_robot_was_held_up(run))
 
 
-def _exception_for(run: Transcript, what: str, cause: Cause | None) -> Exception:
+def _exception_for(run: Record, what: str, cause: Cause | None) -> Exception:
     if cause is None:
         return CannotBeJudged(f"{run.scenario}: {what}")
     return Failure(

@@ -5,17 +5,13 @@ The engine asks before every check whether it appeared.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from autograder.authoring import events as ev
 from autograder.authoring.failure import Failure
 from autograder.authoring.missing import unseen
-
-if TYPE_CHECKING:  # whose calls and goals import this module
-    from autograder.authoring.transcript import Transcript
+from autograder.authoring.record import Record
 
 
-def require_ready(run: Transcript) -> None:
+def require_ready(run: Record) -> None:
     """Require that the endpoints the scenario uses were offered in time.
 
     Raises:
@@ -49,13 +45,13 @@ def require_ready(run: Transcript) -> None:
     )
 
 
-def require_started(run: Transcript) -> None:
+def require_started(run: Record) -> None:
     """Require that the student's program was started, which is the arena's task."""
     if run.first(ev.NodeStarted) is None:
         raise unseen(run, "the student's program was never started")
 
 
-def require_within_limits(run: Transcript) -> None:
+def require_within_limits(run: Record) -> None:
     """Require that the student's processes were not ended for exceeding a limit."""
     killed = run.first(ev.NodeKilled)
     if killed:
@@ -67,7 +63,7 @@ def require_within_limits(run: Transcript) -> None:
         )
 
 
-def require_alive(run: Transcript) -> None:
+def require_alive(run: Record) -> None:
     """Require that the student's process did not end while the scenario ran."""
     require_within_limits(run)
     exited = run.first(ev.NodeExited)

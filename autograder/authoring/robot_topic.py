@@ -11,7 +11,7 @@ from autograder.authoring.call import Call
 from autograder.authoring.failure import Failure
 from autograder.authoring.fields import same
 from autograder.authoring.missing import unseen
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.robot_record import RobotRecord
 
 E = TypeVar("E", bound=ev.Event)
 
@@ -104,7 +104,7 @@ class RobotTopic:
         return self.shows.format(**{name: getattr(message, name) for name in self.fields})
 
 
-def _first_received(run: Transcript, kind: type[ev.Event]) -> float:
+def _first_received(run: RobotRecord, kind: type[ev.Event]) -> float:
     """Return when (s) the first message was published that the node must have received."""
     ready = run.first(ev.NodeReady)
     return min((message.t for message in run.all(kind) if ready and message.t > ready.t), default=0.0)

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from autograder.authoring import events as ev
-
-if TYPE_CHECKING:  # which imports this module
-    from autograder.authoring.transcript import Transcript
+from autograder.authoring.record import Record
 
 BUSY_PROCESSORS = 0.8  # processors; a submission that keeps more of them busy caused what comes late itself
 
@@ -29,23 +26,23 @@ class Cause:
     at: float
 
 
-def why_it_went_no_further(run: Transcript) -> Cause | None:
+def why_it_went_no_further(run: Record) -> Cause | None:
     """Return why the scenario went no further: the student's program ended, or did not answer."""
     return _killed(run) or _exited(run) or _unanswered(run)
 
 
-def why_the_robot_was_held_up(run: Transcript) -> Cause | None:
+def why_the_robot_was_held_up(run: Record) -> Cause | None:
     """Return how the submission held up the robot: with messages it had to refuse, or by busy processors."""
     return _refused(run) or _busy(run)
 
 
-def keeps_processors_busy(run: Transcript) -> bool:
+def keeps_processors_busy(run: Record) -> bool:
     """Return whether the submission itself kept the processors busy; such a run is judged as it is."""
     usage = run.first(ev.NodeUsage)
     return usage is not None and usage.cpu > BUSY_PROCESSORS * usage.wall
 
 
-def _killed(run: Transcript) -> Cause | None:
+def _killed(run: Record) -> Cause | None:
     killed = run.first(ev.NodeKilled)
     if killed is None:
         return None
@@ -56,7 +53,7 @@ def _killed(run: Transcript) -> Cause | None:
     )
 
 
-def _exited(run: Transcript) -> Cause | None:
+def _exited(run: Record) -> Cause | None:
     exited, signalled = run.first(ev.NodeExited), run.first(ev.NodeSignalled)
     if exited is None or (signalled is not None and signalled.t <= exited.t):
         return None
@@ -65,7 +62,7 @@ def _exited(run: Transcript) -> Cause | None:
     return Cause(f"the node had ended at {exited.t:.1f} s: {reason}", help, exited.t)
 
 
-def _unanswered(run: Transcript) -> Cause | None:
+def _unanswered(run: Record) -> Cause | None:
     given_up = run.first(ev.Unanswered)
     if given_up is None:
         return None
@@ -79,11 +76,11 @@ def _unanswered(run: Transcript) -> Cause | None:
     return Cause(f"{what} after {given_up.waited:.1f} s", _WAITS, given_up.t)
 
 
-def _service_of(run: Transcript, call: str) -> str:
-    return next((asked.service for asked in run.calls if asked.name == call), "a service")
+def _service_of(run: Record, call: str) -> str:
+    return next((asked.service for asked in run.all(ev.ServiceCalled) if asked.call == call), "a service")
 
 
-def _refused(run: Transcript) -> Cause | None:
+def _refused(run: Record) -> Cause | None:
     refusals = run.all(ev.RobotRefused)
     if not refusals:
         return None
@@ -100,7 +97,7 @@ def _size(count: int) -> str:
     return f"{count / 1e6:.1f} MB" if count >= 1e5 else f"{count / 1e3:.1f} kB"
 
 
-def _busy(run: Transcript) -> Cause | None:
+def _busy(run: Record) -> Cause | None:
     usage = run.first(ev.NodeUsage)
     if usage is None or not keeps_processors_busy(run):
         return None

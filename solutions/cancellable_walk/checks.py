@@ -119,7 +119,7 @@ def cancels_in_mid_stride(run: Transcript) -> None:
 @check(points=2, on=MID_STRIDE, needs=cancels_in_mid_stride, see="07_cancel_and_preempt#m12-robot-why")
 def stops_when_canceled(run: Transcript) -> None:
     """Within 2 s of the cancel the robot stands still and upright"""
-    request = run.cancels_of("after 1 s")[-1].sent
+    request = run.goal("after 1 s").requests_to_cancel[-1].sent
     require_walking(run, request.t)
     require_stopped(run, request.t)
 
@@ -127,7 +127,7 @@ def stops_when_canceled(run: Transcript) -> None:
 @check(points=1, on=WALK_AGAIN, needs=[cancels_in_mid_stride, arrives])
 def walks_again_after_a_cancel(run: Transcript) -> None:
     """A new goal after a cancel is walked to"""
-    require_walking(run, run.cancels_of("canceled")[-1].sent.t)
+    require_walking(run, run.goal("canceled").requests_to_cancel[-1].sent.t)
     require_arrival(run.goal("again"))
 
 

@@ -72,7 +72,7 @@ def stops_in_any_phase_of_the_gait(run: Transcript) -> None:
 def cancels_near_arrival(run: Transcript) -> None:
     """A cancel just before arrival ends CANCELED, or SUCCEEDED at the goal, with the robot still"""
     goal = run.goal("near").require_accepted(ACCEPT)
-    cancel = run.cancels_of("near")[-1]
+    cancel = run.goal("near").requests_to_cancel[-1]
     distance, _turn = error(run.robot_at(cancel.sent.t), goal)
     expect(
         distance <= run.params["distance"] + NEAR,
@@ -93,7 +93,7 @@ def cancels_near_arrival(run: Transcript) -> None:
 def survives_a_cancel_after_the_end(run: Transcript) -> None:
     """A cancel after the result changes nothing, and the next goal is walked to"""
     require_arrival(run.goal("first"))
-    cancel = run.cancels_of("first")[0]
+    cancel = run.goal("first").requests_to_cancel[0]
     result = run.goal("first").result
     if result is None or result.t > cancel.sent.t:
         raise unseen(run, "the cancel did not come after the end")
@@ -111,7 +111,7 @@ def survives_a_cancel_after_the_end(run: Transcript) -> None:
 @check(points=1, on=TWICE, needs=cancels_in_mid_stride, see="07_cancel_and_preempt#m12-why")
 def survives_two_cancels(run: Transcript) -> None:
     """The same cancel asked for twice ends CANCELED once, and both are answered"""
-    goal, cancels = run.goal("walk"), run.cancels_of("walk")
+    goal, cancels = run.goal("walk"), run.goal("walk").requests_to_cancel
     goal.require_canceled(cancels[0])
     require_alive(run)
     if len(cancels) < 2:
@@ -131,7 +131,7 @@ def survives_two_cancels(run: Transcript) -> None:
 @check(points=1, on=BY_A_STRANGER, needs=stops_when_canceled)
 def obeys_a_stranger(run: Transcript) -> None:
     """Another client may cancel every goal"""
-    request = run.goal("walk").require_canceled(run.cancels_of("")[-1])
+    request = run.goal("walk").require_canceled(run.cancels_of_all[-1])
     require_walking(run, request.t)
     require_stopped(run, request.t)
 

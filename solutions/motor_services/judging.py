@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 
+from autograder.authoring import events as ev
 from autograder.authoring.call import Call
 from autograder.authoring.failure import expect
 from autograder.authoring.fields import shown, shown_fields
+from autograder.authoring.robot_record import RobotRecord
 from autograder.authoring.robot_topic import DELIVERY
-from autograder.authoring.transcript import Transcript
 from humanoid_interfaces.msg import RobotState
 
 MODES = {getattr(RobotState, name): name for name in ("OFF", "STANDING", "WALKING", "FALLEN")}
@@ -150,12 +151,12 @@ def _require_motors_known(call: Call, on: bool) -> None:
 
 def _next_question(call: Call) -> float:
     """Return when the next request for the motors was sent (s): from then on they may change again."""
-    later = [other.sent.t for other in call.run.calls_to(call.service) if other.sent.t > call.sent.t]
-    return min(later, default=math.inf)
+    sent = [other.t for other in call.run.all(ev.ServiceCalled) if other.service == call.service]
+    return min((t for t in sent if t > call.sent.t), default=math.inf)
 
 
 def _advice_on_status(call: Call, wanted: str) -> str:
-    response, is_first = call.response, call is call.run.calls_to(call.service)[0]
+    response, is_first = call.response, call.name == "status at first"
     if response.message == wanted:
         return "success tells whether the question could be answered, not whether the motors are on: set it to True."
     if response.message.strip().rstrip(".").lower() == wanted.lower():
@@ -176,7 +177,7 @@ def _question(call: Call) -> str:
     return call.service if data is None else f"{call.service} (data: {shown(data)})"
 
 
-def _mode(run: Transcript, t: float) -> str:
+def _mode(run: RobotRecord, t: float) -> str:
     return MODES[run.robot_at(t).mode]
 
 

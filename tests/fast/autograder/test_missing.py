@@ -12,6 +12,7 @@ from autograder.authoring.missing import Missing, unseen
 from autograder.authoring.transcript import Transcript
 from autograder.engine.judging import judge
 from autograder.engine.wholeness import require_whole
+from humanoid_interfaces.action import WalkTo
 
 BEGINNING = (ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0))
 ASKED = ev.ServiceCalled(t=2.0, call="first", service="get_status", request=Trigger.Request())
@@ -77,8 +78,7 @@ def test_the_reason_is_the_first_thing_that_went_wrong(events, because):
     [
         (lambda run: run.call("first"), "the request “first” was never sent"),
         (lambda run: run.goal("walk"), "the goal “walk” was never sent"),
-        (lambda run: run.cancels_of("walk"), "nobody asked to cancel the goal “walk”"),
-        (lambda run: run.cancels_of(""), "nobody asked to cancel every goal"),
+        (lambda run: run.cancels_of_all, "nobody asked to cancel every goal"),
         (lambda run: run.mark("fallen"), "it never got there"),
     ],
 )
@@ -86,6 +86,12 @@ def test_every_query_for_what_never_happened_is_a_failure_of_the_submission(ask,
     with pytest.raises(Missing) as missing:
         ask(transcript(EXITED))
     assert missing.value.observed == f"{never}, because the node had ended at 3.1 s: exit status 1"
+
+
+def test_a_goal_that_nobody_asked_to_cancel_is_a_failure_of_the_submission():
+    sent = ev.GoalSent(t=2.0, goal="walk", action="walk_to", request=WalkTo.Goal())
+    with pytest.raises(Missing, match="nobody asked to cancel the goal “walk”"):
+        transcript(sent, EXITED).goal("walk").requests_to_cancel  # noqa: B018
 
 
 def test_an_answer_that_came_when_nobody_waited_any_more_is_none():

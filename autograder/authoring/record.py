@@ -1,0 +1,99 @@
+"""Everything that one arena recorded, on one time axis."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any, TypeVar
+
+from autograder.authoring import events as ev
+
+E = TypeVar("E")
+A = TypeVar("A", ev.GoalAnswered, ev.ResultReceived, ev.CancelAnswered, ev.ServiceAnswered)
+R = TypeVar("R", bound="Record")
+
+
+@dataclass(frozen=True)
+class Record:
+    """The events of one arena, in order of time.
+
+    Attributes:
+        scenario: its name.
+        params: the scenario's inputs.
+        events: all events but the robot's samples.
+        ground_truth: the simulator's state of the robot, at 50 Hz.
+        scale: how much faster than real time the arena's clock ran.
+    """
+
+    scenario: str
+    params: Mapping[str, Any]
+    events: Sequence[Any]
+    ground_truth: Sequence[ev.RobotTruth] = field(repr=False)
+    scale: float = 1.0
+
+    @classmethod
+    def from_events(
+        cls: type[R], scenario: str, params: Mapping[str, Any], events: Sequence[Any], scale: float = 1.0
+    ) -> R:
+        """Put events in order of time, with the arena's start at 0 s."""
+        ordered = sorted(events, key=lambda event: event.t)
+        origin = ordered[0].t if ordered else 0.0
+        shifted = [replace(event, t=event.t - origin) for event in ordered]
+        ground_truth = [event for event in shifted if isinstance(event, ev.RobotTruth)]
+        others = [event for event in shifted if not isinstance(event, ev.RobotTruth)]
+        return cls(scenario, dict(params), others, ground_truth, scale)
+
+    def all(self, kind: type[E]) -> list[E]:
+        """Return every event of one type, in order."""
+        return list(self._by_kind.get(kind, ()))
+
+    def first(self, kind: type[E]) -> E | None:
+        """Return the first event of one type, or None."""
+        return next(iter(self.all(kind)), None)
+
+    @cached_property
+    def _by_kind(self) -> Mapping[type, list[Any]]:
+        sorted_out: dict[type, list[Any]] = {}
+        for event in self.events:
+            sorted_out.setdefault(type(event), []).append(event)
+        return sorted_out
+
+    # -- answers ------------------------------------------------------------------------------------------------------
+
+    def given_up(self, what: str, name: str) -> ev.Unanswered | None:
+        """Return when the scenario stopped waiting for the answer to a call, goal, cancel or result, if it did."""
+        return next(
+            (event for event in self.all(ev.Unanswered) if (event.what, event.id) == (what, name)), None
+        )
+
+    def in_time(self, kind: type[A], key: str, value: str, *, of: str) -> A | None:
+        """Return the answer to something, unless the scenario had stopped waiting for it."""
+        given_up = self.given_up(of, value)
+        answer = self.one(kind, key, value)
+        return None if answer is None or (given_up and answer.t > given_up.t) else answer
+
+    def one(self, kind: type[E], key: str, value: str) -> E | None:
+        """Return the first event of one type whose field `key` has a value, or None."""
+        return next((event for event in self.all(kind) if getattr(event, key) == value), None)
+
+    # -- the student's process ----------------------------------------------------------------------------------------
+
+    def output(self, stream: str | None = None) -> str:
+        """Return what the student's process printed, on one stream or both."""
+        lines = [event.text for event in self.all(ev.NodeOutput) if stream in (None, event.stream)]
+        return "\n".join(lines)
+
+    @property
+    def last_words(self) -> str:
+        """The last line on stderr that is not blank, cut to a readable length."""
+        lines = [line.strip() for line in self.output("stderr").splitlines() if line.strip()]
+        return lines[-1][:300] if lines else ""
+
+    @property
+    def end(self) -> float:
+        """The time (s) at which the scenario ended, or of the last event."""
+        ended = self.first(ev.ScenarioEnded)
+        if ended:
+            return ended.t
+        return self.events[-1].t if self.events else 0.0
