@@ -26,11 +26,12 @@ from lab.errors import (
 )
 from lab.film import film_robot
 from lab.formatting import describe
-from lab.goals import CancelAnswer, Goal, Outcome, send_goal
+from lab.goals import Goal, send_goal
 from lab.graph import list_graph, nodes_in_graph
 from lab.graph_drawing import draw_graph
 from lab.interfaces import build_interfaces
 from lab.live_view import stop_watching, watch_robot
+from lab.outcomes import CancelAnswer, Outcome
 from lab.picture import show_robot
 from lab.programs import Program, run_program, start_program
 from lab.quiz import Quiz, quiz

@@ -14,8 +14,10 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node, NodeNameNonExistentError
 from rclpy.signals import SignalHandlerOptions
 
+from lab.interaction_log import conversation
 from lab.network import join_ros_domain
 from lab.waiting import comes_true
+from ros_runtime.recorded_client.service_client import ServiceClient
 
 NAMESPACE = "/robot"
 OF_EVERY_NODE = (
@@ -82,12 +84,12 @@ class Connection:
             self._cache[key] = make(self.node)
         return self._cache[key]
 
-    def client(self, service_type: Any, name: str) -> Any:
+    def client(self, service_type: Any, name: str) -> ServiceClient:
         """The client of a service. It replaces one of another type, because a node can have only one of a name."""
         key = ("client", name)
-        if key in self._cache and self._cache[key].srv_type is not service_type:
-            self._drop_client(self._cache.pop(key))
-        return self.once(key, lambda node: node.create_client(service_type, name))
+        if key in self._cache and self._cache[key].type is not service_type:
+            self._drop_client(self._cache.pop(key).endpoint)
+        return self.once(key, lambda node: ServiceClient(node, name, service_type, conversation))
 
     def _drop_client(self, client: Any) -> None:
         """Destroy a client and wait until the spinning thread has let go of it."""

@@ -8,10 +8,10 @@ from itertools import groupby
 
 from IPython.display import HTML
 
-from lab import interaction_log
 from lab.errors import LabError
-from lab.interaction_log import Message
-from ros_runtime.drawing.sequence_diagram import Arrow, sequence_svg
+from lab.interaction_log import log
+from lab.messages import Message
+from ros_runtime.drawing.sequence_diagram import sequence_svg
 
 LABEL_LENGTH = 38  # characters that fit between two lifelines
 
@@ -23,12 +23,12 @@ def draw_sequence(title: str = "What just happened") -> HTML:
 
     Raises LabError when nothing was called or sent yet.
     """
-    messages = interaction_log.messages()
+    messages = log.messages()
     if not messages:
         raise LabError("there is nothing to draw yet: use lab.call() or lab.send_goal() first")
     start = messages[0].time
     arrows = [
-        Arrow(message.time - start, message.sender, message.receiver, _shorten(message.label), message.kind)
+        replace(message, time=message.time - start, label=_shorten(message.label))
         for message in _without_repetition(messages)
     ]
     return HTML(sequence_svg(arrows, title=title))

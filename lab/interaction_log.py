@@ -1,74 +1,81 @@
 """The messages between notebook, servers and robot, from which a sequence diagram is drawn.
 
-A call or a goal starts a new log unless another one is still pending. So a goal, its cancel and a second goal that
-replaces it share one log, and the call of the next cell has its own.
+A call or a goal starts a new interaction unless another one is still pending. So a goal, its cancel and a second goal
+that replaces it are one interaction, and the call of the next cell is another.
 """
 
 from __future__ import annotations
 
-import threading
-import time
-from dataclasses import dataclass
-
-from ros_runtime.drawing.sequence_diagram import Kind
-
-NOTEBOOK = "notebook"
-
-
-@dataclass(frozen=True)
-class Message:
-    """One arrow of the diagram.
-
-    Attributes:
-        time: s, on the monotonic clock.
-        sender: name of a lifeline.
-        receiver: name of a lifeline.
-        label: text on the arrow.
-        kind: how the arrow is drawn.
-        repeats: it is one of a stream, of which the diagram shows only some.
-    """
-
-    time: float
-    sender: str
-    receiver: str
-    label: str
-    kind: Kind
-    repeats: bool
+from lab.messages import Message, Messages
+from ros_runtime.record.client_events import (
+    CancelAnswered,
+    CancelSent,
+    GoalAnswered,
+    GoalSent,
+    ResultReceived,
+    ServiceAnswered,
+    ServiceCalled,
+    Unanswered,
+)
+from ros_runtime.record.event import Event
+from ros_runtime.record.event_log import EventLog
+from ros_runtime.recorded_client.conversation import NOBODYS, Conversation, Reading
 
 
-_lock = threading.Lock()
-_messages: list[Message] = []
-_pending: set[object] = set()
+class InteractionLog(EventLog):
+    """The events of the present interaction; those before are dropped, because a session lasts for hours."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._pending: set[tuple[str, str]] = set()
+        self._in_words = Messages()
+        self._messages: list[Message] = []
+
+    def append(self, event: Event) -> None:
+        """Add an event. It is put into words now: its message is the student's, who may change it later."""
+        with self._changed:
+            if isinstance(event, ServiceCalled | GoalSent) and not self._pending:
+                self.clear()
+            self._note_pending(event)
+            self._messages += self._in_words.of(event)
+            super().append(event)
+
+    def messages(self) -> list[Message]:
+        """The messages of the present interaction, in order of time."""
+        with self._changed:
+            return list(self._messages)
+
+    def clear(self) -> None:
+        """Remove all events; what was pending is so no longer."""
+        with self._changed:
+            super().clear()
+            self._messages.clear()
+            self._pending.clear()
+
+    def _note_pending(self, event: Event) -> None:
+        match event:
+            case ServiceCalled(call=id):
+                self._pending.add(("call", id))
+            case GoalSent(goal=id):
+                self._pending.add(("goal", id))
+            case CancelSent(cancel=id):
+                self._pending.add(("cancel", id))
+            case ServiceAnswered(call=id) | Unanswered(what="call", id=id):
+                self._pending.discard(("call", id))
+            case GoalAnswered(goal=id, accepted=False) | ResultReceived(goal=id):
+                self._pending.discard(("goal", id))
+            case Unanswered(what="goal" | "result", id=id):
+                self._pending.discard(("goal", id))
+            case CancelAnswered(cancel=id) | Unanswered(what="cancel", id=id):
+                self._pending.discard(("cancel", id))
 
 
-def begin(request: object, *, continues: bool = False) -> None:
-    """Mark a request as pending until `end(request)`. Starts a new log, unless it `continues` one or one is pending."""
-    with _lock:
-        if not _pending and not continues:
-            _messages.clear()
-        _pending.add(request)
+class _OwnGoals(Reading):
+    """Reads what servers publish for the goals of this notebook, and not for those of other clients."""
+
+    def admits(self, what: str, of: str) -> bool:
+        return of != NOBODYS
 
 
-def end(request: object) -> None:
-    """Mark a request as no longer pending: it was answered, or the caller has given up."""
-    with _lock:
-        _pending.discard(request)
-
-
-def record(sender: str, receiver: str, label: str, kind: Kind = "message", *, repeats: bool = False) -> None:
-    """Append a message with the present time."""
-    with _lock:
-        _messages.append(Message(time.monotonic(), sender, receiver, label, kind, repeats))
-
-
-def messages() -> list[Message]:
-    """The messages of the present log, in order of time."""
-    with _lock:
-        return list(_messages)
-
-
-def clear() -> None:
-    """Remove all messages and pending requests."""
-    with _lock:
-        _messages.clear()
-        _pending.clear()
+log = InteractionLog()
+conversation = Conversation(log, _OwnGoals())

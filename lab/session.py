@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import atexit
 
-from lab import interaction_log
 from lab.connection import disconnect
+from lab.interaction_log import log
 from lab.live_view import stop_watching
 from lab.programs import stop_programs
 from lab.robot import stop_robot
@@ -20,4 +20,4 @@ def stop_everything() -> None:
     stop_nodes()
     stop_robot()
     disconnect()
-    interaction_log.clear()
+    log.clear()

@@ -6,9 +6,9 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from lab import interaction_log
 from lab.connection import NAMESPACE, connection
 from lab.errors import LabError, NodeEndedError
+from lab.interaction_log import log
 from lab.processes import Process
 from lab.waiting import comes_true
 from ros_runtime.reachability import wait_until_reachable
@@ -30,7 +30,7 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
         NodeEndedError: it ended with an error at once; the message quotes what it printed.
     """
     path = existing_file(file)
-    interaction_log.clear()  # requests that an earlier server never answered do not belong to what follows
+    log.clear()  # requests that an earlier server never answered do not belong to what follows
     earlier = _nodes.pop(path, None)
     if earlier is not None:
         earlier.stop()

@@ -13,10 +13,11 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from sensor_msgs.msg import BatteryState, JointState
 
 from humanoid_interfaces.msg import RobotState
-from lab import interaction_log
 from lab.connection import NAMESPACE, connection
 from lab.errors import NoRobotError
+from lab.events import ModeChanged
 from lab.formatting import fixed
+from lab.interaction_log import log
 from lab.waiting import comes_true
 from ros_runtime.angles import yaw_of
 from ros_runtime.message_constants import RobotMode, name_of
@@ -114,4 +115,4 @@ class _Memory:
         before = self.messages.get(topic)
         self.messages[topic] = (message, time.monotonic())
         if topic == "robot_state" and before and before[0].mode != message.mode:
-            interaction_log.record("robot", "robot", name_of(RobotMode, message.mode))
+            log.append(ModeChanged(mode=message.mode))

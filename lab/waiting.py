@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable
 from typing import Any
@@ -29,10 +28,3 @@ def comes_true(condition: Callable[[], Any], timeout: float) -> bool:
             return False
         time.sleep(PERIOD)
     return True
-
-
-def is_done_within(future: Any, timeout: float) -> bool:
-    """Wait for a future that another thread completes; return whether it was done within `timeout` s."""
-    done = threading.Event()
-    future.add_done_callback(lambda _: done.set())
-    return done.wait(timeout)

@@ -28,6 +28,11 @@ class EventLog:
             self._events[type(event)].append(event)
             self._changed.notify_all()
 
+    def clear(self) -> None:
+        """Remove all events."""
+        with self._changed:
+            self._events.clear()
+
     def all(self, kind: type[E], **fields: Any) -> list[E]:
         """Return the events of a type that have these values in these fields."""
         with self._changed:

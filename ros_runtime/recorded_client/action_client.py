@@ -9,12 +9,12 @@ from __future__ import annotations
 import uuid
 from collections.abc import Callable, Mapping
 from typing import Any
+from weakref import WeakValueDictionary
 
 from action_msgs.msg import GoalStatusArray
 from action_msgs.srv import CancelGoal
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
-from rclpy.task import Future
 from unique_identifier_msgs.msg import UUID
 
 from ros_runtime.record.client_events import (
@@ -26,8 +26,10 @@ from ros_runtime.record.client_events import (
     ResultReceived,
     StatusSeen,
 )
+from ros_runtime.record.event import Event
 from ros_runtime.recorded_client.conversation import NOBODYS, Conversation
 from ros_runtime.recorded_client.goal import Cancel, Goal
+from ros_runtime.recorded_client.request import Request
 
 DEEP = QoSProfile(depth=1000)
 LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -52,7 +54,9 @@ class ActionClient:
         self.name = name
         self.type = action_type
         self._conversation = conversation
-        self._goals: dict[bytes, str] = {}
+        self._names: dict[bytes, str] = {}
+        # Weak, so that a goal and its feedback live as long as somebody has it.
+        self._goals: WeakValueDictionary[str, Goal] = WeakValueDictionary()
         self._statuses: dict[str, int] = {}
         types = action_type.Impl
         self._send_goal = node.create_client(types.SendGoalService, f"{name}/_action/send_goal")
@@ -78,13 +82,13 @@ class ActionClient:
     def send(self, goal: Any = None, *, as_: str = "") -> Goal:
         """Send a goal without waiting; `as_` names it. Its result is asked for as soon as it is accepted."""
         goal = self.type.Goal() if goal is None else goal
-        name, goal_id = self._conversation.name("goal", self.name, as_), uuid.uuid4().bytes
-        self._goals[goal_id] = name
-        self._conversation.log.append(GoalSent(goal=name, action=self.name, request=goal))
-        request = self.type.Impl.SendGoalService.Request(goal_id=UUID(uuid=list(goal_id)), goal=goal)
-        future = self._send_goal.call_async(request)
-        future.add_done_callback(lambda future: self._on_goal_answer(name, goal_id, future))
-        return Goal(name, goal_id, self, self._conversation)
+        name = self._conversation.name("goal", self.name, as_)
+        sent = Goal(name, uuid.uuid4().bytes, self._conversation, self._ask_to_cancel)
+        self._names[sent.id], self._goals[sent.name] = sent.name, sent
+        self._conversation.log.append(GoalSent(goal=sent.name, action=self.name, request=goal))
+        message = self.type.Impl.SendGoalService.Request(goal_id=UUID(uuid=list(sent.id)), goal=goal)
+        sent.request = Request(self._send_goal, message, lambda answer: self._on_goal_answer(sent, answer))
+        return sent
 
     def send_and_wait(self, goal: Any = None, *, as_: str = "") -> Goal:
         """Send a goal and wait until it is accepted or rejected."""
@@ -94,56 +98,46 @@ class ActionClient:
 
     def cancel_all(self, *, by: str = ITSELF) -> Cancel:
         """Ask to cancel every goal, without waiting; `by` is the name of the client that asks."""
-        return self.ask_to_cancel("", bytes(16), by)
+        return self._ask_to_cancel("", bytes(16), by)
 
-    def ask_to_cancel(self, goal: str, goal_id: bytes, by: str) -> Cancel:
-        """Ask to cancel a goal, without waiting."""
+    def _ask_to_cancel(self, goal: str, goal_id: bytes, by: str) -> Cancel:
         request = CancelGoal.Request()
         request.goal_info.goal_id.uuid = list(goal_id)
         cancel = Cancel(self._conversation.name("cancel", "cancel"), self._conversation)
         self._conversation.log.append(CancelSent(cancel=cancel.name, goal=goal, by=by))
-        future = self._cancel_goal[by].call_async(request)
-        future.add_done_callback(lambda future: self._on_cancel_answer(cancel.name, future))
+        cancel.request = Request(
+            self._cancel_goal[by], request, lambda answer: self._on_cancel_answer(cancel, answer)
+        )
         return cancel
 
-    def _on_goal_answer(self, goal: str, goal_id: bytes, future: Future) -> None:
-        if future.cancelled():
-            return
-        accepted = future.result().accepted
-        if accepted:
-            request = self.type.Impl.GetResultService.Request(goal_id=UUID(uuid=list(goal_id)))
-            self._get_result.call_async(request).add_done_callback(
-                lambda future: self._on_result(goal, future)
-            )
-        self._conversation.log.append(GoalAnswered(goal=goal, accepted=accepted))
+    def _on_goal_answer(self, goal: Goal, answer: Any) -> None:
+        if answer.accepted:
+            request = self.type.Impl.GetResultService.Request(goal_id=UUID(uuid=list(goal.id)))
+            Request(self._get_result, request, lambda answer: self._on_result(goal, answer))
+        self._record(goal.name, GoalAnswered(goal=goal.name, accepted=answer.accepted))
 
-    def _on_result(self, goal: str, future: Future) -> None:
-        if future.cancelled():
-            return
-        response = future.result()
-        if not self._conversation.reading.is_too_large("result", goal, response):
-            self._conversation.log.append(
-                ResultReceived(goal=goal, status=response.status, result=response.result)
+    def _on_result(self, goal: Goal, answer: Any) -> None:
+        if not self._conversation.reading.is_too_large("result", goal.name, answer):
+            self._record(
+                goal.name, ResultReceived(goal=goal.name, status=answer.status, result=answer.result)
             )
 
-    def _on_cancel_answer(self, cancel: str, future: Future) -> None:
-        if future.cancelled():
-            return
-        response = future.result()
-        if not self._conversation.reading.is_too_large("cancel answer", cancel, response):
-            canceling = [self._name_of(bytes(info.goal_id.uuid)) for info in response.goals_canceling]
-            self._conversation.log.append(
-                CancelAnswered(cancel=cancel, return_code=response.return_code, canceling=canceling)
+    def _on_cancel_answer(self, cancel: Cancel, answer: Any) -> None:
+        if not self._conversation.reading.is_too_large("cancel answer", cancel.name, answer):
+            canceling = [self._name_of(bytes(info.goal_id.uuid)) for info in answer.goals_canceling]
+            cancel.answer = CancelAnswered(
+                cancel=cancel.name, return_code=answer.return_code, canceling=canceling
             )
+            self._conversation.log.append(cancel.answer)
 
     def _on_feedback(self, data: bytes) -> None:
         goal_id, reading = data[GOAL_ID], self._conversation.reading
-        if not reading.admits(FeedbackReceived.kind, self._goals.get(goal_id, NOBODYS)):
+        if not reading.admits(FeedbackReceived.kind, self._names.get(goal_id, NOBODYS)):
             return
         goal = self._name_of(goal_id)
         message = reading.unpack("feedback", goal, data, self.type.Impl.FeedbackMessage)
         if message is not None:
-            self._conversation.log.append(FeedbackReceived(goal=goal, feedback=message.feedback))
+            self._record(goal, FeedbackReceived(goal=goal, feedback=message.feedback))
 
     def _on_status(self, data: bytes) -> None:
         reading = self._conversation.reading
@@ -155,9 +149,17 @@ class ActionClient:
             goal = self._name_of(goal_id)
             if self._statuses.get(goal) == status.status:
                 continue
-            if reading.admits(StatusSeen.kind, self._goals.get(goal_id, NOBODYS)):
+            if reading.admits(StatusSeen.kind, self._names.get(goal_id, NOBODYS)):
                 self._statuses[goal] = status.status
-                self._conversation.log.append(StatusSeen(goal=goal, status=status.status))
+                self._record(goal, StatusSeen(goal=goal, status=status.status))
+
+    def _record(self, name: str, event: Event) -> None:
+        goal = self._goals.get(name)
+        if goal is not None:
+            goal.take(event)
+        self._conversation.log.append(event)
+        for listener in goal.listeners if goal is not None else ():
+            listener()
 
     def _name_of(self, goal_id: bytes) -> str:
-        return self._goals.get(goal_id, f"unknown {goal_id.hex()[:8]}")
+        return self._names.get(goal_id, f"unknown {goal_id.hex()[:8]}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections import Counter
 from collections.abc import Callable
@@ -11,7 +12,6 @@ from typing import Any, Literal
 from rclpy.serialization import deserialize_message
 
 from ros_runtime.record.client_events import TooLarge, Unanswered
-from ros_runtime.record.event import Event
 from ros_runtime.record.event_log import EventLog
 
 NOBODYS = "nobody's"  # what is published for goals that are not this client's
@@ -47,16 +47,16 @@ class Conversation:
     reading: Reading = field(default_factory=Reading)
     is_in_vain: Callable[[], bool] = lambda: False
     _named: Counter[str] = field(default_factory=Counter)
+    _naming: threading.Lock = field(default_factory=threading.Lock)
 
     def name(self, kind: str, of: str, wanted: str = "") -> str:
         """Return a name for a call, goal or cancel request: the one `wanted`, else `of` and a number."""
-        if wanted:
-            self._named[f"{kind} {wanted}"] += 1
-            if self._named[f"{kind} {wanted}"] > 1:
-                raise ValueError(f"there is already a {kind} named {wanted!r}")
-            return wanted
-        self._named[f"{kind} {of}"] += 1
-        return f"{of} {self._named[f'{kind} {of}']}"
+        with self._naming:
+            self._named[f"{kind} {wanted or of}"] += 1
+            number = self._named[f"{kind} {wanted or of}"]
+        if wanted and number > 1:
+            raise ValueError(f"there is already a {kind} named {wanted!r}")
+        return wanted or f"{of} {number}"
 
     def wait(
         self,
@@ -73,7 +73,6 @@ class Conversation:
         self.log.append(Unanswered(what=what, id=id, waited=time.monotonic() - started))
         return False
 
-    def has_come(self, kind: type[Event], what: str, **named: str) -> bool:
-        """Return whether an answer is in the log, or was too large to be read."""
-        log, (id,) = self.log, named.values()
-        return log.first(kind, **named) is not None or log.first(TooLarge, what=what, id=id) is not None
+    def was_too_large(self, what: str, id: str) -> bool:
+        """Return whether an answer came that was too large to be read."""
+        return self.log.first(TooLarge, what=what, id=id) is not None

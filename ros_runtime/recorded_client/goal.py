@@ -2,78 +2,97 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+import time
+from collections.abc import Callable
+from typing import Any
 
+from ros_runtime.message_constants import GoalStatus
 from ros_runtime.record.client_events import (
     CancelAnswered,
     FeedbackReceived,
     GoalAnswered,
     ResultReceived,
+    StatusSeen,
     TooLarge,
 )
+from ros_runtime.record.event import Event
 from ros_runtime.recorded_client.conversation import Conversation
-
-if TYPE_CHECKING:  # which makes them
-    from ros_runtime.recorded_client.action_client import ActionClient
+from ros_runtime.recorded_client.request import Request
 
 ANSWER_TIMEOUT = 5.0  # s
 RESULT_TIMEOUT = 40.0  # s
 
 
 class Cancel:
-    """A request to cancel on its way, or answered."""
+    """A request to cancel on its way, or answered.
+
+    Attributes:
+        answer: None as long as there is none.
+    """
+
+    request: Request
 
     def __init__(self, name: str, conversation: Conversation) -> None:
         self.name = name
+        self.answer: CancelAnswered | None = None
         self._conversation = conversation
-
-    @property
-    def answer(self) -> CancelAnswered | None:
-        """The answer; None before it comes."""
-        return self._conversation.log.first(CancelAnswered, cancel=self.name)
 
     def wait(self, timeout: float = ANSWER_TIMEOUT) -> bool:
         """Wait for the answer; return whether it came."""
-        conversation = self._conversation
-        return conversation.wait(
-            "cancel",
-            self.name,
-            lambda: conversation.has_come(CancelAnswered, "cancel answer", cancel=self.name),
-            timeout,
-        )
+        return self._conversation.wait("cancel", self.name, self._is_answered, timeout)
+
+    def _is_answered(self) -> bool:
+        return self.answer is not None or self._conversation.was_too_large("cancel answer", self.name)
+
+
+AskToCancel = Callable[[str, bytes, str], Cancel]  # of a goal's name and id, and the name of who asks
 
 
 class Goal:
-    """A goal that was sent."""
+    """A goal that was sent, and all that has come for it.
 
-    def __init__(self, name: str, id: bytes, client: ActionClient, conversation: Conversation) -> None:
+    Attributes:
+        request: asks the server to accept it.
+        sent_at: s, on the monotonic clock.
+        accepted: whether the server accepted it; None before its answer.
+        status: the last one published, or the one that came with the result (action_msgs/GoalStatus).
+        feedback: the feedback messages so far.
+        result: its end: status and result message; None before that.
+        listeners: are called after each event of the goal, on the thread that spins the node.
+    """
+
+    request: Request
+
+    def __init__(self, name: str, id: bytes, conversation: Conversation, ask_to_cancel: AskToCancel) -> None:
         self.name = name
         self.id = id
-        self._client = client
+        self.sent_at = time.monotonic()
+        self.accepted: bool | None = None
+        self.status: int = GoalStatus.UNKNOWN
+        self.feedback: list[Any] = []
+        self.result: ResultReceived | None = None
+        self.listeners: list[Callable[[], object]] = []
+        self._ask_to_cancel = ask_to_cancel
         self._conversation = conversation
-        self._log = conversation.log
-
-    @property
-    def accepted(self) -> bool | None:
-        """Whether the server accepted it; None before its answer."""
-        answer = self._log.first(GoalAnswered, goal=self.name)
-        return answer.accepted if answer else None
-
-    @property
-    def feedback(self) -> Sequence[Any]:
-        """The feedback messages so far."""
-        return [event.feedback for event in self._log.all(FeedbackReceived, goal=self.name)]
-
-    @property
-    def result(self) -> ResultReceived | None:
-        """Status and result message; None before they come."""
-        return self._log.first(ResultReceived, goal=self.name)
 
     @property
     def has_ended(self) -> bool:
         """Whether its result came, readable or not."""
-        return self._conversation.has_come(ResultReceived, "result", goal=self.name)
+        return self.result is not None or self._conversation.was_too_large("result", self.name)
+
+    def take(self, event: Event) -> None:
+        """Take what came for it."""
+        match event:
+            case GoalAnswered(accepted=accepted):
+                self.accepted = accepted
+                if accepted:
+                    self.status = max(self.status, GoalStatus.ACCEPTED)  # the topic may have been faster
+            case FeedbackReceived(feedback=feedback):
+                self.feedback.append(feedback)
+            case StatusSeen(status=status):
+                self.status = status
+            case ResultReceived(status=status):
+                self.result, self.status = event, status
 
     def wait_for_answer(self, timeout: float = ANSWER_TIMEOUT) -> bool:
         """Wait until it is accepted or rejected; return whether it is either."""
@@ -83,10 +102,10 @@ class Goal:
         """Wait for `count` feedback messages; return False if the goal or the time ends first."""
 
         def is_enough() -> bool:
-            too_large = self._log.count(TooLarge, what="feedback", id=self.name)
-            return self._log.count(FeedbackReceived, goal=self.name) + too_large >= count
+            too_large = self._conversation.log.count(TooLarge, what="feedback", id=self.name)
+            return len(self.feedback) + too_large >= count
 
-        self._log.wait_until(
+        self._conversation.log.wait_until(
             lambda: is_enough() or self.has_ended or self._conversation.is_in_vain(), timeout
         )
         return is_enough()
@@ -99,4 +118,4 @@ class Goal:
 
     def cancel(self, *, by: str = "client") -> Cancel:
         """Ask to cancel it, without waiting; `by` is the name of the client that asks."""
-        return self._client.ask_to_cancel(self.name, self.id, by)
+        return self._ask_to_cancel(self.name, self.id, by)

@@ -60,14 +60,60 @@ def test_no_server_is_told(notebook: Kernel) -> None:
         notebook.run("lab.send_goal('stand_up', StandUp, StandUp.Goal(), timeout=0.5)")
 
 
+def test_a_goal_without_an_answer_is_given_up_and_its_late_acceptance_ignored(notebook: Kernel) -> None:
+    notebook.run("lab.run_node('riser.py', 'doubt')")
+    with pytest.raises(CellError, match=r"neither accepted nor rejected the goal within 0\.3 s"):
+        notebook.run("lab.send_goal('stand_up', StandUp, StandUp.Goal(), timeout=0.3)")
+    assert "no answer after 0.3 s." in notebook.run("print(lab.draw_sequence().data)")
+    notebook.run(SEND + "goal.result()")
+    svg = notebook.run("print(lab.draw_sequence().data)")
+    assert svg.count("goal accepted.") == 1
+
+
+def test_feedback_that_comes_before_the_acceptance_is_kept(notebook: Kernel) -> None:
+    notebook.run("lab.run_node('hasty.py')")
+    printed = notebook.run(
+        SEND
+        + "lab.wait_until(lambda: len(goal.feedback) == 2)\n"
+        + "print([message.percent_complete for message in goal.feedback], goal.result())"
+    )
+    assert printed == "[10.0, 20.0] SUCCEEDED (error_code 0, error_msg '')\n"
+
+
+def test_a_restarted_server_is_sent_the_next_goal(notebook: Kernel) -> None:
+    notebook.run("lab.run_node('riser.py', 'cancel')\n" + SEND + "first = goal")
+    notebook.run("lab.run_node('riser.py', 'cancel')\n" + SEND)
+    assert (
+        notebook.run("print(goal.result(show_feedback=False).status, first.is_over)") == "SUCCEEDED False\n"
+    )
+
+
+def test_a_goal_that_the_notebook_does_not_hold_is_kept_until_its_end_and_no_longer(notebook: Kernel) -> None:
+    notebook.run("lab.run_node('riser.py', 'cancel')")
+    printed = notebook.run(
+        "import gc, weakref\n"
+        + SEND
+        + "ends = []\ngoal.on_change(lambda goal: ends.append(goal.is_over))\n"
+        + "kept = weakref.ref(goal)\ndel goal\ngc.collect()\nprint(kept() is not None)\n"
+        + "lab.wait_until(lambda: ends[-1:] == [True])\n"
+        + "lab.wait_until(lambda: gc.collect() >= 0 and kept() is None)"
+    )
+    assert printed == "True\n"
+
+
 def test_a_listener_hears_of_feedback_and_of_the_end(notebook: Kernel) -> None:
     notebook.run("lab.run_node('riser.py', 'cancel')")
     printed = notebook.run(
-        SEND
-        + "heard = []\ngoal.on_change(lambda goal: heard.append((goal.status, len(goal.feedback))))\n"
-        + "goal.result(show_feedback=False)\nprint(heard[-1], len(heard) > 5)"
+        "import threading\n"
+        + SEND
+        + "heard, threads = [], set()\n"
+        + "def listen(goal):\n"
+        + "    heard.append((goal.status, len(goal.feedback), goal.is_over))\n"
+        + "    threads.add(threading.current_thread().name)\n"
+        + "goal.on_change(listen)\ngoal.result(show_feedback=False)\n"
+        + "lab.wait_until(lambda: heard[-1][2])\nprint(heard[-1], len(heard) > 5, threads)"
     )
-    assert printed == "('SUCCEEDED', 10) True\n"
+    assert printed == "('SUCCEEDED', 10, True) True {'lab spin'}\n"
 
 
 def test_the_goal_its_cancel_and_its_end_are_one_drawing(notebook: Kernel) -> None:

@@ -54,6 +54,11 @@ def test_a_slow_server_times_out_and_its_late_answer_is_ignored(notebook: Kernel
     notebook.run("node = lab.run_node('adder.py'); lab.call('add', AddTwoInts)")
     with pytest.raises(CellError, match=r"no answer from add within 0\.5 s"):
         notebook.run("lab.call('add', AddTwoInts, AddTwoInts.Request(a=-2), timeout=0.5)")
+    drawn = notebook.run("print(lab.draw_sequence().data)")
+    assert "notebook to add server: add: a -2." in drawn
+    assert "notebook: no answer after 0.5 s." in drawn
+    pending = "lab.connection.connection().client(AddTwoInts, 'add').endpoint._pending_requests"
+    assert notebook.run(f"print({pending})") == "{}\n"
     printed = notebook.run(
         "print(lab.call('add', AddTwoInts, AddTwoInts.Request(a=7), timeout=10).sum)\n"
         "lab.wait_until(lambda: 'answered 7' in node.log())\nprint(node.log())"

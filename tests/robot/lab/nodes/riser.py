@@ -1,4 +1,7 @@
-"""An action that takes 2 s in ten phases; its one argument is how it treats goals: cancel, no-cancel or reject."""
+"""An action that takes 2 s in ten phases.
+
+Its one argument is how it treats goals: cancel, no-cancel, reject or doubt (it thinks for 1 s before it accepts).
+"""
 
 import sys
 import time
@@ -24,6 +27,12 @@ def rise(goal):
     return StandUp.Result(error_msg="up")
 
 
+def decide(goal):
+    if HABIT == "doubt":
+        time.sleep(1.0)
+    return GoalResponse.REJECT if HABIT == "reject" else GoalResponse.ACCEPT
+
+
 rclpy.init()
 node = Node("riser")
 server = ActionServer(
@@ -31,7 +40,7 @@ server = ActionServer(
     StandUp,
     "stand_up",
     rise,
-    goal_callback=lambda goal: GoalResponse.REJECT if HABIT == "reject" else GoalResponse.ACCEPT,
+    goal_callback=decide,
     cancel_callback=lambda goal: CancelResponse.ACCEPT if HABIT == "cancel" else CancelResponse.REJECT,
 )
 executor = MultiThreadedExecutor()
