@@ -29,7 +29,7 @@ class StudentLimits:
     """
 
     processes: int = 64  # threads count too
-    memory_mib: int = 700  # resident memory of all its processes, watched by the agent
+    memory_mib: int = 700  # resident memory of all its processes, enforced by arena/student_limits_monitor.py
     open_files: int = 256  # a process
     file_mib: int = 16  # a file
     address_space_mib: int = 4096  # a process
