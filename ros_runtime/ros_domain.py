@@ -46,6 +46,12 @@ class ReservedDomain:
         """Release the domain for other processes."""
         os.close(self._descriptor)
 
+    def __enter__(self) -> int:
+        return self.domain_id
+
+    def __exit__(self, *_: object) -> None:
+        self.release()
+
 
 def loopback_variables() -> dict[str, str]:
     """Return the variables that keep nodes on 127.0.0.1 and let them find each other on a busy machine."""

@@ -39,7 +39,7 @@ NEEDED = {
         "rejects_nan": _GOAL,
         "rejects_without_power": f"{_GOAL} robot_commanded",
         "cancels_in_mid_stride": _CANCELED,
-        "stops_when_canceled": "cancel_sent",
+        "stops_when_canceled": "goal_sent cancel_sent",
         "walks_again_after_a_cancel": f"{_WALKED} cancel_sent",
         "new_goal_preempts_the_old": _WALKED,
         "aborts_when_the_robot_falls": f"{_WALKED} robot_commanded",

@@ -16,6 +16,7 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 from ros_runtime.environment import ros_environment
+from ros_runtime.ros_domain import ReservedDomain
 
 pytest.importorskip("mujoco.studio", reason="this MuJoCo is older than 4.0 and has no web viewer")
 
@@ -39,7 +40,12 @@ def url():
 def viewed_robot(*options):
     """A robot with a view; yields its process and the view's address, or "" if it has ended."""
     command = [sys.executable, "-m", "robot_sim", "--view", *options]
-    environment = {**os.environ, **ros_environment(domain_id=79, localhost_only=True)}
+    domain = ReservedDomain()
+    environment = {
+        **os.environ,
+        **ros_environment(localhost_only=True),
+        "ROS_DOMAIN_ID": str(domain.domain_id),
+    }
     process = subprocess.Popen(
         command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
@@ -49,6 +55,7 @@ def viewed_robot(*options):
     finally:
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=30)
+        domain.release()
 
 
 def port_of(url):

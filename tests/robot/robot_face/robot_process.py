@@ -15,8 +15,8 @@ from rclpy.signals import SignalHandlerOptions
 
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.environment import ros_environment
+from ros_runtime.ros_domain import ReservedDomain
 
-DOMAINS = iter(range(80, 100))
 NAMESPACE = "/topics_test/robot"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 TIMEOUT = 30.0
@@ -76,8 +76,12 @@ class Listener:
 
 @contextmanager
 def running_robot(*options, pass_fds=()):
-    domain = next(DOMAINS)
-    environment = {**os.environ, **ros_environment(domain_id=domain)}
+    with ReservedDomain() as domain:
+        yield from _running_robot(domain, options, pass_fds)
+
+
+def _running_robot(domain, options, pass_fds):
+    environment = {**os.environ, **ros_environment(), "ROS_DOMAIN_ID": str(domain)}
     process = subprocess.Popen(
         [sys.executable, "-m", "robot_sim", "--namespace", NAMESPACE, *options],
         env=environment,

@@ -6,9 +6,10 @@ import signal
 import subprocess
 import sys
 
-from robot_process import DOMAINS, TIMEOUT
+from robot_process import TIMEOUT
 
 from ros_runtime.environment import ros_environment
+from ros_runtime.ros_domain import ReservedDomain
 
 BUILD_FORK_AND_SERVE = """
 import os, sys
@@ -27,13 +28,16 @@ def test_a_forked_robot_reports_obeys_and_ends_at_sigterm():
     truth_read, truth_write = os.pipe()
     control_read, control_write = os.pipe()
     pipes = ("--ground-truth-fd", str(truth_write), "--control-fd", str(control_read))
-    with subprocess.Popen(
-        [sys.executable, "-c", BUILD_FORK_AND_SERVE, *pipes, "--scene", "flat", "--seed", "5"],
-        env={**os.environ, **ros_environment(domain_id=next(DOMAINS))},
-        pass_fds=(truth_write, control_read),
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as parent:
+    with (
+        ReservedDomain() as domain,
+        subprocess.Popen(
+            [sys.executable, "-c", BUILD_FORK_AND_SERVE, *pipes, "--scene", "flat", "--seed", "5"],
+            env={**os.environ, **ros_environment(), "ROS_DOMAIN_ID": str(domain)},
+            pass_fds=(truth_write, control_read),
+            stdout=subprocess.PIPE,
+            text=True,
+        ) as parent,
+    ):
         os.close(truth_write)
         os.close(control_read)
         robot = int(parent.stdout.readline())
