@@ -30,7 +30,7 @@ QUESTIONS = (
             ),
             Choice(
                 "service_is_ready() turns false at once, so the client can stop waiting.",
-                "Nobody said goodbye. The dead server looks ready for up to 20 s.",
+                "Nobody said goodbye. With Fast DDS the dead server looks ready for up to 20 s.",
             ),
             Choice(
                 "Nothing: the same silence as with a slow server or a lost message.",

@@ -119,7 +119,7 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "message.linear.x = 1 goes out, and the robot does not move. What was sent?",
+        "message.linear.x = 1 goes out with rclpy from PyPI, and the robot does not move. What was sent?",
         (
             Choice(
                 "1.0; the robot ignores speeds above its limit of 0.4 m/s.",
@@ -131,8 +131,8 @@ QUESTIONS = (
             ),
             Choice(
                 "5e-324: the int was taken for a float, bit by bit.",
-                "A float field needs a float: 1.0. With ROS_PYTHON_CHECK_FIELDS=1 the line itself raises, "
-                "and other builds of rclpy end the process.",
+                "A float field needs a float: 1.0. With ROS_PYTHON_CHECK_FIELDS=1 the line itself raises; "
+                "the rclpy of apt ends the process.",
                 right=True,
             ),
         ),

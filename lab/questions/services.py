@@ -45,7 +45,8 @@ QUESTIONS = (
         (
             Choice(
                 "The server is alive and will answer.",
-                "A server that was killed looks like this for up to 20 s, and one that is busy or deadlocked for ever.",
+                "With Fast DDS a server that was killed looks like this for up to 20 s; one that is busy or deadlocked "
+                "forever.",
             ),
             Choice(
                 "A server of this name and type has been announced and has not said goodbye.",

@@ -38,7 +38,8 @@ def test_the_fixed_server_answers_without_and_with_the_robot(chapter: Executed) 
 
 def test_a_field_of_a_wrong_type_is_garbage_or_an_error(chapter: Executed) -> None:
     printed = chapter.text("fields")
-    assert in_order(printed, "success=1 arrives as False", "x=1 arrives as 5e-324")
+    is_garbage = in_order(printed, "success=1 arrives as False", "x=1 arrives as 5e-324")
+    assert is_garbage or "Assertion" in printed.split("CHECK_FIELDS='1'")[0]  # rclpy of apt ends the process
     assert in_order(printed, "CHECK_FIELDS='1'", "AssertionError: The 'success' field must be of type 'bool'")
 
 

@@ -81,10 +81,11 @@ def test_a_parameter_is_overridden_set_and_refused(chapter: Executed) -> None:
 
 def test_wrong_fields_are_found_late_or_at_once(chapter: Executed) -> None:
     unchecked, checked = chapter.text("fields").split("CHECK_FIELDS='1'")
-    assert unchecked.count("assigned,") == 4
-    assert in_order(
-        unchecked, "arrives as 5e-324", "SystemError", "Response.message", "TypeError", "TypeError"
-    )
+    if "Assertion" not in unchecked:  # with which rclpy of apt ends the process
+        assert unchecked.count("assigned,") == 4
+        assert in_order(
+            unchecked, "arrives as 5e-324", "SystemError", "Response.message", "TypeError", "TypeError"
+        )
     assert "assigned" not in checked
     assert re.findall(r"The '(\w+)' field", checked) == ["distance", "error_code", "message", "message"]
 
