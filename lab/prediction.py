@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from html import escape
+from textwrap import fill
 
 import ipywidgets
 from IPython.display import display
@@ -10,6 +11,8 @@ from IPython.display import display
 from lab.errors import LabError
 from lab.kept_choices import keep_letter, kept_letter
 from lab.question import Question, read_question
+
+WIDTH = 80  # characters; Jupyter breaks longer lines in mid-word
 
 
 def predict(chapter: str, number: int) -> Prediction:
@@ -70,7 +73,7 @@ class Prediction:
             return
         choice = self.question.choice(self.letter)
         print(f"You predicted {self.letter}: {choice.text}")
-        print(f"{'Right.' if choice.right else 'It went differently.'} {choice.why}")
+        print(fill(f"{'Right.' if choice.right else 'It went differently.'} {choice.why}", WIDTH))
 
     def _wish(self) -> str:
         return (

@@ -47,7 +47,7 @@ def test_each_prediction_gets_a_reply_after_its_experiment(
     assert len(cells) >= 4
     for cell_id in cells:
         reply = r"You predicted a: .+\n(Right|It went differently)\. .{30,}\n"
-        assert re.fullmatch(reply, chapter.text(cell_id)), cell_id
+        assert re.fullmatch(reply, chapter.text(cell_id), re.DOTALL), cell_id
 
 
 @pytest.mark.parametrize("name", NAMES)
