@@ -33,6 +33,7 @@ from lab.interfaces import build_interfaces
 from lab.live_view import stop_watching, watch_robot
 from lab.outcomes import CancelAnswer, Outcome
 from lab.picture import show_robot
+from lab.prediction import Prediction, predict
 from lab.programs import Program, run_program, start_program
 from lab.quiz import Quiz, quiz
 from lab.robot import restart_robot, start_robot, stop_robot
@@ -53,6 +54,7 @@ __all__ = [
     "NotInTimeError",
     "Outcome",
     "Pose",
+    "Prediction",
     "Program",
     "Quiz",
     "StudentNode",
@@ -69,6 +71,7 @@ __all__ = [
     "nodes_in_graph",
     "odometry",
     "pose",
+    "predict",
     "publish",
     "quiz",
     "restart_robot",

@@ -2,37 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from html import escape
-from importlib import import_module
 
 import ipywidgets
-from IPython.display import HTML, display
+from IPython.display import display
 
-from lab.errors import LabError
-
-LETTERS = "abcdefgh"
-
-
-@dataclass(frozen=True)
-class Choice:
-    """One of the answers to a question. `why` is shown when it is chosen, right or wrong."""
-
-    text: str
-    why: str
-    right: bool = False
-
-
-@dataclass(frozen=True)
-class Question:
-    """A question with exactly one right choice."""
-
-    text: str
-    choices: tuple[Choice, ...]
-
-    def __post_init__(self) -> None:
-        if sum(choice.right for choice in self.choices) != 1:
-            raise ValueError(f"the question {self.text!r} needs exactly one right choice")
+from lab.question import Question, read_question
 
 
 def quiz(chapter: str, number: int) -> Quiz:
@@ -40,10 +15,7 @@ def quiz(chapter: str, number: int) -> Quiz:
 
     Raises LabError when the chapter has no question of that number.
     """
-    questions = import_module(f"lab.questions.{chapter}").QUESTIONS
-    if not 1 <= number <= len(questions):
-        raise LabError(f"there is no question {number} in {chapter!r}; it has 1 to {len(questions)}")
-    return Quiz(f"Question {number}", questions[number - 1])
+    return Quiz(f"Question {number}", read_question(chapter, "QUESTIONS", number))
 
 
 class Quiz:
@@ -54,30 +26,19 @@ class Quiz:
         self.question = question
 
     def answer(self, letter: str) -> None:
-        """Print whether this choice is right, and why."""
-        print(self.mark(letter))
+        """Print whether this choice is right, and why; "" is no answer yet."""
+        print(self.mark(letter) if letter else f"Not answered yet: choose {self.question.letters()}.")
 
     def mark(self, letter: str) -> str:
         """Return the feedback on a choice as a sentence.
 
         Raises LabError when there is no such letter.
         """
-        choices = self._by_letter()
-        if letter not in choices:
-            raise LabError(f"{letter!r} is not a choice; they are {', '.join(choices)}")
-        choice = choices[letter]
+        choice = self.question.choice(letter)
         return f"{letter}: {'Right.' if choice.right else 'Not this one.'} {choice.why}"
 
     def _ipython_display_(self) -> None:
-        rows = "".join(
-            f"<li><b>{letter}</b> {escape(choice.text)}</li>" for letter, choice in self._by_letter().items()
-        )
-        display(
-            HTML(
-                f"<p><b>{escape(self.title)}.</b> {escape(self.question.text)}</p>"
-                f'<ul style="list-style: none">{rows}</ul>'
-            )
-        )
+        display(self.question.text_under(self.title))
         display(self._buttons())
 
     def _buttons(self) -> ipywidgets.VBox:
@@ -87,11 +48,6 @@ class Quiz:
             if change["new"]:
                 verdict.value = escape(self.mark(change["new"]))
 
-        buttons = ipywidgets.ToggleButtons(
-            options=list(self._by_letter()), value=None, style={"button_width": "3em"}
-        )
+        buttons = self.question.buttons()
         buttons.observe(mark, "value")
         return ipywidgets.VBox([buttons, verdict])
-
-    def _by_letter(self) -> dict[str, Choice]:
-        return dict(zip(LETTERS, self.question.choices, strict=False))

@@ -1,6 +1,6 @@
 """Chapter 7: cancel and preempt."""
 
-from lab.quiz import Choice, Question
+from lab.question import Choice, Question
 
 QUESTIONS = (
     Question(
@@ -110,6 +110,120 @@ QUESTIONS = (
             Choice(
                 "Nothing: the node is dead",
                 "An exception in a service callback ends spin(); one in an execute callback is caught and logged.",
+            ),
+        ),
+    ),
+)
+
+PREDICTIONS = (
+    Question(
+        "You cancel the turn after its first feedback. Which status has the goal in the end?",
+        (
+            Choice(
+                "CANCELED",
+                "A sensible guess: the loop asks for is_cancel_requested in every round. But this server "
+                "has no cancel callback, and rclpy's default one refuses every request. So "
+                "is_cancel_requested never became true.",
+            ),
+            Choice(
+                "SUCCEEDED",
+                "This server has no cancel callback, and rclpy's default one refuses every request. The "
+                "robot turned to the end.",
+                right=True,
+            ),
+            Choice(
+                "ABORTED",
+                "A sensible guess: the turn didn't go as the client wanted. But the server refused the "
+                "cancel, so nothing kept the robot from turning to the end.",
+            ),
+        ),
+    ),
+    Question(
+        "The goal is a turn of 40°, and you cancel it at the first feedback. What happens?",
+        (
+            Choice(
+                "The robot stops at once: CANCELED.",
+                "A sensible guess: this server accepts every cancel request. But its only thread loops "
+                "and sleeps in execute, so the request waits in the queue until execute has returned.",
+            ),
+            Choice(
+                "The robot turns 40°: SUCCEEDED, and the cancel comes too late.",
+                "A sensible guess: the cancel does come too late, because the only thread is in execute. "
+                "But the odom messages wait as well. angle_left never changes, and the robot turns on "
+                "until the time limit.",
+            ),
+            Choice(
+                "The robot turns far past 40°.",
+                "The only thread is in execute. So the node answers no cancel request and receives no "
+                "odom, and only the time limit ends the turn.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "The cancel callback calls goal_handle.canceled() and accepts. What does the client see?",
+        (
+            Choice(
+                "The server accepts the cancel, and the goal ends CANCELED.",
+                "A sensible guess: a cancel has come, and canceled() says so. But the goal is still "
+                "EXECUTING until the callback has said yes. From there canceled() raises, and the "
+                "exception ends the node.",
+            ),
+            Choice(
+                "The server refuses the cancel, and the goal goes on.",
+                "A sensible guess: canceled() comes at the wrong moment. But rclpy doesn't turn the "
+                "exception into a refusal. The exception ends spin(), and nobody answers.",
+            ),
+            Choice(
+                "The server never answers the cancel.",
+                "Inside the cancel callback the goal is still EXECUTING, so canceled() raises. The "
+                "exception ends spin(), and nobody answers.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "The server calls succeed(), fills the result, and then a line raises an exception. How does the "
+        "goal end for the client?",
+        (
+            Choice(
+                "ABORTED.",
+                "A sensible guess: rclpy aborts a goal whose execute callback raises before a terminal "
+                "call. But succeed() was that call, and it decided the status. The exception only lost "
+                "the result.",
+            ),
+            Choice(
+                "SUCCEEDED, with the final pose in the result.",
+                "A sensible guess: the server fills in the pose before the line that raises. But the "
+                "exception keeps execute from returning that result. The client gets one full of zeros.",
+            ),
+            Choice(
+                "SUCCEEDED, with a result full of zeros.",
+                "succeed() decided the status, and the exception lost the result. Nothing on the "
+                "client's side looks wrong.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "While the robot turns left, a second goal asks for a turn to the right. What happens to the "
+        "second goal?",
+        (
+            Choice(
+                "It waits until the first has ended.",
+                "A sensible guess: the robot can't turn both ways. But rclpy runs each goal in a thread "
+                "of its own. If one goal should wait for another, your server has to see to it.",
+            ),
+            Choice(
+                "The server rejects it.",
+                "A sensible guess: the robot is busy. But only a goal callback rejects a goal, and this "
+                "server has none. Both goals run, each in a thread of its own.",
+            ),
+            Choice(
+                "It runs beside the first.",
+                "Each goal runs in a thread of its own, and both write to cmd_vel. The robot obeys "
+                "whichever message came last.",
+                right=True,
             ),
         ),
     ),

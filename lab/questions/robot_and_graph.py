@@ -1,6 +1,6 @@
 """Chapter 1: the robot and its graph."""
 
-from lab.quiz import Choice, Question
+from lab.question import Choice, Question
 
 QUESTIONS = (
     Question(
@@ -134,6 +134,103 @@ QUESTIONS = (
                 "A float field needs a float: 1.0. With ROS_PYTHON_CHECK_FIELDS=1 the line itself raises; "
                 "the rclpy of apt ends the process.",
                 right=True,
+            ),
+        ),
+    ),
+)
+
+PREDICTIONS = (
+    Question(
+        "senses.py subscribes to all five sensors, each with a plain 10. From how many does it receive "
+        "messages?",
+        (
+            Choice(
+                "All five.",
+                "A sensible guess: names and types match, and the robot publishes all five. But a "
+                "subscription also asks for a quality of service. The plain 10 asks for reliable, and "
+                "imu and joint_states offer only best effort.",
+            ),
+            Choice(
+                "Three of them.",
+                "A plain 10 asks for reliable. imu and joint_states offer only best effort, so you get "
+                "nothing from them. Your node's log says so: 'incompatible QoS'.",
+                right=True,
+            ),
+            Choice(
+                "Only odom.",
+                "A sensible guess: the node prints when odom has come forty times. But it notes every "
+                "topic that it receives, and battery_state and robot_state arrive too. Only imu and "
+                "joint_states stay silent.",
+            ),
+        ),
+    ),
+    Question(
+        "The world stands still, so the robot publishes nothing. Now late.py starts and subscribes to "
+        "battery_state twice. What does it print before the world goes on?",
+        (
+            Choice(
+                "Nothing.",
+                "A sensible guess: nobody publishes while the world stands still. But battery_state "
+                "offers transient local. The publisher keeps its last message and hands it to a late "
+                "subscription that asks for it.",
+            ),
+            Choice(
+                "One line, from the transient local subscription.",
+                "It asks for the kept message, and the publisher hands it over. The plain subscription "
+                "waits for the next message.",
+                right=True,
+            ),
+            Choice(
+                "One line from each subscription.",
+                "A sensible guess: the publisher does keep its last message. But it hands it only to a "
+                "subscription that asks for transient local. The plain one waits for the next message.",
+            ),
+        ),
+    ),
+    Question(
+        'You kill walk.py while the robot walks, and nothing has said "stop". What does the robot do?',
+        (
+            Choice(
+                "It walks on, for ever.",
+                "A sensible guess: the last command said 0.3 m/s, and a crashed program can't take it "
+                "back. But this robot has a watchdog: a command older than 0.5 s counts for nothing.",
+            ),
+            Choice(
+                "It freezes in mid-step and falls.",
+                "A sensible guess: a humanoid that freezes in mid-step falls. But your node only asks "
+                "for a speed, and the robot keeps its own balance. When the commands end, it finishes "
+                "its step and stands.",
+            ),
+            Choice(
+                "It stops and stands.",
+                "A command older than 0.5 s counts for nothing, so the robot finishes its step and "
+                "stands. A crashed program can't say that it has crashed: the watchdog notices the "
+                "silence.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "slash.py subscribes to odom and to /odom, in the namespace /robot. It has received twenty "
+        "messages. How many came on each topic?",
+        (
+            Choice(
+                "Ten and ten.",
+                "A sensible guess: the two names differ by one character, and rclpy accepts both. But "
+                "the slash makes a name absolute. The robot publishes on /robot/odom, and nobody "
+                "publishes on /odom.",
+            ),
+            Choice(
+                "Twenty on odom, none on /odom.",
+                "A name without a slash gets the namespace in front: /robot/odom. /odom means exactly "
+                "/odom, and nobody publishes on it.",
+                right=True,
+            ),
+            Choice(
+                "None on odom, twenty on /odom.",
+                "A sensible guess: in a file system the path with the slash is the one that works "
+                "everywhere. But the robot publishes on /robot/odom, and only a relative name gets the "
+                "namespace in front.",
             ),
         ),
     ),

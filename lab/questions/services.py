@@ -1,6 +1,6 @@
 """Chapter 2: services."""
 
-from lab.quiz import Choice, Question
+from lab.question import Choice, Question
 
 QUESTIONS = (
     Question(
@@ -112,6 +112,95 @@ QUESTIONS = (
                 "It goes on as if all were well.",
                 "The comparison is false. Ask math.isnan() first, and decide what to do when you do not know.",
                 right=True,
+            ),
+        ),
+    ),
+)
+
+PREDICTIONS = (
+    Question(
+        "The robot is away, so nothing arrives on odom. You call where_am_i. What do you get?",
+        (
+            Choice(
+                "A response with success false.",
+                "A sensible guess: that's what a good server sends. But this one doesn't check. "
+                "self.odom is None, so the callback raises, and rclpy sends no response.",
+            ),
+            Choice(
+                "A response with an empty message.",
+                "A sensible guess: rclpy hands the callback an empty response. But self.odom is None, so "
+                "the callback raises before it returns that response.",
+            ),
+            Choice(
+                "No response at all.",
+                "self.odom is None, so the callback raises. The exception travels out of rclpy.spin() "
+                "and ends the node: no response, and no server any more.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "This time you kill the server in the middle of the test. What does the client see?",
+        (
+            Choice(
+                "An error: the connection is lost.",
+                "A sensible guess: a web browser tells you so. But nobody tells a ROS client that its "
+                "server has died. It sees what it saw before: no response within its time limit.",
+            ),
+            Choice(
+                "A response with success false.",
+                "A sensible guess: the test did fail. But only the server could send that response, and "
+                "it's dead. The client sees what it saw before: no response within its time limit.",
+            ),
+            Choice(
+                "No response within one second, as before.",
+                "The client can't tell a test that was carried out from one that was cut off. No "
+                "response means unknown.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "The callback of report calls where_am_i with client.call(). What does the client of report get?",
+        (
+            Choice(
+                "The position.",
+                "A sensible guess: where_am_i runs in a process of its own and answers as always. But "
+                "client.call() blocks the executor's thread, and that same thread would deliver the "
+                "answer.",
+            ),
+            Choice(
+                "No response, because an exception ends report.",
+                "A sensible guess: you saw that with where_am_i.py. But rclpy raises nothing here. "
+                "report still runs, and its thread waits for an answer that it would have to deliver "
+                "itself.",
+            ),
+            Choice(
+                "No response, and report goes on running.",
+                "It's a deadlock: client.call() blocks the executor's thread, and that same thread would "
+                "deliver the answer. rclpy raises nothing and prints nothing.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "level is NaN. Which of the four lines print True?",
+        (
+            Choice(
+                "Only math.isnan.",
+                "Every comparison with NaN is false, even the one with itself. So ask math.isnan() "
+                "before you compare.",
+                right=True,
+            ),
+            Choice(
+                '"at least 0.20" and math.isnan.',
+                "A sensible guess: a number that isn't below 0.20 is at least 0.20. But NaN is no "
+                "number, and every comparison with it is false. Only math.isnan() tells you.",
+            ),
+            Choice(
+                '"equal to itself" and math.isnan.',
+                "A sensible guess: every number is equal to itself. But NaN is no number, and every "
+                "comparison with it is false, even this one.",
             ),
         ),
     ),

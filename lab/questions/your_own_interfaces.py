@@ -1,6 +1,6 @@
 """Chapter 4: your own interfaces."""
 
-from lab.quiz import Choice, Question
+from lab.question import Choice, Question
 
 QUESTIONS = (
     Question(
@@ -117,6 +117,98 @@ QUESTIONS = (
             Choice(
                 "The default stays, with a warning.",
                 "There is no warning: declare_parameter raises.",
+            ),
+        ),
+    ),
+)
+
+PREDICTIONS = (
+    Question(
+        "The target is too far away. You hand the cosine from the formula to math.acos. What does Python do?",
+        (
+            Choice(
+                "It returns NaN.",
+                "A sensible guess: NumPy's arccos does that. But math.acos raises a ValueError, and in a "
+                "service callback that exception ends the node.",
+            ),
+            Choice(
+                "It raises an exception.",
+                "The cosine is 1.38, and no angle has that cosine. In a service callback the exception "
+                "ends the node, so look before you call acos.",
+                right=True,
+            ),
+            Choice(
+                "It returns 0: the arm is stretched towards the target.",
+                "A sensible guess: the stretched arm comes closest. But math.acos doesn't clamp, it "
+                "raises. If you clamped the cosine yourself, the caller would hear success and close the "
+                "fingers on air.",
+            ),
+        ),
+    ),
+    Question(
+        "The client sends one request object three times, with x = 0.1, 0.3 and 0.6. What do the three "
+        "lines say?",
+        (
+            Choice(
+                "x is 0.1, 0.3, 0.6; the distance is 0.1, 0.3, 0.6.",
+                "A sensible guess: rclpy turns a request into bytes the moment you send it, so the "
+                "answers are right. But the client's three notes are the same object, and it holds the "
+                "last question.",
+            ),
+            Choice(
+                "x is 0.6 each time; the distance is 0.6 each time.",
+                "A sensible guess: the three notes are one object, and it holds 0.6 at the end. But "
+                "rclpy turned it into bytes the moment you sent it, so the server got 0.1, 0.3 and 0.6.",
+            ),
+            Choice(
+                "x is 0.6 each time; the distance is 0.1, 0.3, 0.6.",
+                "The answers are right: rclpy turns a request into bytes the moment you send it. The "
+                "notes are wrong: they are one object, and it holds the last question.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "The client waits two seconds for the walk and gives up. What does the robot do?",
+        (
+            Choice(
+                "It stops when the client gives up.",
+                "A sensible guess: nobody waits for the walk any more. But a service has no message that "
+                "says so, and the server walks on.",
+            ),
+            Choice(
+                "It stops half a second later.",
+                "A sensible guess: the robot's watchdog stops it when the commands end. But the client "
+                "doesn't send them. The server does, ten times a second, until it arrives.",
+            ),
+            Choice(
+                "It walks on to the goal.",
+                "A service has no message that stops it. The server walks to the end, and nobody reads "
+                "its answer.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "She builds the package and starts the guard again. level.py has run all the time. What does the "
+        "guard print?",
+        (
+            Choice(
+                'About 0.15, and "walk home".',
+                "A sensible guess: the new definition says 0 to 1, and the guard was built against it. "
+                "But level.py still runs with the old version and sends about 15. The guard reads those "
+                "bytes as percentage.",
+            ),
+            Choice(
+                'About 15, and "go on".',
+                "level.py still runs with the old version and sends about 15. Field names don't travel, "
+                "so the guard reads those bytes as percentage, and nothing fails.",
+                right=True,
+            ),
+            Choice(
+                "Nothing, because the two versions don't match.",
+                "A sensible guess: the definitions differ, and so do their hashes. But here nobody "
+                "compares the hashes. The type still has the same name, so the guard gets the old bytes.",
             ),
         ),
     ),

@@ -1,4 +1,4 @@
-"""A student's first minutes: unpack the archive, `course lab`, click the first chapter, see the robot walk."""
+"""A student's first minutes: unpack the archive, `course lab`, click the first chapter, see the robot walk, predict."""
 
 from __future__ import annotations
 
@@ -12,9 +12,11 @@ import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
+import nbformat
 import numpy as np
 import psutil
 import pytest
+from nbformat.v4 import new_code_cell, new_notebook
 from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
@@ -29,12 +31,18 @@ pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium t
 
 
 @pytest.fixture(scope="module")
-def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Where `course lab` serves the students' archive, for somebody who has never used Jupyter."""
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where a student has unpacked the archive."""
     folder = tmp_path_factory.mktemp("student")
     write_bundle(Path(__file__).resolve().parents[3], folder / "students.zip")
     with zipfile.ZipFile(folder / "students.zip") as bundle:
         bundle.extractall(folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def address(folder: Path) -> Iterator[str]:
+    """Where `course lab` serves the students' archive, for somebody who has never used Jupyter."""
     command = [
         sys.executable,
         "-c",
@@ -90,6 +98,31 @@ def test_from_the_start_page_to_a_robot_that_walks(page: Page) -> None:
     deadline = time.monotonic() + TIMEOUT
     while np.mean(abs(seen(page) - standing) > 20) < 0.05:
         assert time.monotonic() < deadline, f"the picture has not moved within {TIMEOUT:g} s"
+
+
+def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, address: str) -> None:
+    cells = [
+        new_code_cell('import lab\n\nprediction_1 = lab.predict("services", 1)\nprediction_1'),
+        new_code_cell("prediction_1.reply()"),
+    ]
+    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)"}}
+    nbformat.write(new_notebook(cells=cells, metadata=kernel), folder / TOP / "chapters" / "predict.ipynb")
+    page.goto(address.replace("README.md", "predict.ipynb"))
+    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
+    page.get_by_text("import lab").click()
+    page.keyboard.press("Shift+Enter")
+    page.get_by_text("Choose a, b or c.").wait_for()
+
+    page.get_by_role("button", name="a", exact=True).focus()
+    page.keyboard.press("Tab")
+    page.keyboard.press("Space")
+    page.get_by_text("You predict b. Run the next cell.").wait_for()
+    page.get_by_role("button", name="c", exact=True).click()
+    page.get_by_text("You predict c. Run the next cell.").wait_for()
+
+    page.get_by_text("prediction_1.reply()").click()
+    page.keyboard.press("Shift+Enter")
+    page.get_by_text("You predicted c: No response at all.").wait_for()
 
 
 def seen(page: Page) -> np.ndarray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from importlib import import_module
 from pathlib import Path
 
 import nbformat
@@ -59,6 +60,38 @@ def test_there_is_something_to_do_every_quarter_of_an_hour(name: str) -> None:
     for cell in read(name).cells:
         words = 0 if cell.cell_type == "code" else words + len(cell.source.split())
         assert words < MOST_WORDS, cell.id
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_each_prediction_is_asked_for_then_required_then_answered(name: str) -> None:
+    chapter = name.partition("_")[2]
+    predictions = import_module(f"lab.questions.{chapter}").PREDICTIONS
+    assert len(predictions) >= 4
+    lines = "\n".join(cell.source for cell in read(name).cells if cell.cell_type == "code").splitlines()
+    said = [line for line in lines if "prediction_" in line]
+    assert said == [
+        line
+        for number in range(1, len(predictions) + 1)
+        for line in (
+            f'prediction_{number} = lab.predict("{chapter}", {number})',
+            f"prediction_{number}",
+            f"prediction_{number}.require()",
+            f"prediction_{number}.reply()",
+        )
+    ]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_an_experiment_begins_with_its_prediction(name: str) -> None:
+    waiting = [cell.source for cell in read(name).cells if ".require()" in cell.source]
+    assert all(source.splitlines()[0].endswith(".require()") for source in waiting)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_quiz_question_is_stored_with_an_answer(name: str) -> None:
+    answers = re.findall(r"\.answer\((.*?)\)", "\n".join(cell.source for cell in read(name).cells))
+    assert answers
+    assert set(answers) == {'""'}
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -9,7 +9,8 @@ import pytest
 
 import lab
 from lab import questions
-from lab.quiz import Choice, Question, Quiz
+from lab.question import Choice, Question
+from lab.quiz import Quiz
 
 CHAPTERS = [module.name for module in pkgutil.iter_modules(questions.__path__)]
 ALL = [
@@ -31,6 +32,11 @@ def test_a_wrong_choice_says_why_too() -> None:
 def test_an_unknown_letter_names_the_choices() -> None:
     with pytest.raises(lab.LabError, match="'c' is not a choice; they are a, b"):
         Quiz("Question 1", EXAMPLE).mark("c")
+
+
+def test_no_letter_yet_asks_for_one(capsys: pytest.CaptureFixture[str]) -> None:
+    Quiz("Question 1", EXAMPLE).answer("")
+    assert capsys.readouterr().out == "Not answered yet: choose a or b.\n"
 
 
 def test_clicking_a_button_shows_the_verdict() -> None:

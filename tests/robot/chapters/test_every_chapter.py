@@ -1,4 +1,4 @@
-"""What holds for every chapter when it runs: its pictures, its quiz, and that it leaves nothing running."""
+"""What holds for every chapter when it runs: pictures, predictions, quiz, and that it leaves nothing running."""
 
 from __future__ import annotations
 
@@ -36,6 +36,18 @@ def test_it_runs_and_every_picture_it_makes_has_words_for_it(
 @pytest.mark.parametrize("name", NAMES)
 def test_it_leaves_no_process_behind(name: str, executed: Callable[[str], Executed]) -> None:
     assert executed(name).left_behind == []
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_each_prediction_gets_a_reply_after_its_experiment(
+    name: str, executed: Callable[[str], Executed]
+) -> None:
+    chapter = executed(name)
+    cells = [cell.id for cell in chapter.notebook.cells if cell.id.endswith("-reply")]
+    assert len(cells) >= 4
+    for cell_id in cells:
+        reply = r"You predicted a: .+\n(Right|It went differently)\. .{30,}\n"
+        assert re.fullmatch(reply, chapter.text(cell_id), re.DOTALL), cell_id
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -1,0 +1,141 @@
+"""Predictions: made before a cell is run, kept, and answered after it."""
+
+from __future__ import annotations
+
+import pkgutil
+from importlib import import_module
+from pathlib import Path
+
+import ipywidgets
+import pytest
+
+import lab
+from lab import questions
+from lab.kept_choices import FILE
+from lab.prediction import Prediction
+from lab.question import Choice, Question
+
+ALL = [
+    (module.name, number)
+    for module in pkgutil.iter_modules(questions.__path__)
+    for number in range(1, len(import_module(f"lab.questions.{module.name}").PREDICTIONS) + 1)
+]
+EXAMPLE = Question(
+    "What is 2 + 2?",
+    (Choice("5", "A sensible guess: it's close. But count."), Choice("4", "Count.", right=True)),
+)
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def panel(prediction: Prediction) -> tuple[ipywidgets.ToggleButtons, ipywidgets.Button, ipywidgets.HTML]:
+    """What a student sees below the question: the letters, the button "Clear", and a note."""
+    row, note = prediction._panel().children
+    letters, clear = row.children
+    return letters, clear, note
+
+
+def test_an_experiment_waits_for_a_prediction() -> None:
+    prediction = Prediction(3, EXAMPLE)
+    wish = r'Predict first: click a or b under Prediction 3, or run prediction_3\.choose\("a"\) in a cell'
+    with pytest.raises(lab.LabError, match=wish):
+        prediction.require()
+    prediction.choose("a")
+    prediction.require()
+
+
+def test_a_click_makes_the_prediction_and_says_what_to_do_next() -> None:
+    prediction = Prediction(1, EXAMPLE)
+    letters, _, note = panel(prediction)
+    assert note.value == "Choose a or b."
+    letters.value = "b"
+    assert note.value == "You predict b. Run the next cell."
+    prediction.require()
+
+
+def test_every_letter_tells_its_choice_to_a_screen_reader() -> None:
+    letters, _, _ = panel(Prediction(1, EXAMPLE))
+    assert dict(zip(letters.options, letters.tooltips, strict=True)) == {"a": "5", "b": "4"}
+
+
+def test_a_choice_is_kept_when_the_cell_or_the_kernel_starts_again() -> None:
+    Prediction(1, EXAMPLE).choose("b")
+    again = Prediction(1, EXAMPLE)
+    assert again.letter == "b"
+    assert panel(again)[2].value == "You predict b. Run the next cell."
+
+
+def test_a_choice_can_be_cleared_for_good() -> None:
+    prediction = Prediction(1, EXAMPLE)
+    prediction.choose("b")
+    _, clear, note = panel(prediction)
+    clear.click()
+    assert note.value == "Choose a or b."
+    assert Prediction(1, EXAMPLE).letter is None
+
+
+def test_predictions_are_kept_side_by_side() -> None:
+    other = Question("What is 2 + 3?", EXAMPLE.choices)
+    Prediction(1, EXAMPLE).choose("b")
+    Prediction(2, other).choose("a")
+    assert (Prediction(1, EXAMPLE).letter, Prediction(2, other).letter) == ("b", "a")
+
+
+def test_a_kept_choice_is_found_under_its_new_letter_and_not_under_new_words() -> None:
+    Prediction(1, EXAMPLE).choose("b")
+    assert Prediction(1, Question(EXAMPLE.text, EXAMPLE.choices[::-1])).letter == "a"
+    reworded = Question(EXAMPLE.text, (EXAMPLE.choices[0], Choice("four", "Count.", right=True)))
+    assert Prediction(1, reworded).letter is None
+
+
+@pytest.mark.parametrize("damaged", ["", "{", "[]"])
+def test_a_damaged_file_only_means_being_asked_again(damaged: str) -> None:
+    FILE.write_text(damaged)
+    prediction = Prediction(1, EXAMPLE)
+    assert prediction.letter is None
+    prediction.choose("b")
+    assert Prediction(1, EXAMPLE).letter == "b"
+
+
+def test_the_reply_answers_the_choice(capsys: pytest.CaptureFixture[str]) -> None:
+    prediction = Prediction(1, EXAMPLE)
+    prediction.choose("a")
+    prediction.reply()
+    prediction.choose("b")
+    prediction.reply()
+    assert capsys.readouterr().out == (
+        "You predicted a: 5\nIt went differently. A sensible guess: it's close. But count.\n"
+        "You predicted b: 4\nRight. Count.\n"
+    )
+
+
+def test_without_a_choice_the_reply_asks_for_one(capsys: pytest.CaptureFixture[str]) -> None:
+    Prediction(1, EXAMPLE).reply()
+    assert capsys.readouterr().out.startswith("Predict first: click a or b under Prediction 1")
+
+
+def test_an_unknown_letter_names_the_choices_and_changes_nothing() -> None:
+    prediction = Prediction(1, EXAMPLE)
+    prediction.choose("a")
+    with pytest.raises(lab.LabError, match="'c' is not a choice; they are a, b"):
+        prediction.choose("c")
+    assert prediction.letter == "a"
+
+
+def test_a_missing_prediction_is_told() -> None:
+    with pytest.raises(lab.LabError, match="no question 99"):
+        lab.predict(ALL[0][0], 99)
+
+
+@pytest.mark.parametrize(("chapter", "number"), ALL)
+def test_every_wrong_choice_hears_why_it_was_sensible_and_what_it_missed(chapter: str, number: int) -> None:
+    choices = lab.predict(chapter, number).question.choices
+    assert len(choices) >= 3
+    assert len({choice.why for choice in choices}) == len(choices)
+    for choice in choices:
+        assert len(choice.why) > 40
+        assert choice.right or choice.why.startswith("A sensible guess: ")
+        assert choice.right or ". But " in choice.why
