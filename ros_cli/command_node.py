@@ -21,7 +21,7 @@ from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 from ros_runtime.reachability import wait_until_reachable
 
 SPIN_TIME = 0.5  # s, as in ros2cli
-ALONE = 3  # times the spin time, as long as no other node is seen: the machine may be busy
+MISSING = 4  # times the spin time, as long as what is looked for is not seen: the machine may be busy
 LONGEST_DISCOVERY = 10  # times the spin time, for a graph that never stops changing
 PERIOD = 0.02  # s between two looks at the graph, whose changes rclpy does not report
 NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
@@ -61,16 +61,23 @@ class CommandNode:
         self._thread.join(1.0)
         self.node.destroy_node()
 
-    def discover(self, is_enough: Callable[[], bool] = lambda: False) -> None:
-        """Wait until the graph has not changed for the spin time, or `is_enough()`."""
+    def discover(self, is_there: Callable[[], bool] = lambda: True) -> None:
+        """Wait until the graph has not changed for the spin time.
+
+        It waits four times as long while it sees no other node, or not yet what is looked for.
+        """
         changed = time.monotonic()
         latest = changed + LONGEST_DISCOVERY * self._spin_time
         seen = self._graph()
-        while not is_enough() and time.monotonic() < min(changed + self._patience(seen), latest):
+        while time.monotonic() < min(changed + self._patience(seen, is_there), latest):
             time.sleep(PERIOD)
             graph = self._graph()
             if graph != seen or NOT_YET_KNOWN in graph.nodes:
                 seen, changed = graph, time.monotonic()
+
+    def find(self, is_there: Callable[[], bool]) -> bool:
+        """Wait until what is looked for is there, and no longer; return whether it is."""
+        return self.wait_until(is_there, MISSING * self._spin_time)
 
     def wait_until(self, condition: Callable[[], Any], timeout: float = float("inf")) -> bool:
         """Wait for a condition on the graph; return whether it came true within `timeout` s."""
@@ -129,8 +136,8 @@ class CommandNode:
         nodes = sorted(name for name, _ in self.node.get_node_names_and_namespaces())
         return _Graph(nodes, list(self.topics()), list(self.services()))
 
-    def _patience(self, graph: _Graph) -> float:
-        return self._spin_time * (1 if len(graph.nodes) > 1 else ALONE)
+    def _patience(self, graph: _Graph, is_there: Callable[[], bool]) -> float:
+        return self._spin_time * (1 if len(graph.nodes) > 1 and is_there() else MISSING)
 
     def _spin(self) -> None:
         try:

@@ -18,11 +18,12 @@ PATIENCE = 2.0  # s; a node that is busy for longer gets the request all the sam
 NamesAndTypes = list[tuple[str, list[str]]]
 
 
-def require_type(kind: str, name: str, types: Sequence[str] | None, wanted: str) -> None:
-    """Raise CommandError when a server is there, but with other types; a client would wait for it for ever."""
-    if types and wanted not in types:
+def require_type(kind: str, name: str, types: Sequence[str], wanted: str) -> None:
+    """Raise CommandError when a name is used with other types than ours: we would wait for its server for ever."""
+    others = [each for each in types if each != wanted]
+    if others:
         raise CommandError(
-            f"The {kind} {name} has the type {', '.join(types)}, not {wanted}; give the type it has"
+            f"The {kind} {name} has the type {', '.join(others)}, not {wanted}; give the type it has"
         )
 
 

@@ -51,7 +51,7 @@ def print_info(options: Namespace) -> None:
     """Print the nodes that have a client or a server of an action."""
     action = absolute(options.action_name)
     with CommandNode(options.spin_time) as command:
-        command.discover()
+        command.discover(lambda: action in dict(get_action_names_and_types(command.node)))
         clients = _nodes_with(command, action, get_action_client_names_and_types_by_node)
         servers = _nodes_with(command, action, get_action_server_names_and_types_by_node)
     print(f"Action: {options.action_name}")

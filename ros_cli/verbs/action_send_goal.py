@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from queue import SimpleQueue
 from typing import Any
 
 from rclpy.action import ActionClient, get_action_names_and_types
 from rclpy.action.client import ClientGoalHandle
+from rclpy.task import Future
 
 from ros_cli.command_node import CommandNode, absolute
 from ros_cli.errors import CommandError
@@ -44,17 +46,13 @@ def send(options: Namespace) -> None:
         client = ActionClient(command.node, action_type, absolute(options.action_name))
         _wait_for_server(command, client, options)
         print(f"Sending goal:\n     {message_to_yaml(goal)}")
-        handle = _in_two_steps(
-            command, lambda: client.send_goal_async(goal, _print_feedback if options.feedback else None)
-        )
-        if not handle.accepted:
-            print("Goal was rejected.")
-            return
-        print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
+        updates: SimpleQueue[Any] = SimpleQueue()  # feedback, and at last the future of the result
+        on_feedback = updates.put if options.feedback else None
+        answer = command.run_in_spin(lambda: client.send_goal_async(goal, on_feedback))
         try:
-            _print_result(_in_two_steps(command, handle.get_result_async))
+            _print_course(command, answer, updates)
         except KeyboardInterrupt:
-            _cancel(command, handle)
+            _cancel(command, command.result(answer))
             raise
 
 
@@ -64,29 +62,34 @@ def _wait_for_server(command: CommandNode, client: ActionClient, options: Namesp
     command.wait_until(
         lambda: (
             client.server_is_ready()
-            or require_type("action", name, dict(get_action_names_and_types(command.node)).get(name), wanted)
+            or require_type(
+                "action", name, dict(get_action_names_and_types(command.node)).get(name, []), wanted
+            )
         )
     )
     wait_for_action_node(command, name)
 
 
-def _in_two_steps(command: CommandNode, ask: Any) -> Any:
-    """Send a request in the spinning thread, then wait for its answer here, where Ctrl-C ends the wait."""
-    return command.result(command.run_in_spin(ask))
-
-
-def _print_feedback(message: Any) -> None:
-    print(f"Feedback:\n    {message_to_yaml(message.feedback)}")
-
-
-def _print_result(answer: Any) -> None:
-    print(f"Result:\n    {message_to_yaml(answer.result)}")
-    print(f"Goal finished with status: {name_of(GoalStatus, answer.status)}")
+def _print_course(command: CommandNode, answer: Future, updates: SimpleQueue[Any]) -> None:
+    """Print the server's answer, the feedback and the result, as they come."""
+    handle = command.result(answer)
+    if not handle.accepted:
+        print("Goal was rejected.")
+        return
+    print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
+    result = command.run_in_spin(handle.get_result_async)
+    result.add_done_callback(updates.put)
+    while (update := updates.get()) is not result:
+        print(f"Feedback:\n    {message_to_yaml(update.feedback)}")
+    print(f"Result:\n    {message_to_yaml(result.result().result)}")
+    print(f"Goal finished with status: {name_of(GoalStatus, result.result().status)}")
 
 
 def _cancel(command: CommandNode, handle: ClientGoalHandle) -> None:
+    if not handle.accepted:
+        return
     print("Canceling goal...")
-    response = _in_two_steps(command, handle.cancel_goal_async)
+    response = command.result(command.run_in_spin(handle.cancel_goal_async))
     if not response.goals_canceling:
         raise CommandError(
             "Failed to cancel goal: the server refused; its cancel_callback has to return CancelResponse.ACCEPT, "

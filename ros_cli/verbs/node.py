@@ -56,7 +56,7 @@ def print_info(options: Namespace) -> None:
     """
     name = absolute(options.node_name)
     with CommandNode(options.spin_time) as command:
-        command.discover()
+        command.discover(lambda: name in command.node_names(hidden=True))
         names = command.node_names(hidden=True)
         if names.count(name) > 1:
             print(

@@ -55,9 +55,9 @@ def print_list(options: Namespace) -> None:
         CommandError: there is no such node.
     """
     with CommandNode(options.spin_time) as command:
-        command.discover()
-        names = command.node_names()
         wanted = absolute(options.node_name) if options.node_name else None
+        command.discover(lambda: wanted is None or wanted in command.node_names())
+        names = command.node_names()
         if wanted and wanted not in names:
             raise _not_found(wanted, names)
         for name in [wanted] if wanted else names:
@@ -159,7 +159,7 @@ def _node_of(options: Namespace) -> Iterator[tuple[CommandNode, AsyncParameterCl
     """
     name = absolute(options.node_name)
     with CommandNode(options.spin_time) as command:
-        command.discover(lambda: name in command.node_names(hidden=True))
+        command.find(lambda: name in command.node_names(hidden=True))
         if not command.wait_until(lambda: name in command.node_names(hidden=True), options.timeout):
             raise _not_found(name, command.node_names())
         yield command, _client(command, name)
@@ -171,8 +171,7 @@ def _client(command: CommandNode, node: str) -> AsyncParameterClient:
     Raises:
         CommandError: it has no services for its parameters, or does not answer.
     """
-    command.discover(lambda: f"{node}/list_parameters" in command.services())
-    if f"{node}/list_parameters" in command.services():
+    if command.find(lambda: f"{node}/list_parameters" in command.services()):
         client = AsyncParameterClient(command.node, node)
         is_ready = command.wait_until(client.services_are_ready, ANSWER_TIMEOUT)
         if is_ready and command.wait_until_answering(node, ANSWER_TIMEOUT):

@@ -63,11 +63,9 @@ def print_type(options: Namespace) -> None:
     """
     name = absolute(options.service_name)
     with CommandNode(options.spin_time) as command:
-        command.discover(lambda: name in command.services())
-        services = command.services()
-        if name not in services:
-            raise unknown("service", name, services)
-        print(*services[name], sep="\n")
+        if not command.find(lambda: name in command.services()):
+            raise unknown("service", name, command.services())
+        print(*command.services()[name], sep="\n")
 
 
 def call_service(options: Namespace) -> None:
@@ -92,13 +90,12 @@ def call_service(options: Namespace) -> None:
 
 
 def _wait_for_service(command: CommandNode, client: Client, name: str, wanted: str) -> None:
-    command.discover(client.service_is_ready)
-    if not client.service_is_ready():
+    if not command.find(client.service_is_ready):
         print("waiting for service to become available...")
         command.wait_until(
             lambda: (
                 client.service_is_ready()
-                or require_type("service", name, command.services().get(name), wanted)
+                or require_type("service", name, command.services().get(name, []), wanted)
             )
         )
     wait_for_service_node(command, name)

@@ -63,7 +63,7 @@ def print_messages(options: Namespace) -> None:
     topic = absolute(options.topic_name)
     longest = None if options.full_length else options.truncate_length
     with CommandNode(options.spin_time) as command:
-        command.discover()
+        command.discover(lambda: topic in command.topics())
         message_type = _message_type(command, topic, options.message_type)
         select(message_type(), options.field)
         qos = fitting_qos(command.node.get_publishers_info_by_topic(topic))

@@ -65,8 +65,7 @@ def print_rate(options: Namespace) -> None:
     """Wait for the topic, then print its rate once a second until Ctrl-C."""
     topic = absolute(options.topic_name)
     with CommandNode(options.spin_time) as command:
-        command.discover(lambda: topic in command.topics())
-        if topic not in command.topics():
+        if not command.find(lambda: topic in command.topics()):
             print(f"WARNING: topic [{topic}] does not appear to be published yet")
             command.wait_until(lambda: topic in command.topics())
         message_type = interface_class(command.topics()[topic][0], "msg")
