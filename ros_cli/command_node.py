@@ -21,7 +21,7 @@ from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 from ros_runtime.reachability import wait_until_reachable
 
 SPIN_TIME = 0.5  # s, as in ros2cli
-MISSING = 4  # times the spin time, as long as what is looked for is not seen: the machine may be busy
+MISSING = 6  # times the spin time, as long as what is looked for is not seen: the machine may be busy
 LONGEST_DISCOVERY = 10  # times the spin time, for a graph that never stops changing
 PERIOD = 0.02  # s between two looks at the graph, whose changes rclpy does not report
 NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
@@ -64,7 +64,7 @@ class CommandNode:
     def discover(self, is_there: Callable[[], bool] = lambda: True) -> None:
         """Wait until the graph has not changed for the spin time.
 
-        It waits four times as long while it sees no other node, or not yet what is looked for.
+        It waits six times as long while it sees no other node, or not yet what is looked for.
         """
         changed = time.monotonic()
         latest = changed + LONGEST_DISCOVERY * self._spin_time

@@ -18,13 +18,28 @@ PATIENCE = 2.0  # s; a node that is busy for longer gets the request all the sam
 NamesAndTypes = list[tuple[str, list[str]]]
 
 
-def require_type(kind: str, name: str, types: Sequence[str], wanted: str) -> None:
-    """Raise CommandError when a name is used with other types than ours: we would wait for its server for ever."""
-    others = [each for each in types if each != wanted]
-    if others:
-        raise CommandError(
-            f"The {kind} {name} has the type {', '.join(others)}, not {wanted}; give the type it has"
-        )
+def wait_for_type(
+    command: CommandNode, is_ready: Callable[[], bool], types: Callable[[], Sequence[str]], wanted: str
+) -> None:
+    """Wait until a server is ready.
+
+    Args:
+        command: looks at the graph.
+        is_ready: whether there is a server of our type.
+        types: gives the types with which the name is used in the graph, by our own client, too.
+        wanted: our type.
+
+    Raises:
+        CommandError: the name is used with another type; we would wait for ever.
+    """
+
+    def is_ready_or_never() -> bool:
+        others = [each for each in types() if each != wanted]
+        if others and not is_ready():
+            raise CommandError(f"It has the type {', '.join(others)}, not {wanted}; give the type it has")
+        return is_ready()
+
+    command.wait_until(is_ready_or_never)
 
 
 def wait_for_service_node(command: CommandNode, service: str) -> None:

@@ -13,7 +13,7 @@ from rclpy.task import Future
 from ros_cli.command_node import CommandNode, absolute
 from ros_cli.errors import CommandError
 from ros_cli.interface_types import full_type_name, interface_class
-from ros_cli.servers import require_type, wait_for_action_node
+from ros_cli.servers import wait_for_action_node, wait_for_type
 from ros_cli.verb import Verbs, add_graph_verb
 from ros_cli.yaml_values import message_from_yaml, message_to_yaml
 from ros_runtime.message_constants import GoalStatus, name_of
@@ -59,13 +59,11 @@ def send(options: Namespace) -> None:
 def _wait_for_server(command: CommandNode, client: ActionClient, options: Namespace) -> None:
     name, wanted = absolute(options.action_name), full_type_name(options.action_type, "action")
     print("Waiting for an action server to become available...")
-    command.wait_until(
-        lambda: (
-            client.server_is_ready()
-            or require_type(
-                "action", name, dict(get_action_names_and_types(command.node)).get(name, []), wanted
-            )
-        )
+    wait_for_type(
+        command,
+        client.server_is_ready,
+        lambda: dict(get_action_names_and_types(command.node)).get(name, []),
+        wanted,
     )
     wait_for_action_node(command, name)
 

@@ -10,7 +10,7 @@ from rclpy.client import Client
 from ros_cli.command_node import CommandNode, absolute
 from ros_cli.errors import unknown
 from ros_cli.interface_types import full_type_name, interface_class
-from ros_cli.servers import require_type, wait_for_service_node
+from ros_cli.servers import wait_for_service_node, wait_for_type
 from ros_cli.verb import Verbs, add_graph_verb, positive_float
 from ros_cli.yaml_values import message_from_yaml
 
@@ -92,10 +92,5 @@ def call_service(options: Namespace) -> None:
 def _wait_for_service(command: CommandNode, client: Client, name: str, wanted: str) -> None:
     if not command.find(client.service_is_ready):
         print("waiting for service to become available...")
-        command.wait_until(
-            lambda: (
-                client.service_is_ready()
-                or require_type("service", name, command.services().get(name, []), wanted)
-            )
-        )
+        wait_for_type(command, client.service_is_ready, lambda: command.services().get(name, []), wanted)
     wait_for_service_node(command, name)

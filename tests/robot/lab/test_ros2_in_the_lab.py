@@ -43,8 +43,8 @@ def in_terminal(lab: dict[str, str], line: str) -> str:
 
 
 def test_a_cell_and_a_terminal_see_the_notebooks_nodes(lab: dict[str, str], notebook: Kernel) -> None:
-    from_terminal = in_terminal(lab, "ros2 node list").split()
-    from_cell = notebook.run("!ros2 node list").split()
+    from_terminal = in_terminal(lab, "ros2 node list --spin-time 2").split()
+    from_cell = notebook.run("!ros2 node list --spin-time 2").split()
     assert "/robot/notebook" in from_terminal
     assert len(from_terminal) == 2
     assert from_cell == from_terminal
@@ -57,8 +57,8 @@ def test_a_terminal_joins_the_notebook_that_began_last(
     later = Kernel(tmp_path)
     try:
         later.run("lab.node()")
-        assert in_terminal(lab, "ros2 node list").split() == ["/robot/notebook"]
-        assert len(in_terminal(lab, f"ROS_DOMAIN_ID={earlier} ros2 node list").split()) == 2
+        assert in_terminal(lab, "ros2 node list --spin-time 2").split() == ["/robot/notebook"]
+        assert len(in_terminal(lab, f"ROS_DOMAIN_ID={earlier} ros2 node list --spin-time 2").split()) == 2
     finally:
         later.shut_down()
-    assert len(in_terminal(lab, "ros2 node list").split()) == 2
+    assert len(in_terminal(lab, "ros2 node list --spin-time 2").split()) == 2
