@@ -221,7 +221,7 @@ def test_a_message_is_published_once_and_arrives(ros2: Ros2, playground: subproc
     assert playground.stdout.readline() == "cmd_vel 0.25\n"
 
 
-def test_messages_are_published_at_a_rate(started: Any, environment: dict[str, str]) -> None:
+def test_messages_are_published_at_a_rate(started: Any) -> None:
     publishing = started("topic", "pub", "/demo/words", "std_msgs/msg/String", "data: hi", "-r", "20")
     lines = [publishing.stdout.readline() for _ in range(6)]
     assert lines[0] == "publisher: beginning loop\n"
