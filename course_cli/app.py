@@ -65,6 +65,11 @@ COMMANDS: dict[str, Command] = {
     ),
     "check": Command("course_cli.commands.check:check", "Check your own solution of an exercise."),
     "sim": Command("course_cli.commands.sim:sim", "The robot node alone.", forwards_arguments=True),
+    "ros": Command(
+        "course_cli.commands.ros:ros",
+        "The ros2 commands: topic, service, action, node, param, interface.",
+        forwards_arguments=True,
+    ),
     "grade": Command("course_cli.commands.grade:grade", "Grade a batch of submissions."),
     "new": Command("course_cli.commands.new:new", "Make the folder of a new exercise."),
     "release": Command("course_cli.commands.release:release", "Write the students' archive."),

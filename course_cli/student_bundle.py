@@ -21,6 +21,7 @@ PARTS = (
     "setup",
     "humanoid_interfaces",
     "ros_runtime",
+    "ros_cli",
     "robot_sim",
     "lab",
     "autograder",
@@ -30,6 +31,7 @@ PARTS = (
     "chapters/images",
     "docs/images",
     "docs/robot.md",
+    "docs/ros2_commands.md",
 )
 # For instructors only. `course` lists only commands whose modules exist.
 KEPT_BACK = (

@@ -6,6 +6,7 @@ import os
 from functools import cache
 
 from lab.errors import LabError
+from ros_runtime import notebook_domains
 from ros_runtime.environment import ros_environment
 from ros_runtime.ros_domain import NoDomainLeft, ReservedDomain, loopback_variables
 
@@ -13,6 +14,8 @@ from ros_runtime.ros_domain import NoDomainLeft, ReservedDomain, loopback_variab
 @cache
 def join_ros_domain() -> ReservedDomain:
     """Reserve a domain until this process ends and put the network's settings into its environment.
+
+    The terminals of the same lab can join it.
 
     Raises LabError when every domain is taken.
     """
@@ -23,4 +26,5 @@ def join_ros_domain() -> ReservedDomain:
     os.environ.update(ros_environment() | loopback_variables())
     os.environ["ROS_DOMAIN_ID"] = str(domain.domain_id)
     os.environ.pop("ROS_AUTOMATIC_DISCOVERY_RANGE", None)  # it would override the profile
+    notebook_domains.announce(domain.domain_id)
     return domain

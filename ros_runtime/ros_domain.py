@@ -32,7 +32,7 @@ class ReservedDomain:
     """
 
     def __init__(self) -> None:
-        locks = Path(tempfile.gettempdir(), "ros-domain-locks")
+        locks = _locks()
         with suppress(FileExistsError):
             locks.mkdir()
             locks.chmod(0o1777)
@@ -53,9 +53,24 @@ class ReservedDomain:
         self.release()
 
 
+def is_reserved(domain_id: int) -> bool:
+    """Return whether some process has reserved a domain."""
+    path = _locks() / str(domain_id)
+    if not path.exists():
+        return False
+    if (descriptor := _lock(path)) is None:
+        return True
+    os.close(descriptor)
+    return False
+
+
 def loopback_variables() -> dict[str, str]:
     """Return the variables that keep nodes on 127.0.0.1 and let them find each other on a busy machine."""
     return {"FASTRTPS_DEFAULT_PROFILES_FILE": str(LOOPBACK_ONLY)}
+
+
+def _locks() -> Path:
+    return Path(tempfile.gettempdir(), "ros-domain-locks")
 
 
 def _lock(path: Path) -> int | None:

@@ -78,8 +78,8 @@ def test_its_files_suffice_to_check_and_to_learn(unpacked):
 import importlib, pkgutil, sys
 from pathlib import Path
 here = Path.cwd()
-import autograder, course_cli, lab, robot_sim, ros_runtime
-for package in (autograder, course_cli, lab, robot_sim, ros_runtime):
+import autograder, course_cli, lab, robot_sim, ros_cli, ros_runtime
+for package in (autograder, course_cli, lab, robot_sim, ros_cli, ros_runtime):
     assert Path(package.__file__).is_relative_to(here), package.__file__
     for module in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
         if not module.name.endswith("__main__"):
@@ -123,7 +123,7 @@ def test_its_commands_are_the_students(unpacked):
         text=True,
         check=False,
     )
-    for command in ("check", "lab", "sim"):
+    for command in ("check", "lab", "ros", "sim"):
         assert f" {command} " in ran.stdout
     for command in ("grade", "audit", "release"):
         assert f" {command} " not in ran.stdout

@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[3]
 ROOMS = (
     *("autograder", "bench", "course_cli", "lab"),
-    *("robot_sim", "ros_runtime", "setup", "solutions", "tests"),
+    *("robot_sim", "ros_cli", "ros_runtime", "setup", "solutions", "tests"),
 )
 # A Sphinx role such as :class:`Name`, or code in double backticks.
 OTHER_MARKUP = re.compile(r":\w+:`|``")

@@ -38,7 +38,7 @@ def test_an_unknown_command_is_an_unusable_argument() -> None:
     assert "dance" in finished.stderr
 
 
-@pytest.mark.parametrize("name", ["lab", "sim", "test"])
+@pytest.mark.parametrize("name", ["lab", "ros", "sim", "test"])
 def test_a_command_is_loaded_by_its_name(name: str) -> None:
     assert callable(COMMANDS[name].load())
 

@@ -1,0 +1,10 @@
+"""What the lab's terminals and cells call `ros2`."""
+
+from __future__ import annotations
+
+import sys
+
+from ros_cli.app import main
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,79 @@
+"""The command line: `ros2 GROUP VERB …`, parsed as ros2cli does.
+
+Exit status, as of ros2cli: 0 done, 1 it could not, 2 unusable arguments or Ctrl-C.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from argparse import ArgumentParser, RawDescriptionHelpFormatter
+from collections.abc import Sequence
+
+from ros_cli import domain
+from ros_cli.errors import CommandError
+from ros_cli.real_ros2 import real_ros2
+from ros_cli.verbs import action, interface, node, param, service, topic
+
+GROUPS = {
+    "action": (action, "Various action related sub-commands"),
+    "interface": (interface, "Show information about ROS interfaces"),
+    "node": (node, "Various node related sub-commands"),
+    "param": (param, "Various param related sub-commands"),
+    "service": (service, "Various service related sub-commands"),
+    "topic": (topic, "Various topic related sub-commands"),
+}
+
+
+def main(arguments: Sequence[str] | None = None, *, program: str = "ros2") -> int:
+    """Run a command, by the real ros2 where that is on the PATH, and return the exit status."""
+    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    domain.join_domain()
+    if (real := real_ros2()) is not None:
+        os.execv(real, [real, *arguments])
+    return run(arguments, program)
+
+
+def run(arguments: Sequence[str], program: str = "ros2") -> int:
+    """Run a command of ours and return the exit status."""
+    options = command_line(program).parse_args(arguments)
+    if hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(line_buffering=True)  # each line is seen at once, in a pipe, too
+    try:
+        return options.run(options) or 0
+    except CommandError as error:
+        print(error, file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return signal.SIGINT
+    except BrokenPipeError:  # `… | head` has read enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+
+
+def command_line(program: str) -> ArgumentParser:
+    """Return the parser of all groups and verbs; what it parses has `run`, to be called with it."""
+    parser = ArgumentParser(
+        prog=program,
+        description="The ros2 commands that the course uses, with the words and the output of ros2cli.",
+        epilog=domain.HELP,
+        formatter_class=RawDescriptionHelpFormatter,
+    )
+    _show_help_without_verb(parser)
+    groups = parser.add_subparsers(title="Commands", metavar="")
+    for name, (module, summary) in GROUPS.items():
+        group = groups.add_parser(
+            name,
+            help=summary,
+            description=summary,
+            epilog=domain.HELP,
+            formatter_class=RawDescriptionHelpFormatter,
+        )
+        _show_help_without_verb(group)
+        module.add_verbs(group.add_subparsers(title="Verbs", metavar=""))
+    return parser
+
+
+def _show_help_without_verb(parser: ArgumentParser) -> None:
+    parser.set_defaults(run=lambda _: parser.print_help())

@@ -1,0 +1,171 @@
+"""The node of a command: it discovers the graph, and a thread of its own spins it."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from collections.abc import Callable
+from queue import SimpleQueue
+from typing import Any, NamedTuple
+
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
+
+from ros_runtime.reachability import wait_until_reachable
+
+SPIN_TIME = 0.5  # s, as in ros2cli
+MISSING = 6  # times the spin time, as long as what is looked for is not seen: the machine may be busy
+LONGEST_DISCOVERY = 10  # times the spin time, for a graph that never stops changing
+PERIOD = 0.02  # s between two looks at the graph, whose changes rclpy does not report
+NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
+
+
+class _Graph(NamedTuple):
+    """The names in the graph, sorted."""
+
+    nodes: list[str]
+    topics: list[str]
+    services: list[str]
+
+
+class CommandNode:
+    """A hidden node, spun by a thread, so that Ctrl-C ends every wait of the main thread at once.
+
+    Attributes:
+        node: the rclpy node.
+    """
+
+    def __init__(self, spin_time: float = SPIN_TIME) -> None:
+        self._spin_time = spin_time
+        self._context = Context()
+        rclpy.init(args=[], context=self._context, signal_handler_options=SignalHandlerOptions.NO)
+        self.node = Node(f"_ros2cli_{os.getpid()}", context=self._context, start_parameter_services=False)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+        self._thread = threading.Thread(target=self._spin, name="spin", daemon=True)
+
+    def __enter__(self) -> CommandNode:
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._context.try_shutdown()
+        self._executor.shutdown(timeout_sec=1.0)
+        self._thread.join(1.0)
+        self.node.destroy_node()
+
+    def discover(self, is_there: Callable[[], bool] = lambda: True) -> None:
+        """Wait until the graph has not changed for the spin time.
+
+        It waits six times as long while it sees no other node, or not yet what is looked for.
+        """
+        changed = time.monotonic()
+        latest = changed + LONGEST_DISCOVERY * self._spin_time
+        seen = self._graph()
+        while time.monotonic() < min(changed + self._patience(seen, is_there), latest):
+            time.sleep(PERIOD)
+            graph = self._graph()
+            if graph != seen or NOT_YET_KNOWN in graph.nodes:
+                seen, changed = graph, time.monotonic()
+
+    def find(self, is_there: Callable[[], bool]) -> bool:
+        """Wait until what is looked for is there, and no longer; return whether it is."""
+        return self.wait_until(is_there, MISSING * self._spin_time)
+
+    def wait_until(self, condition: Callable[[], Any], timeout: float = float("inf")) -> bool:
+        """Wait for a condition on the graph; return whether it came true within `timeout` s."""
+        deadline = time.monotonic() + timeout
+        while not condition():
+            if time.monotonic() >= deadline:
+                return False
+            time.sleep(PERIOD)
+        return True
+
+    def node_names(self, *, hidden: bool = False) -> list[str]:
+        """Return the full names of the nodes in the graph, one for each node, sorted."""
+        return sorted(
+            full_name(name, namespace)
+            for name, namespace in self.node.get_node_names_and_namespaces()
+            if name != NOT_YET_KNOWN and (hidden or not name.startswith("_"))
+        )
+
+    def topics(self, *, hidden: bool = True) -> dict[str, list[str]]:
+        """Return the types of each topic by its name."""
+        return shown(self.node.get_topic_names_and_types(), hidden)
+
+    def services(self, *, hidden: bool = True) -> dict[str, list[str]]:
+        """Return the types of each service by its name."""
+        return shown(self.node.get_service_names_and_types(), hidden)
+
+    def wait_until_answering(self, server: str, timeout: float) -> bool:
+        """Wait until a node answers requests, which is later than it is seen (see `ros_runtime.reachability`)."""
+        deadline = time.monotonic() + timeout
+        return wait_until_reachable(self.node, server, lambda: time.monotonic() > deadline)
+
+    def run_in_spin(self, function: Callable[[], Any]) -> Any:
+        """Call a function between two callbacks: rclpy's action client is not safe for threads."""
+        return self.result(self._executor.create_task(function))
+
+    def result(self, future: Future) -> Any:
+        """Wait for a future and return its result.
+
+        Raises:
+            Exception: the one that the future holds.
+        """
+        done = threading.Event()
+        future.add_done_callback(lambda _: done.set())
+        done.wait()
+        return future.result()
+
+    def messages(self, message_type: Any, topic: str, qos: QoSProfile) -> SimpleQueue[tuple[int, Any]]:
+        """Subscribe; return a queue of messages, each with the time of its arrival (ns, monotonic)."""
+        arrived: SimpleQueue[tuple[int, Any]] = SimpleQueue()
+        self.node.create_subscription(
+            message_type, topic, lambda message: arrived.put((time.monotonic_ns(), message)), qos
+        )
+        return arrived
+
+    def _graph(self) -> _Graph:
+        nodes = sorted(name for name, _ in self.node.get_node_names_and_namespaces())
+        return _Graph(nodes, list(self.topics()), list(self.services()))
+
+    def _patience(self, graph: _Graph, is_there: Callable[[], bool]) -> float:
+        return self._spin_time * (1 if len(graph.nodes) > 1 and is_there() else MISSING)
+
+    def _spin(self) -> None:
+        try:
+            self._executor.spin()
+        except ExternalShutdownException:
+            return
+
+
+def full_name(name: str, namespace: str) -> str:
+    """Return the full name of a node: ('humanoid', '/robot') → '/robot/humanoid'."""
+    return f"{namespace.rstrip('/')}/{name}"
+
+
+def split_name(node_name: str) -> tuple[str, str]:
+    """Return name and namespace of a node: '/robot/humanoid' → ('humanoid', '/robot')."""
+    namespace, _, name = absolute(node_name).rpartition("/")
+    return name, namespace or "/"
+
+
+def absolute(name: str) -> str:
+    """Return a name with its leading slash: a command has no namespace of its own."""
+    return name if name.startswith("/") else f"/{name}"
+
+
+def shown(names_and_types: list[tuple[str, list[str]]], hidden: bool) -> dict[str, list[str]]:
+    """Return names and types as a dict, sorted, those that begin with an underscore only if `hidden`."""
+    return {
+        name: types
+        for name, types in sorted(names_and_types)
+        if hidden or not topic_or_service_is_hidden(name)
+    }

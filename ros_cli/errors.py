@@ -1,0 +1,30 @@
+"""What a command says when it cannot do its work."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+class CommandError(Exception):
+    """What was seen, what was expected and what to do next; printed on stderr, with exit status 1."""
+
+
+def unknown(kind: str, name: str, known: Iterable[str]) -> CommandError:
+    """Return the error for a name that is not in the graph; it suggests names that look alike.
+
+    Args:
+        kind: "topic", "service", "action" or "node".
+        name: what was asked for.
+        known: the names there are.
+    """
+    alike = similar_names(name, known)
+    advice = f"did you mean {' or '.join(alike)}?" if alike else f"`{kind} list` shows those there are"
+    return CommandError(f"Unknown {kind} '{name}': {advice}")
+
+
+def similar_names(name: str, known: Iterable[str]) -> list[str]:
+    """Return the known names that end alike, as /robot/odom for /odom; else those with few different letters."""
+    names = sorted(known)
+    end = "/" + name.rpartition("/")[2]
+    return [each for each in names if each.endswith(end)] or get_close_matches(name, names, n=2)

@@ -1,0 +1,24 @@
+"""The `ros2` of a sourced ROS 2, which is used instead of ours where it is there."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+from ros_runtime.environment import uses_wheels
+
+OURS = Path(__file__).with_name("bin")  # `course lab` puts it on the PATH
+
+
+def real_ros2() -> str | None:
+    """Return the path of the real `ros2`; None where rclpy comes from wheels, which that of another ROS cannot use."""
+    if uses_wheels():
+        return None
+    folders = os.environ.get("PATH", "").split(os.pathsep)
+    return shutil.which("ros2", path=os.pathsep.join(folder for folder in folders if folder != str(OURS)))
+
+
+def path_with_ros2(path: str) -> str:
+    """Return a PATH on which `ros2` is ours, which hands over to the real one in the lab's domain."""
+    return os.pathsep.join([str(OURS), *filter(None, path.split(os.pathsep))])

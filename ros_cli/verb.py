@@ -1,0 +1,52 @@
+"""How a verb is added to the command line."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from collections.abc import Callable
+from typing import Any
+
+from ros_cli.command_node import SPIN_TIME
+
+Verbs = Any  # what ArgumentParser.add_subparsers() returns; argparse keeps its class private
+Run = Callable[[Namespace], "int | None"]
+
+
+def add_verb(verbs: Verbs, name: str, run: Run, summary: str) -> ArgumentParser:
+    """Add a verb; `run` gets the parsed arguments and returns the exit status, None for 0."""
+    parser = verbs.add_parser(name, help=summary, description=summary)
+    parser.set_defaults(run=run)
+    return parser
+
+
+def add_graph_verb(verbs: Verbs, name: str, run: Run, summary: str) -> ArgumentParser:
+    """Add a verb that looks at the ROS graph first."""
+    parser = add_verb(verbs, name, run, summary)
+    parser.add_argument(
+        "--spin-time",
+        type=positive_float,
+        default=SPIN_TIME,
+        help="Spin time in seconds to wait for discovery: it is over when nothing new appeared for so long",
+    )
+    parser.add_argument(
+        "--no-daemon", action="store_true", help="Accepted for scripts; there is no daemon here"
+    )
+    return parser
+
+
+def positive_float(text: str) -> float:
+    """Return a positive number for argparse."""
+    try:
+        number = float(text)
+    except ValueError:
+        raise ArgumentTypeError(f"{text!r} is not a number") from None
+    if number <= 0:
+        raise ArgumentTypeError(f"{text} is not positive")
+    return number
+
+
+def natural_number(text: str) -> int:
+    """Return a number of 0, 1, 2, … for argparse."""
+    if not text.isdecimal():
+        raise ArgumentTypeError(f"{text!r} is not a number of 0, 1, 2, …")
+    return int(text)

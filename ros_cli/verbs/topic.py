@@ -1,0 +1,81 @@
+"""`ros2 topic`: list, info, type; echo, hz and pub have files of their own."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+from ros_cli.command_node import CommandNode, absolute
+from ros_cli.errors import unknown
+from ros_cli.verb import Verbs, add_graph_verb
+from ros_cli.verbs import topic_echo, topic_hz, topic_pub
+
+
+def add_verbs(verbs: Verbs) -> None:
+    """Add the verbs of this group."""
+    topic_echo.add_to(verbs)
+    topic_hz.add_to(verbs)
+    info = add_graph_verb(verbs, "info", print_info, "Print information about a topic")
+    info.add_argument("topic_name", help="Name of the ROS topic to get info (e.g. '/chatter')")
+    info.add_argument("-v", "--verbose", action="store_true", help="Print nodes, types, GUIDs and QoS too")
+    listing = add_graph_verb(verbs, "list", print_list, "Output a list of available topics")
+    listing.add_argument("-t", "--show-types", action="store_true", help="Additionally show the topic type")
+    listing.add_argument(
+        "-c", "--count-topics", action="store_true", help="Only display the number of topics discovered"
+    )
+    listing.add_argument(
+        "--include-hidden-topics", action="store_true", help="Consider hidden topics as well"
+    )
+    topic_pub.add_to(verbs)
+    type_of = add_graph_verb(verbs, "type", print_type, "Print a topic's type")
+    type_of.add_argument("topic_name", help="Name of the ROS topic to get type (e.g. '/chatter')")
+
+
+def print_list(options: Namespace) -> None:
+    """Print the topics, a line each."""
+    with CommandNode(options.spin_time) as command:
+        command.discover()
+        topics = command.topics(hidden=options.include_hidden_topics)
+    if options.count_topics:
+        print(len(topics))
+        return
+    for name, types in topics.items():
+        print(f"{name} [{', '.join(types)}]" if options.show_types else name)
+
+
+def print_type(options: Namespace) -> None:
+    """Print the type of a topic, or each of them.
+
+    Raises:
+        CommandError: there is no such topic.
+    """
+    name = absolute(options.topic_name)
+    with CommandNode(options.spin_time) as command:
+        command.find(lambda: name in command.topics())
+        print(*_types(command, name), sep="\n")
+
+
+def print_info(options: Namespace) -> None:
+    """Print type, publishers and subscriptions of a topic.
+
+    Raises:
+        CommandError: there is no such topic.
+    """
+    name = absolute(options.topic_name)
+    end = "\n\n" if options.verbose else "\n"
+    with CommandNode(options.spin_time) as command:
+        command.discover(lambda: name in command.topics())
+        types = _types(command, name)
+        publishers = command.node.get_publishers_info_by_topic(name)
+        subscriptions = command.node.get_subscriptions_info_by_topic(name)
+    print(f"Type: {types[0] if len(types) == 1 else types}", end=end)
+    for kind, endpoints in (("Publisher", publishers), ("Subscription", subscriptions)):
+        print(f"{kind} count: {len(endpoints)}", end=end)
+        for endpoint in endpoints if options.verbose else ():
+            print(endpoint, end=end)
+
+
+def _types(command: CommandNode, name: str) -> list[str]:
+    topics = command.topics()
+    if name not in topics:
+        raise unknown("topic", name, topics)
+    return topics[name]

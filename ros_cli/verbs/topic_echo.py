@@ -1,0 +1,138 @@
+"""`ros2 topic echo`: the messages of a topic as YAML."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from queue import Empty
+from typing import Any
+
+from rclpy.qos import (
+    DurabilityPolicy,
+    QoSPresetProfiles,
+    QoSProfile,
+    ReliabilityPolicy,
+)
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+from ros_cli.command_node import CommandNode, absolute
+from ros_cli.errors import CommandError, similar_names
+from ros_cli.interface_types import interface_class
+from ros_cli.verb import Verbs, add_graph_verb, natural_number, positive_float
+from ros_cli.yaml_values import message_to_yaml
+from ros_runtime.messages import is_message
+
+TRUNCATE_LENGTH = 128
+
+
+def add_to(verbs: Verbs) -> None:
+    """Add the verb."""
+    echo = add_graph_verb(verbs, "echo", print_messages, "Output messages from a topic")
+    echo.add_argument("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')")
+    echo.add_argument("message_type", nargs="?", help="Type of the ROS message (e.g. 'std_msgs/msg/String')")
+    echo.add_argument("--once", action="store_true", help="Print the first message received and then exit")
+    echo.add_argument(
+        "--timeout", metavar="N", type=positive_float, help="Set a timeout in seconds for waiting"
+    )
+    echo.add_argument(
+        "--field", help="Echo a selected field of a message; '.' selects sub-fields (pose.pose.position)"
+    )
+    echo.add_argument(
+        "-f", "--full-length", action="store_true", help="Output all elements of arrays and strings"
+    )
+    echo.add_argument(
+        *("-l", "--truncate-length"),
+        type=natural_number,
+        default=TRUNCATE_LENGTH,
+        help="The length to truncate arrays and strings to (default: %(default)s)",
+    )
+    for policy in (ReliabilityPolicy, DurabilityPolicy):
+        kind = policy.__name__.removeprefix("QoS").removesuffix("Policy").lower()
+        echo.add_argument(
+            f"--qos-{kind}",
+            choices=policy.short_keys(),
+            help=f"Quality of service {kind} setting to subscribe with (default: what fits the publishers)",
+        )
+
+
+def print_messages(options: Namespace) -> None:
+    """Print each message until Ctrl-C, the timeout, or, with --once, the first.
+
+    Raises:
+        CommandError: the topic has no type yet, or its messages have no such field.
+    """
+    topic = absolute(options.topic_name)
+    longest = None if options.full_length else options.truncate_length
+    with CommandNode(options.spin_time) as command:
+        command.discover(lambda: topic in command.topics())
+        message_type = _message_type(command, topic, options.message_type)
+        select(message_type(), options.field)
+        qos = fitting_qos(command.node.get_publishers_info_by_topic(topic))
+        _override(qos, options.qos_reliability, options.qos_durability)
+        arrived = command.messages(message_type, topic, qos)
+        while True:
+            try:
+                _, message = arrived.get(timeout=options.timeout)
+            except Empty:
+                return
+            print(as_text(select(message, options.field), longest), end="---\n")
+            if options.once:
+                return
+
+
+def fitting_qos(publishers: list[TopicEndpointInfo]) -> QoSProfile:
+    """Return sensor QoS, but reliable or transient local where all publishers are."""
+    qos: QoSProfile = QoSPresetProfiles.get_from_short_key("sensor_data")
+    profiles = [publisher.qos_profile for publisher in publishers]
+    if profiles and all(each.reliability == ReliabilityPolicy.RELIABLE for each in profiles):
+        qos.reliability = ReliabilityPolicy.RELIABLE
+    if profiles and all(each.durability == DurabilityPolicy.TRANSIENT_LOCAL for each in profiles):
+        qos.durability = DurabilityPolicy.TRANSIENT_LOCAL
+    return qos
+
+
+def select(message: Any, path: str | None) -> Any:
+    """Return the field at 'pose.pose.position', or the message itself for None.
+
+    Raises:
+        CommandError: there is no such field.
+    """
+    for name in filter(None, (path or "").split(".")):
+        if not is_message(message) or name not in message.get_fields_and_field_types():
+            fields = message.get_fields_and_field_types() if is_message(message) else ()
+            there = f"there are {', '.join(fields)}" if fields else "a plain value has no fields"
+            raise CommandError(f"Invalid field '{path}': no field {name!r}; {there}")
+        message = getattr(message, name)
+    return message
+
+
+def as_text(value: Any, longest: int | None) -> str:
+    """Return a message as YAML, another value as Python prints it, each with a line's end."""
+    return message_to_yaml(value, longest=longest) if is_message(value) else f"{value}\n"
+
+
+def _message_type(command: CommandNode, topic: str, given: str | None) -> Any:
+    if given is not None:
+        return interface_class(given, "msg")
+    types = command.topics().get(topic, [])
+    if len(types) > 1:
+        raise CommandError(
+            f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]; "
+            "name one after the topic"
+        )
+    if not types:
+        print(f"WARNING: topic [{topic}] does not appear to be published yet")
+        alike = similar_names(topic, command.topics())
+        advice = (
+            f"did you mean {' or '.join(alike)}?"
+            if alike
+            else "start its node, or name the type after the topic"
+        )
+        raise CommandError(f"Could not determine the type for the passed topic: {advice}")
+    return interface_class(types[0], "msg")
+
+
+def _override(qos: QoSProfile, reliability: str | None, durability: str | None) -> None:
+    if reliability is not None:
+        qos.reliability = ReliabilityPolicy.get_from_short_key(reliability)
+    if durability is not None:
+        qos.durability = DurabilityPolicy.get_from_short_key(durability)

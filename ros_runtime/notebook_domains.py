@@ -1,0 +1,38 @@
+"""The ROS domains of the lab's notebooks, which the terminals beside them join.
+
+Each notebook has a domain of its own. `course lab` names a file in the environment of all its kernels and terminals;
+a notebook adds its domain there when it joins one.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+
+from ros_runtime.ros_domain import is_reserved
+
+VARIABLE = "COURSE_NOTEBOOK_DOMAINS"
+
+
+def lab_variables() -> dict[str, str]:
+    """Return the environment of a new lab: where its notebooks tell their domains."""
+    descriptor, path = tempfile.mkstemp(prefix="course-lab-", suffix=".domains")
+    os.close(descriptor)
+    return {VARIABLE: path}
+
+
+def announce(domain_id: int) -> None:
+    """Tell the lab, if there is one, in which domain this notebook is."""
+    if VARIABLE in os.environ:
+        with Path(os.environ[VARIABLE]).open("a", encoding="utf-8") as domains:
+            domains.write(f"{domain_id}\n")
+
+
+def latest() -> int | None:
+    """Return the domain of the notebook that joined last, of those that still run; None if there is none."""
+    try:
+        told = Path(os.environ[VARIABLE]).read_text(encoding="utf-8").split()
+    except (KeyError, FileNotFoundError):
+        return None
+    return next((int(domain) for domain in reversed(told) if is_reserved(int(domain))), None)

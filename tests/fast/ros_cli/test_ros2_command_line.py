@@ -1,0 +1,126 @@
+"""What can be typed, and which `ros2` it reaches."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from ros_cli import app, real_ros2
+from ros_cli.app import run
+
+COURSE = Path(sys.executable).with_name("course")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "topic list -t",
+        "topic info -v /robot/odom",
+        "topic type /robot/odom",
+        "topic echo /robot/odom --once --field pose.pose",
+        "topic hz /robot/odom",
+        "topic pub /robot/cmd_vel geometry_msgs/msg/Twist {} --once",
+        "topic pub -1 /robot/cmd_vel geometry_msgs/msg/Twist",
+        "topic pub /robot/cmd_vel geometry_msgs/msg/Twist {} -r 10",
+        "service list -t",
+        "service type /robot/get_status",
+        "service call /robot/get_status std_srvs/srv/Trigger",
+        "action list -t",
+        "action info /robot/walk_to",
+        "action send_goal /robot/walk_to humanoid_interfaces/action/WalkTo {} --feedback",
+        "action send_goal -f /robot/walk_to humanoid_interfaces/action/WalkTo",
+        "node list",
+        "node info /robot/humanoid",
+        "param list",
+        "param list /robot/arm",
+        "param get /robot/arm gain",
+        "param set /robot/arm gain -0.5",
+        "param dump /robot/arm",
+        "param load /robot/arm arm.yaml",
+        "interface show std_srvs/srv/SetBool",
+        "interface list",
+    ],
+)
+def test_the_words_and_flags_of_ros2cli_are_understood(words: str) -> None:
+    options = app.command_line("ros2").parse_args(words.split())
+    assert options.run.__module__.startswith("ros_cli.verbs.")
+
+
+def test_without_a_verb_the_help_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["topic"]) == 0
+    shown = capsys.readouterr().out
+    assert "usage: ros2 topic" in shown
+    assert "ROS_DOMAIN_ID" in shown
+
+
+def test_unusable_arguments_are_told(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        run(["topic", "dance"])
+    assert ended.value.code == 2
+    assert "dance" in capsys.readouterr().err
+
+
+def test_an_error_is_told_on_stderr(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["interface", "show", "no_msgs/msg/Nothing"]) == 1
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert "Unknown package 'no_msgs'" in shown.err
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["service", "call", "/add", "std_srvs/srv/Nothing"], "The passed service type is invalid"),
+        (["service", "call", "/add", "std_msgs/msg/String"], "std_msgs/msg/String is no service"),
+        (["topic", "pub", "/text", "String"], "expected a name such as geometry_msgs/msg/Twist"),
+        (["action", "send_goal", "/walk", "std_srvs/srv/SetBool"], "The passed action type is invalid"),
+    ],
+)
+def test_a_wrong_type_is_told_before_anything_is_waited_for(
+    words: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(words) == 1
+    assert told in capsys.readouterr().err
+
+
+def test_the_launcher_has_the_same_commands() -> None:
+    finished = subprocess.run(
+        [COURSE, "ros", "interface", "show", "std_srvs/srv/SetBool"], capture_output=True, text=True
+    )
+    assert finished.returncode == 0, finished.stderr
+    assert finished.stdout.splitlines()[0].startswith("bool data")
+
+
+def test_its_help_says_in_which_domain_it_looks() -> None:
+    finished = subprocess.run([COURSE, "ros", "--help"], capture_output=True, text=True)
+    assert finished.returncode == 0
+    assert "usage: course ros" in finished.stdout
+    assert "ROS_DOMAIN_ID" in finished.stdout
+
+
+def test_the_lab_finds_our_ros2(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", real_ros2.path_with_ros2("/usr/bin:/bin"))
+    finished = subprocess.run(["ros2", "service", "--help"], capture_output=True, text=True)
+    assert finished.returncode == 0, finished.stderr
+    assert "call" in finished.stdout
+
+
+@pytest.mark.parametrize("wheels", [True, False])
+def test_a_real_ros2_is_used_where_its_rclpy_is(
+    wheels: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real = tmp_path / "ros2"
+    real.write_text("#!/bin/sh\n")
+    real.chmod(0o755)
+    monkeypatch.setenv("PATH", real_ros2.path_with_ros2(str(tmp_path)))
+    monkeypatch.setattr(real_ros2, "uses_wheels", lambda: wheels)
+    assert real_ros2.real_ros2() == (None if wheels else str(real))
+
+
+def test_without_a_real_ros2_ours_is_used(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("PATH", real_ros2.path_with_ros2(str(tmp_path)))
+    monkeypatch.setattr(real_ros2, "uses_wheels", lambda: False)
+    assert real_ros2.real_ros2() is None

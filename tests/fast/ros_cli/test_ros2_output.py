@@ -1,0 +1,121 @@
+"""What the verbs print, without a graph."""
+
+from __future__ import annotations
+
+from itertools import islice
+
+import pytest
+from geometry_msgs.msg import PoseStamped
+from rcl_interfaces.msg import ParameterValue
+from rclpy.parameter import get_parameter_value
+
+from ros_cli.errors import CommandError, unknown
+from ros_cli.verbs.interface import definition
+from ros_cli.verbs.param import as_file, worded
+from ros_cli.verbs.topic_echo import as_text, select
+from ros_cli.verbs.topic_hz import ArrivalRate
+from ros_cli.verbs.topic_pub import ticks
+
+
+def test_a_rate_is_told_once_a_second() -> None:
+    rate = ArrivalRate()
+    told = [rate.arrived(number * 100_000_000) for number in range(22)]
+    assert [number for number, lines in enumerate(told) if lines] == [11, 21]
+    assert told[11] == "average rate: 10.000\n\tmin: 0.100s max: 0.100s std dev: 0.00000s window: 11"
+
+
+def test_old_intervals_leave_the_window() -> None:
+    rate = ArrivalRate(window=1)
+    told = [rate.arrived(now) for now in (0, 1_000_000_000, 3_000_000_000)]
+    assert told == [None, None, "average rate: 0.500\n\tmin: 2.000s max: 2.000s std dev: 0.00000s window: 1"]
+
+
+def test_a_field_is_selected_by_its_path() -> None:
+    assert as_text(select(PoseStamped(), "pose.orientation.w"), None) == "1.0\n"
+    assert as_text(select(PoseStamped(), "pose.position"), None) == "x: 0.0\ny: 0.0\nz: 0.0\n"
+    with pytest.raises(CommandError, match="no field 'heading'; there are position, orientation"):
+        select(PoseStamped(), "pose.heading")
+    with pytest.raises(CommandError, match="a plain value has no fields"):
+        select(PoseStamped(), "header.frame_id.length")
+
+
+@pytest.mark.parametrize(
+    ("typed", "line"),
+    [
+        ("true", "Boolean value is: True"),
+        ("3", "Integer value is: 3"),
+        ("0.5", "Double value is: 0.5"),
+        ("word", "String value is: word"),
+        ("[1, 2]", "Integer values are: [1, 2]"),
+        ("[0.5]", "Double values are: [0.5]"),
+        ("[left, right]", "String values are: ['left', 'right']"),
+    ],
+)
+def test_a_parameter_is_told_with_its_type(typed: str, line: str) -> None:
+    assert worded(get_parameter_value(typed)) == line
+
+
+def test_a_parameter_without_a_value_is_told() -> None:
+    assert worded(ParameterValue()) == "Parameter not set."
+
+
+def test_parameters_are_dumped_as_a_parameter_file() -> None:
+    assert as_file("/robot/arm", {"gain": 1.5, "limits.low": 1, "limits.high": 2}) == (
+        "/robot/arm:\n  ros__parameters:\n    gain: 1.5\n    limits:\n      high: 2\n      low: 1\n"
+    )
+
+
+def test_a_definition_is_shown_with_its_comments_and_the_fields_of_its_types() -> None:
+    shown = list(definition("geometry_msgs/msg/PoseStamped"))
+    assert shown[:8] == [
+        "# A Pose with reference coordinate frame and timestamp",
+        "",
+        "std_msgs/Header header",
+        "\tbuiltin_interfaces/Time stamp",
+        "\t\tint32 sec",
+        "\t\tuint32 nanosec",
+        "\tstring frame_id",
+        "Pose pose",
+    ]
+    assert shown[8:10] == ["\tPoint position", "\t\tfloat64 x"]
+
+
+def test_comments_can_be_left_out_and_those_of_nested_types_shown() -> None:
+    assert list(definition("std_srvs/srv/SetBool", comments=False)) == [
+        *("bool data", "---", "bool success", "string message")
+    ]
+    assert any(
+        "#" in line
+        for line in definition("geometry_msgs/msg/PoseStamped", nested_comments=True)
+        if "\t" in line
+    )
+
+
+def test_an_action_of_the_course_is_shown_whole() -> None:
+    shown = list(definition("humanoid_interfaces/action/WalkTo"))
+    assert shown.count("---") == 2
+    assert "\tstd_msgs/Header header" in shown
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("SetBool", "Expected three parts separated by '/'"),
+        ("no_msgs/msg/Nothing", "Unknown package 'no_msgs'"),
+        ("std_srvs/srv/Nothing", "Could not find the interface 'std_srvs/srv/Nothing'"),
+    ],
+)
+def test_an_unknown_interface_is_told(name: str, told: str) -> None:
+    with pytest.raises(CommandError, match=told):
+        list(definition(name))
+
+
+def test_an_unknown_name_is_told_with_those_that_look_alike() -> None:
+    names = ["/robot/odom", "/robot/imu"]
+    assert str(unknown("topic", "/odom", names)) == "Unknown topic '/odom': did you mean /robot/odom?"
+    assert "`topic list` shows" in str(unknown("topic", "/camera", names))
+
+
+def test_ticks_come_as_often_as_asked_or_without_an_end() -> None:
+    assert list(ticks(0.001, 3)) == [1, 2, 3]
+    assert list(islice(ticks(0.001, 0), 5)) == [1, 2, 3, 4, 5]

@@ -1,0 +1,71 @@
+"""The terminals of a lab find the domain of a notebook."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from ros_cli.domain import join_domain
+from ros_runtime import notebook_domains
+from ros_runtime.ros_domain import ReservedDomain
+
+
+@pytest.fixture(autouse=True)
+def own_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    for name in ("ROS_DOMAIN_ID", notebook_domains.VARIABLE):
+        monkeypatch.setenv(name, "")  # so that it is put back
+        monkeypatch.delenv(name)
+
+
+@pytest.fixture
+def lab(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, value in notebook_domains.lab_variables().items():
+        monkeypatch.setenv(name, value)
+
+
+@pytest.fixture
+def notebooks(lab: None) -> Iterator[list[ReservedDomain]]:
+    """Two that have joined, one after the other."""
+    domains = [ReservedDomain(), ReservedDomain()]
+    for domain in domains:
+        notebook_domains.announce(domain.domain_id)
+    yield domains
+    domains[0].release()
+
+
+def test_the_notebook_that_joined_last_is_taken_and_when_it_has_ended_the_one_before(
+    notebooks: list[ReservedDomain],
+) -> None:
+    earlier, later = notebooks
+    assert notebook_domains.latest() == later.domain_id
+    later.release()
+    assert notebook_domains.latest() == earlier.domain_id
+
+
+def test_a_terminal_joins_it(notebooks: list[ReservedDomain]) -> None:
+    join_domain()
+    assert os.environ["ROS_DOMAIN_ID"] == str(notebooks[1].domain_id)
+    notebooks[1].release()
+
+
+def test_a_domain_that_the_shell_has_chosen_is_kept(
+    notebooks: list[ReservedDomain], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "5")
+    join_domain()
+    assert os.environ["ROS_DOMAIN_ID"] == "5"
+    notebooks[1].release()
+
+
+def test_a_lab_without_a_running_notebook_has_none(lab: None) -> None:
+    assert notebook_domains.latest() is None
+
+
+def test_an_ordinary_shell_stays_as_it_is() -> None:
+    notebook_domains.announce(7)
+    join_domain()
+    assert "ROS_DOMAIN_ID" not in os.environ

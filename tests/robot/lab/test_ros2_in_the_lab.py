@@ -1,0 +1,64 @@
+"""`ros2` in the cells and the terminals of a lab: both see the notebook's own ROS domain."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from kernels import Kernel
+
+from course_cli.commands.lab import lab_environment
+from ros_runtime import notebook_domains
+
+
+@pytest.fixture(scope="module")
+def lab() -> Iterator[dict[str, str]]:
+    """The environment of everything that `course lab` starts; this process is in it, too."""
+    environment = lab_environment()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delenv("ROS_DOMAIN_ID", raising=False)
+        for name, value in environment.items():
+            patch.setenv(name, value)
+        yield dict(os.environ)
+    Path(environment[notebook_domains.VARIABLE]).unlink()
+
+
+@pytest.fixture(scope="module")
+def notebook(lab: dict[str, str], tmp_path_factory: pytest.TempPathFactory) -> Iterator[Kernel]:
+    """A notebook that has started a node."""
+    running = Kernel(tmp_path_factory.mktemp("notebook"))
+    running.run("node = lab.run_node('adder.py')")
+    yield running
+    running.shut_down()
+
+
+def in_terminal(lab: dict[str, str], line: str) -> str:
+    """What a line typed in a terminal prints."""
+    return subprocess.run(
+        ["bash", "-c", line], env=lab, capture_output=True, text=True, check=True, timeout=60
+    ).stdout
+
+
+def test_a_cell_and_a_terminal_see_the_notebooks_nodes(lab: dict[str, str], notebook: Kernel) -> None:
+    from_terminal = in_terminal(lab, "ros2 node list --spin-time 2").split()
+    from_cell = notebook.run("!ros2 node list --spin-time 2").split()
+    assert "/robot/notebook" in from_terminal
+    assert len(from_terminal) == 2
+    assert from_cell == from_terminal
+
+
+def test_a_terminal_joins_the_notebook_that_began_last(
+    lab: dict[str, str], notebook: Kernel, tmp_path: Path
+) -> None:
+    earlier = notebook.run("print(lab.connection.connection().domain_id)").strip()
+    later = Kernel(tmp_path)
+    try:
+        later.run("lab.node()")
+        assert in_terminal(lab, "ros2 node list --spin-time 2").split() == ["/robot/notebook"]
+        assert len(in_terminal(lab, f"ROS_DOMAIN_ID={earlier} ros2 node list --spin-time 2").split()) == 2
+    finally:
+        later.shut_down()
+    assert len(in_terminal(lab, "ros2 node list --spin-time 2").split()) == 2
