@@ -75,12 +75,13 @@ def test_what_was_replaced_in_mujoco_is_put_back():
         "from robot_sim.humanoid import Humanoid; from robot_sim.views.web_view import WebView;"
         "view = WebView(Humanoid());"
         "from mujoco.studio import web_viewer; from mujoco.studio.web import web_server;"
-        "print(web_server.bind_public_socket.__module__, web_viewer._print_url_banner.__module__)"
+        "print('from', web_server.bind_public_socket.__module__, web_viewer._print_url_banner.__module__)"
     )
     ran = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False
     )
-    assert ran.stdout.split() == ["mujoco.studio.web.web_server", "mujoco.studio.web_viewer"], ran.stderr
+    expected = "from mujoco.studio.web.web_server mujoco.studio.web_viewer"
+    assert expected in ran.stdout.splitlines(), ran.stdout + ran.stderr  # the viewer may say something, too
 
 
 def test_a_taken_port_is_said(url):
