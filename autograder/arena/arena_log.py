@@ -23,6 +23,9 @@ MOST_OF_A_KIND = 5000  # events of one kind for one goal, call, …; far more th
 MOST_OF: Mapping[str, int] = {
     ev.FeedbackReceived.kind: 1000,  # of one goal: 50 a second for the longest walk, ten times what is asked for
     ev.RequestReceived.kind: 500,  # of one service: each may be waited for
+    ev.GoalReceived.kind: 500,  # of one action
+    ev.CancelReceived.kind: 500,
+    ev.ResultRequested.kind: 500,  # of one goal
 }
 LARGEST_EVENT = 2**20  # bytes of JSON
 LARGEST_RECORD = 32 * 2**20  # bytes of what students send; the controller reads twice as much

@@ -20,6 +20,7 @@ LARGEST: Mapping[str, int] = {  # bytes; what the course's interfaces are used f
     "result": 64 * KIB,
     "cancel answer": 64 * KIB,
     "request": 64 * KIB,
+    "message": 64 * KIB,
 }
 
 

@@ -1,4 +1,4 @@
-"""What a scenario for a client can do: offer scripted services and run the student's program to its end.
+"""What a scenario for a client can do: offer scripted services, actions and topics, and run the student's program.
 
 Nothing is judged here, and all durations are seconds on the arena's clock, as in `stage.py`.
 """
@@ -7,18 +7,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from itertools import count
-from typing import Any
 
 from rclpy.node import Node
 
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
-from autograder.arena.graph import Graph
+from autograder.arena.offering import Offering
 from autograder.arena.phases import Phases
-from autograder.arena.scripted_service import Reply, ScriptedService
 from autograder.arena.student import Student
-from autograder.arena.waiting import Waiting
 
 # s, on a clock that still runs at scale 1:
 APPEARING_TIMEOUT = 20.0  # for the student's node to appear
@@ -29,8 +25,8 @@ SETTLING = 0.05  # for the program's own side of those connections
 END_TIMEOUT = 25.0
 
 
-class ClientStage(Waiting):
-    """The scripted services of a scenario, and the student's program."""
+class ClientStage(Offering):
+    """The scripted services, actions and topics of a scenario, and the student's program."""
 
     def __init__(
         self,
@@ -40,37 +36,19 @@ class ClientStage(Waiting):
         phases: Phases,
         speed_up: Callable[[], None],
     ) -> None:
-        super().__init__(Graph(node, log), log)
-        self._node = node
-        self._student = student
+        super().__init__(node, log, student)
         self._phases = phases
         self._speed_up = speed_up
-        self._services: list[ScriptedService] = []
-        self._request_numbers = count(1)
-        self._server_numbers = count(1)
-
-    # -- the servers --------------------------------------------------------------------------------------------------
-
-    def offer_service(self, name: str, service_type: Any, *replies: Reply | None) -> ScriptedService:
-        """Offer a service whose first request gets the first of `replies`, and so on; the last one is repeated."""
-        service = ScriptedService(
-            self._node,
-            service_type,
-            name,
-            replies,
-            f"server {next(self._server_numbers)}",
-            self._log,
-            lambda: f"request {next(self._request_numbers)}",
-        )
-        self._services.append(service)
-        return service
-
-    def wait_for_requests(self, service: ScriptedService, number: int, timeout: float) -> bool:
-        """Wait for so many requests to a scripted service; False if the time or the program is over first."""
-        self.wait_until(lambda: service.requests >= number or self._student.has_exited(), timeout)
-        return service.requests >= number
 
     # -- the student's program ----------------------------------------------------------------------------------------
+
+    def has_printed(self, text: str) -> bool:
+        """Return whether the program has printed a line that contains this text, on stdout or stderr."""
+        return any(text in line.text for line in self._log.all(ev.NodeOutput))
+
+    def has_ended(self) -> bool:
+        """Return whether the program has ended."""
+        return self._student.has_exited()
 
     def start_program(self, arguments: Sequence[str] = ()) -> None:
         """Run the student's program, and return when it has found the servers, if there are any.
@@ -83,10 +61,25 @@ class ClientStage(Waiting):
         if appeared and not self._student.has_exited():
             self._log.append(ev.NodeReady(waited=time.monotonic() - started))
             self._phases.end("discovery")
-        if appeared and self._services:
+        if appeared and self._offers_anything():
             self._wait_for_matching()
         self._graph.inspect()
         self._speed_up()
+
+    def type_line(self, text: str) -> None:
+        """Type a line on the program's stdin."""
+        self._log.append(ev.NodeTyped(line=text))
+        self._student.type_line(text)
+
+    def end_input(self) -> None:
+        """End the program's stdin, as Ctrl-D does."""
+        self._log.append(ev.NodeTyped(line=None))
+        self._student.end_input()
+
+    def interrupt_program(self) -> None:
+        """Send SIGINT, as Ctrl-C does."""
+        self._log.append(ev.NodeSignalled(signal="SIGINT"))
+        self._student.interrupt()
 
     def run_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:
         """Run a module of ours on some of the student's files, in the student's sandbox, to its end.
@@ -106,12 +99,9 @@ class ClientStage(Waiting):
         """Wait until the program's clients are discovered, and a moment longer for its own side, or for a request."""
 
         def is_needless() -> bool:
-            return self._had_a_request() or self._student.has_exited()
+            return self._was_asked() or self._student.has_exited()
 
-        def are_known() -> bool:
-            return all(self._graph.count_clients(service.name) for service in self._services)
-
-        self.poll_until(lambda: is_needless() or are_known(), MATCHING_TIMEOUT)
+        self.poll_until(lambda: is_needless() or self._is_known(), MATCHING_TIMEOUT)
         self.wait_until(is_needless, SETTLING)
 
     def _wait_for_end(self, timeout: float) -> None:
@@ -119,9 +109,6 @@ class ClientStage(Waiting):
         if not self.wait_until(self._student.has_exited, timeout):
             waited = time.monotonic() - started
             self._log.append(ev.Unanswered(what="end", id="program", waited=waited))
-
-    def _had_a_request(self) -> bool:
-        return any(service.requests for service in self._services)
 
     def _has_appeared(self) -> bool:
         """Return whether there is a node beside ours, or the program has ended."""

@@ -1,6 +1,7 @@
 """The events that an arena can report; every time is in seconds on the arena's clock.
 
-The arena's own events are defined here; those of its clients and of the simulator are in `ros_runtime.record`.
+The arena's own events are defined here and in `scripted_events`; those of its clients and of the simulator are in
+`ros_runtime.record`.
 """
 
 from __future__ import annotations
@@ -8,6 +9,23 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from autograder.arena.scripted_events import (
+    ActionOffered,
+    ActionWithdrawn,
+    CancelReceived,
+    CancelReplySent,
+    FeedbackSent,
+    GoalFinished,
+    GoalReceived,
+    GoalReplySent,
+    MessagePublished,
+    ReplySent,
+    RequestReceived,
+    ResultRequested,
+    ResultSent,
+    ServiceOffered,
+    ServiceWithdrawn,
+)
 from ros_runtime.record.client_events import (
     CancelAnswered,
     CancelSent,
@@ -64,6 +82,13 @@ class NodeOutput(Event):
 
 
 @dataclass(frozen=True, kw_only=True)
+class NodeTyped(Event):
+    """The scenario typed a line on the student's stdin; None: it ended the input, as Ctrl-D does."""
+
+    line: str | None
+
+
+@dataclass(frozen=True, kw_only=True)
 class NodeSignalled(Event):
     """The scenario sent the student's process a signal."""
 
@@ -94,38 +119,11 @@ class NodeUsage(Event):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ServiceOffered(Event):
-    """The grader began to offer a scripted service; `server` names it, `type` is the ROS name of its type."""
+class MessageReceived(Event):
+    """The student's node published a message on a topic that the grader subscribes to."""
 
-    service: str
-    server: str
-    type: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class ServiceWithdrawn(Event):
-    """A scripted service ceased to exist, together with the requests it was working on."""
-
-    service: str
-    server: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class RequestReceived(Event):
-    """A request of the student's client reached a scripted service."""
-
-    request: str
-    service: str
-    server: str
+    topic: str
     message: Any
-
-
-@dataclass(frozen=True, kw_only=True)
-class ReplySent(Event):
-    """A scripted service answered a request."""
-
-    request: str
-    response: Any
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -202,8 +200,19 @@ _EVENTS: list[type[Event]] = [
     *(GoalSent, GoalAnswered, FeedbackReceived, StatusSeen, CancelSent, CancelAnswered, ResultReceived),
     *(RobotReady, RobotTruth, BatteryPublished, JointsPublished, ArmReported),
     *(RobotPeers, RobotCommanded, RobotRefused),
-    *(NodeStarted, NodeReady, NodeNotReady, NodeOutput, NodeSignalled, NodeExited, NodeKilled, NodeUsage),
-    *(ServiceOffered, ServiceWithdrawn, RequestReceived, ReplySent),
+    *(NodeStarted, NodeReady, NodeNotReady, NodeOutput, NodeTyped),
+    *(NodeSignalled, NodeExited, NodeKilled, NodeUsage),
+    *(ServiceOffered, ServiceWithdrawn, RequestReceived, ReplySent, MessagePublished, MessageReceived),
+    *(
+        ActionOffered,
+        ActionWithdrawn,
+        GoalReceived,
+        GoalReplySent,
+        FeedbackSent,
+        CancelReceived,
+        CancelReplySent,
+    ),
+    *(GoalFinished, ResultRequested, ResultSent),
     *(WokenLate, Starved, Mark, PhaseEnded, ScenarioEnded, ScenarioFailed),
     *(RecordDropped, GraphFlooded, CommandSent),
 ]

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
-from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
 from rclpy.task import Future
 
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.bounded_reading import BoundedReading
+from autograder.arena.scripting import offer, pause, type_name
 
 
 @dataclass(frozen=True)
@@ -52,12 +51,8 @@ class ScriptedService:
         self._log = log
         self._reading = BoundedReading(log)
         self._next_request = next_request
-        self._service = node.create_service(
-            service_type, name, self._on_request, callback_group=ReentrantCallbackGroup()
-        )
-        self._send = self._service.send_response
-        self._service.send_response = self._send_if_anybody_waits  # type: ignore[method-assign]
-        log.append(ev.ServiceOffered(service=name, server=server, type=_type_name(service_type)))
+        self._service = offer(node, service_type, name, self._on_request)
+        log.append(ev.ServiceOffered(service=name, server=server, type=type_name(service_type)))
 
     @property
     def requests(self) -> int:
@@ -82,27 +77,7 @@ class ScriptedService:
         if reply is SILENCE:
             await Future()  # nobody ever completes it
         else:
-            await self._pause(reply.after)
+            await pause(self._node, reply.after)
             response = self._type.Response() if reply.response is None else reply.response
             self._log.append(ev.ReplySent(request=name, response=response))
         return response
-
-    def _send_if_anybody_waits(self, response: Any, header: Any) -> None:
-        """Send a response, unless the client has left or the service was withdrawn meanwhile."""
-        with suppress(RuntimeError):  # what rclpy's own errors are
-            self._send(response, header)
-
-    async def _pause(self, duration: float) -> None:
-        if duration <= 0:
-            return
-        over = Future()
-        timer = self._node.create_timer(duration, lambda: over.set_result(None))
-        try:
-            await over
-        finally:
-            self._node.destroy_timer(timer)
-
-
-def _type_name(service_type: Any) -> str:
-    package = service_type.__module__.split(".")[0]
-    return f"{package}/srv/{service_type.__name__}"

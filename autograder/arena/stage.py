@@ -17,12 +17,13 @@ from rclpy.node import Node
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.bounded_reading import BoundedReading
-from autograder.arena.graph import Graph
+from autograder.arena.heard_topic import HeardTopic
+from autograder.arena.offering import Offering
 from autograder.arena.phases import Phases
 from autograder.arena.robot import TIMEOUT, Robot, RobotTrouble
 from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
-from autograder.arena.waiting import POLLING, Waiting
+from autograder.arena.waiting import POLLING
 from ros_runtime.reachability import wait_until_all_reachable
 from ros_runtime.recorded_client.action_client import ActionClient
 from ros_runtime.recorded_client.conversation import Conversation
@@ -57,7 +58,7 @@ class Parameters:
         self.service = service
 
 
-class Stage(Waiting):
+class Stage(Offering):
     """The robot (unless the scenario needs none), the student's node and clients of it."""
 
     def __init__(
@@ -70,11 +71,9 @@ class Stage(Waiting):
         phases: Phases,
         speed_up: Callable[[], None],
     ) -> None:
-        super().__init__(Graph(node, log), log)
-        self._node = node
+        super().__init__(node, log, student)
         self._stranger = stranger
         self._robot = Robot(simulator, log) if simulator else None
-        self._student = student
         self._phases = phases
         self._speed_up = speed_up
         self._conversation = Conversation(log, BoundedReading(log), student.has_exited)
@@ -96,6 +95,10 @@ class Stage(Waiting):
         client = ActionClient(self._node, name, action_type, self._conversation, others)
         self._actions.append(client)
         return client
+
+    def listen(self, topic: str, message_type: Any, *, latched: bool = False) -> HeardTopic:
+        """Record what the student's node publishes on a topic; `latched`: also its last message from before."""
+        return HeardTopic(self._node, message_type, topic, self._log, latched=latched)
 
     def parameters_of(self, service: ServiceClient) -> Parameters:
         """Make clients of the parameters of the node that offers a service, whatever its name."""

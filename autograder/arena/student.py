@@ -58,6 +58,14 @@ class Student:
         """Send SIGINT, as Ctrl-C does."""
         self._running.interrupt()
 
+    def type_line(self, text: str) -> None:
+        """Type a line on its stdin; nothing happens when it has ended."""
+        self._running.write_line(text)
+
+    def end_input(self) -> None:
+        """End its stdin."""
+        self._running.close_stdin()
+
     def wait(self, timeout: float) -> int | None:
         """Wait for the end and return the exit status, or None after `timeout` s."""
         return self._running.wait(timeout)

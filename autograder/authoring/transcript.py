@@ -14,6 +14,7 @@ from autograder.authoring.call import Call, Request
 from autograder.authoring.goal import Cancel, Goal, require_cancels
 from autograder.authoring.missing import Missing
 from autograder.authoring.robot_record import RobotRecord
+from autograder.authoring.scripted_goal import ScriptedGoal, scripted_goals
 
 
 class Transcript(RobotRecord):
@@ -90,7 +91,7 @@ class Transcript(RobotRecord):
             never=f"the request “{name}” was never sent",
         )
 
-    # -- scripted services --------------------------------------------------------------------------------------------
+    # -- scripted services and actions --------------------------------------------------------------------------------
 
     def requests(self, service: str) -> list[Request]:
         """Return the requests to a scripted service, on any of its servers, in order."""
@@ -100,3 +101,17 @@ class Transcript(RobotRecord):
             for name, event in reversed(received.items())
             if event.service == service
         ]
+
+    def scripted_goals(self, action: str) -> list[ScriptedGoal]:
+        """Return the goals that the student's client sent to a scripted action, in order."""
+        return scripted_goals(self, action)
+
+    # -- topics -------------------------------------------------------------------------------------------------------
+
+    def heard(self, topic: str) -> list[ev.MessageReceived]:
+        """Return what the student's node published on a topic that the scenario listens to, in order."""
+        return [event for event in self.all(ev.MessageReceived) if event.topic == topic]
+
+    def published(self, topic: str) -> list[ev.MessagePublished]:
+        """Return what the scenario published on a topic, in order."""
+        return [event for event in self.all(ev.MessagePublished) if event.topic == topic]

@@ -17,6 +17,7 @@ MODES: dict[int, str] = {
     RobotMode.FALLEN: "has fallen",
 }
 MOST_ARROWS = 60
+Feedback = ev.FeedbackReceived | ev.FeedbackSent
 
 
 def transcript_svg(transcript: Transcript, title: str) -> str:
@@ -30,9 +31,9 @@ def transcript_svg(transcript: Transcript, title: str) -> str:
 
 
 def _talk(transcript: Transcript) -> Iterator[Arrow]:
-    feedback: list[ev.FeedbackReceived] = []
+    feedback: list[Feedback] = []
     for event in transcript.events:
-        if isinstance(event, ev.FeedbackReceived):
+        if isinstance(event, Feedback):
             feedback.append(event)
             continue
         arrow = _arrow(event)
@@ -43,7 +44,7 @@ def _talk(transcript: Transcript) -> Iterator[Arrow]:
     yield from _collapsed(feedback)
 
 
-def _collapsed(feedback: Sequence[ev.FeedbackReceived]) -> Iterator[Arrow]:
+def _collapsed(feedback: Sequence[Feedback]) -> Iterator[Arrow]:
     if not feedback:
         return
     first, last = feedback[0], feedback[-1]
@@ -61,21 +62,35 @@ def _arrow(event: object) -> Arrow | None:
             return Arrow(t, SERVER, SERVER, f"process ended with status {code}")
         case ev.NodeSignalled(t=t, signal=signal):
             return Arrow(t, CLIENT, SERVER, signal, "request")
-        case ev.ServiceCalled(t=t, service=service):
+        case ev.ServiceCalled(t=t, service=service) | ev.RequestReceived(t=t, service=service):
             return Arrow(t, CLIENT, SERVER, f"{service}?", "request")
-        case ev.ServiceAnswered(t=t):
+        case ev.ServiceAnswered(t=t) | ev.ReplySent(t=t):
             return Arrow(t, SERVER, CLIENT, "response", "answer")
-        case ev.GoalSent(t=t, goal=goal):
+        case ev.GoalSent(t=t, goal=goal) | ev.GoalReceived(t=t, goal=goal):
             return Arrow(t, CLIENT, SERVER, f"goal “{goal}”", "request")
-        case ev.GoalAnswered(t=t, accepted=accepted):
+        case ev.GoalAnswered(t=t, accepted=accepted) | ev.GoalReplySent(t=t, accepted=accepted):
             return Arrow(t, SERVER, CLIENT, "accepted" if accepted else "rejected", "answer")
         case ev.CancelSent(t=t, goal=goal, by=by):
             what = f"cancel “{goal}”" if goal else f"cancel every goal (by a {by})"
             return Arrow(t, CLIENT, SERVER, what, "request")
-        case ev.CancelAnswered(t=t, canceling=canceling, return_code=code):
-            return Arrow(
-                t, SERVER, CLIENT, "canceling" if canceling else f"cancel refused (code {code})", "answer"
-            )
+        case ev.CancelReceived(t=t, goal=goal):
+            return Arrow(t, CLIENT, SERVER, f"cancel “{goal}”" if goal else "cancel every goal", "request")
+        case (
+            ev.CancelAnswered(t=t, canceling=canceling, return_code=code)
+            | ev.CancelReplySent(t=t, canceling=canceling, return_code=code)
+        ):
+            answer = "canceling" if canceling else f"cancel refused (code {code})"
+            return Arrow(t, SERVER, CLIENT, answer, "answer")
+        case ev.GoalFinished(t=t, goal=goal, status=status):
+            return Arrow(t, SERVER, SERVER, f"“{goal}” ends {name_of(GoalStatus, status)}")
+        case ev.ResultSent(t=t, goal=goal):
+            return Arrow(t, SERVER, CLIENT, f"result “{goal}”", "answer")
+        case ev.ServiceWithdrawn(t=t, service=name) | ev.ActionWithdrawn(t=t, action=name):
+            return Arrow(t, SERVER, SERVER, f"the server of {name} dies")
+        case ev.MessagePublished(t=t, topic=topic):
+            return Arrow(t, SERVER, CLIENT, f"a message on {topic}", "message")
+        case ev.NodeTyped(t=t, line=line):
+            return Arrow(t, CLIENT, CLIENT, "stdin ends" if line is None else f"typed: {line}")
         case ev.ResultReceived(t=t, goal=goal, status=status):
             return Arrow(t, SERVER, CLIENT, f"result “{goal}”: {name_of(GoalStatus, status)}", "answer")
         case ev.Unanswered(t=t, what=what, waited=waited):

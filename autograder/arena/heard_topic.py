@@ -1,0 +1,42 @@
+"""A topic of the student's node that the grader subscribes to."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
+from autograder.arena import events as ev
+from autograder.arena.arena_log import ArenaLog
+from autograder.arena.bounded_reading import BoundedReading
+
+DEPTH = 100
+
+
+class HeardTopic:
+    """Records what is published on one topic; `latched` asks for the last message from before, too.
+
+    A latched subscription is not matched with a publisher whose durability is volatile.
+    """
+
+    def __init__(self, node: Node, message_type: Any, name: str, log: ArenaLog, *, latched: bool) -> None:
+        self.name = name
+        self._type = message_type
+        self._log = log
+        self._reading = BoundedReading(log)
+        durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
+        profile = QoSProfile(depth=DEPTH, durability=durability)
+        self._subscription = node.create_subscription(message_type, name, self._on_message, profile, raw=True)
+
+    @property
+    def messages(self) -> int:
+        """The number of messages that have come."""
+        return self._log.count(ev.MessageReceived, topic=self.name)
+
+    def _on_message(self, data: bytes) -> None:
+        if not self._reading.admits(ev.MessageReceived.kind, self.name):
+            return
+        message = self._reading.unpack("message", self.name, data, self._type)
+        if message is not None:
+            self._log.append(ev.MessageReceived(topic=self.name, message=message))

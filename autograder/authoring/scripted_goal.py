@@ -1,0 +1,88 @@
+"""A goal, and a request to cancel it, as a scripted action got them from the student's client."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from autograder.authoring import events as ev
+from autograder.authoring.record import Record
+
+
+@dataclass(frozen=True)
+class ScriptedCancel:
+    """A request to cancel one goal, or every goal, and the reply it got (None: none)."""
+
+    received: ev.CancelReceived
+    reply: ev.CancelReplySent | None
+
+
+@dataclass(frozen=True)
+class ScriptedGoal:
+    """One goal of the student's client, with what the scripted action sent for it and was asked about it.
+
+    Attributes:
+        received: the goal as it came.
+        reply: whether it was accepted; None: it was never answered.
+        feedback: what was published for it, also before the reply.
+        cancels: the requests to cancel it or every goal, from its arrival on.
+        finished: how it ended; None: it never did.
+        result_requested: when the client first asked for its result; None: never.
+        result_sent: when the result was sent; None: never.
+    """
+
+    received: ev.GoalReceived
+    reply: ev.GoalReplySent | None
+    feedback: Sequence[ev.FeedbackSent]
+    cancels: Sequence[ScriptedCancel]
+    finished: ev.GoalFinished | None
+    result_requested: ev.ResultRequested | None
+    result_sent: ev.ResultSent | None
+
+    @property
+    def name(self) -> str:
+        """Its name in the record: 'goal 1', 'goal 2', …, in the order of arrival."""
+        return self.received.goal
+
+    @property
+    def message(self) -> Any:
+        """The action's Goal."""
+        return self.received.message
+
+    @property
+    def is_accepted(self) -> bool:
+        """Whether the server accepted it."""
+        return self.reply is not None and self.reply.accepted
+
+
+def scripted_goals(run: Record, action: str) -> list[ScriptedGoal]:
+    """Return the goals that a scripted action got, on any of its servers, in order."""
+    received = {event.goal: event for event in reversed(run.all(ev.GoalReceived))}
+    return [_goal(run, event) for event in reversed(received.values()) if event.action == action]
+
+
+def scripted_cancels(run: Record, action: str) -> list[ScriptedCancel]:
+    """Return the requests to cancel that a scripted action got, in order."""
+    return [
+        ScriptedCancel(event, run.one(ev.CancelReplySent, "cancel", event.cancel))
+        for event in run.all(ev.CancelReceived)
+        if event.action == action
+    ]
+
+
+def _goal(run: Record, received: ev.GoalReceived) -> ScriptedGoal:
+    name = received.goal
+    return ScriptedGoal(
+        received,
+        run.one(ev.GoalReplySent, "goal", name),
+        [event for event in run.all(ev.FeedbackSent) if event.goal == name],
+        [
+            cancel
+            for cancel in scripted_cancels(run, received.action)
+            if cancel.received.t >= received.t and cancel.received.goal in ("", name)
+        ],
+        run.one(ev.GoalFinished, "goal", name),
+        run.one(ev.ResultRequested, "goal", name),
+        run.one(ev.ResultSent, "goal", name),
+    )

@@ -1,0 +1,76 @@
+"""A server that asks the grader's service, reads its topic and publishes: what a stage offers, hears and records."""
+
+from __future__ import annotations
+
+import pytest
+
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Scenario
+from autograder.engine.arena_run import ArenaRun, run_in_arena
+from autograder.engine.exercise import Exercise
+from autograder.isolation.availability import available_isolation
+
+pytestmark = pytest.mark.skipif(
+    not available_isolation().trusted, reason=f"no namespaces here: {available_isolation().reason}"
+)
+NAME = "battery_service"  # any server: its scenarios and its program are replaced
+SCENARIOS = """
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+from autograder.arena.scripted_service import Reply
+
+
+def asks_and_tells(stage):
+    stage.offer_service("get_status", Trigger, Reply(Trigger.Response(success=True, message="Motors: ON")))
+    words = stage.offer_topic("words", String, latched=True)
+    words.publish(String(data="good morning"))
+    heard, kept = stage.listen("told", String), stage.listen("kept", String, latched=True)
+    tell = stage.service("tell", Trigger)
+    stage.open()
+    tell.call(as_="tell")
+    stage.wait_until(lambda: heard.messages and kept.messages, 5.0)
+"""
+SERVER = """
+import rclpy
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+rclpy.init()
+node = rclpy.create_node("server")
+words = []
+node.create_subscription(String, "words", words.append, LATCHED)
+told = node.create_publisher(String, "told", 10)
+node.create_publisher(String, "kept", LATCHED).publish(String(data="from the beginning"))
+group = ReentrantCallbackGroup()
+client = node.create_client(Trigger, "get_status", callback_group=group)
+
+
+async def on_tell(request, response):
+    status = await client.call_async(Trigger.Request())
+    told.publish(String(data=f"{words[0].data}, {status.message}"))
+    response.success = True
+    return response
+
+
+node.create_service(Trigger, "tell", on_tell, callback_group=group)
+rclpy.spin(node)
+"""
+
+
+def test_a_server_meets_what_the_stage_offers_and_is_heard(tmp_path) -> None:
+    (tmp_path / "scenarios.py").write_text(SCENARIOS)
+    exercise = Exercise(NAME, tmp_path, (), False)
+    scenario = Scenario("asks_and_tells", robot=None)
+    transcript = run_in_arena(ArenaRun(exercise, {f"{NAME}.py": SERVER.encode()}, scenario))
+    assert transcript.first(ev.ScenarioEnded), transcript.output()
+    assert transcript.call("tell").response.success
+    assert [event.message.data for event in transcript.heard("told")] == ["good morning, Motors: ON"]
+    assert [event.message.data for event in transcript.heard("kept")] == ["from the beginning"]
+    (request,) = transcript.requests("get_status")
+    assert request.reply
+    (published,) = transcript.published("words")
+    assert published.message.data == "good morning"
