@@ -93,6 +93,10 @@ class ScriptedAction:
 
     `server` names it in the transcript, since two servers may offer the same action. `number` counts up what students
     send, by "goal" and "cancel".
+
+    Attributes:
+        name: of the action.
+        feedbacks: the number of feedback messages it has published.
     """
 
     def __init__(
@@ -116,6 +120,7 @@ class ScriptedAction:
         self._names: dict[bytes, str] = {}
         self._goals: dict[bytes, _Goal] = {}
         self._withdrawn = False
+        self.feedbacks = 0
         types = action_type.Impl
         self._services = [
             offer(node, types.SendGoalService, f"{name}/_action/send_goal", self._on_goal),
@@ -260,6 +265,7 @@ class ScriptedAction:
         executor.create_task(task, goal)
 
     def _publish_feedback(self, name: str, goal_id: UUID, feedback: Any) -> None:
+        self.feedbacks += 1
         self._feedback.publish(self._type.Impl.FeedbackMessage(goal_id=goal_id, feedback=feedback))
         self._log.append(ev.FeedbackSent(goal=name, feedback=feedback))
 

@@ -1,0 +1,205 @@
+"""What only the instructor's grading checks."""
+
+from __future__ import annotations
+
+import random
+
+from autograder.authoring import events as ev
+from autograder.authoring.action_client_checks import (
+    require_exit,
+    require_goal_answered,
+    require_goal_finished,
+    require_one_goal,
+    require_patience,
+)
+from autograder.authoring.checks import check, expect, program
+from autograder.authoring.missing import unseen
+from autograder.authoring.transcript import Transcript
+
+from .checks import (
+    GIVING_UP,
+    WITHIN,
+    ctrl_c_cancels_the_goal,
+    gives_up_in_silence,
+    gives_up_without_a_server,
+    prints_the_feedback,
+    require_interrupted,
+    says_how_it_succeeded,
+    tells_an_abort,
+)
+from .judging import (
+    ABORTED,
+    CANCELED,
+    NO_SERVER,
+    PATIENCE,
+    STATUS_HELP,
+    WALK,
+    GoalStatus,
+    require_ending_line,
+    require_failure,
+    require_feedback_lines,
+    require_gives_up_in_silence,
+    require_goal_at,
+    require_success,
+)
+
+
+def _any_walk(generator: random.Random, arguments: int = 3) -> dict:
+    """A pose with negative numbers, feedback that falls, and an end beside the pose."""
+    pose = [-round(generator.uniform(0.3, 2.0), 2), round(generator.uniform(-2.0, -0.3), 2)]
+    pose += [round(generator.uniform(-3.0, 3.0), 2)]
+    distances = sorted((round(generator.uniform(0.05, 2.5), 2) for _ in range(8)), reverse=True)
+    final = [round(value + generator.uniform(-0.08, 0.08), 2) for value in pose[:2]]
+    return {
+        "arguments": [str(value) for value in pose[:arguments]],
+        "distances": distances,
+        "final": [*final, pose[2]],
+    }
+
+
+ANY_WALK = program("good", _any_walk)
+WITHOUT_YAW = program("good", lambda generator: _any_walk(generator, arguments=2))
+OTHER_NAMESPACE = program("good", _any_walk, namespace="/lab_7/robot")
+UNANSWERED = program("unanswered")
+SLOW = program("slow_but_lively", {"every": 3.0, "times": 4})
+FALLING_SILENT = program("falling_silent")
+DYING = program("dying")
+EARLY = program("early_feedback", lambda generator: {"distance": round(generator.uniform(3.0, 9.0), 2)})
+BY_ANOTHER = program("canceled_by_another")
+NO_CODE = program("aborting", {"error_code": 0, "error_msg": ""})
+WITH_WORDS = program("succeeding_with_words", {"final": [0.97, 0.52, 0.31]})
+NEVER_CANCELED = program("interrupted", {"ends_after": None})
+
+
+@check(points=1, on=[ANY_WALK, WITHOUT_YAW], needs=says_how_it_succeeded)
+def walks_anywhere(with_yaw: Transcript, without_yaw: Transcript) -> None:
+    """Negative numbers, and a yaw that is left out, are sent as they are meant"""
+    for run in (with_yaw, without_yaw):
+        x, y, *yaw = map(float, run.params["arguments"])
+        goal = require_goal_at(run, x, y, yaw[0] if yaw else 0.0)
+        require_success(run, goal, WITHIN)
+
+
+@check(points=1, on=OTHER_NAMESPACE, needs=says_how_it_succeeded, see="01_robot_and_graph#names-why")
+def works_in_any_namespace(run: Transcript) -> None:
+    """Started in another namespace, it sends the goal to the robot there"""
+    require_success(run, require_one_goal(run, WALK), WITHIN)
+
+
+@check(points=1, on=UNANSWERED, needs=gives_up_without_a_server, see="03_clients_that_survive#fix-why")
+def gives_up_without_an_answer(run: Transcript) -> None:
+    """A goal that is never answered ends it with status 1 after 5 s"""
+    goal = require_one_goal(run, WALK)
+    if goal.reply:
+        raise unseen(run, "the goal was answered")
+    exited = run.first(ev.NodeExited)
+    require_failure(
+        run,
+        GIVING_UP + PATIENCE,
+        NO_SERVER,
+        because="the goal was never answered",
+        help="spin_until_future_complete(node, future, timeout_sec=5.0) returns with no result: look at future.done().",
+    )
+    if exited:
+        require_patience(run, goal.received.t, exited.t, PATIENCE, what="the end")
+
+
+@check(points=2, on=SLOW, needs=gives_up_in_silence)
+def walks_as_long_as_it_takes(run: Transcript) -> None:
+    """A walk of 12 s with feedback each 3 s is followed to its end: only silence has a limit"""
+    goal = require_one_goal(run, WALK)
+    require_success(run, goal, run.params["every"] * run.params["times"] + WITHIN)
+
+
+@check(points=1, on=[FALLING_SILENT, DYING], needs=gives_up_in_silence)
+def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
+    """A server that falls silent or dies on the way ends it with status 1, 5 s after the last feedback"""
+    goal = require_one_goal(silent, WALK)
+    require_gives_up_in_silence(silent, goal, heard_last_feedback(silent))
+    if dying.first(ev.ActionWithdrawn) is None:
+        raise unseen(dying, "the server did not die, because the goal never was under way")
+    exited = dying.first(ev.NodeExited)
+    require_failure(
+        dying,
+        GIVING_UP + PATIENCE + WITHIN,
+        NO_SERVER,
+        because="the server has died",
+        help="A server that has died answers nothing, no cancel either: give each wait a time limit.",
+    )
+    if exited:
+        since = heard_last_feedback(dying)
+        expect(
+            PATIENCE - 0.5 <= exited.t - since <= 2 * PATIENCE + 2.0,
+            expected=f"the end {PATIENCE:g} s after the last feedback, and at most {PATIENCE:g} s more for the cancel",
+            observed=f"{exited.t - since:.1f} s after it",
+            help="Note when feedback came last; wait for the answer to the cancel with a time limit, too.",
+            at=exited.t,
+        )
+
+
+@check(points=1, on=EARLY, needs=prints_the_feedback)
+def survives_early_feedback(run: Transcript) -> None:
+    """Feedback that comes before the goal is accepted disturbs nothing"""
+    goal = require_one_goal(run, WALK)
+    if not goal.feedback or goal.reply is None or goal.feedback[0].t > goal.reply.t:
+        raise unseen(run, "no feedback came before the acceptance")
+    require_success(run, goal, WITHIN)
+
+
+@check(points=1, on=BY_ANOTHER, needs=tells_an_abort)
+def tells_a_cancel_by_another(run: Transcript) -> None:
+    """A goal that somebody else cancels ends it with status 4, and a line on stdout says CANCELED"""
+    goal = require_one_goal(run, WALK)
+    require_goal_finished(run, goal, GoalStatus.STATUS_CANCELED)
+    exited = require_exit(
+        run, WITHIN, CANCELED, because="the goal was CANCELED", stream="stdout", help=STATUS_HELP
+    )
+    require_ending_line(run, "CANCELED", exited.t)
+
+
+@check(points=2, on=[NO_CODE, WITH_WORDS], needs=tells_an_abort, see="07_cancel_and_preempt#fall-why")
+def believes_the_status(aborted: Transcript, succeeded: Transcript) -> None:
+    """The status decides: ABORTED with error_code NONE is 3, SUCCEEDED with an error_msg is 0"""
+    goal = require_one_goal(aborted, WALK)
+    require_goal_finished(aborted, goal, GoalStatus.STATUS_ABORTED)
+    require_failure(aborted, WITHIN, ABORTED, because="the status is ABORTED", help=STATUS_HELP)
+    require_success(succeeded, require_one_goal(succeeded, WALK), WITHIN)
+
+
+@check(points=1, on=NEVER_CANCELED, needs=ctrl_c_cancels_the_goal)
+def ctrl_c_ends_it_in_any_case(run: Transcript) -> None:
+    """When the goal does not end within 5 s of Ctrl-C, it ends all the same, with status 4"""
+    goal = require_one_goal(run, WALK)
+    require_goal_answered(run, goal, accepted=True)
+    pressed = require_interrupted(run)
+    if not goal.cancels:
+        raise unseen(run, "the goal was not cancelled")
+    exited = require_exit(
+        run,
+        pressed + WITHIN,
+        CANCELED,
+        because="Ctrl-C was pressed",
+        stream="stdout",
+        help="Wait for the result at most 5 s after the cancel, then print a line and return 4.",
+    )
+    expect(
+        exited.t - pressed <= PATIENCE + 2.0,
+        expected=f"the end within {PATIENCE:g} s of Ctrl-C",
+        observed=f"{exited.t - pressed:.1f} s after it",
+        help="Wait for the result at most 5 s after the cancel, then print a line and return 4.",
+        at=exited.t,
+    )
+
+
+@check(points=1, on=ANY_WALK, needs=prints_the_feedback)
+def prints_any_feedback(run: Transcript) -> None:
+    """Whatever the distances are, they are printed as they came"""
+    require_feedback_lines(run, require_one_goal(run, WALK))
+
+
+def heard_last_feedback(run: Transcript) -> float:
+    """Return when (s) the last feedback was sent."""
+    sent = run.all(ev.FeedbackSent)
+    if not sent:
+        raise unseen(run, "no feedback was sent")
+    return sent[-1].t
