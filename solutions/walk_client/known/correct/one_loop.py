@@ -49,7 +49,8 @@ class WalkClient(Node):
         response = self._wait(ended, until=self._interrupted.is_set)
         if self._interrupted.is_set():
             handle.cancel_goal_async()
-            self._wait(ended)
+            latest = time.monotonic() + PATIENCE  # a limit on the time, as feedback may go on
+            self._wait(ended, until=lambda: time.monotonic() > latest)
             return CANCELED, "CANCELED: Ctrl-C"
         if response is None:
             self._wait(handle.cancel_goal_async(), patience=1.0)
