@@ -48,4 +48,5 @@ def _end(exit_status: int | None, was_stopped: bool) -> str:
 
 def _printable(line: str) -> str:
     """A line as a label: without a log line's prefix, and without what a drawing cannot hold."""
-    return LOG_PREFIX.sub(r"\1 ", "".join(letter for letter in line.rstrip() if letter.isprintable()))
+    letters = "".join(letter if letter.isprintable() else " " for letter in line)
+    return LOG_PREFIX.sub(r"\1 ", " ".join(letters.split()))

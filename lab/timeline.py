@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 WIDTH = 6.6  # inches, of the time axis
 BAR, SPACE = 0.16, 0.16  # inches: height of a process, and below it
-LABEL_LENGTH = 44  # characters
+LABEL_LENGTH = 48  # characters
 AT_ONCE = 0.05  # s between lines of one burst, of which a long one is cut
 TIME = "s since the first of them began (system clock)"
 
@@ -42,7 +42,8 @@ def draw_timeline(*processes: StudentNode | Program, title: str = "Who did what 
     zero, now = min(life.began for life in lives), time.monotonic()
     end = max(life.ended or now for life in lives) - zero
     scale = WIDTH / end
-    lanes = [_flags(life, zero) for life in lives]
+    moments = [_flags(life, zero) for life in lives]
+    lanes = [[Mark(mark.time, _shorten(mark.label)) for mark in lane] for lane in moments]
     rows = [rows_of(flags, scale) for flags in lanes]
     left = 0.3 + max(text_width(life.name) for life in lives)
     width = left + WIDTH + max(0.25, *(overhang(flags, end, scale) for flags in lanes))
@@ -63,7 +64,7 @@ def draw_timeline(*processes: StudentNode | Program, title: str = "Who did what 
             for mark, row in zip(flags, lane_rows, strict=True):
                 _draw_line(axis, mark, top + row * ROW, bar, is_end=mark is flags[-1] and bool(life.ended))
             top += depth
-        return as_html(page, _in_words(title, lives, lanes, zero))
+        return as_html(page, _in_words(title, lives, moments, zero))
 
 
 def _told_apart(lives: Sequence[Life]) -> list[Life]:
@@ -92,7 +93,7 @@ def _flags(life: Life, zero: float) -> list[Mark]:
             burst = [burst[0], between, burst[-1]]
         shown += burst
     ending = [] if life.ended is None else [Mark(life.ended, life.end)]
-    return [Mark(mark.time - zero, _shorten(mark.label)) for mark in [*shown, *ending]]
+    return [Mark(mark.time - zero, mark.label) for mark in [*shown, *ending]]
 
 
 def _draw_life(axis: Axes, life: Life, zero: float, now: float, bar: float) -> None:
