@@ -73,15 +73,17 @@ class Recording:
         self._marks.append(Mark(self.seconds, label))
 
     def time_of(self, label: str) -> float:
-        """When something happened for the first time, in s since the beginning; `label` is what a plot shows.
+        """When something happened for the first time, in s since the beginning.
 
             recording.time_of("result: CANCELED") - recording.time_of("cancel requested")
+
+        `label` is what a plot shows; "STANDING" is the first change of the mode to that.
 
         Raises LabError, which lists the labels, when there is no such label.
         """
         moments = sorted([*self._marks, *self._mode_changes()])
         for mark in moments:
-            if mark.label == label:
+            if mark.label == label or mark.label.endswith(f"→ {label}"):
                 return mark.time
         seen = "; ".join(f'"{mark.label}" at {mark.time:.2f} s' for mark in moments) or "nothing"
         raise LabError(f'"{label}" did not happen while the robot was recorded; there is: {seen}')

@@ -18,8 +18,8 @@ def recorded(kernel: Kernel) -> Kernel:
         server = lab.run_node("riser.py", "cancel")
         with lab.record_robot() as recording:
             with lab.walking(forward=0.3):
-                goal = lab.send_goal("stand_up", StandUp, StandUp.Goal())
                 lab.wait_until(lambda: lab.pose().x > 0.4, timeout=20)
+                goal = lab.send_goal("stand_up", StandUp, StandUp.Goal())
                 goal.cancel()
                 goal.result(show_feedback=False)
                 recording.mark("motor power off")
