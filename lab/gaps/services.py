@@ -1,5 +1,7 @@
 """Chapter 2: services."""
 
+from __future__ import annotations
+
 import math
 import runpy
 
@@ -19,7 +21,7 @@ UNKNOWN, HOME, ON = "stop and report", "walk home", "go on"
 DECISIONS = (  # available, percentage, what to do, what to look at when something else is done
     (False, 0.0, UNKNOWN, "look at response.available first: while it is false, the number means nothing"),
     (False, 0.9, UNKNOWN, "look at response.available first: while it is false, the number means nothing"),
-    (True, math.nan, UNKNOWN, "every comparison with NaN is false: ask math.isnan(level)"),
+    (True, math.nan, UNKNOWN, "NaN is neither below nor above 0.20: ask math.isnan(level)"),
     (True, 15.0, UNKNOWN, "a percentage runs from 0 to 1: don't believe a number above 1"),
     (True, -1.0, UNKNOWN, "a percentage runs from 0 to 1: don't believe a number below 0"),
     (True, 0.0, HOME, "0.0 is a charge like any other: the battery is empty"),

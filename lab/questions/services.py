@@ -211,19 +211,19 @@ PREDICTIONS = (
         (
             Choice(
                 "Only math.isnan.",
-                "Every comparison with NaN is false, even the one with itself. So ask math.isnan() "
+                "With NaN, <, >= and == are all false, even level == level. So ask math.isnan() "
                 "before you compare.",
                 right=True,
             ),
             Choice(
                 '"at least 0.20" and math.isnan.',
                 "A sensible guess: a number that isn't below 0.20 is at least 0.20. But NaN is no "
-                "number, and every comparison with it is false. Only math.isnan() tells you.",
+                "number, so >= is false as well as <. Only math.isnan() tells you.",
             ),
             Choice(
                 '"equal to itself" and math.isnan.',
-                "A sensible guess: every number is equal to itself. But NaN is no number, and every "
-                "comparison with it is false, even this one.",
+                "A sensible guess: every number is equal to itself. But NaN is no number, and `level == level` is false. "
+                "Programs without math.isnan() even use that as their test.",
             ),
         ),
     ),

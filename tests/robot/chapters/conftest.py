@@ -13,16 +13,6 @@ import pytest
 from execution import Executed, execute
 from gap_trials import GapTrials
 
-from ros_cli.real_ros2 import path_with_ros2
-
-
-@pytest.fixture(scope="session", autouse=True)
-def _ros2_in_cells() -> Iterator[None]:
-    """`!ros2` in a cell works as in the lab."""
-    with pytest.MonkeyPatch.context() as environment:
-        environment.setenv("PATH", path_with_ros2(os.environ.get("PATH", os.defpath)))
-        yield
-
 
 @pytest.fixture(scope="session")
 def executed(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Executed]:

@@ -27,9 +27,9 @@ def test_the_first_server_tells_where_the_robot_walked(chapter: Executed) -> Non
 
 
 def test_the_ros2_commands_find_and_call_the_first_server(chapter: Executed) -> None:
-    shown = chapter.text("types")
+    shown = chapter.text("types").replace("\r", "")  # `!` writes as to a terminal
     assert in_order(shown, "---\nbool success", "=====", "bool data", "---\nbool success")
-    printed = chapter.text("ros2")
+    printed = chapter.text("ros2").replace("\r", "")
     assert in_order(printed, "/robot/where_am_i\n", "std_srvs/srv/Trigger\n", "Trigger_Response(success=True")
     assert printed.count("\n/robot/where_am_i/") == 7
     assert printed.count("\n/sim/") == 5
@@ -183,3 +183,37 @@ def test_the_gap_of_a_refusal_says_what_is_wrong(gaps: GapTrials, lines: str, sa
 )
 def test_the_gap_of_the_planner_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
     assert said in gaps.reply("careful_planner.py", lines)
+
+
+@pytest.mark.parametrize(
+    ("file", "lines"),
+    [
+        (
+            "march.py",
+            """reason = ""
+if self.state is None:
+    reason = "no state"
+elif not self.state.motors_enabled:
+    reason = "no power"
+if reason and request.data:
+    response.message = reason
+    return response""",
+        ),
+        (
+            "march.py",
+            """if request.data:
+    if self.state is None or not self.state.motors_enabled:
+        response.message = "no power" if self.state else "no state"
+        response.success = False
+        return response""",
+        ),
+        (
+            "careful_planner.py",
+            """if not (response.available and 0 <= level <= 1):
+    return "stop and report"
+return "walk home" if level < 0.2 else "go on\"""",
+        ),
+    ],
+)
+def test_other_lines_fill_a_gap_as_well(gaps: GapTrials, file: str, lines: str) -> None:
+    assert gaps.accept(file, lines).splitlines()[-1].startswith(f"✓ {file}: it ")
