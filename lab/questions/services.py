@@ -222,8 +222,8 @@ PREDICTIONS = (
             ),
             Choice(
                 '"equal to itself" and math.isnan.',
-                "A sensible guess: every number is equal to itself. But NaN is no number, and `level == level` is false. "
-                "Programs without math.isnan() even use that as their test.",
+                "A sensible guess: every number is equal to itself. But NaN is no number, and "
+                "`level == level` is false.",
             ),
         ),
     ),

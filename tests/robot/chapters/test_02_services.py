@@ -30,7 +30,12 @@ def test_the_ros2_commands_find_and_call_the_first_server(chapter: Executed) -> 
     shown = chapter.text("types").replace("\r", "")  # `!` writes as to a terminal
     assert in_order(shown, "---\nbool success", "=====", "bool data", "---\nbool success")
     printed = chapter.text("ros2").replace("\r", "")
-    assert in_order(printed, "/robot/where_am_i\n", "std_srvs/srv/Trigger\n", "Trigger_Response(success=True")
+    assert in_order(
+        printed,
+        "/robot/where_am_i [std_srvs/srv/Trigger]\n",
+        "\nstd_srvs/srv/Trigger\n",
+        "Trigger_Response(success=True",
+    )
     assert printed.count("\n/robot/where_am_i/") == 7
     assert printed.count("\n/sim/") == 5
 
