@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from .two_link_arm import DEFAULT, TOLERANCE, Point, TwoLinkArm
 
+SAME = 1e-3  # rad
 Reading = Callable[[float, float], tuple[float, float]]
 # How to read the angles (shoulder, elbow) so that a common mistake becomes right, and what to do about it.
 _MISREADINGS: list[tuple[Reading, str]] = [
@@ -20,8 +21,8 @@ _MISREADINGS: list[tuple[Reading, str]] = [
     ),
     (
         lambda shoulder, elbow: (shoulder, math.pi - elbow),
-        "The elbow's angle is 0 where the arm is straight; this is the angle between the links. Take it from pi, or "
-        "turn the sign of the cosine in the law of cosines.",
+        "The elbow's angle is 0 where the arm is straight; this is the angle between the links: turn the sign of the "
+        "cosine in the law of cosines.",
     ),
     (
         lambda shoulder, elbow: (shoulder, elbow - math.pi),
@@ -46,6 +47,12 @@ def advice_for(shoulder: float, elbow: float, target: Point, arm: TwoLinkArm) ->
         return "An angle is not a number: find the step that divides by 0 or takes acos of more than 1."
     if shoulder == elbow == 0:
         return "Both angles are 0, as in a new response: set response.shoulder and response.elbow."
+    direction = math.atan2(target[1], target[0])
+    if abs(math.remainder(shoulder - direction, math.tau)) <= SAME and _is_bent_right(elbow, target, arm):
+        return (
+            f"The shoulder equals the direction to the target, {direction:.4f}: subtract the angle that the bent elbow "
+            "adds."
+        )
     for reading, advice in _MISREADINGS:
         if arm.misses(*reading(shoulder, elbow), target) <= TOLERANCE:
             return advice
@@ -56,7 +63,7 @@ def advice_for(shoulder: float, elbow: float, target: Point, arm: TwoLinkArm) ->
             "That is right for 0.30 and 0.25 m. Declare the parameters upper_arm_length and forearm_length, and "
             "compute with the values they have when the request comes."
         )
-    if abs(math.dist(arm.hand_at(shoulder, elbow), (0.0, 0.0)) - math.hypot(*target)) <= TOLERANCE:
+    if _is_bent_right(elbow, target, arm):
         return (
             "The distance is right, so the elbow's angle is; the direction is not: look at the shoulder's, and take "
             "atan2(y, x), which knows all four quadrants, instead of atan(y / x) or asin."
@@ -65,3 +72,8 @@ def advice_for(shoulder: float, elbow: float, target: Point, arm: TwoLinkArm) ->
         "Put the angles back in: x = l1 cos(shoulder) + l2 cos(shoulder + elbow), y the same with sin. Begin with the "
         "elbow: cos(elbow) = (x² + y² - l1² - l2²) / (2 l1 l2)."
     )
+
+
+def _is_bent_right(elbow: float, target: Point, arm: TwoLinkArm) -> bool:
+    """Return whether the elbow's angle brings the hand as far from the shoulder as the target is."""
+    return abs(math.hypot(*arm.hand_at(0.0, elbow)) - math.hypot(*target)) <= TOLERANCE
