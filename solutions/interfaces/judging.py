@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from autograder.authoring import events as ev
@@ -38,33 +38,35 @@ def _built(run: Transcript) -> dict[str, Any]:
     raise Failure(
         expected=f"{file} to build as part of an interface package",
         observed=f"{place}{first['wrong']}" + (f" (and {more:,} more)" if more else ""),
-        help=f"Expected here: {first['expected']}",
+        help=_what_to_write(first),
     )
 
 
 def require_fields(run: Transcript, part: str, wanted: Mapping[str, str]) -> None:
     """Require that one part of the definition has these fields (name → ROS type) and no others."""
     fields = _part(run, part)["fields"]
+    others = sorted(set(fields) - set(wanted))
     for name, ros_type in wanted.items():
         expect(
             name in fields,
             expected=f"a field “{ros_type} {name}” in the {part}",
             observed=f"the {part} has {_listed(fields)}",
-            help="Names are compared letter by letter; the parts stand in the task's order, with --- between them.",
+            help=_misplaced(run, part, "fields", name)
+            or _misnamed(name, [other for other in others if fields[other] == ros_type])
+            or f"Add the line “{ros_type} {name}” to the {part}.",
         )
         expect(
             fields[name] == ros_type,
             expected=f"“{ros_type} {name}” in the {part}",
             observed=f"“{fields[name]} {name}”",
-            help="The type decides what a message can say: a pose without a header has no frame, a float64 is another "
-            "type than a float32.",
+            help=_why_this_type(ros_type, fields[name]),
         )
-    others = sorted(set(fields) - set(wanted))
     expect(
         not others,
         expected=f"nothing in the {part} but {_listed(wanted) if wanted else 'an empty part'}",
         observed=f"also {_cut(', '.join(others))}",
-        help="Whoever uses the interface has to fill and read every field: leave out what the task does not name.",
+        help=f"Remove `{_cut(others[0]) if others else ''}`: everybody who uses the interface would have to fill and "
+        "read it.",
     )
 
 
@@ -73,14 +75,50 @@ def require_constants(run: Transcript, part: str, ros_type: str, wanted: Mapping
     constants = _part(run, part)["constants"]
     for name, value in wanted.items():
         observed = constants.get(name)
+        line = f"{ros_type} {name}={value}"
         expect(
             observed == {"type": ros_type, "value": value},
-            expected=f"the constant “{ros_type} {name}={value}” in the {part}",
+            expected=f"the constant “{line}” in the {part}",
             observed=f"“{observed['type']} {name}={str(observed['value'])[:LONGEST]}”"
             if observed
             else "no constant of that name",
-            help="A constant is a line TYPE NAME=VALUE in the part where it is used, its name in capitals.",
+            help=f"Write “{line}”: clients compare the number with that name."
+            if observed
+            else _misplaced(run, part, "constants", name)
+            or f"Add the line “{line}” to the {part}: a comment is for people, programs cannot read it.",
         )
+
+
+def _what_to_write(problem: Mapping[str, Any]) -> str:
+    """Return the next step for a problem of the build."""
+    if problem["line"]:
+        return f"Change line {problem['line']}. What belongs there: {problem['expected']}"
+    return f"Change the file. What it needs: {problem['expected']}"
+
+
+def _misplaced(run: Transcript, part: str, what: str, name: str) -> str:
+    """Ask for the separator when a field or constant stands in another part, else return ""."""
+    for other, content in require_built(run).items():
+        if other != part and isinstance(content, dict) and name in (content.get(what) or {}):
+            return f"`{name}` is in the {other}. Is a --- missing or misplaced?"
+    return ""
+
+
+def _misnamed(name: str, candidates: Sequence[str]) -> str:
+    """Ask for the task's name when a single other field of the same type may be meant, else return ""."""
+    if len(candidates) != 1:
+        return ""
+    return (
+        f"Rename `{_cut(candidates[0])}` to `{name}`: a program finds a field by its name, letter by letter."
+    )
+
+
+def _why_this_type(wanted: str, written: str) -> str:
+    if wanted.endswith("Stamped"):
+        return f"Write {wanted}: without the header nobody can say in which frame the numbers are."
+    if wanted.endswith("/Duration"):
+        return f"Write {wanted}: it says itself that it is a time, in sec and nanosec."
+    return f"Write {wanted}: for a program {_cut(written)} is another type, and the two do not fit together."
 
 
 def _part(run: Transcript, part: str) -> Any:
