@@ -91,9 +91,13 @@ def require_constants(run: Transcript, part: str, ros_type: str, wanted: Mapping
 
 def _what_to_write(problem: Mapping[str, Any]) -> str:
     """Return the next step for a problem of the build."""
+    expected = problem["expected"]
     if problem["line"]:
-        return f"Change line {problem['line']}. What belongs there: {problem['expected']}"
-    return f"Change the file. What it needs: {problem['expected']}"
+        return f"Change line {problem['line']}. What belongs there: {expected}"
+    number, _, shape = expected.partition(": ")
+    if shape and number.isdigit():
+        return f"Put {number} of these lines into it: {shape}."
+    return f"Change the file. What it needs: {expected}"
 
 
 def _misplaced(run: Transcript, part: str, what: str, name: str) -> str:
