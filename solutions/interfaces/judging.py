@@ -13,6 +13,7 @@ from autograder.authoring.readiness import require_within_limits
 from autograder.authoring.transcript import Transcript
 
 BUSY = 60.0  # s of processor time; a correct file needs 25
+NO_FILE = "there is no definition in this folder"  # what the build says then
 LONGEST = 300  # characters of what a verdict quotes
 
 
@@ -34,6 +35,12 @@ def _built(run: Transcript) -> dict[str, Any]:
         _require_time_for_it(run)
         raise CannotBeJudged(f"the build of a sound {file} failed: {report['log'][-2000:]}")
     first, more = problems[0], more + len(problems) - 1
+    expect(
+        first["wrong"] != NO_FILE,
+        expected=f"a file {file}",
+        observed="it was not handed in",
+        help=f"Begin the cell that holds it with %%writefile {file}.",
+    )
     place = f"line {first['line']}, “{first['text'].strip()}”: " if first["line"] else ""
     raise Failure(
         expected=f"{file} to build as part of an interface package",

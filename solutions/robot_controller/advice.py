@@ -56,13 +56,11 @@ def why_it_failed(run: Transcript, exited: ev.NodeExited) -> Advice:
     status = exited.returncode
     if _crashed(run):
         return _crash(run, exited)
-    for service in (ENABLE, STATUS):
-        requests = run.requests(service)
-        if not requests:
-            return _never_asked(run, service, status)
-        if advice := _gave_up_early(service, requests, exited):
-            return advice
-    return Advice(
+    if not run.requests(ENABLE):
+        return _never_asked(run, ENABLE, status)
+    if not run.requests(STATUS):
+        return _gave_up_early(run, ENABLE, exited) or _never_asked(run, STATUS, status)
+    return _gave_up_early(run, STATUS, exited) or Advice(
         f"Status {status}, although both services have answered.",
         "Return 0 from main() when the answers have come, and end the file with sys.exit(main()).",
     )
@@ -138,9 +136,10 @@ def _never_asked(run: Transcript, service: str, status: int) -> Advice:
     )
 
 
-def _gave_up_early(service: str, requests: list[Request], exited: ev.NodeExited) -> Advice | None:
-    """Say why the answer to a service's request was not waited for or not used; None if nothing speaks for that."""
-    status, first, last = exited.returncode, requests[0], requests[-1]
+def _gave_up_early(run: Transcript, service: str, exited: ev.NodeExited) -> Advice | None:
+    """Say why the answer of a service was not waited for or not used; None if nothing speaks for that."""
+    requests, status = run.requests(service), exited.returncode
+    first, last = requests[0], requests[-1]
     first_reply = first.reply
     if len(requests) > 1:
         pause = requests[1].received.t - first.received.t

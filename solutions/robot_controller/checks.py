@@ -66,7 +66,7 @@ def makes_use_of_the_second_answer(run: Transcript) -> None:
     see="03_clients_that_survive#fix-module",
 )
 def keeps_one_deadline(run: Transcript) -> None:
-    """Where servers come late and answer late, it still gives up within 10 s in all"""
+    """It gives up within 10 s in all, also when servers come late and answer late"""
     require_late_servers(run, run.params["appears"])
     require_failure(run, "get_status has not answered")
     require_one_deadline(run)

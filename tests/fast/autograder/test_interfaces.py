@@ -1,6 +1,7 @@
 """What a definition lacks is said with the line to write, and where a --- is missing, that is said."""
 
 import json
+from dataclasses import asdict
 
 import pytest
 
@@ -8,6 +9,8 @@ from autograder.authoring import events as ev
 from autograder.authoring.checks import Failure
 from autograder.authoring.transcript import Transcript
 from autograder.engine.exercise import load_exercise
+from ros_runtime.interface_build.definitions import InvalidDefinitions, read_definitions
+from ros_runtime.interface_build.known_types import KnownTypes
 
 CHECKS = {check.id: check for check in load_exercise("interfaces", hidden=True).checks}
 GOAL = {"pose": "geometry_msgs/PoseStamped", "tolerance": "float32"}
@@ -99,3 +102,13 @@ def test_what_the_build_refuses_is_told_with_what_to_write(line, expected, next_
     problem = {"line": line, "text": "float x", "wrong": "it is wrong", "expected": expected}
     report = {"built": False, "problems": [problem], "more": 0, "log": ""}
     assert failure_of("action_builds", "NavigateToPose.action", report).help == next_step
+
+
+def test_a_file_that_was_not_handed_in(tmp_path):
+    with pytest.raises(InvalidDefinitions) as nothing:
+        read_definitions(tmp_path, "my_interfaces", KnownTypes({}))
+    problems = [asdict(problem) for problem in nothing.value.problems]
+    report = {"built": False, "problems": problems, "more": 0, "log": ""}
+    told = failure_of("action_builds", "NavigateToPose.action", report)
+    assert told.observed == "it was not handed in"
+    assert "%%writefile NavigateToPose.action" in told.help

@@ -154,6 +154,11 @@ def test_a_program_that_hangs_is_not_told_that_it_gave_up():
             "counts like one to the first",
         ),
         (
+            [BOTH, asked(ENABLE, 2.0), asked(ENABLE, 4.0, 4.1), asked(STATUS, 4.2), ended(6.2, 1)],
+            "Status 1 after one request to get_status: the second one",
+            "send it once more",
+        ),
+        (
             [BOTH, asked(ENABLE, 2.0, 3.0), asked(ENABLE, 2.5), ended(3.1, 1)],
             "It waited only 0.5 s for the answer to request 1 to enable_motors",
             "timeout_sec=2.0",
