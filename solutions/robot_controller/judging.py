@@ -20,6 +20,7 @@ DEADLINE_SLACK = 0.8  # s for the line that says so; ending takes longer, for wh
 GAVE_UP = (1,)  # the exit status where a server is missing, refuses or is silent
 LATEST = 3.5  # s between a request and its repetition; 2 s are asked for
 PREFIX = "Robot status: "
+PRINTING = "03_clients_that_survive#fix-file"  # the lesson
 
 
 # -- how it ended -----------------------------------------------------------------------------------------------------
@@ -197,6 +198,7 @@ def require_printed_status(run: Transcript, messages: Sequence[str]) -> None:
         observed=f"{len(printed)} of them" + (": " + " | ".join(printed[:3]) if printed else ""),
         help=_how_to_print_one(run, len(printed)),
         at=run.end,
+        see=PRINTING,
     )
     expect(
         printed[0] in [PREFIX + message for message in messages],
@@ -204,6 +206,7 @@ def require_printed_status(run: Transcript, messages: Sequence[str]) -> None:
         observed=f"“{printed[0]}”",
         help="Print the message of the response to get_status, all of it: print(f'Robot status: {response.message}').",
         at=run.end,
+        see=PRINTING,
     )
     require_reply(run, ENABLE)
     require_reply(run, STATUS)
@@ -225,11 +228,10 @@ def require_printed_second_answer(run: Transcript) -> None:
 
 
 def _how_to_print_one(run: Transcript, lines: int) -> str:
+    if lines > 1 and lines <= sum(request.reply is not None for request in run.requests(STATUS)):
+        return "A callback left on a request you gave up on prints as well: remove that request."
     if lines:
-        return (
-            "Print once, for the answer you waited for. A callback left on a request you gave up on prints as well: "
-            "remove that request."
-        )
+        return "Print once: when get_status has answered, and nothing before."
     if PREFIX.rstrip() in run.output("stderr"):
         return "It stands on stderr, where a logger writes: use print(f'Robot status: {response.message}')."
     return "print(f'Robot status: {response.message}') when get_status has answered."

@@ -206,7 +206,8 @@ def test_a_program_that_gives_up_too_early_is_told_what_it_missed(parts, observe
     [
         (said(3.0, "[INFO] [robot_controller]: Robot status: Motors: ON"), "where a logger writes"),
         ([], "print(f'Robot status: {response.message}') when get_status has answered"),
-        ([*PRINTED, *PRINTED], "remove that request"),
+        ([*PRINTED, *PRINTED], "Print once"),
+        ([*asked(STATUS, 2.0, 2.9), *PRINTED, *PRINTED], "remove that request"),
         (said(3.0, "Robot status: ON", stream="stdout"), "all of it"),
     ],
 )
