@@ -8,6 +8,7 @@ from collections.abc import Callable
 from .two_link_arm import DEFAULT, TOLERANCE, Point, TwoLinkArm
 
 SAME = 1e-3  # rad
+NEARLY = 0.01  # m; rounding to two digits moves the hand no farther
 Reading = Callable[[float, float], tuple[float, float]]
 # How to read the angles (shoulder, elbow) so that a common mistake becomes right, and what to do about it.
 _MISREADINGS: list[tuple[Reading, str]] = [
@@ -60,9 +61,11 @@ def advice_for(shoulder: float, elbow: float, target: Point, arm: TwoLinkArm) ->
         return "That is the target with x and y exchanged: it is math.atan2(y, x), in this order."
     if arm != DEFAULT and DEFAULT.misses(shoulder, elbow, target) <= TOLERANCE:
         return (
-            "That is right for 0.30 and 0.25 m. Declare the parameters upper_arm_length and forearm_length, and "
-            "compute with the values they have when the request comes."
+            "That is right for 0.30 and 0.25 m: read the parameters upper_arm_length and forearm_length in the "
+            "callback, and compute with what they are then."
         )
+    if arm.misses(shoulder, elbow, target) <= NEARLY and _are_rounded(shoulder, elbow):
+        return "The angles are rounded, and 0.01 rad moves the hand by millimetres: leave out round()."
     if _is_bent_right(elbow, target, arm):
         return (
             "The distance is right, so the elbow's angle is; the direction is not: look at the shoulder's, and take "
@@ -77,3 +80,7 @@ def advice_for(shoulder: float, elbow: float, target: Point, arm: TwoLinkArm) ->
 def _is_bent_right(elbow: float, target: Point, arm: TwoLinkArm) -> bool:
     """Return whether the elbow's angle brings the hand as far from the shoulder as the target is."""
     return abs(math.hypot(*arm.hand_at(0.0, elbow)) - math.hypot(*target)) <= TOLERANCE
+
+
+def _are_rounded(*angles: float) -> bool:
+    return all(round(angle, 3) == angle for angle in angles)

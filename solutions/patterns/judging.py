@@ -51,7 +51,7 @@ def require_answers(run: Transcript) -> None:
         not missing,
         expected="a line “NUMBER PATTERN REASON” for each of the 12 situations",
         observed=f"none for {', '.join(map(str, missing))}",
-        help=f"Add a line {missing[0] if missing else 0}: (pattern, reason) to ANSWERS; main() prints it.",
+        help=_how_to_answer(run, missing[0] if missing else 0),
     )
 
 
@@ -62,7 +62,7 @@ def require_answer(run: Transcript, situation: Situation) -> None:
         situation.number in answers,
         expected="the pattern that fits, and the reason that decides it",
         observed="no answer",
-        help=f"Add a line {situation.number}: (pattern, reason) to ANSWERS. A guess is marked like any other answer.",
+        help=_how_to_answer(run, situation.number),
     )
     pattern, reason = answers[situation.number]
     _require_form(situation.number, pattern, reason)
@@ -81,6 +81,16 @@ def _answers(run: Transcript) -> dict[int, tuple[str, str]]:
     require_success(run, WITHIN)
     found = [match for line in run.output("stdout").splitlines() if (match := _LINE.fullmatch(line))]
     return {int(match[1]): (match[2].lower(), match[3].lower()) for match in found}
+
+
+def _how_to_answer(run: Transcript, number: int) -> str:
+    """Return what to do about a situation without an answer."""
+    printed = [line for line in run.output("stdout").splitlines() if line.strip()]
+    if not printed:
+        return "Nothing was printed: main() has to print number, pattern and reason of each line in ANSWERS."
+    if not _answers(run):
+        return f"“{printed[-1][:60]}” is of another form: print number, pattern and reason, and nothing else."
+    return f"Add a line {number}: (pattern, reason) to ANSWERS; main() prints it."
 
 
 def _require_form(number: int, pattern: str, reason: str) -> None:

@@ -69,6 +69,7 @@ def test_two_millimetres_are_too_many():
         (ELBOW, SHOULDER, "exchanged in the response"),
         (math.pi / 2 - DIRECTION - INSIDE, ELBOW, "atan2(y, x)"),
         (SHOULDER + math.pi, ELBOW, "all four quadrants"),
+        (round(SHOULDER, 2), round(ELBOW, 2), "leave out round()"),
         (DIRECTION, ELBOW, "The shoulder equals the direction to the target, 0.6435: subtract the angle"),
         (DIRECTION, -ELBOW, "subtract the angle that the bent elbow adds"),
         (math.nan, ELBOW, "not a number"),

@@ -49,6 +49,12 @@ def test_what_is_not_answered_is_named():
     assert (seen["situation_7"].observed, seen["situation_7"].points) == ("no answer", 0)
 
 
+def test_nothing_printed_and_another_form_are_told_apart():
+    assert "Nothing was printed" in verdicts()["answers_everything"].help
+    told = verdicts("1) I say: topic, because of a")["situation_1"]
+    assert "is of another form" in told.help
+
+
 def test_an_answer_in_another_form_spoils_no_other():
     seen = verdicts(*LINES[:-1], "12 parameter a")
     assert sum(verdict.points for verdict in seen.values()) == 11
