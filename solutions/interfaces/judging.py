@@ -14,18 +14,22 @@ from autograder.authoring.transcript import Transcript
 
 BUSY = 60.0  # s of processor time; a correct file needs 25
 NO_FILE = "there is no definition in this folder"  # what the build says then
+NOTHING: Mapping[str, str] = {}
 LONGEST = 300  # characters of what a verdict quotes
 
 
-def require_built(run: Transcript) -> dict[str, Any]:
-    """Require that the file was built, and return its parts (request, …, feedback) with fields and constants."""
+def require_built(run: Transcript, wanted: Mapping[str, str] = NOTHING) -> dict[str, Any]:
+    """Require that the file was built, and return its parts (request, …, feedback) with fields and constants.
+
+    `wanted` are the fields that the task asks for (name → ROS type), for a line that does not build.
+    """
     try:
-        return _built(run)
+        return _built(run, wanted)
     except (AttributeError, KeyError, TypeError, ValueError) as error:  # it comes from the student's sandbox
         raise unseen(run, f"the build's report is not whole: {error!r}") from None
 
 
-def _built(run: Transcript) -> dict[str, Any]:
+def _built(run: Transcript, wanted: Mapping[str, str]) -> dict[str, Any]:
     report, file = _report(run), run.params["file"]
     if report["built"]:
         (parts,) = report["types"].values()
@@ -45,7 +49,7 @@ def _built(run: Transcript) -> dict[str, Any]:
     raise Failure(
         expected=f"{file} to build as part of an interface package",
         observed=f"{place}{first['wrong']}" + (f" (and {more:,} more)" if more else ""),
-        help=_what_to_write(first),
+        help=_what_to_write(first, wanted),
     )
 
 
@@ -96,15 +100,18 @@ def require_constants(run: Transcript, part: str, ros_type: str, wanted: Mapping
         )
 
 
-def _what_to_write(problem: Mapping[str, Any]) -> str:
+def _what_to_write(problem: Mapping[str, Any], wanted: Mapping[str, str]) -> str:
     """Return the next step for a problem of the build."""
-    expected = problem["expected"]
-    if problem["line"]:
-        return f"Change line {problem['line']}. What belongs there: {expected}"
+    expected, line = problem["expected"], problem["line"]
+    if line:
+        name = problem["text"].partition("#")[0].split()[-1:]
+        if name and name[0] in wanted:
+            return f"Change line {line} to “{wanted[name[0]]} {name[0]}”."
+        return f"Change line {line}. What belongs there: {expected}."
     number, _, shape = expected.partition(": ")
     if shape and number.isdigit():
         return f"Put {number} of these lines into it: {shape}."
-    return f"Change the file. What it needs: {expected}"
+    return f"Change the file. What it needs: {expected}."
 
 
 def _misplaced(run: Transcript, part: str, what: str, name: str) -> str:

@@ -159,10 +159,11 @@ def _gave_up_early(run: Transcript, service: str, exited: ev.NodeExited) -> Advi
             "never sent.",
             "When no answer has come within 2 s, remove that request and send it once more before you give up.",
         )
-    if last.reply is None:
-        waited = exited.t - last.received.t
+    gave_up = _gave_up_at(run, exited)
+    if last.reply is None or last.reply.t > gave_up:
         return Advice(
-            f"Status {status} {waited:.1f} s after request {len(requests)} to {service}, which was to be answered.",
+            f"It gave up {gave_up - last.received.t:.1f} s after request {len(requests)} to {service}, before the "
+            "answer came.",
             _TWO_SECONDS,
         )
     if len(requests) > 1:
@@ -179,6 +180,11 @@ _TWO_SECONDS = "An answer may take 2 s, each time: wait with timeout_sec=2.0."
 def _last_request(run: Transcript) -> Request | None:
     requests = [*run.requests(ENABLE), *run.requests(STATUS)]
     return max(requests, key=lambda request: request.received.t, default=None)
+
+
+def _gave_up_at(run: Transcript, exited: ev.NodeExited) -> float:
+    """Return when it said so on stderr; ending takes a while longer."""
+    return max((line.t for line in run.all(ev.NodeOutput) if line.stream == "stderr"), default=exited.t)
 
 
 def _offers(run: Transcript, service: str) -> int:

@@ -87,19 +87,16 @@ def test_a_field_too_many_is_to_be_removed():
 
 
 @pytest.mark.parametrize(
-    ("line", "expected", "next_step"),
+    ("line", "text", "expected", "next_step"),
     [
-        (2, "float64", "Change line 2. What belongs there: float64"),
-        (0, "at most 200", "Change the file. What it needs: at most 200"),
-        (
-            0,
-            "1: a .srv is request --- response",
-            "Put 1 of these lines into it: a .srv is request --- response.",
-        ),
+        (2, "float tolerance # m", "float64", "Change line 2 to “float32 tolerance”."),
+        (2, "float depth", "float64", "Change line 2. What belongs there: float64."),
+        (0, "", "at most 200", "Change the file. What it needs: at most 200."),
+        (0, "", "1: it is request --- response", "Put 1 of these lines into it: it is request --- response."),
     ],
 )
-def test_what_the_build_refuses_is_told_with_what_to_write(line, expected, next_step):
-    problem = {"line": line, "text": "float x", "wrong": "it is wrong", "expected": expected}
+def test_what_the_build_refuses_is_told_with_what_to_write(line, text, expected, next_step):
+    problem = {"line": line, "text": text, "wrong": "it is wrong", "expected": expected}
     report = {"built": False, "problems": [problem], "more": 0, "log": ""}
     assert failure_of("action_builds", "NavigateToPose.action", report).help == next_step
 

@@ -165,7 +165,19 @@ def test_a_program_that_hangs_is_not_told_that_it_gave_up():
         ),
         (
             [BOTH, ENABLED, asked(STATUS, 3.0, 5.6), asked(STATUS, 5.0), ended(5.5, 1)],
-            "Status 1 0.5 s after request 2 to get_status, which was to be answered",
+            "It gave up 0.5 s after request 2 to get_status, before the answer came.",
+            "timeout_sec=2.0",
+        ),
+        (
+            [
+                BOTH,
+                ENABLED,
+                asked(STATUS, 3.0),
+                asked(STATUS, 5.0, 6.2),
+                said(5.5, "no answer"),
+                ended(6.4, 1),
+            ],
+            "It gave up 0.5 s after request 2 to get_status, before the answer came.",
             "timeout_sec=2.0",
         ),
         (
