@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
 
 from autograder.authoring import events as ev
@@ -15,20 +14,12 @@ from autograder.authoring.fields import expect_field
 from autograder.authoring.missing import Missing, unseen
 from autograder.authoring.readiness import require_alive
 from autograder.authoring.robot_record import RobotRecord
+from ros_runtime.message_constants import GoalStatus, name_of
 
-SUCCEEDED, CANCELED, ABORTED = (
-    GoalStatus.STATUS_SUCCEEDED,
-    GoalStatus.STATUS_CANCELED,
-    GoalStatus.STATUS_ABORTED,
-)
+SUCCEEDED, CANCELED, ABORTED = GoalStatus.SUCCEEDED, GoalStatus.CANCELED, GoalStatus.ABORTED
 LISTENED = 1.2  # s after a result for which a scenario has to listen for feedback that must not come
 ON_ITS_WAY = 0.3  # s a message may be overtaken by the result
 
-_NAMES = {
-    getattr(GoalStatus, name): name.removeprefix("STATUS_")
-    for name in dir(GoalStatus)
-    if name.startswith("STATUS_")
-}
 _BUSY = (
     "The executor was busy: on one thread a callback that sleeps or waits keeps goals and cancels from being served. "
     "Use MultiThreadedExecutor, or an async execute callback that awaits."
@@ -50,7 +41,7 @@ _REFUSES = (
     "CancelResponse.ACCEPT."
 )
 # What to do when a goal ended with one status instead of another.
-_ENDED_OTHERWISE = {
+_ENDED_OTHERWISE: dict[tuple[int, int], str] = {
     (
         ABORTED,
         SUCCEEDED,
@@ -160,7 +151,7 @@ class Goal:
         if self.result is None:
             require_alive(self.run)
             raise Failure(
-                expected=f"a result with status {_NAMES[status]}",
+                expected=f"a result with status {name_of(GoalStatus, status)}",
                 observed="no result",
                 help=_NO_RESULT,
                 at=self.run.end,
@@ -168,8 +159,8 @@ class Goal:
         ended = self.result.status
         expect(
             ended == status,
-            expected=f"status {_NAMES[status]}",
-            observed=f"status {_NAMES.get(ended, ended)}",
+            expected=f"status {name_of(GoalStatus, status)}",
+            observed=f"status {name_of(GoalStatus, ended)}",
             help=_ENDED_OTHERWISE.get((ended, status), _ABORT if status == ABORTED else _LOOK),
             at=self.result.t,
         )

@@ -10,9 +10,8 @@ from autograder.authoring.failure import expect
 from autograder.authoring.fields import shown, shown_fields
 from autograder.authoring.robot_record import RobotRecord
 from autograder.authoring.robot_topic import DELIVERY
-from humanoid_interfaces.msg import RobotState
+from ros_runtime.message_constants import RobotMode, name_of
 
-MODES = {getattr(RobotState, name): name for name in ("OFF", "STANDING", "WALKING", "FALLEN")}
 OBEYED = 2.0  # s after the answer in which the motors must be as asked
 WATCHED = 1.5  # s after the answer in which the robot must walk on
 
@@ -99,7 +98,7 @@ def require_walking_as_told(call: Call) -> None:
     """Require that the robot walked when the question came, and had for long enough that the node knew."""
     told = call.run.told("walk", before=call.sent.t - DELIVERY)
     watched = call.run.robot_between(call.sent.t - DELIVERY, call.sent.t)
-    idle = next((robot for robot in watched if robot.mode != RobotState.WALKING), None)
+    idle = next((robot for robot in watched if robot.mode != RobotMode.WALKING), None)
     expect(
         idle is None and any(told.command["velocity"]),
         expected="the robot walking when power off is asked for, as it was told",
@@ -114,7 +113,7 @@ def require_standing_as_told(call: Call) -> None:
     call.run.told("walk", before=call.sent.t - DELIVERY, velocity=[0.0, 0.0, 0.0])
     watched = call.run.robot_between(call.sent.t - DELIVERY, call.sent.t)
     expect(
-        all(robot.mode != RobotState.WALKING for robot in watched),
+        all(robot.mode != RobotMode.WALKING for robot in watched),
         expected="the robot standing when power off is asked for again, as it was told",
         observed=f"it is {_mode(call.run, call.sent.t)}",
         help=_NOTHING_UNASKED,
@@ -127,9 +126,9 @@ def require_walking_on(call: Call) -> None:
     watched = call.run.robot_between(call.sent.t, call.answered.t + WATCHED)
     last = next((robot for robot in watched if not robot.motors_enabled), watched[-1])
     expect(
-        last.motors_enabled and last.mode == RobotState.WALKING,
+        last.motors_enabled and last.mode == RobotMode.WALKING,
         expected=f"the robot walking on after {_question(call)}",
-        observed=f"it is {MODES[last.mode]}, its motors are {_on_or_off(last.motors_enabled)}",
+        observed=f"it is {name_of(RobotMode, last.mode)}, its motors are {_on_or_off(last.motors_enabled)}",
         help="Return before anything is published when a request is refused; where it is granted, publish what "
         "data says.",
         at=last.t,
@@ -178,7 +177,7 @@ def _question(call: Call) -> str:
 
 
 def _mode(run: RobotRecord, t: float) -> str:
-    return MODES[run.robot_at(t).mode]
+    return name_of(RobotMode, run.robot_at(t).mode)
 
 
 def _on_or_off(on: bool) -> str:
