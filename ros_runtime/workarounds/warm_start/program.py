@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 import builtins
 import ctypes
+import faulthandler
 import gc
 import os
 import signal
@@ -23,6 +24,8 @@ def run_program(arguments: Sequence[str], environment: Mapping[str, str], folder
     os.environ.update(environment)
     os.environ["PWD"] = folder  # as a shell would set it
     os.chdir(folder)
+    if os.environ.get("PYTHONFAULTHANDLER"):
+        faulthandler.enable()
     path = os.path.abspath(arguments[0])
     sys.argv = list(arguments)
     sys.orig_argv = [sys.executable, *arguments]
