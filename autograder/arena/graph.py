@@ -6,6 +6,7 @@ they are called. A question that fails has an empty answer, and `Graph.inspect` 
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Collection
 from contextlib import suppress
@@ -34,6 +35,7 @@ EVERY_NODE_PUBLISHES = "/parameter_events"
 OF_EVERYBODY = (EVERY_NODE_PUBLISHES, "/rosout", "/clock")
 
 T = TypeVar("T")
+_SERVICE_TYPE = re.compile(r"(\w+)::srv::dds_::(\w+)_Request_")
 
 
 class Graph:
@@ -81,13 +83,22 @@ class Graph:
         nothing: list[tuple[str, list[str]]] = []
         found = self._ask(self._node.get_service_names_and_types, nothing)
         names = [
-            (name, types[0])
+            (name, types[0] if len(types) == 1 else self._type_of_server(name) or types[0])
             for name, types in found[:MOST_NAMES]
             if types and not types[0].startswith(OF_EVERY_NODE)
         ]
         offered = [f"{name} [{kind}]" for name, kind in names[:MOST_SERVICES] if self._is_offered(name)]
         more = len(found) - len(found[:MOST_NAMES]) + len(names) - len(names[:MOST_SERVICES])
         return sorted(offered) + ([f"and up to {more:,} more"] if more else [])
+
+    def _type_of_server(self, service: str) -> str:
+        """Return the type that a service is offered with, where a client asks for another; '' if nobody says."""
+        nothing: list[TopicEndpointInfo] = []
+        servers = self._ask(
+            lambda: self._node.get_subscriptions_info_by_topic(f"rq{service}Request", no_mangle=True), nothing
+        )
+        types = (_SERVICE_TYPE.fullmatch(server.topic_type) for server in servers[:MOST_ENDPOINTS])
+        return next((f"{found[1]}/srv/{found[2]}" for found in types if found), "")
 
     def report_topics(self, robot_subscribes: Collection[str]) -> None:
         """Record what the student's node publishes and subscribes to, in the robot's namespace and elsewhere."""

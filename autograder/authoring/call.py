@@ -11,11 +11,7 @@ from autograder.authoring.failure import Failure
 from autograder.authoring.fields import expect_field
 from autograder.authoring.readiness import require_alive
 from autograder.authoring.robot_record import RobotRecord
-
-_BUSY = (
-    "The callback must return the response at once: it may not wait, sleep or call another service while the node has "
-    "only one thread."
-)
+from autograder.authoring.root_cause import DEADLOCK, waits
 
 
 @dataclass(frozen=True)
@@ -52,10 +48,16 @@ class Call:
         waited = given_up.waited if given_up else self.run.end - self.sent.t
         raise Failure(
             expected=f"an answer to {self.service}",
-            observed=f"none within {waited:.0f} s",
-            help=_BUSY,
+            observed=f"none within {waited:.0f} s" + self._nor_to_others(),
+            help=waits(self.run),
             at=self.sent.t,
+            see=DEADLOCK,
         )
+
+    def _nor_to_others(self) -> str:
+        """Say that no request at all was answered, where there were several."""
+        asked, answered = self.run.all(ev.ServiceCalled), self.run.first(ev.ServiceAnswered)
+        return f", nor to any other of {len(asked)} requests" if len(asked) > 1 and answered is None else ""
 
     @property
     def latency(self) -> float:

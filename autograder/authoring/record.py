@@ -12,6 +12,7 @@ from autograder.authoring import events as ev
 E = TypeVar("E")
 A = TypeVar("A", ev.GoalAnswered, ev.ResultReceived, ev.CancelAnswered, ev.ServiceAnswered)
 R = TypeVar("R", bound="Record")
+_AFTERTHOUGHT = "The following exception was never retrieved"  # rclpy, when it throws away a task at the end
 
 
 @dataclass(frozen=True)
@@ -86,9 +87,10 @@ class Record:
 
     @property
     def last_words(self) -> str:
-        """The last line on stderr that is not blank, cut to a readable length."""
+        """The last line on stderr that is not blank nor rclpy's afterthought, cut to a readable length."""
         lines = [line.strip() for line in self.output("stderr").splitlines() if line.strip()]
-        return lines[-1][:300] if lines else ""
+        said = [line for line in lines if not line.startswith(_AFTERTHOUGHT)]
+        return said[-1][:300] if said else ""
 
     @property
     def end(self) -> float:

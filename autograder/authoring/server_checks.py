@@ -5,6 +5,7 @@ from __future__ import annotations
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
 from autograder.authoring.checks import Failure, expect
+from autograder.authoring.ending import end_in_words, remedy_for_the_end
 from autograder.authoring.missing import Missing, unseen
 from autograder.authoring.readiness import require_within_limits
 from autograder.authoring.transcript import Transcript
@@ -54,13 +55,15 @@ def require_clean_exit(run: Transcript) -> None:
             "not a daemon. " + _CLEAN_END,
             at=signalled.t,
         )
-    expect(
-        exited.t >= signalled.t,
-        expected="a node that runs until Ctrl-C",
-        observed=f"it had ended before, with status {exited.returncode}: {run.last_words or 'nothing on stderr'}",
-        help="An exception in a callback ends rclpy.spin() and with it the node: find it in the log below.",
-        at=exited.t,
-    )
+    if exited.t < signalled.t:
+        remedy = remedy_for_the_end(run, exited)
+        raise Failure(
+            expected="a node that runs until Ctrl-C",
+            observed=f"Ctrl-C was not tested: the node had already ended {end_in_words(run, exited)}",
+            help=remedy.help,
+            at=exited.t,
+            see=remedy.see,
+        )
     last_words = run.last_words
     expect(
         exited.returncode == 0,

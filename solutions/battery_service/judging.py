@@ -7,6 +7,7 @@ from typing import Any
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
+from autograder.authoring.connections import why_nothing_is_heard
 from autograder.authoring.missing import unseen
 from autograder.authoring.robot_topic import RobotTopic
 from autograder.authoring.transcript import Transcript
@@ -27,7 +28,8 @@ def require_last_message(call: Call, since: float | None = None) -> None:
         "available",
         True,
         because="the robot had published its battery",
-        help="Subscribe to battery_state (relative name) and keep the last message; set available when there is one.",
+        help=why_nothing_is_heard(call.run, "battery_state")
+        or "Your node gets battery_state: keep the last message, and set available when there is one.",
     )
     BATTERY_STATE.require_last_message(call, call.response.battery, since=since, advice=_advice)
 

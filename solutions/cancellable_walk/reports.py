@@ -11,6 +11,7 @@ from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
 from autograder.authoring.feedback import end_of_feedback, require_feedback
 from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring.goal_endings import why_rclpy_aborted
 from humanoid_interfaces.action import WalkTo
 
 from .planar import error, heading, turn
@@ -66,7 +67,8 @@ def require_error_code(goal: Goal, name: str, *, because: str) -> None:
         "error_code",
         getattr(WalkTo.Result, name),
         because=f"{because}: {name}",
-        help=f"Set result.error_code = WalkTo.Result.{name} before the terminal call, and return that same result.",
+        help=why_rclpy_aborted(goal)
+        or f"Set result.error_code = WalkTo.Result.{name} before the terminal call, and return that same result.",
     )
 
 

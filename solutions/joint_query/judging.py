@@ -7,9 +7,11 @@ from collections.abc import Mapping, Sequence
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
+from autograder.authoring.connections import why_nothing_is_heard
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.fields import shown_fields
 from autograder.authoring.missing import unseen
+from autograder.authoring.robot_record import RobotRecord
 from autograder.authoring.robot_topic import last_messages
 from autograder.authoring.transcript import Transcript
 
@@ -22,6 +24,11 @@ _NOT_HEARD = (
 )
 
 Positions = Mapping[str, float]  # rad, by the joint's name
+
+
+def not_heard(run: RobotRecord) -> str:
+    """Return why no joint_states reach the node, as far as the grader saw."""
+    return why_nothing_is_heard(run, "joint_states") or _NOT_HEARD
 
 
 def require_posture(call: Call, posture: Positions) -> None:
@@ -63,7 +70,7 @@ def robot_joints(run: Transcript) -> list[str]:
         raise Failure(
             expected="a node that listens to joint_states",
             observed="an answer without it: no message of joint_states has reached your node",
-            help=_NOT_HEARD,
+            help=not_heard(run),
         )
     return published.names
 
@@ -77,7 +84,7 @@ def require_success(call: Call) -> None:
         observed=shown_fields(call.response, "success", "message"),
         help="Look up each name in the name list of the last joint_states, and set success when all are there."
         if heard
-        else _NOT_HEARD,
+        else not_heard(call.run),
         at=call.answered.t,
     )
 
@@ -131,7 +138,7 @@ def require_positions(call: Call) -> None:
         any(message.t <= at for message in published),
         expected="positions from the robot's joint_states",
         observed=f"{_described(names, positions)}, although no joint_states had reached your node",
-        help=_NOT_HEARD,
+        help=not_heard(call.run),
         at=at,
     )
     recent = [_positions(message) for message in last_messages(call, ev.JointsPublished, since=_told(call))]
