@@ -75,7 +75,8 @@ class Student:
         self._closing.set()
         if self._process and self._watch:
             self._watch.report()
-            if self._log.count(ev.Unanswered) and not self.has_exited():
+            silent = self._log.count(ev.Unanswered) or self._log.count(ev.NodeSignalled)
+            if silent and not self.has_exited():
                 self._record_stack(self._process)
             self._process.kill()
 

@@ -11,7 +11,7 @@ from autograder.authoring.failure import Failure
 from autograder.authoring.fields import expect_field
 from autograder.authoring.readiness import require_alive
 from autograder.authoring.robot_record import RobotRecord
-from autograder.authoring.root_cause import DEADLOCK, waits
+from autograder.authoring.root_cause import about_waiting
 
 
 @dataclass(frozen=True)
@@ -45,13 +45,14 @@ class Call:
             return self.answer
         require_alive(self.run)
         given_up = self.run.given_up("call", self.name)
+        help, see = about_waiting(self.run)
         waited = given_up.waited if given_up else self.run.end - self.sent.t
         raise Failure(
             expected=f"an answer to {self.service}",
             observed=f"none within {waited:.0f} s" + self._nor_to_others(),
-            help=waits(self.run),
+            help=help,
             at=self.sent.t,
-            see=DEADLOCK,
+            see=see,
         )
 
     def _nor_to_others(self) -> str:

@@ -34,7 +34,8 @@ def why_nothing_is_heard(run: Record, topic: str) -> str | None:
             f"You subscribe to {topic}, but the robot's messages do not match: compare the type, and ask for no more "
             "than the robot's QoS offers (qos_profile_sensor_data for its sensors)."
         )
-    return f"Your node does not subscribe to {topic}."
+    others = ", ".join(map(_shown, topics.subscribes))
+    return f"Your node does not subscribe to {topic}" + (f", but to {others}." if others else ".")
 
 
 def why_nothing_is_commanded(run: Record, topic: str, *, before: float) -> str | None:

@@ -11,6 +11,7 @@ from autograder.authoring.record import Record
 GROWS = "Look for a list that grows with every message, request or round of a loop: keep only the last."
 LEAKS = "03_clients_that_survive#leak-why"
 SERVES_ONE_REQUEST = "02_services#first-intro"
+WRONG_TYPE = "02_services#fields-why"
 CRASHES = "02_services#m9-why"
 _OWN_FILE = re.compile(r"/tmp/work[^/]*/[^/]*$")
 
@@ -42,16 +43,27 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
         ),
     ),
     (
+        r"^AssertionError: The '\w+' field must be a set or sequence",
+        Remedy("That field is a list: give it a list with values of its type, such as [1.0].", WRONG_TYPE),
+    ),
+    (
         r"^AssertionError: The '\w+' field must be",
         Remedy(
             "A field got a value of the wrong type: give it the type that the interface names, such as 1.0 for a "
             "float and True for a bool.",
-            "02_services#fields-why",
+            WRONG_TYPE,
         ),
     ),
     (
         r"^AttributeError: '\w+_(Request|Response|Goal|Result|Feedback)' object has no attribute",
         Remedy("The interface has no field of that name: compare it with `ros2 interface show`.", CRASHES),
+    ),
+    (
+        r"^AttributeError: module 'rclpy' has no attribute",
+        Remedy(
+            "`import rclpy` does not import its parts: import what you use, as in `from rclpy.node import Node`.",
+            "02_services#first-file",
+        ),
     ),
     (
         r"'NoneType' object has no attribute|'NoneType' object is not",
@@ -97,6 +109,8 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
     for sign, remedy in _SIGNS:
         if exited.returncode and re.search(sign, errors, re.MULTILINE):
             return _with_place(remedy, run)
+    if exited.returncode and run.first(ev.NodeReady) is None:
+        return _with_place(Remedy("The exception came before your node could serve."), run)
     if exited.returncode:
         return _with_place(
             Remedy("An exception in a callback ends rclpy.spin(), and with it the node.", CRASHES), run

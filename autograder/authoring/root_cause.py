@@ -11,6 +11,7 @@ from autograder.authoring.standing import where_it_stood, why_nobody_serves
 
 BUSY_PROCESSORS = 0.8  # processors; a submission that keeps more of them busy caused what comes late itself
 
+SERVES = "02_services#first-intro"
 DEADLOCK = "02_services#m4-why"
 _WAITS = (
     "A callback may not wait, sleep or call another service while the node has only one thread: nobody else is "
@@ -32,13 +33,13 @@ class Cause:
     see: str = ""
 
 
-def waits(run: Record) -> str:
-    """Return what to do about a program that gives no answer, with the line on which it stood, if that is known."""
+def about_waiting(run: Record) -> tuple[str, str]:
+    """Return what to do about a program that gives no answer, by the line on which it stood, and the lesson."""
     if place := where_it_stood(run):
-        return f"It stood in {place}. {_WAITS}"
-    if run.first(ev.NodeStack) is None:
-        return _WAITS
-    return why_nobody_serves(run) or _AWAITS
+        return f"It stood in {place}. {_WAITS}", DEADLOCK
+    if idle := why_nobody_serves(run):
+        return idle, SERVES
+    return _WAITS if run.first(ev.NodeStack) is None else _AWAITS, DEADLOCK
 
 
 def why_it_went_no_further(run: Record) -> Cause | None:
@@ -89,7 +90,8 @@ def _unanswered(run: Record) -> Cause | None:
         "result": f"the goal “{given_up.id}” had got no result",
         "end": "the program still ran",
     }[given_up.what]
-    return Cause(f"{what} after {given_up.waited:.1f} s", waits(run), given_up.t, DEADLOCK)
+    help, see = about_waiting(run)
+    return Cause(f"{what} after {given_up.waited:.1f} s", help, given_up.t, see)
 
 
 def _service_of(run: Record, call: str) -> str:

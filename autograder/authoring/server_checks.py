@@ -8,6 +8,7 @@ from autograder.authoring.checks import Failure, expect
 from autograder.authoring.ending import end_in_words, remedy_for_the_end
 from autograder.authoring.missing import Missing, unseen
 from autograder.authoring.readiness import require_within_limits
+from autograder.authoring.standing import where_it_stood
 from autograder.authoring.transcript import Transcript
 
 
@@ -51,8 +52,9 @@ def require_clean_exit(run: Transcript) -> None:
         raise Failure(
             expected="the program to end after SIGINT (Ctrl-C)",
             observed=f"it still ran {run.end - signalled.t:.1f} s later",
-            help="Something keeps the process alive: a loop that does not look at rclpy.ok(), or a thread that is "
-            "not a daemon. " + _CLEAN_END,
+            help=f"It stood in {place}: let Ctrl-C end that. {_CLEAN_END}"
+            if (place := where_it_stood(run, in_main=True))
+            else f"Something keeps the process alive, such as a thread that is not a daemon. {_CLEAN_END}",
             at=signalled.t,
         )
     if exited.t < signalled.t:

@@ -29,7 +29,7 @@ def require_last_message(call: Call, since: float | None = None) -> None:
         True,
         because="the robot had published its battery",
         help=why_nothing_is_heard(call.run, "battery_state")
-        or "Your node gets battery_state: keep the last message, and set available when there is one.",
+        or "Your node gets battery_state: keep the last message, and look at each request whether there is one.",
     )
     BATTERY_STATE.require_last_message(call, call.response.battery, since=since, advice=_advice)
 
@@ -50,6 +50,12 @@ def require_in_silence(call: Call) -> None:
     stopped = call.run.told("battery_sensor", before=call.sent.t - SILENCE, connected=False)
     if any(stopped.t < message.t <= call.sent.t for message in call.run.all(ev.BatteryPublished)):
         raise unseen(call.run, "the battery sensor went on though it was unplugged")
+    call.expect(
+        "available",
+        True,
+        because="the last message stays the answer when the robot falls silent",
+        help=f"It came {call.sent.t - stopped.t:.1f} s ago, and that is no reason to forget it: answer with it.",
+    )
     require_last_message(call)
 
 

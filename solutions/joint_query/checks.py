@@ -97,7 +97,9 @@ def names_every_unknown_joint(run: Transcript) -> None:
     require_refusal(
         call,
         because=f"the robot has no {', '.join(unknown)}",
-        help="An unknown name fails the whole request: success stays false and message says which names.",
+        help="The message names the unknown joints, but success is true: leave response.success False."
+        if any(name in message for name in unknown)
+        else "An unknown name fails the whole request: success stays false and message says which names.",
     )
     unnamed = [name for name in unknown if not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", message)]
     expect(

@@ -107,7 +107,7 @@ def answers_every_request(run: Transcript) -> None:
         expect(
             call.latency <= 2.0,
             expected="every answer within 2 s",
-            observed=f"one took {call.latency:.1f} s",
+            observed=f"one took {call.latency:.2f} s",
             help="Answer from memory: the callback must not sleep or wait for the next message.",
             at=call.sent.t,
         )

@@ -5,7 +5,6 @@ from __future__ import annotations
 import atexit
 import builtins
 import ctypes
-import faulthandler
 import gc
 import os
 import signal
@@ -25,6 +24,8 @@ def run_program(arguments: Sequence[str], environment: Mapping[str, str], folder
     os.environ["PWD"] = folder  # as a shell would set it
     os.chdir(folder)
     if os.environ.get("PYTHONFAULTHANDLER"):
+        import faulthandler  # a new interpreter has it, too, but only with this variable
+
         faulthandler.enable()
     path = os.path.abspath(arguments[0])
     sys.argv = list(arguments)

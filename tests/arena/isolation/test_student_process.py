@@ -69,6 +69,20 @@ def test_its_own_status_is_seen(kind: Kind, code: str, returncode: int) -> None:
     assert run_student(Student(code), kind).returncode == returncode
 
 
+def test_one_that_is_aborted_says_where_its_threads_stand(kind: Kind) -> None:
+    code = """
+import threading
+def wait():
+    print("waiting", flush=True)
+    threading.Event().wait()
+wait()
+"""
+    meanwhile = "wait_for_line('waiting'); student.abort()"
+    run = run_student(Student(code, meanwhile, env={"PYTHONFAULTHANDLER": "1"}), kind)
+    assert run.returncode == -signal.SIGABRT
+    assert 'node.py", line 5 in wait\n' in run.stderr
+
+
 def test_an_interrupt_reaches_its_handler_and_nothing_else(kind: Kind) -> None:
     code = """
 import subprocess, sys, time
