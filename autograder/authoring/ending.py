@@ -13,7 +13,7 @@ LEAKS = "03_clients_that_survive#leak-why"
 SERVES_ONE_REQUEST = "02_services#first-intro"
 WRONG_TYPE = "02_services#fields-why"
 CRASHES = "02_services#m9-why"
-_OWN_FILE = re.compile(r"/tmp/work[^/]*/[^/]*$")
+OWN_FILE = re.compile(r"/work(?:-[^/]+)?/(\w+\.py)$")  # the folder in which a student's program runs
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ def end_in_words(run: Record, exited: ev.NodeExited) -> str:
 def raised_in(traceback: str) -> str | None:
     """Return the last line of a traceback that is in the student's file, unless that is where the program spins."""
     frames = re.findall(r'^\s*File "([^"]+)", line (\d+), in (\S+)', traceback, re.MULTILINE)
-    own = [index for index, (path, *_) in enumerate(frames) if _OWN_FILE.search(path)]
+    own = [index for index, (path, *_) in enumerate(frames) if OWN_FILE.search(path)]
     if not own or any(function.startswith("spin") for *_, function in frames[own[-1] + 1 :]):
         return None
     path, line, function = frames[own[-1]]

@@ -6,10 +6,10 @@ import re
 from dataclasses import dataclass
 
 from autograder.authoring import events as ev
+from autograder.authoring.ending import OWN_FILE
 from autograder.authoring.record import Record
 
 _FRAME = re.compile(r'File "([^"]+)", line (\d+) in (\S+)')
-_OWN_FILE = re.compile(r"/tmp/work[^/]*/(\w+\.py)$")
 _SPINNING = ("main", "<module>")  # functions in which a healthy program waits for something to do
 
 
@@ -57,7 +57,7 @@ def _innermost(thread: str) -> Place | None:
     """Return the innermost line of a thread that is in the student's file."""
     calls = ""
     for path, line, function in _FRAME.findall(thread):
-        if own := _OWN_FILE.search(path):
+        if own := OWN_FILE.search(path):
             return Place(own[1], int(line), function, calls)
         calls = function
     return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import signal
 
 import pytest
@@ -80,7 +81,7 @@ wait()
     meanwhile = "wait_for_line('waiting'); student.abort()"
     run = run_student(Student(code, meanwhile, env={"PYTHONFAULTHANDLER": "1"}), kind)
     assert run.returncode == -signal.SIGABRT
-    assert 'node.py", line 5 in wait\n' in run.stderr
+    assert re.search(r'node\.py", line \d in wait\n', run.stderr)
 
 
 def test_an_interrupt_reaches_its_handler_and_nothing_else(kind: Kind) -> None:
