@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import signal
 from dataclasses import dataclass
 
 from autograder.authoring import events as ev
@@ -14,6 +15,7 @@ SERVES_ONE_REQUEST = "02_services#first-intro"
 WRONG_TYPE = "02_services#fields-why"
 CRASHES = "02_services#m9-why"
 OWN_FILE = re.compile(r"/work(?:-[^/]+)?/(\w+\.py)$")  # the folder in which a student's program runs
+_CRASHED = (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS)
 
 
 @dataclass(frozen=True)
@@ -109,6 +111,11 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
     for sign, remedy in _SIGNS:
         if exited.returncode and re.search(sign, errors, re.MULTILINE):
             return _with_place(remedy, run)
+    if -exited.returncode in _CRASHED:
+        return Remedy(
+            f"{signal.Signals(-exited.returncode).name} ended the program, a crash below Python: use no node, publisher "
+            "or client after destroy_node(), and none of them in two threads at once."
+        )
     if exited.returncode and run.first(ev.NodeReady) is None:
         return _with_place(Remedy("The exception came before your node could serve."), run)
     if exited.returncode:
@@ -135,7 +142,7 @@ def end_in_words(run: Record, exited: ev.NodeExited) -> str:
 
 def raised_in(traceback: str) -> str | None:
     """Return the last line of a traceback that is in the student's file, unless that is where the program spins."""
-    frames = re.findall(r'^\s*File "([^"]+)", line (\d+), in (\S+)', traceback, re.MULTILINE)
+    frames = re.findall(r'^\s*File "([^"]+)", line (\d+), in ([\w.<>]+)', traceback, re.MULTILINE)
     own = [index for index, (path, *_) in enumerate(frames) if OWN_FILE.search(path)]
     if not own or any(function.startswith("spin") for *_, function in frames[own[-1] + 1 :]):
         return None

@@ -59,8 +59,9 @@ def why_rclpy_aborted(goal: Goal) -> str | None:
         where = f" in {place}" if place else ""
         if transition := _FORBIDDEN.search(raised[1]):
             return _why_forbidden(where, *transition.groups())
+        what = "".join(sign for sign in raised[1][:200] if sign.isprintable()) or "see the log"
         return (
-            f"execute raised an exception{where}: {raised[1][:200] or 'see the log'}. rclpy then aborts the goal and "
+            f"execute raised an exception{where}: {what}. rclpy then aborts the goal and "
             "sends an empty result."
         )
     if "Goal state not set, assuming aborted" in log:

@@ -9,7 +9,7 @@ from autograder.authoring import events as ev
 from autograder.authoring.ending import OWN_FILE
 from autograder.authoring.record import Record
 
-_FRAME = re.compile(r'File "([^"]+)", line (\d+) in (\S+)')
+_FRAME = re.compile(r'File "([^"]+)", line (\d+) in ([\w.<>]+)')
 _SPINNING = ("main", "<module>")  # functions in which a healthy program waits for something to do
 
 

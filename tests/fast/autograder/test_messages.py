@@ -100,6 +100,21 @@ def test_a_program_that_ends_with_an_error_is_told_what_its_last_words_mean(
     assert next_step in failure_of(lambda: run.call("first").response).help
 
 
+def test_a_crash_below_python_is_named() -> None:
+    run = run_of(asked(), *said("Extension modules: rclpy"), ev.NodeExited(t=3.1, returncode=-11))
+    assert failure_of(lambda: run.call("first").response).help.startswith("SIGSEGV ended the program")
+
+
+def test_a_silent_server_is_told_that_its_topic_went_on() -> None:
+    published = [
+        ev.BatteryPublished(t=2.5 + second, percentage=0.5, voltage=30.0, current=-1.0) for second in range(4)
+    ]
+    failure = failure_of(
+        lambda: run_of(asked(), *published, given_up("call", "first")).call("first").response
+    )
+    assert failure.observed == "none within 5 s; the robot published battery_state 4 times meanwhile"
+
+
 def test_a_server_that_ends_by_itself_is_told_to_spin() -> None:
     run = run_of(asked(), answered(), asked("second", t=3.0), ev.NodeExited(t=2.9, returncode=0))
     failure = failure_of(lambda: run.call("second").response)
