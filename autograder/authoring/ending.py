@@ -113,8 +113,8 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
             return _with_place(remedy, run)
     if -exited.returncode in _CRASHED:
         return Remedy(
-            f"{signal.Signals(-exited.returncode).name} ended the program, a crash below Python: use no node, publisher "
-            "or client after destroy_node(), and none of them in two threads at once."
+            f"{signal.Signals(-exited.returncode).name} ended the program, a crash below Python: use no node "
+            "or publisher after destroy_node(), and none of them in two threads at once."
         )
     if exited.returncode and run.first(ev.NodeReady) is None:
         return _with_place(Remedy("The exception came before your node could serve."), run)
