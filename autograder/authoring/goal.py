@@ -129,7 +129,9 @@ class Goal:
     def require_rejected(self, *, because: str, help: str) -> None:
         """Require that the server rejected it."""
         if self.answer is None:
-            require_alive(self.run)
+            require_alive(
+                self.run, "A goal_callback that raises ends the node: return GoalResponse.REJECT instead."
+            )
         expect(
             self.answer is not None and not self.answer.accepted,
             expected=f"the goal to be rejected: {because}",

@@ -73,8 +73,8 @@ def require_within_limits(run: Record) -> None:
         )
 
 
-def require_alive(run: Record) -> None:
-    """Require that the student's process did not end while the scenario ran."""
+def require_alive(run: Record, instead: str = "") -> None:
+    """Require that the student's process did not end while the scenario ran; `instead` is what to do if it raised."""
     require_within_limits(run)
     exited = run.first(ev.NodeExited)
     if exited and run.first(ev.NodeSignalled) is None:
@@ -82,7 +82,7 @@ def require_alive(run: Record) -> None:
         raise Failure(
             expected="a node that keeps running",
             observed=f"the program ended {end_in_words(run, exited)}",
-            help=remedy.help,
+            help=f"{instead} {remedy.help}" if instead and exited.returncode else remedy.help,
             at=exited.t,
             see=remedy.see,
         )

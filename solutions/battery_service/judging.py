@@ -60,6 +60,11 @@ def require_in_silence(call: Call) -> None:
 
 
 def _advice(battery: Any, last: Any) -> str | None:
+    if math.isnan(battery.percentage):
+        return (
+            "available is true, but the numbers are those for 'nothing known': assign the kept message, "
+            "response.battery = message."
+        )
     if math.isclose(battery.percentage, 100 * last.percentage, rel_tol=0.01):
         return "BatteryState.percentage runs from 0 to 1, not from 0 to 100: pass it on as it came."
     if math.isclose(battery.percentage, last.percentage, abs_tol=1e-5):

@@ -343,11 +343,45 @@ def test_a_cancel_after_an_early_end_is_about_that_end() -> None:
     assert "execute raised an exception" in failure.help
 
 
+def test_a_goal_callback_that_raises_is_told_to_reject() -> None:
+    sent = ev.GoalSent(t=2.0, goal="walk", action="walk_to", request=WalkTo.Goal())
+    goal = run_of(sent, *said("ValueError: no"), ev.NodeExited(t=3.1, returncode=1)).goal("walk")
+    assert "return GoalResponse.REJECT instead" in failure_of(goal.require_rejected, because="", help="").help
+
+
+@pytest.mark.parametrize(
+    ("x", "claimed", "next_step"),
+    [
+        (0.05, 0.05, "The position is right, the heading is 0.50 rad off"),
+        (0.30, 0.31, "Your own feedback said that 0.31 m were left, and then came succeed()"),
+        (0.90, 0.05, "Your feedback said that 0.05 m were left: measure from odom's pose to the goal"),
+        (0.90, None, "Compare odom with the goal's pose"),
+    ],
+)
+def test_a_robot_that_has_not_arrived_is_told_which_test_was_too_generous(
+    x: float, claimed: float | None, next_step: str
+) -> None:
+    sent = ev.GoalSent(t=2.0, goal="walk", action="walk_to", request=WalkTo.Goal())
+    sent.request.target_pose.pose.orientation.w = 1.0
+    came = [] if claimed is None else [WalkTo.Feedback(distance_remaining=claimed)]
+    events = [
+        sent,
+        ev.GoalAnswered(t=2.1, goal="walk", accepted=True),
+        *(ev.FeedbackReceived(t=3.9, goal="walk", feedback=message) for message in came),
+        result(SUCCEEDED),
+        *(robot(tenth / 10, x=x, yaw=0.5) for tenth in range(100)),
+    ]
+    walk = exercise_module("cancellable_walk", "robot")
+    assert failure_of(walk.require_arrival, run_of(*events).goal("walk")).help.startswith(next_step)
+
+
 # -- motor services ---------------------------------------------------------------------------------------------------
 
 
-def robot(t: float, *, motors: bool = True, mode: int = RobotState.STANDING) -> Any:
-    numbers = dict.fromkeys(("x", "y", "z", "yaw", "speed", "turn_rate", "steps", "lag"), 0) | {"up": 1}
+def robot(t: float, *, motors: bool = True, mode: int = RobotState.STANDING, **more: float) -> Any:
+    numbers = (
+        dict.fromkeys(("x", "y", "z", "yaw", "speed", "turn_rate", "steps", "lag"), 0) | {"up": 1} | more
+    )
     return ev.RobotTruth(t=t, simulated=t, mode=mode, motors_enabled=motors, battery=1, **numbers)
 
 
