@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 
 from autograder.authoring import events as ev
+from autograder.authoring.ending import Remedy
 from autograder.authoring.record import Record
+
+OUTSIDE = "01_robot_and_graph#names-why"
 
 
 def hears(run: Record, topic: str, *, before: float = math.inf) -> bool | None:
@@ -22,20 +25,38 @@ def hears(run: Record, topic: str, *, before: float = math.inf) -> bool | None:
 
 def why_nothing_is_heard(run: Record, topic: str) -> str | None:
     """Return why the node gets no message of the robot's `topic`, or None if it does or nothing is known."""
+    remedy = _what_is_deaf(run, topic)
+    return remedy.help if remedy else None
+
+
+def lesson_on_hearing(run: Record, topic: str) -> str:
+    """Return the lesson on why the node gets no message of the robot's `topic`, '' (the check's) if it does."""
+    remedy = _what_is_deaf(run, topic)
+    return remedy.see if remedy else ""
+
+
+def _what_is_deaf(run: Record, topic: str) -> Remedy | None:
     topics = run.first(ev.NodeTopics)
     if topics is None or hears(run, topic) in (None, True):
         return None
     names = [name for name in topics.subscribes if _base(name) == topic]
     elsewhere = [name for name in names if name not in _robots_names(run)]
     if elsewhere:
-        return f"You subscribe to {_shown(elsewhere[0])}, which the robot does not publish: {_relative(elsewhere[0])}."
+        name = elsewhere[0]
+        return Remedy(
+            f"You subscribe to {_shown(name)}, which the robot does not publish: {_relative(name)}.", OUTSIDE
+        )
     if names:
-        return (
+        return Remedy(
             f"You subscribe to {topic}, but the robot's messages do not match: compare the type, and ask for no more "
-            "than the robot's QoS offers (qos_profile_sensor_data for its sensors)."
+            "than the robot's QoS offers (qos_profile_sensor_data for its sensors).",
+            "01_robot_and_graph#senses-fix-intro",
         )
     others = ", ".join(map(_shown, topics.subscribes))
-    return f"Your node does not subscribe to {topic}" + (f", but to {others}." if others else ".")
+    return Remedy(
+        f"Your node does not subscribe to {topic}" + (f", but to {others}." if others else "."),
+        "01_robot_and_graph#listen-intro",
+    )
 
 
 def why_nothing_is_commanded(run: Record, topic: str, *, before: float) -> str | None:

@@ -8,12 +8,12 @@ from __future__ import annotations
 import difflib
 
 from autograder.authoring import events as ev
+from autograder.authoring.connections import OUTSIDE
 from autograder.authoring.ending import GROWS, LEAKS, end_in_words, remedy_for_the_end
 from autograder.authoring.failure import Failure
 from autograder.authoring.missing import unseen
 from autograder.authoring.record import Record
 
-OUTSIDE = "01_robot_and_graph#names-why"
 ALIKE = 0.6  # of two names; above it one is taken for a misspelling of the other
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
-from autograder.authoring.connections import why_nothing_is_heard
+from autograder.authoring.connections import lesson_on_hearing, why_nothing_is_heard
 from autograder.authoring.missing import unseen
 from autograder.authoring.robot_topic import RobotTopic
 from autograder.authoring.transcript import Transcript
@@ -30,6 +30,7 @@ def require_last_message(call: Call, since: float | None = None) -> None:
         because="the robot had published its battery",
         help=why_nothing_is_heard(call.run, "battery_state")
         or "Your node gets battery_state: keep the last message, and look at each request whether there is one.",
+        see=lesson_on_hearing(call.run, "battery_state"),
     )
     BATTERY_STATE.require_last_message(call, call.response.battery, since=since, advice=_advice)
 

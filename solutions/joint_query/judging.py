@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
-from autograder.authoring.connections import why_nothing_is_heard
+from autograder.authoring.connections import lesson_on_hearing, why_nothing_is_heard
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.fields import shown_fields
 from autograder.authoring.missing import unseen
@@ -71,6 +71,7 @@ def robot_joints(run: Transcript) -> list[str]:
             expected="a node that listens to joint_states",
             observed="an answer without it: no message of joint_states has reached your node",
             help=not_heard(run),
+            see=lesson_on_hearing(run, "joint_states"),
         )
     return published.names
 
@@ -84,6 +85,7 @@ def require_success(call: Call) -> None:
         observed=shown_fields(call.response, "success", "message"),
         help=_advice_on_refusal(call) if heard else not_heard(call.run),
         at=call.answered.t,
+        see=lesson_on_hearing(call.run, "joint_states"),
     )
 
 
@@ -151,6 +153,7 @@ def require_positions(call: Call) -> None:
         observed=f"{_described(names, positions)}, although no joint_states had reached your node",
         help=not_heard(call.run),
         at=at,
+        see=lesson_on_hearing(call.run, "joint_states"),
     )
     recent = [_positions(message) for message in last_messages(call, ev.JointsPublished, since=_told(call))]
     truth = [recent[-1].get(name, math.nan) for name in names]

@@ -6,7 +6,7 @@ import math
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
-from autograder.authoring.connections import why_nothing_is_commanded, why_nothing_is_heard
+from autograder.authoring.connections import lesson_on_hearing, why_nothing_is_commanded, why_nothing_is_heard
 from autograder.authoring.failure import expect
 from autograder.authoring.fields import shown, shown_fields
 from autograder.authoring.robot_record import RobotRecord
@@ -30,6 +30,7 @@ def require_status(call: Call, on: bool) -> None:
         observed=shown_fields(response, "success", "message"),
         help=_advice_on_status(call, wanted),
         at=call.answered.t,
+        see=lesson_on_hearing(call.run, "robot_state"),
     )
 
 

@@ -463,8 +463,13 @@ def test_a_wrong_status_is_explained_by_the_answers_so_far(
     events: list[Any], call: str, next_step: str
 ) -> None:
     run = run_of(*truth(motors=off_from_5_to_9), *events)
-    on = call != "status 1"
-    assert failure_of(MOTORS.require_status, run.call(call), on=on).help.startswith(next_step)
+    failure = failure_of(MOTORS.require_status, run.call(call), on=call != "status 1")
+    assert failure.help.startswith(next_step)
+    lesson = {
+        "Your node does not": "01_robot_and_graph#listen-intro",
+        "You subscribe": "01_robot_and_graph#names-why",
+    }
+    assert failure.see == next((see for words, see in lesson.items() if next_step.startswith(words)), "")
 
 
 @pytest.mark.parametrize(
