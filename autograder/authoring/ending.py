@@ -107,9 +107,9 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
 
 def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
     """Return what to do about a program that ended by itself, or by an exception."""
-    errors = run.output("stderr")
+    traceback = _last_traceback(run)
     for sign, remedy in _SIGNS:
-        if exited.returncode and re.search(sign, errors, re.MULTILINE):
+        if exited.returncode and re.search(sign, traceback, re.MULTILINE):
             return _with_place(remedy, run)
     if -exited.returncode in _CRASHED:
         return Remedy(
@@ -154,9 +154,14 @@ def raised_in(traceback: str) -> str | None:
 
 def _with_place(remedy: Remedy, run: Record) -> Remedy:
     """Name the student's line that raised, if one did, and the service that was being answered."""
-    place = raised_in(run.output("stderr"))
+    place = raised_in(_last_traceback(run))
     where = f" It was raised in {place}." if place else ""
     return Remedy(remedy.help.replace("{of}", _being_answered(run)) + where, remedy.see)
+
+
+def _last_traceback(run: Record) -> str:
+    """Return the end of stderr from the last traceback on: an earlier one did not end the program."""
+    return run.output("stderr").rpartition("Traceback (most recent call last):")[2]
 
 
 def _being_answered(run: Record) -> str:

@@ -28,6 +28,7 @@ _CLEAN_END = (
     "Catch KeyboardInterrupt and ExternalShutdownException around spin(), destroy the node and call "
     "rclpy.try_shutdown() in a finally block."
 )
+_STILL_RUNS = "Something keeps the process alive, such as a thread that is not a daemon. "
 # What the last line on stderr says about why a program did not end with status 0.
 _REASONS = {
     "rcl_shutdown already called": "Ctrl-C has shut rclpy down already, so rclpy.shutdown() raises: call "
@@ -49,12 +50,11 @@ def require_clean_exit(run: Transcript) -> None:
         raise unseen(run, "nobody pressed Ctrl-C")
     exited = run.first(ev.NodeExited)
     if exited is None:
+        place = where_it_stood(run, in_main=True)
         raise Failure(
             expected="the program to end after SIGINT (Ctrl-C)",
             observed=f"it still ran {run.end - signalled.t:.1f} s later",
-            help=f"It stood in {place}: let Ctrl-C end that. {_CLEAN_END}"
-            if (place := where_it_stood(run, in_main=True))
-            else f"Something keeps the process alive, such as a thread that is not a daemon. {_CLEAN_END}",
+            help=(f"It stood in {place}: let Ctrl-C end that. " if place else _STILL_RUNS) + _CLEAN_END,
             at=signalled.t,
         )
     if exited.t < signalled.t:

@@ -100,6 +100,20 @@ def test_a_program_that_ends_with_an_error_is_told_what_its_last_words_mean(
     assert next_step in failure_of(lambda: run.call("first").response).help
 
 
+def test_a_traceback_that_did_not_end_the_program_is_not_taken_for_the_one_that_did() -> None:
+    handled = said("Traceback (most recent call last):", "MemoryError", t=2.5)
+    last = said("Traceback (most recent call last):", "ValueError: 3")
+    run = run_of(asked(), *handled, *last, ev.NodeExited(t=3.1, returncode=1))
+    assert failure_of(lambda: run.call("first").response).help.startswith("An exception in a callback")
+
+
+def test_a_program_that_does_not_end_on_ctrl_c_is_told_where_it_stood() -> None:
+    run = run_of(
+        ev.NodeSignalled(t=8.0, signal="SIGINT"), stack('"/tmp/work/status.py", line 44 in main'), until=13.0
+    )
+    assert failure_of(require_clean_exit, run).help.startswith("It stood in line 44 of status.py, in main():")
+
+
 def test_a_crash_below_python_is_named() -> None:
     run = run_of(asked(), *said("Extension modules: rclpy"), ev.NodeExited(t=3.1, returncode=-11))
     assert failure_of(lambda: run.call("first").response).help.startswith("SIGSEGV ended the program")
