@@ -45,6 +45,14 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
         ),
     ),
     (
+        r"invalid transition from state EXECUTING with event CANCELED",
+        Remedy(
+            "goal_handle.canceled() was called while the goal was EXECUTING. A cancel_callback only returns "
+            "CancelResponse.ACCEPT; execute calls canceled() when it sees is_cancel_requested.",
+            "07_cancel_and_preempt#m12-why",
+        ),
+    ),
+    (
         r"^AssertionError: The '\w+' field must be a set or sequence",
         Remedy("That field is a list: give it a list with values of its type, such as [1.0].", WRONG_TYPE),
     ),

@@ -11,7 +11,14 @@ from action_msgs.srv import CancelGoal
 from autograder.authoring import events as ev
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.fields import expect_field
-from autograder.authoring.goal_endings import lesson_on_the_end, went_on, why_it_ended_so, why_no_result
+from autograder.authoring.goal_endings import (
+    BLIND,
+    lesson_on_the_end,
+    went_on,
+    why_blind,
+    why_it_ended_so,
+    why_no_result,
+)
 from autograder.authoring.missing import Missing, unseen
 from autograder.authoring.readiness import require_alive
 from autograder.authoring.robot_record import RobotRecord
@@ -153,8 +160,9 @@ class Goal:
             raise Failure(
                 expected=f"a result with status {name_of(GoalStatus, status)}",
                 observed=observed,
-                help=help if help and went_on(self) else advice,
+                help=help if help and went_on(self) and not why_blind(self) else advice,
                 at=self.run.end,
+                see=BLIND if why_blind(self) else "",
             )
         ended = self.result.status
         expect(

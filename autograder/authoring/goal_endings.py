@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,9 @@ if TYPE_CHECKING:
     from autograder.authoring.goal import Goal
 
 STILL_COMING = 1.5  # s; a goal whose last feedback is not older is still in its loop
+FROZEN = 10  # feedback messages; so many alike are no coincidence while the robot moves
+MOVED = 0.05  # m
+BLIND = "07_cancel_and_preempt#m2-why"
 IN_THE_LOG = 0.5  # s that a line of the log may come after the result it explains
 _CALLS: dict[int, str] = {
     GoalStatus.SUCCEEDED: "succeed",
@@ -84,6 +88,36 @@ def _why_forbidden(where: str, state: str, event: str) -> str:
     return f"execute made a call{where} that a goal in state {state} does not allow, so rclpy aborted it."
 
 
+def why_blind(goal: Goal) -> str | None:
+    """Return what to do if execute keeps the node from being served: what it reports never changes while it runs."""
+    distances = [getattr(feedback.feedback, "distance_remaining", None) for feedback in goal.feedback]
+    if len(distances) < FROZEN or None in distances or len(set(distances)) > 1 or not _robot_moved(goal):
+        return None
+    return (
+        f"distance_remaining stayed {distances[0]:.2f} m in all {len(distances)} feedback messages: no message of odom "
+        "is served while execute holds the only thread. Use MultiThreadedExecutor, or an async execute that awaits."
+    )
+
+
+def _robot_moved(goal: Goal) -> bool:
+    """Return whether the robot moved while feedback came."""
+    first, last = goal.feedback[0].t, goal.feedback[-1].t
+    seen = [robot for robot in goal.run.ground_truth if first <= robot.t <= last]
+    return any(math.hypot(robot.x - seen[0].x, robot.y - seen[0].y) > MOVED for robot in seen)
+
+
+def _why_it_never_came(goal: Goal) -> str:
+    """Return why the result of a goal that has ended did not come."""
+    if place := where_it_stood(goal.run):
+        return f"execute has not returned since its terminal call: it stood in {place}. Return the result at once."
+    if goal.run.first(ev.NodeStack):
+        return (
+            "Nothing of your node is served any more: a spin inside a callback, such as "
+            "rclpy.spin_until_future_complete(self, …), takes the node away from its executor. Do not spin in execute."
+        )
+    return "The goal has ended, but execute returned no result: its last line must be `return result`."
+
+
 def went_on(goal: Goal) -> bool:
     """Return whether feedback came until the scenario stopped waiting for the result."""
     given_up = goal.run.given_up("result", goal.name)
@@ -96,15 +130,14 @@ def why_no_result(goal: Goal) -> tuple[str, str]:
     status = goal.statuses[-1].status if goal.statuses else GoalStatus.UNKNOWN
     seen = f"no result; the goal's last status was {name_of(GoalStatus, status)}"
     if status in _CALLS:
-        return (
-            seen,
-            "The goal has ended, but execute returned no result: its last line must be `return result`.",
-        )
+        return seen, _why_it_never_came(goal)
     if status == GoalStatus.ACCEPTED:
         return seen, (
             "The goal is accepted and not executed: nobody called goal_handle.execute(). A handle_accepted_callback "
             "must call it, also for a goal that has to wait its turn."
         )
+    if blind := why_blind(goal):
+        return f"{seen}, and feedback still came", blind
     if went_on(goal):
         left = getattr(goal.feedback[-1].feedback, "distance_remaining", None)
         where = "" if left is None else f", {left:.2f} m from the goal"

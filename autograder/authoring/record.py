@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -12,7 +13,8 @@ from autograder.authoring import events as ev
 E = TypeVar("E")
 A = TypeVar("A", ev.GoalAnswered, ev.ResultReceived, ev.CancelAnswered, ev.ServiceAnswered)
 R = TypeVar("R", bound="Record")
-_AFTERTHOUGHT = "The following exception was never retrieved"  # rclpy, when it throws away a task at the end
+# What rclpy says beside a program's last words: of a task that it throws away at the end, and in its log.
+_ASIDE = re.compile(r"The following exception was never retrieved|\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[")
 
 
 @dataclass(frozen=True)
@@ -87,9 +89,9 @@ class Record:
 
     @property
     def last_words(self) -> str:
-        """The last line on stderr that is not blank nor rclpy's afterthought, cut to a readable length."""
+        """The last line on stderr that is not blank nor rclpy's aside, cut to a readable length."""
         lines = [line.strip() for line in self.output("stderr").splitlines() if line.strip()]
-        said = [line for line in lines if not line.startswith(_AFTERTHOUGHT)]
+        said = [line for line in lines if not _ASIDE.match(line)] or lines
         return said[-1][:300] if said else ""
 
     @property

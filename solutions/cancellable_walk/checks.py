@@ -134,7 +134,11 @@ def walks_again_after_a_cancel(run: Transcript) -> None:
 @check(points=2, on=PREEMPT, needs=arrives, see="07_cancel_and_preempt#preempt-why")
 def new_goal_preempts_the_old(run: Transcript) -> None:
     """A new goal aborts the old one with PREEMPTED and is walked to"""
-    old, new = require_accepted(run.goal("old")), require_accepted(run.goal("new"))
+    old = require_accepted(run.goal("old"))
+    new = require_accepted(
+        run.goal("new"),
+        help="The new goal was rejected because another was active: accept it, and let the older one give way.",
+    )
     require_walking(run, new.sent.t)
     end = old.require_result(
         ABORTED,

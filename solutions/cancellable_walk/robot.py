@@ -25,10 +25,10 @@ STOP_SPEED = 0.05  # m/s
 WATCHED = 3.5  # s after the cancel
 
 
-def require_accepted(goal: Goal) -> Goal:
-    """Require that the server accepted the goal."""
+def require_accepted(goal: Goal, help: str = _ACCEPT) -> Goal:
+    """Require that the server accepted the goal; `help` is what to do if it got the robot's topics and rejected it."""
     deaf = (why_nothing_is_heard(goal.run, topic) for topic in ("odom", "robot_state"))
-    return goal.require_accepted(next(filter(None, deaf), _ACCEPT))
+    return goal.require_accepted(next(filter(None, deaf), help))
 
 
 def require_arrival(goal: Goal) -> None:

@@ -27,6 +27,13 @@ MOTORS = exercise_module("motor_services", "judging")
 IN_EXECUTE = '  File "/tmp/work/walk.py", line 97, in execute'
 
 
+def robot(t: float, *, motors: bool = True, mode: int = RobotState.STANDING, **more: float) -> Any:
+    numbers = (
+        dict.fromkeys(("x", "y", "z", "yaw", "speed", "turn_rate", "steps", "lag"), 0) | {"up": 1} | more
+    )
+    return ev.RobotTruth(t=t, simulated=t, mode=mode, motors_enabled=motors, battery=1, **numbers)
+
+
 def run_of(*events: Any, ready: bool = True, until: float = 20.0) -> Transcript:
     return Transcript.from_events(
         "any", {}, [*(READY if ready else READY[:1]), *events, ev.ScenarioEnded(t=until)]
@@ -85,6 +92,15 @@ NO_RETURN = said(
         ),
         (said("AttributeError: 'Trigger_Response' object has no attribute 'text'"), "no field of that name"),
         (said("AssertionError: The 'success' field must be of type 'bool'"), "a value of the wrong type"),
+        (
+            [
+                *said(
+                    "RCLError: goal_handle attempted invalid transition from state EXECUTING with event CANCELED"
+                ),
+                *said("[WARN] [1795378757.2] [walk]: Goal state not set, assuming aborted."),
+            ],
+            "goal_handle.canceled() was called while the goal was EXECUTING.",
+        ),
         (said("RuntimeError: no running event loop"), "no asyncio event loop"),
         (said("OSError: [Errno 28] No space left on device"), "too much to disk"),
         (said("RuntimeError: can't start new thread"), "too many threads or processes"),
@@ -295,6 +311,22 @@ NO_RESULT = given_up("result", "walk", t=12.0)
             "The cancel was accepted: look at goal_handle.is_cancel",
         ),
         ([status(GoalStatus.ACCEPTED)], "nobody called goal_handle.execute()"),
+        (
+            [status(GoalStatus.SUCCEEDED), stack(*SPINNING)],
+            "Nothing of your node is served any more: a spin inside",
+        ),
+        (
+            [status(GoalStatus.SUCCEEDED), stack('"/tmp/work/walk.py", line 9 in execute')],
+            "execute has not returned since",
+        ),
+        (
+            [
+                status(GoalStatus.EXECUTING),
+                *(feedback(2.5 + second) for second in range(10)),
+                *(robot(float(second), x=0.1 * second) for second in range(20)),
+            ],
+            "distance_remaining stayed 0.31 m in all 10 feedback messages: no message of odom is served",
+        ),
         ([status(GoalStatus.SUCCEEDED)], "execute returned no result: its last line must be `return result`"),
         (
             [status(GoalStatus.EXECUTING), feedback(3.0), stack('"/tmp/work/walk.py", line 9 in execute')],
@@ -307,7 +339,7 @@ def test_a_goal_without_a_result_is_explained_by_its_status_and_feedback(
 ) -> None:
     failure = failure_of(goal_run(*events, NO_RESULT).require_result, SUCCEEDED)
     assert next_step in failure.help
-    assert "terminal call" not in failure.help
+    assert "make one terminal call" not in failure.help
 
 
 RAISED = said("[ERROR] [walk]: Error raised in execute callback: no odom", IN_EXECUTE)
@@ -390,13 +422,6 @@ def test_a_robot_that_has_not_arrived_is_told_which_test_was_too_generous(
 
 
 # -- motor services ---------------------------------------------------------------------------------------------------
-
-
-def robot(t: float, *, motors: bool = True, mode: int = RobotState.STANDING, **more: float) -> Any:
-    numbers = (
-        dict.fromkeys(("x", "y", "z", "yaw", "speed", "turn_rate", "steps", "lag"), 0) | {"up": 1} | more
-    )
-    return ev.RobotTruth(t=t, simulated=t, mode=mode, motors_enabled=motors, battery=1, **numbers)
 
 
 def truth(*, motors: Any = lambda t: True, mode: int = RobotState.STANDING) -> list[Any]:
