@@ -54,7 +54,7 @@ def test_a_reliable_subscriber_hears_no_sensor_and_the_log_says_so(chapter: Exec
         assert re.search(f"topic '{topic}', offering incompatible QoS", printed)
     assert "heard: battery_state, odom, robot_state\n" in printed
     assert in_order(printed, "/robot/imu", "to   /robot/senses: reliable", "which offers only best effort")
-    assert "/robot/imu: from /robot/humanoid to /robot/senses (which hears nothing)." in chapter.html(
+    assert "/robot/imu: from /robot/humanoid to /robot/senses (which receives nothing)." in chapter.html(
         "senses-run"
     )
 
