@@ -33,6 +33,7 @@ from lab.graph_drawing import draw_graph
 from lab.interfaces import build_interfaces
 from lab.live_view import stop_watching, watch_robot
 from lab.outcomes import CancelAnswer, Outcome
+from lab.pattern_choice import PatternChoice, choose_pattern
 from lab.picture import show_robot
 from lab.prediction import Prediction, predict
 from lab.programs import Program, run_program, start_program
@@ -55,6 +56,7 @@ __all__ = [
     "NodeEndedError",
     "NotInTimeError",
     "Outcome",
+    "PatternChoice",
     "Pose",
     "Prediction",
     "Program",
@@ -63,6 +65,7 @@ __all__ = [
     "battery",
     "build_interfaces",
     "call",
+    "choose_pattern",
     "describe",
     "draw_graph",
     "draw_sequence",
