@@ -53,7 +53,7 @@ def knows_the_mode_at_once() -> str:
     _stand()
     with _paused():
         node = _start("robot_mode.py", {"on_state() missing": "pass the callback itself: self.on_state"})
-        comes_true(lambda: _told(node) or not node.is_running, 3.0)
+        comes_true(lambda: _told(node) or not node.is_running, 5.0)
         _require_running(node, {})
         if not _told(node):
             raise _why_no_state(node)
@@ -76,7 +76,7 @@ def walks_one_metre() -> str:
         return (now.x - before.x) * math.cos(before.yaw) + (now.y - before.y) * math.sin(before.yaw)
 
     began = time.monotonic()
-    comes_true(lambda: mode() == "WALKING" or not node.is_running, 3.0)
+    comes_true(lambda: mode() == "WALKING" or not node.is_running, 5.0)
     comes_true(lambda: mode() != "WALKING" or gone() > METRE[1] or not node.is_running, 20.0)
     _require_running(
         node, {"must be of type 'float'": "a float64 field needs a float: 0.3, not an int", **hints}
