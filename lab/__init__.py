@@ -34,6 +34,7 @@ from lab.interfaces import build_interfaces
 from lab.live_view import stop_watching, watch_robot
 from lab.means_plot import plot_means
 from lab.outcomes import CancelAnswer, Outcome
+from lab.pattern_choice import PatternChoice, choose_pattern
 from lab.picture import show_robot
 from lab.prediction import Prediction, predict
 from lab.programs import Program, run_program, start_program
@@ -58,6 +59,7 @@ __all__ = [
     "NodeEndedError",
     "NotInTimeError",
     "Outcome",
+    "PatternChoice",
     "Pose",
     "Prediction",
     "Program",
@@ -67,6 +69,7 @@ __all__ = [
     "battery",
     "build_interfaces",
     "call",
+    "choose_pattern",
     "describe",
     "draw_graph",
     "draw_sequence",

@@ -92,7 +92,9 @@ def test_an_experiment_begins_with_its_prediction(name: str) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_no_quiz_question_is_stored_with_an_answer(name: str) -> None:
-    answers = re.findall(r"\.answer\((.*?)\)", "\n".join(cell.source for cell in read(name).cells))
+    answers = re.findall(
+        r"question_\d+\.answer\((.*?)\)", "\n".join(cell.source for cell in read(name).cells)
+    )
     assert answers
     assert set(answers) == {'""'}
 
