@@ -26,6 +26,7 @@ from lab.errors import (
 )
 from lab.film import film_robot
 from lab.formatting import describe
+from lab.gap import GapError
 from lab.goals import Goal, send_goal
 from lab.graph import list_graph, nodes_in_graph
 from lab.graph_drawing import draw_graph
@@ -45,6 +46,7 @@ from lab.waiting import wait_until
 
 __all__ = [
     "CancelAnswer",
+    "GapError",
     "Goal",
     "LabError",
     "NoAnswerError",

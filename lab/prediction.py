@@ -38,8 +38,8 @@ class Prediction:
         self.number = number
         self.question = question
         self._buttons = question.buttons()
-        self._buttons.value = kept_letter(question)
-        self._buttons.observe(lambda change: keep_letter(question, change["new"]), "value")
+        self._buttons.value = kept_letter("predictions", question)
+        self._buttons.observe(lambda change: keep_letter("predictions", question, change["new"]), "value")
 
     @property
     def letter(self) -> str | None:

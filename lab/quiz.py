@@ -7,6 +7,7 @@ from html import escape
 import ipywidgets
 from IPython.display import display
 
+from lab.kept_choices import keep_letter, kept_letter
 from lab.question import Question, read_question
 
 
@@ -19,7 +20,10 @@ def quiz(chapter: str, number: int) -> Quiz:
 
 
 class Quiz:
-    """A question in a notebook: click a button, or call `answer("b")` where there are no widgets."""
+    """A question in a notebook: click a button, or call `answer("b")` where there are no widgets.
+
+    The last answer is kept beside the notebook.
+    """
 
     def __init__(self, title: str, question: Question) -> None:
         self.title = title
@@ -27,7 +31,11 @@ class Quiz:
 
     def answer(self, letter: str) -> None:
         """Print whether this choice is right, and why; "" is no answer yet."""
-        print(self.mark(letter) if letter else f"Not answered yet: choose {self.question.letters()}.")
+        if not letter:
+            print(f"Not answered yet: choose {self.question.letters()}.")
+            return
+        print(self.mark(letter))
+        keep_letter("questions", self.question, letter)
 
     def mark(self, letter: str) -> str:
         """Return the feedback on a choice as a sentence.
@@ -47,7 +55,9 @@ class Quiz:
         def mark(change: dict) -> None:
             if change["new"]:
                 verdict.value = escape(self.mark(change["new"]))
+                keep_letter("questions", self.question, change["new"])
 
         buttons = self.question.buttons()
         buttons.observe(mark, "value")
+        buttons.value = kept_letter("questions", self.question)
         return ipywidgets.VBox([buttons, verdict])

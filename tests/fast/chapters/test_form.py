@@ -9,6 +9,9 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from lab.gap import read_gaps
+from lab.gap_cells import fill, gaps_of, is_empty
+
 CHAPTERS = Path(__file__).resolve().parents[3] / "chapters"
 NAMES = sorted(path.stem for path in CHAPTERS.glob("*.ipynb"))
 MOST_WORDS = 2000  # between two things to do; at 130 words a minute a quarter of an hour
@@ -101,3 +104,14 @@ def test_every_drawing_exists_and_has_an_alternative_text(name: str) -> None:
     for alternative, path in images:
         assert len(alternative) > 40, path
         assert "<title>" in (CHAPTERS / path).read_text()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_its_gaps_are_empty_and_their_folded_solutions_are_a_few_lines(name: str) -> None:
+    gaps = gaps_of(read(name))
+    assert list(gaps) == [gap.file for gap in read_gaps(name.partition("_")[2])]
+    for file, (program, solution) in gaps.items():
+        assert is_empty(program), file
+        assert not is_empty(fill(program, solution)), file
+        assert 3 <= len(solution.splitlines()) <= 8, file
+        compile(fill(program, solution), file, "exec")

@@ -11,8 +11,8 @@ import pytest
 
 import lab
 from lab import questions
-from lab.kept_choices import FILE
 from lab.prediction import Prediction
+from lab.progress_file import FILE
 from lab.question import Choice, Question
 
 ALL = [
@@ -91,7 +91,7 @@ def test_a_kept_choice_is_found_under_its_new_letter_and_not_under_new_words() -
     assert Prediction(1, reworded).letter is None
 
 
-@pytest.mark.parametrize("damaged", ["", "{", "[]"])
+@pytest.mark.parametrize("damaged", ["", "{", "[]", '{"predictions": []}'])
 def test_a_damaged_file_only_means_being_asked_again(damaged: str) -> None:
     FILE.write_text(damaged)
     prediction = Prediction(1, EXAMPLE)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pkgutil
 from importlib import import_module
+from pathlib import Path
 
 import pytest
 
@@ -19,6 +20,11 @@ ALL = [
     for number in range(1, len(import_module(f"lab.questions.{chapter}").QUESTIONS) + 1)
 ]
 EXAMPLE = Question("2 + 2?", (Choice("4", "Count.", right=True), Choice("5", "One too many.")))
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
 
 
 def test_the_right_choice_is_right_and_says_why() -> None:
@@ -43,6 +49,14 @@ def test_clicking_a_button_shows_the_verdict() -> None:
     buttons, verdict = Quiz("Question 1", EXAMPLE)._buttons().children
     buttons.value = "b"
     assert verdict.value == "b: Not this one. One too many."
+
+
+def test_an_answer_is_kept_whether_written_or_clicked() -> None:
+    Quiz("Question 1", EXAMPLE).answer("b")
+    buttons, verdict = Quiz("Question 1", EXAMPLE)._buttons().children
+    assert (buttons.value, verdict.value) == ("b", "b: Not this one. One too many.")
+    buttons.value = "a"
+    assert Quiz("Question 1", EXAMPLE)._buttons().children[0].value == "a"
 
 
 def test_a_question_has_one_right_choice() -> None:

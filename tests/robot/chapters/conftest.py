@@ -6,11 +6,12 @@ import fcntl
 import os
 import pickle
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from execution import Executed, execute
+from gap_trials import GapTrials
 
 
 @pytest.fixture(scope="session")
@@ -32,6 +33,14 @@ def executed(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Execut
         return outcome
 
     return run_once
+
+
+@pytest.fixture(scope="module")
+def gaps(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[GapTrials]:
+    """The gaps of the chapter that the test's file names as CHAPTER, in one kernel."""
+    trials = GapTrials(request.module.CHAPTER, tmp_path_factory.mktemp("gaps"))
+    yield trials
+    trials.end()
 
 
 def _outcome(name: str, folder: Path) -> Executed | str:

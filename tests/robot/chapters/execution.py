@@ -12,6 +12,8 @@ import psutil
 from nbclient import NotebookClient
 from nbformat.v4 import new_code_cell
 
+from lab.gap_cells import fill_gaps
+
 CHAPTERS = Path(__file__).resolve().parents[3] / "chapters"
 CELL_TIMEOUT = (
     300  # s; building interfaces takes ten seconds alone, and minutes on a machine that everybody uses
@@ -50,7 +52,8 @@ def execute(name: str, folder: Path) -> Executed:
 
 
 def answered(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:
-    """A chapter with "a" for each prediction and question, written into cells as a student without a mouse does."""
+    """A chapter with its gaps filled, and "a" for each prediction and question, as a student without a mouse does."""
+    fill_gaps(notebook)
     cells = []
     for cell in notebook.cells:
         cell.source = cell.source.replace('.answer("")', '.answer("a")')

@@ -7,11 +7,14 @@ from collections.abc import Callable
 
 import pytest
 from execution import Executed, in_order
+from gap_trials import GapTrials
+
+CHAPTER = "02_services"
 
 
 @pytest.fixture
 def chapter(executed: Callable[[str], Executed]) -> Executed:
-    return executed("02_services")
+    return executed(CHAPTER)
 
 
 def test_the_first_server_tells_where_the_robot_walked(chapter: Executed) -> None:
@@ -84,3 +87,17 @@ def test_nan_compares_false_with_everything(chapter: Executed) -> None:
 def test_the_hurried_battery_misleads_in_both_directions(chapter: Executed) -> None:
     printed = chapter.text("battery-break-run")
     assert in_order(printed, "True 0.0 -> walk home", "a full battery:", "-> go on", "15.0 -> go on")
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ("response.success = False", "return response inside the `if`"),
+        ("return None", "end each path of the callback with `return response`"),
+        ("return response", "an empty message"),
+        ("response.success = True\nreturn response", "success=True without one message on odom"),
+        ("response.succes = False\nreturn response", "AttributeError"),
+    ],
+)
+def test_the_gap_of_a_server_without_odom_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("where_am_i_fixed.py", lines)

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 
 import psutil
 from jupyter_client.manager import KernelManager, start_new_kernel
-
-NODES = Path(__file__).with_name("nodes")
 
 
 class CellError(Exception):
@@ -20,10 +17,9 @@ class CellError(Exception):
 
 
 class Kernel:
-    """A running kernel with `lab` imported, in a folder that holds the nodes of this test suite."""
+    """A running kernel with `lab` imported, in a folder."""
 
     def __init__(self, folder: Path) -> None:
-        shutil.copytree(NODES, folder, dirs_exist_ok=True)
         self.manager: KernelManager
         self.manager, self.client = start_new_kernel(kernel_name="python3", cwd=str(folder))
         self.run("import lab")

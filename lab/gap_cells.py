@@ -1,0 +1,60 @@
+"""How a gap and its solution stand in the cells of a chapter."""
+
+from __future__ import annotations
+
+import re
+from textwrap import dedent, indent
+
+import nbformat
+
+MAGIC = "%%gap "
+PLACEHOLDER = "raise NotImplementedError"
+_GAP = re.compile(
+    rf"^(?P<indent> *)# YOUR CODE HERE.*\n(?: *#.*\n)*(?P=indent){PLACEHOLDER}.*\n", re.MULTILINE
+)
+_SOLUTION = re.compile(r"<details>.*?```python\n(?P<lines>.*?)```.*?</details>", re.DOTALL)
+
+
+def is_empty(program: str) -> bool:
+    """Whether the lines of the gap have not been written."""
+    return _GAP.search(program) is not None
+
+
+def fill(program: str, lines: str) -> str:
+    """Return the program with these lines in its gap, at the gap's indentation.
+
+    Raises ValueError when it does not have exactly one gap.
+    """
+    if len(_GAP.findall(program)) != 1:
+        raise ValueError(f"expected one gap, `# YOUR CODE HERE` with `{PLACEHOLDER}` after it:\n{program}")
+    return _GAP.sub(lambda gap: indent(dedent(lines), gap["indent"]), program)
+
+
+def solution(text: str) -> str:
+    """Return the folded lines of Python in the Markdown cell below a gap.
+
+    Raises ValueError when there are none.
+    """
+    found = _SOLUTION.search(text)
+    if not found:
+        raise ValueError(f"expected a folded solution, <details> with a block of python, in:\n{text}")
+    return found["lines"]
+
+
+def gaps_of(notebook: nbformat.NotebookNode) -> dict[str, tuple[str, str]]:
+    """Return the program and the solution of each gap of a chapter, by file."""
+    return {
+        cell.source.splitlines()[0].removeprefix(MAGIC).strip(): (
+            cell.source.partition("\n")[2] + "\n",
+            solution(below.source),
+        )
+        for cell, below in zip(notebook.cells, notebook.cells[1:], strict=False)
+        if cell.source.startswith(MAGIC)
+    }
+
+
+def fill_gaps(notebook: nbformat.NotebookNode) -> None:
+    """Write the solutions into the gaps of a chapter."""
+    for cell, below in zip(notebook.cells, notebook.cells[1:], strict=False):
+        if cell.source.startswith(MAGIC):
+            cell.source = fill(cell.source + "\n", solution(below.source))

@@ -1,0 +1,45 @@
+"""What the checks of several gaps have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from lab.errors import NoAnswerError
+from lab.gap import not_yet
+from lab.services import call
+from lab.student_nodes import StudentNode
+from lab.waiting import comes_true
+
+TO_END = 1.0  # s; a node that an exception ends is gone by then
+HINTS = {"TypeError": "end each path of the callback with `return response`"}  # rclpy's error says no more
+NO_HINTS: Mapping[str, str] = {}
+
+
+def ask(
+    server: StudentNode,
+    name: str,
+    service_type: type,
+    request: Any = None,
+    *,
+    hints: Mapping[str, str] = NO_HINTS,
+) -> Any:
+    """Call a service of the student's node and return its response.
+
+    `hints` are what to do next when the node has ended, by a part of its last line.
+
+    Raises GapError when there is none; it says whether the node has ended, and of what.
+    """
+    try:
+        return call(name, service_type, request)
+    except NoAnswerError:
+        pass
+    ended = comes_true(lambda: not server.is_running, TO_END)
+    reason = (server.log().strip().splitlines() or ["it printed nothing"])[-1]
+    if ended:
+        known = {**hints, **HINTS}
+        advice = next((known[part] for part in known if part in reason), "mend what this error names")
+    else:
+        advice = "look for what keeps the callback from returning"
+    seen = f"no response within 2 s; the node {f'has ended: {reason}' if ended else 'still runs'}"
+    raise not_yet(seen, "a response", advice)

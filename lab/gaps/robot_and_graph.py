@@ -1,0 +1,5 @@
+"""Chapter 1: robot and graph."""
+
+from lab.gap import Gap
+
+GAPS: tuple[Gap, ...] = ()

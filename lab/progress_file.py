@@ -1,0 +1,34 @@
+"""What you have done in the chapters, in a file beside the notebooks: it outlives the kernel."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Literal
+
+FILE = Path(".progress.json")  # hidden, as the files of tools are
+Kind = Literal["predictions", "questions", "gaps"]
+
+
+def kept(kind: Kind) -> dict[str, str]:
+    """Return what was kept of one kind: a question's chosen answer, or when a file's gap was filled."""
+    entries = _read().get(kind)
+    return entries if isinstance(entries, dict) else {}
+
+
+def keep(kind: Kind, key: str, value: str | None) -> None:
+    """Write down a value under its key, or forget it when there is none."""
+    entries = kept(kind)
+    entries.pop(key, None)
+    if value is not None:
+        entries[key] = value
+    everything = {**_read(), kind: entries}
+    FILE.write_text(json.dumps(everything, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def _read() -> dict:
+    try:
+        progress = json.loads(FILE.read_text(encoding="utf-8"))
+    except (FileNotFoundError, ValueError):  # after damage each question is only asked again
+        return {}
+    return progress if isinstance(progress, dict) else {}

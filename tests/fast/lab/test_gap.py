@@ -1,0 +1,99 @@
+"""Gaps: found in a cell, filled, written and checked at once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import lab
+from lab import gap as gap_module
+from lab.gap import Gap, expect, find_gap, write_and_check
+from lab.gap_cells import fill, gaps_of, solution
+from lab.progress_file import kept
+
+PROGRAM = """def double(x):
+    # YOUR CODE HERE: return twice x
+    # (1 line)
+    raise NotImplementedError
+
+
+print(double(2))
+"""
+FOLDED = "<details><summary>Solution</summary>\n\n```python\nreturn 2 * x\n```\n\n</details>"
+
+
+@pytest.fixture(autouse=True)
+def double(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A gap in `double.py`, in a folder of its own."""
+
+    def doubles() -> str:
+        names: dict = {}
+        exec(Path("double.py").read_text(), names)
+        found = names["double"](4)
+        expect(found == 8, seen=f"double(4) is {found}", expected="8", next="return twice x")
+        return "double(4) is 8"
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(gap_module, "read_gaps", lambda chapter: (Gap("double.py", doubles),))
+
+
+def test_the_solution_goes_into_the_gap_at_its_indentation() -> None:
+    filled = fill(PROGRAM, solution(FOLDED))
+    assert filled == "def double(x):\n    return 2 * x\n\n\nprint(double(2))\n"
+
+
+def test_a_program_without_a_gap_and_a_cell_without_a_solution_are_told() -> None:
+    with pytest.raises(ValueError, match="expected one gap"):
+        fill("print(1)\n", "x\n")
+    with pytest.raises(ValueError, match="expected a folded solution"):
+        solution("nothing folded")
+
+
+def test_an_empty_gap_is_saved_and_says_where_to_write() -> None:
+    with pytest.raises(
+        lab.GapError, match=r"double\.py: nothing is written yet. Replace `raise NotImplementedError`"
+    ):
+        write_and_check("double.py", PROGRAM)
+    assert Path("double.py").read_text() == PROGRAM
+    assert kept("gaps") == {}
+
+
+def test_wrong_lines_are_answered_with_what_was_seen_and_what_to_do(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with pytest.raises(lab.GapError) as raised:
+        write_and_check("double.py", fill(PROGRAM, "return x\n"))
+    assert str(raised.value) == (
+        "double.py: not yet.\n  seen:     double(4) is 4\n  expected: 8\n  next:     return twice x"
+    )
+    assert kept("gaps") == {}
+
+
+def test_lines_that_are_not_python_are_told_with_their_line() -> None:
+    with pytest.raises(lab.GapError, match=r"double\.py, line 2: .*: return \(2"):
+        write_and_check("double.py", "def double(x):\n    return (2 x\n")
+
+
+def test_right_lines_are_confirmed_and_kept(capsys: pytest.CaptureFixture[str]) -> None:
+    write_and_check(" double.py ", fill(PROGRAM, "return 2 * x\n"))
+    assert capsys.readouterr().out.splitlines()[-1] == "✓ double.py: double(4) is 8"
+    assert list(kept("gaps")) == ["double.py"]
+
+
+def test_a_file_without_a_gap_is_told() -> None:
+    with pytest.raises(
+        lab.LabError, match=r"no chapter has a gap in a file of this name; there are double\.py"
+    ):
+        find_gap("another.py")
+
+
+def test_the_gaps_of_a_notebook_are_found_with_their_solutions() -> None:
+    from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+
+    cells = [
+        new_code_cell("import lab"),
+        new_code_cell("%%gap double.py\n" + PROGRAM.rstrip("\n")),
+        new_markdown_cell(FOLDED),
+    ]
+    assert gaps_of(new_notebook(cells=cells)) == {"double.py": (PROGRAM, "return 2 * x\n")}
