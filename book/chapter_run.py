@@ -67,6 +67,7 @@ def execute(
         kernel_name="python3",
         resources={"metadata": {"path": str(folder)}},
         on_cell_start=begin,
+        extra_arguments=["--log-level=ERROR"],  # the kernel's own log, which else goes to the terminal
     )
     try:
         client.execute()

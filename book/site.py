@@ -36,14 +36,14 @@ WELCOME = """\
 # ROS 2 services and actions on a humanoid
 
 A humanoid stands by its own control, walks when a node tells it to, and falls when a node lets it down. The chapters
-show what goes wrong between ROS 2 programs, on that robot, and how to do it right. Their outputs and pictures come
-from a run of every cell.
+show what goes wrong between ROS 2 programs, on that robot, and how to do it right.{outputs}
 
 ![The humanoid in three phases of a step](docs/images/robot.png)
 
 **Predict** before you read on: the replies to each choice are folded. With a robot of your own, in the lab, you run
 every cell and change it.
 """
+OUTPUTS = " Their outputs and pictures come from a run of every cell."
 
 
 class BookFailed(Exception):
@@ -53,7 +53,11 @@ class BookFailed(Exception):
 def parts_of(project: Path) -> dict[str, dict[PurePosixPath, Path]]:
     """Return the pages of the book, in order, by part: their place in the sources, and the file they are made from."""
     return {
-        part: {_place(path.relative_to(project)): path for pattern in patterns for path in sorted(project.glob(pattern))}
+        part: {
+            _place(path.relative_to(project)): path
+            for pattern in patterns
+            for path in sorted(project.glob(pattern))
+        }
         for part, patterns in PARTS.items()
     }
 
@@ -102,9 +106,10 @@ def _gather(sources: Path, runs: Mapping[str, NotebookNode | None], project: Pat
         if (project / folder).is_dir():
             shutil.copytree(project / folder, sources / folder)
     contents = "\n".join(_table_of_contents(part, pages) for part, pages in parts.items() if pages)
-    (sources / "index.md").write_text(f"{WELCOME}\n{contents}", encoding="utf-8")
+    welcome = WELCOME.format(outputs=OUTPUTS if runs else "")
+    (sources / "index.md").write_text(f"{welcome}\n{contents}", encoding="utf-8")
 
 
 def _table_of_contents(part: str, pages: Iterable[PurePosixPath]) -> str:
     entries = "\n".join(page.with_suffix("").as_posix() for page in pages)
-    return f"## {part}\n\n```{{toctree}}\n:caption: {part}\n:maxdepth: 1\n\n{entries}\n```\n"
+    return f"```{{toctree}}\n:caption: {part}\n:maxdepth: 1\n\n{entries}\n```\n"

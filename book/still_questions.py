@@ -17,7 +17,7 @@ def prediction(number: int, question: Question) -> str:
 
 def replies(number: int, question: Question) -> str:
     """Return the replies to a prediction, folded, as HTML."""
-    return _box(f"Prediction {number}: the reply to", _folded(question, wrong="It went differently."))
+    return _box(f"Prediction {number}: replies", _folded(question, wrong="It went differently."))
 
 
 def quiz(number: int, question: Question) -> str:

@@ -39,7 +39,9 @@ def still(model_id: str, models: Models) -> str:
     if kind == "FloatProgress":
         of = state["max"] - state["min"]
         words = escape(state["description"])
-        return f'<label>{words} <progress value="{state["value"] - state["min"]}" max="{of}"></progress></label>'
+        return (
+            f'<label>{words} <progress value="{state["value"] - state["min"]}" max="{of}"></progress></label>'
+        )
     return f"<p><em>{ELSEWHERE}</em></p>"
 
 

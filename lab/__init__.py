@@ -36,6 +36,7 @@ from lab.outcomes import CancelAnswer, Outcome
 from lab.picture import show_robot
 from lab.prediction import Prediction, predict
 from lab.programs import Program, run_program, start_program
+from lab.progress_table import show_progress
 from lab.quiz import Quiz, quiz
 from lab.robot import restart_robot, start_robot, stop_robot
 from lab.services import call, service_is_ready
@@ -82,6 +83,7 @@ __all__ = [
     "run_program",
     "send_goal",
     "service_is_ready",
+    "show_progress",
     "show_robot",
     "start_program",
     "start_robot",
