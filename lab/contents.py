@@ -24,6 +24,7 @@ class Exercise:
 
     @property
     def notebook(self) -> Path:
+        """Where students work on it."""
         return PROJECT / "exercises" / self.name / f"{self.name}.ipynb"
 
 

@@ -36,10 +36,12 @@ class ChapterProgress:
 
     @property
     def begun(self) -> bool:
+        """Whether anything of it is done."""
         return any(part.done for part in self.parts.values()) or any(check for _, check in self.exercises)
 
     @property
     def read(self) -> bool:
+        """Whether all is done but the exercises."""
         return all(part.done >= part.of for part in self.parts.values())
 
 

@@ -50,15 +50,20 @@ def _runs(console: Console) -> dict[str, NotebookNode | None]:
     for number, chapter in enumerate(chapters, start=1):
         title = f"{number}/{len(chapters)} {chapter.stem}"
         if kept.of(chapter):
-            console.print(f"{title}: as it ran before")
-            continue
-        began = time.monotonic()
-        with console.status(title) as status, TemporaryDirectory() as folder:
-            run = execute_chapter(
-                chapter,
-                Path(folder),
-                on_cell=lambda cell, of, title=title: status.update(f"{title}: cell {cell} of {of}"),
-            )
-        kept.keep(chapter, run.notebook)
-        console.print(f"{title}: ran in {time.monotonic() - began:.0f} s")
+            console.print(f"{title}: as it ran before", markup=False)
+        else:
+            seconds = _run(chapter, title, kept, console)
+            console.print(f"{title}: ran in {seconds:.0f} s", markup=False)
     return {chapter.stem: kept.of(chapter) for chapter in chapters}
+
+
+def _run(chapter: Path, title: str, kept: KeptRuns, console: Console) -> float:
+    """Execute a chapter and keep its run; return how many seconds it took."""
+    began = time.monotonic()
+    with console.status(title) as status, TemporaryDirectory() as folder:
+
+        def on_cell(cell: int, of: int) -> None:
+            status.update(f"{title}: cell {cell} of {of}")
+
+        kept.keep(chapter, execute_chapter(chapter, Path(folder), on_cell=on_cell).notebook)
+    return time.monotonic() - began

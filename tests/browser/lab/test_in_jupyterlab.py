@@ -76,7 +76,7 @@ def page(address: str) -> Iterator[Page]:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OFFLINE)
         page = browser.new_page(viewport={"width": 1100, "height": 1000})
         page.set_default_timeout(1000 * TIMEOUT)
-        page.goto(address)
+        page.goto(f"{address}&reset")  # without the tabs of an earlier test
         yield page
         browser.close()
 
@@ -117,7 +117,7 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     ]
     kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)"}}
     nbformat.write(new_notebook(cells=cells, metadata=kernel), folder / TOP / "chapters" / "predict.ipynb")
-    page.goto(address.replace("start_here.ipynb", "chapters/predict.ipynb"))
+    page.goto(address.replace("start_here.ipynb", "chapters/predict.ipynb") + "&reset")
     page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
     page.get_by_text("import lab").click()
     page.keyboard.press("Shift+Enter")
