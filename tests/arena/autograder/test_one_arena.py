@@ -26,7 +26,12 @@ LEAVES_TRACES = """
 import os, signal, socket, sys, time
 me = str(os.getpid())
 family = {"1", "2", me}  # with the init and the shell of its sandbox; LTTng has a child for a moment
-stats = [open(f"/proc/{name}/stat").read().split() for name in os.listdir("/proc") if name.isdigit()]
+stats = []
+for name in os.listdir("/proc"):
+    try:
+        stats += [open(f"/proc/{name}/stat").read().split()] if name.isdigit() else []
+    except (FileNotFoundError, ProcessLookupError):
+        pass  # it has just ended
 print("others", [pid for pid, _name, _state, parent, *_ in stats if pid not in family and parent != me])
 traces = [folder for folder in ("/tmp", "/dev/shm") if os.path.exists(folder + "/trace")]
 print("files", os.listdir("."), traces)

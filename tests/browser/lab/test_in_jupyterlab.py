@@ -119,7 +119,8 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     nbformat.write(new_notebook(cells=cells, metadata=kernel), folder / TOP / "chapters" / "predict.ipynb")
     page.goto(address.replace("start_here.ipynb", "chapters/predict.ipynb") + "&reset")
     page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
-    page.get_by_text("import lab").click()
+    notebook = page.get_by_label("predict.ipynb")  # others are open, too
+    notebook.get_by_text("import lab").click()
     page.keyboard.press("Shift+Enter")
     page.get_by_text("Choose a, b or c.").wait_for()
 
@@ -130,7 +131,7 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     page.get_by_role("button", name="c", exact=True).click()
     page.get_by_text("You predict c. Run the next cell.").wait_for()
 
-    page.get_by_text("prediction_1.reply()").click()
+    notebook.get_by_text("prediction_1.reply()").click()
     page.keyboard.press("Shift+Enter")
     page.get_by_text("You predicted c: No response at all.").wait_for()
 

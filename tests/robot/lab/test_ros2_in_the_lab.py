@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -29,7 +30,9 @@ def lab() -> Iterator[dict[str, str]]:
 @pytest.fixture(scope="module")
 def notebook(lab: dict[str, str], tmp_path_factory: pytest.TempPathFactory) -> Iterator[Kernel]:
     """A notebook that has started a node."""
-    running = Kernel(tmp_path_factory.mktemp("notebook"))
+    folder = tmp_path_factory.mktemp("notebook")
+    shutil.copy(Path(__file__).with_name("nodes") / "adder.py", folder)
+    running = Kernel(folder)
     running.run("node = lab.run_node('adder.py')")
     yield running
     running.shut_down()
