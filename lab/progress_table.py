@@ -14,6 +14,7 @@ from ros_runtime.self_checks import LastCheck
 
 HEADS = ("Chapter", "Minutes", "Predictions", "Quiz", "Gaps", "Exercises: minutes, checks passed")
 LEFT = "style='text-align: left'"
+ONE_LINE = "style='text-align: left; white-space: nowrap'"
 
 
 def show_progress() -> ProgressTable:
@@ -51,7 +52,7 @@ def _cells(row: ChapterProgress) -> Iterator[str]:
     yield f"<td {LEFT}>{_link(row.chapter.notebook, row.chapter.title)}</td>"
     yield f"<td>{row.chapter.minutes}</td>"
     for name, part in row.parts.items():
-        yield f"<td {LEFT}>{_bar(part, name)}</td>"
+        yield f"<td {ONE_LINE}>{_bar(part, name)}</td>"
     yield f"<td {LEFT}>{'<br>'.join(_exercise(exercise, check) for exercise, check in row.exercises)}</td>"
 
 
@@ -59,7 +60,7 @@ def _bar(part: Part, what: str) -> str:
     if not part.of:
         return str(part)
     label = f"{what}: {part.done} of {part.of}"
-    bar = f'<progress value="{part.done}" max="{part.of}" aria-label="{label}" style="width: 4em"></progress>'
+    bar = f'<progress value="{part.done}" max="{part.of}" aria-label="{label}" style="width: 3em"></progress>'
     return f"{bar} {part}"
 
 
