@@ -51,7 +51,9 @@ def execute(
 ) -> Executed:
     """Run all cells of a chapter in a folder; `on_cell` is told each cell's number and how many there are.
 
-    Raises ChapterFailed, which names the chapter and the cell.
+    Raises:
+        ChapterFailed: it names the chapter and the cell.
+        KeyboardInterrupt: Ctrl-C; the kernel has been ended.
     """
     notebook = answered(nbformat.read(chapter, as_version=4))
     reached = notebook.cells[0]
@@ -79,6 +81,10 @@ def execute(
         ) from error
     except DeadKernelError as error:
         raise ChapterFailed(f"{chapter.name}, cell {reached.id}: its kernel died") from error
+    except AssertionError as error:
+        if client.km is None:  # nbclient handles Ctrl-C by ending the kernel, and then stumbles over that
+            raise KeyboardInterrupt from error
+        raise
     return Executed(notebook, [str(process) for process in processes_in(folder)])
 
 

@@ -40,6 +40,10 @@ def book(
         first_page = make_site(output, WORK, _runs(console) if execute else {})
     except (ChapterFailed, BookFailed) as error:
         raise ended(console, error, COULD_NOT) from error
+    except KeyboardInterrupt:
+        raise ended(
+            console, "Interrupted. The chapters that have run are kept: type it again to go on.", COULD_NOT
+        ) from None
     console.print(f"The book: {first_page}", markup=False, soft_wrap=True)
 
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
+import signal
 from pathlib import Path, PurePosixPath
+from threading import Timer
 
 import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
-from book.chapter_run import ChapterFailed, execute
+from book.chapter_run import ChapterFailed, execute, processes_in
 from book.links import Links
 from book.reader_copy import reader_copy
 from book.still_widgets import LIVE, VIEW
@@ -59,3 +62,18 @@ def test_a_chapter_that_fails_names_the_cell(tmp_path: Path, source: str, said: 
     with pytest.raises(ChapterFailed) as failed:
         execute(tmp_path / "01_a.ipynb", tmp_path)
     assert str(failed.value) == said
+
+
+def test_ctrl_c_ends_the_kernel_and_says_so(tmp_path: Path) -> None:
+    write_chapter(tmp_path / "01_a.ipynb", "import time\nprint(1)\ntime.sleep(60)")
+    began = []
+
+    def press_ctrl_c(cell: int, of: int) -> None:
+        if cell == 2:
+            began.append(Timer(1.0, os.kill, [os.getpid(), signal.SIGINT]))
+            began[0].start()
+
+    with pytest.raises(KeyboardInterrupt):
+        execute(tmp_path / "01_a.ipynb", tmp_path, on_cell=press_ctrl_c)
+    assert began
+    assert processes_in(tmp_path) == []
