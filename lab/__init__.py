@@ -38,6 +38,7 @@ from lab.pattern_choice import PatternChoice, choose_pattern
 from lab.picture import show_robot
 from lab.prediction import Prediction, predict
 from lab.programs import Program, run_program, start_program
+from lab.progress_table import show_progress
 from lab.quiz import Quiz, quiz
 from lab.recording import Recording, record_robot
 from lab.robot import restart_robot, start_robot, stop_robot
@@ -92,6 +93,7 @@ __all__ = [
     "run_program",
     "send_goal",
     "service_is_ready",
+    "show_progress",
     "show_robot",
     "start_program",
     "start_robot",
