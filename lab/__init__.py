@@ -30,7 +30,7 @@ from lab.gap import GapError
 from lab.goals import Goal, send_goal
 from lab.graph import list_graph, nodes_in_graph
 from lab.graph_drawing import draw_graph
-from lab.interfaces import build_interfaces
+from lab.interfaces import build_interfaces, export_package
 from lab.live_view import stop_watching, watch_robot
 from lab.outcomes import CancelAnswer, Outcome
 from lab.picture import show_robot
@@ -66,6 +66,7 @@ __all__ = [
     "describe",
     "draw_graph",
     "draw_sequence",
+    "export_package",
     "film_robot",
     "list_graph",
     "mode",
