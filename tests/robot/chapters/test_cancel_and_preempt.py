@@ -77,7 +77,8 @@ def test_a_result_after_the_terminal_call_is_lost(chapter: Executed) -> None:
 
 def test_two_goals_run_at_once_until_one_preempts_the_other(chapter: Executed) -> None:
     both = chapter.text("two-run")
-    assert in_order(both, "left:  EXECUTING", "right: EXECUTING", "ends:   CANCELED CANCELED")
+    assert in_order(both, "left:  EXECUTING", "right: EXECUTING", "0.4", "ends:   CANCELED CANCELED")
+    assert re.search(r"^cmd_vel:(?=.* 0\.4)(?=.* -0\.4)", both, re.MULTILINE)
     assert in_order(
         chapter.text("preempt-run"), "left:  ABORTED (error_code 2", "right: SUCCEEDED (error_code 0"
     )

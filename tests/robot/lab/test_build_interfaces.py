@@ -59,6 +59,10 @@ def test_a_wrong_definition_is_named_with_its_line(kernel: Kernel) -> None:
         CellError, match=r"bad_interfaces was not built\.\nmsg/Level\.msg, line 2: float level\n"
     ):
         kernel.run("lab.build_interfaces('bad_interfaces')")
+    with pytest.raises(
+        CellError, match=r"bad_interfaces was not written\.\nmsg/Level\.msg, line 2: float level\n"
+    ):
+        kernel.run("lab.export_package('bad_interfaces', 'ros2_ws')")
 
 
 def test_a_missing_folder_is_named(kernel: Kernel) -> None:
