@@ -116,6 +116,13 @@ def _result() -> Part:
                 f"another definition of {PACKAGE} is wrong; run its cell first.\n{error}"
             ) from None
         first = wrong[0]
+        if forgotten := re.match(r"\s*(uint16)\s+(NONE|FELL)\s+(\d+)", first.text):
+            kind, name, value = forgotten.groups()
+            raise not_yet(
+                f"line {first.line}: {first.text}",
+                f"{kind} {name}={value}",
+                "put = between name and value: it makes a constant of them",
+            ) from None
         seen = f"line {first.line}: {first.text}: {first.wrong}" if first.line else first.wrong
         raise not_yet(seen, first.expected, "mend that line") from None
     return next(each for each in definitions if each.name == ACTION).parts["result"]

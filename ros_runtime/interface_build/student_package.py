@@ -52,6 +52,13 @@ class BuiltPackage:
         load_on_import(self.name, self.prefix / "lib")
         sys.path[:] = [str(self.prefix / PYTHON_LIB), *filter(self._is_no_other_build, sys.path)]
         importlib.invalidate_caches()
+        if getattr(sys.modules.get(self.name), "__file__", None) is None:
+            self._forget_the_folder()
+
+    def _forget_the_folder(self) -> None:
+        """Undo an import before the build, for which Python took the folder of definitions for a package."""
+        for module in [each for each in sys.modules if each.partition(".")[0] == self.name]:
+            del sys.modules[module]
 
     def _put_first(self, path: Path, paths: str) -> str:
         """Return a search path with `path` first, and without other builds of this package."""
@@ -73,7 +80,7 @@ def build_package(source: Path, builds: Path, name: str) -> BuiltPackage:
     """
     started = time.monotonic()
     builds = builds.resolve()
-    environ = _without(builds, os.environ)
+    environ = without_packages_in(builds, os.environ)
     definitions = checked_definitions(source, name, environ)
     builds.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=f"{name}-source-", dir=builds) as scratch:
@@ -96,7 +103,7 @@ def checked_definitions(source: Path, name: str, environ: Mapping[str, str]) -> 
     return read_definitions(source, name, KnownTypes.installed(prefixes))
 
 
-def _without(builds: Path, environ: Mapping[str, str]) -> dict[str, str]:
+def without_packages_in(builds: Path, environ: Mapping[str, str]) -> dict[str, str]:
     """Return the environment without the packages in `builds`: they are no part of the ROS that a build uses."""
     entries = environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     others = [entry for entry in entries if entry and not Path(entry).is_relative_to(builds)]

@@ -161,9 +161,9 @@ def test_an_old_version_is_misread_in_silence_until_both_are_started_again(chapt
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        ("uint16 NONE=0\nuint16 FELL=1\nfloat distance_walked", "line 7: float distance_walked"),
+        ("uint16 NONE=0\nuint16 FELL=1\nfloat distance_walked", "line 8: float distance_walked"),
         ("uint16 error_code\nstring error_msg\nfloat64 distance_walked  # m", "uint16 NONE=0"),
-        ("uint16 NONE 0\nuint16 FELL 1\nuint16 error_code", "line 5: uint16 NONE 0"),
+        ("uint16 NONE 0\nuint16 FELL 1\nuint16 error_code", "put = between name and value"),
         (
             "uint16 NONE=0\nuint16 FELL=1\nstring error_msg\nfloat64 distance_walked  # m",
             "`uint16 error_code`",
