@@ -140,7 +140,7 @@ PREDICTIONS = (
             Choice(
                 "It returns 0: the arm is stretched towards the target.",
                 "A sensible guess: the stretched arm comes closest. But math.acos doesn't clamp, it "
-                "raises. If you clamped the cosine yourself, the caller would hear success and close the "
+                "raises. If you clamped the cosine yourself, the caller would read success and close the "
                 "fingers on air.",
             ),
         ),
