@@ -30,7 +30,7 @@ from lab.gap import GapError
 from lab.goals import Goal, send_goal
 from lab.graph import list_graph, nodes_in_graph
 from lab.graph_drawing import draw_graph
-from lab.interfaces import build_interfaces
+from lab.interfaces import build_interfaces, export_package
 from lab.live_view import stop_watching, watch_robot
 from lab.means_plot import plot_means
 from lab.outcomes import CancelAnswer, Outcome
@@ -75,6 +75,7 @@ __all__ = [
     "draw_graph",
     "draw_sequence",
     "draw_timeline",
+    "export_package",
     "film_robot",
     "list_graph",
     "mode",
