@@ -133,6 +133,8 @@ def test_without_torque_the_walking_robot_falls(chapter: Executed) -> None:
     printed = chapter.text("fall")
     assert 0.2 < number(printed, r"after ([\d.]+) s") < 2.0
     assert "FALLEN | motors enabled: False" in printed
+    assert "a stone" in chapter.html("fall-plot")
+    assert "image/webp" in chapter.html("fall-film")
 
 
 def test_forward_is_where_the_robot_looks(chapter: Executed) -> None:

@@ -98,6 +98,13 @@ def test_walking_takes_more_power_than_standing(chapter: Executed) -> None:
     assert "times the power of standing" in chapter.text("battery-power")
 
 
+def test_a_metre_costs_less_when_it_is_walked_fast(chapter: Executed) -> None:
+    joules = [float(number) for number in re.findall(r"(\d+) J", chapter.text("battery-speeds"))]
+    assert len(joules) == 3
+    assert joules[0] > joules[-1]
+    assert "Power against walking speed" in chapter.html("battery-speeds")
+
+
 def test_the_rules_of_the_battery_are_in_its_definition(chapter: Executed) -> None:
     printed = chapter.text("battery")
     assert in_order(printed, "float32 current", "Negative when discharging", "percentage", "0 to 1 range")
