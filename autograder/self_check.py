@@ -15,6 +15,7 @@ from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.running import RunningLine
 from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict
+from ros_runtime.self_checks import keep_check
 
 NOTEBOOK_WIDTH = 104  # characters; JupyterLab shows as many beside its file browser on 1280 pixels
 
@@ -47,7 +48,20 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
     """
     console = _console()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
-    return SelfCheck(check_aloud(console, path, exercise))
+    return SelfCheck(check_and_keep(console, path, exercise))
+
+
+def check_and_keep(
+    console: Console, path: Path, exercise: str, *, jobs: int = 2, arenas: SubmissionArenas | None = None
+) -> Grade:
+    """Check a student's file as `check_aloud` does, and keep how many checks passed for the page of progress.
+
+    Raises `UnusableSubmission` and `UnknownExercise`.
+    """
+    result = check_aloud(console, path, exercise, jobs=jobs, arenas=arenas)
+    if result.status == "graded":
+        keep_check(exercise, sum(check.status == "passed" for check in result.checks), len(result.checks))
+    return result
 
 
 def check_aloud(

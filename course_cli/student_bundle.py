@@ -29,6 +29,9 @@ PARTS = (
     "chapters/*.ipynb",
     "chapters/README.md",
     "chapters/images",
+    "start_here.ipynb",
+    "docs/cheat_sheet.md",
+    "docs/glossary.md",
     "docs/images",
     "docs/robot.md",
     "docs/ros2_commands.md",
@@ -43,7 +46,7 @@ KEPT_BACK = (
     "course_cli/student_bundle.py",
     *(
         f"course_cli/commands/{name}.py"
-        for name in ("audit", "bench", "demo", "grade", "new", "release", "test")
+        for name in ("audit", "bench", "book", "demo", "grade", "new", "release", "test")
     ),
 )
 _DATED = (2026, 1, 1, 0, 0, 0)  # a fixed date makes the archive reproducible

@@ -30,17 +30,22 @@ from lab.gap import GapError
 from lab.goals import Goal, send_goal
 from lab.graph import list_graph, nodes_in_graph
 from lab.graph_drawing import draw_graph
-from lab.interfaces import build_interfaces
+from lab.interfaces import build_interfaces, export_package
 from lab.live_view import stop_watching, watch_robot
+from lab.means_plot import plot_means
 from lab.outcomes import CancelAnswer, Outcome
+from lab.pattern_choice import PatternChoice, choose_pattern
 from lab.picture import show_robot
 from lab.prediction import Prediction, predict
 from lab.programs import Program, run_program, start_program
+from lab.progress_table import show_progress
 from lab.quiz import Quiz, quiz
+from lab.recording import Recording, record_robot
 from lab.robot import restart_robot, start_robot, stop_robot
 from lab.services import call, service_is_ready
 from lab.session import stop_everything
 from lab.student_nodes import StudentNode, run_node, stop_nodes
+from lab.timeline import draw_timeline
 from lab.topics import Pose, battery, mode, odometry, pose, robot_state
 from lab.waiting import wait_until
 
@@ -55,33 +60,41 @@ __all__ = [
     "NodeEndedError",
     "NotInTimeError",
     "Outcome",
+    "PatternChoice",
     "Pose",
     "Prediction",
     "Program",
     "Quiz",
+    "Recording",
     "StudentNode",
     "battery",
     "build_interfaces",
     "call",
+    "choose_pattern",
     "describe",
     "draw_graph",
     "draw_sequence",
+    "draw_timeline",
+    "export_package",
     "film_robot",
     "list_graph",
     "mode",
     "node",
     "nodes_in_graph",
     "odometry",
+    "plot_means",
     "pose",
     "predict",
     "publish",
     "quiz",
+    "record_robot",
     "restart_robot",
     "robot_state",
     "run_node",
     "run_program",
     "send_goal",
     "service_is_ready",
+    "show_progress",
     "show_robot",
     "start_program",
     "start_robot",

@@ -23,7 +23,7 @@ def publish(topic: str, message: Any, *, timeout: float = 5.0) -> None:
     publisher = _publisher(topic, type(message))
     if not comes_true(lambda: publisher.get_subscription_count() > 0, timeout):
         raise NoRobotError(
-            f"nobody listens to {NAMESPACE}/{topic} ({type(message).__name__}) after {timeout:g} s; "
+            f"nobody subscribes to {NAMESPACE}/{topic} ({type(message).__name__}) after {timeout:g} s; "
             "is the robot up (lab.start_robot()), and is that the topic's type?"
         )
     publisher.publish(message)

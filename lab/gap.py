@@ -15,7 +15,7 @@ from IPython.core.magic import register_cell_magic
 
 from lab import gaps
 from lab.errors import LabError
-from lab.gap_cells import PLACEHOLDER, is_empty
+from lab.gap_cells import is_empty, is_python, placeholder
 from lab.programs import stop_programs
 from lab.progress_file import keep
 from lab.student_nodes import stop_nodes
@@ -73,7 +73,7 @@ def find_gap(file: str) -> Gap:
 
 
 def write_and_check(file: str, program: str) -> None:
-    """Save the program and print what its check saw. The nodes and programs that ran before are stopped.
+    """Save the program or definition and print what its check saw. What ran before is stopped.
 
     Raises:
         GapError: there are no lines yet, they are not Python, or they do not do what is asked for.
@@ -84,10 +84,11 @@ def write_and_check(file: str, program: str) -> None:
     Path(file).write_text(program, encoding="utf-8")
     if is_empty(program):
         raise GapError(
-            f"{file}: nothing is written yet. Replace `{PLACEHOLDER}` by your lines and run this cell again; "
+            f"{file}: nothing is written yet. Replace `{placeholder(file)}` by your lines and run this cell again; "
             "the solution is folded below it"
         )
-    _require_python(file, program)
+    if is_python(file):
+        _require_python(file, program)
     stop_nodes()
     stop_programs()
     try:

@@ -9,10 +9,22 @@ import nbformat
 
 MAGIC = "%%gap "
 PLACEHOLDER = "raise NotImplementedError"
+IN_A_DEFINITION = "..."  # of .msg, .srv and .action files
 _GAP = re.compile(
-    rf"^(?P<indent> *)# YOUR CODE HERE.*\n(?: *#.*\n)*(?P=indent){PLACEHOLDER}.*\n", re.MULTILINE
+    rf"^(?P<indent> *)# YOUR CODE HERE.*\n(?: *#.*\n)*(?P=indent)(?:{PLACEHOLDER}.*|{re.escape(IN_A_DEFINITION)})\n",
+    re.MULTILINE,
 )
-_SOLUTION = re.compile(r"<details>.*?```python\n(?P<lines>.*?)```.*?</details>", re.DOTALL)
+_SOLUTION = re.compile(r"<details>.*?```\w+\n(?P<lines>.*?)```.*?</details>", re.DOTALL)
+
+
+def is_python(file: str) -> bool:
+    """Whether the file of a gap is a program, and not the definition of an interface."""
+    return file.endswith(".py")
+
+
+def placeholder(file: str) -> str:
+    """Return the line that stands in the gap of this file until lines are written."""
+    return PLACEHOLDER if is_python(file) else IN_A_DEFINITION
 
 
 def is_empty(program: str) -> bool:
@@ -26,18 +38,20 @@ def fill(program: str, lines: str) -> str:
     Raises ValueError when it does not have exactly one gap.
     """
     if len(_GAP.findall(program)) != 1:
-        raise ValueError(f"expected one gap, `# YOUR CODE HERE` with `{PLACEHOLDER}` after it:\n{program}")
+        raise ValueError(
+            f"expected one gap, `# YOUR CODE HERE` with `{PLACEHOLDER}` or `{IN_A_DEFINITION}` after it:\n{program}"
+        )
     return _GAP.sub(lambda gap: indent(dedent(lines), gap["indent"]), program)
 
 
 def solution(text: str) -> str:
-    """Return the folded lines of Python in the Markdown cell below a gap.
+    """Return the folded lines in the Markdown cell below a gap.
 
     Raises ValueError when there are none.
     """
     found = _SOLUTION.search(text)
     if not found:
-        raise ValueError(f"expected a folded solution, <details> with a block of python, in:\n{text}")
+        raise ValueError(f"expected a folded solution, <details> with a block of code, in:\n{text}")
     return found["lines"]
 
 

@@ -29,7 +29,7 @@ class Endpoint:
     node: str
     qos: QoSProfile
 
-    def terms(self) -> str:
+    def qos_in_words(self) -> str:
         """Its QoS in words: reliability and durability."""
         reliable = self.qos.reliability == ReliabilityPolicy.RELIABLE
         latched = self.qos.durability == DurabilityPolicy.TRANSIENT_LOCAL
@@ -43,14 +43,14 @@ class Topic:
     name: str
     type: str
     publishers: tuple[Endpoint, ...]
-    listeners: tuple[Endpoint, ...]
+    subscriptions: tuple[Endpoint, ...]
 
-    def not_heard_by(self, listener: Endpoint) -> list[Endpoint]:
-        """The publishers whose QoS is incompatible: they offer less than the listener requests, so nothing arrives."""
+    def incompatible_with(self, subscription: Endpoint) -> list[Endpoint]:
+        """The publishers whose QoS is incompatible: they offer less than the subscription requests."""
         return [
             publisher
             for publisher in self.publishers
-            if qos_check_compatible(publisher.qos, listener.qos)[0] == QoSCompatibility.ERROR
+            if qos_check_compatible(publisher.qos, subscription.qos)[0] == QoSCompatibility.ERROR
         ]
 
 
@@ -85,11 +85,13 @@ def list_graph(*names: str) -> None:
     for topic in topics_in_graph(*names):
         print(f"{topic.name}  {topic.type}")
         for publisher in topic.publishers:
-            print(f"    from {publisher.node}: {publisher.terms()}")
-        for listener in topic.listeners:
-            print(f"    to   {listener.node}: {listener.terms()}")
-            for publisher in topic.not_heard_by(listener):
-                print(f"         hears nothing from {publisher.node}, which offers only {publisher.terms()}")
+            print(f"    from {publisher.node}: {publisher.qos_in_words()}")
+        for subscription in topic.subscriptions:
+            print(f"    to   {subscription.node}: {subscription.qos_in_words()}")
+            for publisher in topic.incompatible_with(subscription):
+                print(
+                    f"         receives nothing from {publisher.node}, which offers only {publisher.qos_in_words()}"
+                )
 
 
 def nodes_in_graph() -> list[str]:

@@ -15,10 +15,10 @@ NODE_WIDTH, TOPIC_WIDTH, GAP = 180, 420, 80  # px, as all below
 ROW_HEIGHT, BOX_HEIGHT = 34, 26
 TOP, MARGIN = 64, 12
 TOPIC_X = MARGIN + NODE_WIDTH + GAP
-LISTENER_X = TOPIC_X + TOPIC_WIDTH + GAP
-WIDTH = LISTENER_X + NODE_WIDTH + MARGIN
-HEADINGS = {MARGIN: "publishes", TOPIC_X: "topic, type", LISTENER_X: "listens"}
-HEARD, UNHEARD = 'stroke="#333333"', 'stroke="#c0392b" stroke-dasharray="5 4"'
+SUBSCRIBER_X = TOPIC_X + TOPIC_WIDTH + GAP
+WIDTH = SUBSCRIBER_X + NODE_WIDTH + MARGIN
+HEADINGS = {MARGIN: "publishes", TOPIC_X: "topic, type", SUBSCRIBER_X: "subscribes"}
+RECEIVES, RECEIVES_NOTHING = 'stroke="#333333"', 'stroke="#c0392b" stroke-dasharray="5 4"'
 
 
 def draw_graph(*names: str, title: str = "The graph now") -> HTML:
@@ -33,7 +33,7 @@ def draw_graph(*names: str, title: str = "The graph now") -> HTML:
         raise LabError("there is nothing to draw: no node has a topic; use lab.start_robot() first")
     rows = {topic.name: TOP + index * ROW_HEIGHT for index, topic in enumerate(topics)}
     left = _places([(end.node, rows[topic.name]) for topic in topics for end in topic.publishers])
-    right = _places([(end.node, rows[topic.name]) for topic in topics for end in topic.listeners])
+    right = _places([(end.node, rows[topic.name]) for topic in topics for end in topic.subscriptions])
     parts = [
         f'<text x="{x + 8}" y="{TOP - 12}" fill="#555555">{words}</text>' for x, words in HEADINGS.items()
     ]
@@ -43,13 +43,13 @@ def draw_graph(*names: str, title: str = "The graph now") -> HTML:
         for end in topic.publishers
     ]
     parts += [
-        _line(TOPIC_X + TOPIC_WIDTH, rows[topic.name], LISTENER_X, right[end.node], _is_heard(topic, end))
+        _line(TOPIC_X + TOPIC_WIDTH, rows[topic.name], SUBSCRIBER_X, right[end.node], _receives(topic, end))
         for topic in topics
-        for end in topic.listeners
+        for end in topic.subscriptions
     ]
     parts += [_node_box(MARGIN, y, node) for node, y in left.items()]
     parts += [_topic_box(rows[topic.name], topic) for topic in topics]
-    parts += [_node_box(LISTENER_X, y, node) for node, y in right.items()]
+    parts += [_node_box(SUBSCRIBER_X, y, node) for node, y in right.items()]
     height = max([*rows.values(), *left.values(), *right.values()]) + ROW_HEIGHT + MARGIN
     return HTML(svg(parts, width=WIDTH, height=height, title=title, words=_in_words(topics)))
 
@@ -67,15 +67,15 @@ def _places(links: Sequence[tuple[str, int]]) -> dict[str, int]:
     return places
 
 
-def _is_heard(topic: Topic, listener: Endpoint) -> bool:
-    return len(topic.not_heard_by(listener)) < max(len(topic.publishers), 1)
+def _receives(topic: Topic, subscription: Endpoint) -> bool:
+    return len(topic.incompatible_with(subscription)) < max(len(topic.publishers), 1)
 
 
-def _line(x1: int, y1: int, x2: int, y2: int, heard: bool = True) -> str:
+def _line(x1: int, y1: int, x2: int, y2: int, receives: bool = True) -> str:
     middle = BOX_HEIGHT // 2
     return (
         f'<line x1="{x1}" y1="{y1 + middle}" x2="{x2}" y2="{y2 + middle}" stroke-width="1.5" '
-        f"{HEARD if heard else UNHEARD}/>"
+        f"{RECEIVES if receives else RECEIVES_NOTHING}/>"
     )
 
 
@@ -100,10 +100,10 @@ def _box(x: int, y: int, width: int, look: str) -> str:
 def _in_words(topics: Sequence[Topic]) -> str:
     def sentence(topic: Topic) -> str:
         publishers = ", ".join(end.node for end in topic.publishers) or "nobody"
-        listeners = [
-            end.node if _is_heard(topic, end) else f"{end.node} (which hears nothing)"
-            for end in topic.listeners
+        subscribers = [
+            end.node if _receives(topic, end) else f"{end.node} (which receives nothing)"
+            for end in topic.subscriptions
         ]
-        return f"{topic.name}: from {publishers} to {', '.join(listeners) or 'nobody'}."
+        return f"{topic.name}: from {publishers} to {', '.join(subscribers) or 'nobody'}."
 
     return " ".join(sentence(topic) for topic in topics)

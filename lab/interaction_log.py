@@ -6,6 +6,9 @@ that replaces it are one interaction, and the call of the next cell is another.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
 from lab.messages import Message, Messages
 from ros_runtime.record.client_events import (
     CancelAnswered,
@@ -30,6 +33,18 @@ class InteractionLog(EventLog):
         self._pending: set[tuple[str, str]] = set()
         self._in_words = Messages()
         self._messages: list[Message] = []
+        self._listeners: list[Callable[[Event], object]] = []
+
+    @contextmanager
+    def listening(self, listener: Callable[[Event], object]) -> Iterator[None]:
+        """Call `listener` with each event, on the thread that appends it, as long as the `with` block lasts."""
+        with self._changed:
+            self._listeners.append(listener)
+        try:
+            yield
+        finally:
+            with self._changed:
+                self._listeners.remove(listener)
 
     def append(self, event: Event) -> None:
         """Add an event. It is put into words now: its message is the student's, who may change it later."""
@@ -39,6 +54,8 @@ class InteractionLog(EventLog):
             self._note_pending(event)
             self._messages += self._in_words.of(event)
             super().append(event)
+            for listener in self._listeners:
+                listener(event)
 
     def messages(self) -> list[Message]:
         """The messages of the present interaction, in order of time."""

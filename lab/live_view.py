@@ -94,7 +94,7 @@ class _LiveView:
         while not self._stop.is_set():
             began = time.monotonic()
             try:
-                take_posture(body)
+                take_posture(body, topics.odometry(), topics.latest("joint_states"))
                 self.widget.value = _jpeg(view.picture(self._camera))
             except NoRobotError:  # it may come back
                 pass

@@ -9,7 +9,9 @@ from html import escape
 
 import mujoco
 from IPython.display import HTML
+from nav_msgs.msg import Odometry
 from PIL import Image
+from sensor_msgs.msg import JointState
 
 from lab import topics
 from robot_sim.humanoid import Humanoid
@@ -26,7 +28,7 @@ def show_robot(camera: str = "track") -> HTML:
     """
     words = f"The robot: {topics.mode()} at {topics.pose()}"
     body = _body()
-    take_posture(body)
+    take_posture(body, topics.odometry(), topics.latest("joint_states"))
     try:
         pixels = snapshot(body, WIDTH, HEIGHT, camera=camera)
     except NoOpenGLError as error:
@@ -36,12 +38,13 @@ def show_robot(camera: str = "track") -> HTML:
     return figure(png.getvalue(), "png", words, words)
 
 
-def figure(image: bytes, kind: str, words: str, caption: str) -> HTML:
-    """Embed an image of that kind ("png", "webp") in the notebook, with an alternative text and a caption."""
+def figure(image: bytes, kind: str, words: str, caption: str = "", *, width: int = WIDTH) -> HTML:
+    """Embed an image ("png", "webp", "svg+xml") in the notebook, `width` px wide, with an alternative text."""
     data = base64.b64encode(image).decode()
+    below = f"<figcaption>{escape(caption)}</figcaption>" if caption else ""
     return HTML(
-        f'<figure><img src="data:image/{kind};base64,{data}" width="{WIDTH}" alt="{escape(words)}">'
-        f"<figcaption>{escape(caption)}</figcaption></figure>"
+        f'<figure><img src="data:image/{kind};base64,{data}" width="{width}" alt="{escape(words)}">'
+        f"{below}</figure>"
     )
 
 
@@ -51,10 +54,9 @@ def _body() -> Humanoid:
     return Humanoid()
 
 
-def take_posture(body: Humanoid) -> None:
-    """Set the pose and joints of a humanoid from the robot's last odom and joint_states."""
-    pose, joints = topics.odometry().pose.pose, topics.latest("joint_states")
-    p, q = pose.position, pose.orientation
+def take_posture(body: Humanoid, odometry: Odometry, joints: JointState) -> None:
+    """Set the pose and joints of a humanoid from messages of odom and joint_states."""
+    p, q = odometry.pose.pose.position, odometry.pose.pose.orientation
     body.data.qpos[:7] = p.x, p.y, p.z, q.w, q.x, q.y, q.z  # MuJoCo puts w first
     for name, position in zip(joints.name, joints.position, strict=True):
         body.data.joint(name).qpos[0] = position

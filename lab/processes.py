@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from collections import deque
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -17,7 +18,7 @@ import psutil
 
 from ros_runtime.workarounds import die_with_parent
 
-KEPT_LINES = 2000
+KEPT_LINES = 2000  # of each stream
 DRAIN_TIME = 1.0  # s to read what an ended process left in its pipe
 
 # The signal that `die_with_parent` asks for comes when the *thread* that started the child ends: this one never does.
@@ -28,10 +29,12 @@ class Process:
     """A Python program in a process session of its own, with its last output.
 
     The session keeps the SIGINT of Jupyter's stop button away from it, and `die_with_parent` ends it together with
-    the notebook's kernel. Its output includes stderr, unless `own_stderr` keeps the two apart.
+    the notebook's kernel. Its output includes stderr, unless `own_stderr` keeps the two apart. It `began` at a time of
+    `time.monotonic()`, s.
     """
 
     def __init__(self, arguments: Sequence[str], *, own_stderr: bool = False) -> None:
+        self.began = time.monotonic()
         self._popen = _spawner.submit(_start, arguments, own_stderr).result()
         self._output = _LastLines(self._popen.stdout)
         self._errors = _LastLines(self._popen.stderr) if own_stderr else None
@@ -58,6 +61,15 @@ class Process:
     def errors(self) -> str:
         """The last 2000 lines of stderr, if it is kept apart."""
         return self._errors.text(complete=not self.is_running) if self._errors else ""
+
+    def lines(self) -> list[tuple[float, str]]:
+        """The lines of `output()` and `errors()`, each with the time (s, `time.monotonic()`) at which it arrived."""
+        streams = [self._output, *([self._errors] if self._errors else [])]
+        return sorted(line for stream in streams for line in stream.lines(complete=not self.is_running))
+
+    def ended(self) -> float | None:
+        """When it ended, as its closed output told (s, `time.monotonic()`); None while it runs."""
+        return None if self.is_running else self._output.closed()
 
     def wait(self, timeout: float) -> bool:
         """Wait for its end; return whether it ended within `timeout` s."""
@@ -93,19 +105,30 @@ class _LastLines:
     def __init__(self, pipe: IO[str] | None) -> None:
         assert pipe
         self._pipe = pipe
-        self._lines: deque[str] = deque(maxlen=KEPT_LINES)
+        self._lines: deque[tuple[float, str]] = deque(maxlen=KEPT_LINES)
+        self._closed: float | None = None
         self._reader = threading.Thread(target=self._read, name="lab reader", daemon=True)
         self._reader.start()
 
     def text(self, *, complete: bool) -> str:
         """The lines so far. `complete`: the process has ended, so first read what is left in the pipe."""
+        return "".join(line for _, line in self.lines(complete=complete))
+
+    def lines(self, *, complete: bool) -> list[tuple[float, str]]:
+        """The same, each with the time at which it arrived."""
         if complete:
             self._reader.join(DRAIN_TIME)
-        return "".join(self._lines.copy())
+        return list(self._lines.copy())
+
+    def closed(self) -> float:
+        """When the pipe was closed; now, if a child of the ended process still holds it."""
+        self._reader.join(DRAIN_TIME)
+        return time.monotonic() if self._closed is None else self._closed
 
     def _read(self) -> None:
         for line in self._pipe:
-            self._lines.append(line)
+            self._lines.append((time.monotonic(), line))
+        self._closed = time.monotonic()
 
 
 def _start(arguments: Sequence[str], own_stderr: bool) -> subprocess.Popen[str]:

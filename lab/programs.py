@@ -6,6 +6,7 @@ import time
 from pathlib import Path
 
 from lab.connection import connection
+from lab.life import Life
 from lab.processes import Process
 from lab.student_nodes import existing_file, in_namespace
 
@@ -85,6 +86,10 @@ class Program:
         if not ended:
             self.stop()
         return self
+
+    def life(self) -> Life:
+        """When it began, what it printed when, and how it ended, for a picture."""
+        return Life.of(self.file.name, self._process, was_stopped=self.stopped)
 
     def stop(self) -> None:
         """Press Ctrl-C, and kill it if it does not end within 3 s."""

@@ -10,9 +10,9 @@ FILE = Path(".progress.json")  # hidden, as the files of tools are
 Kind = Literal["predictions", "questions", "gaps"]
 
 
-def kept(kind: Kind) -> dict[str, str]:
-    """Return what was kept of one kind: a question's chosen answer, or when a file's gap was filled."""
-    entries = _read().get(kind)
+def kept(kind: Kind, folder: Path = Path()) -> dict[str, str]:
+    """Return what was kept of one kind in a folder: a question's chosen answer, or when a file's gap was filled."""
+    entries = _read(folder / FILE).get(kind)
     return entries if isinstance(entries, dict) else {}
 
 
@@ -22,13 +22,13 @@ def keep(kind: Kind, key: str, value: str | None) -> None:
     entries.pop(key, None)
     if value is not None:
         entries[key] = value
-    everything = {**_read(), kind: entries}
+    everything = {**_read(FILE), kind: entries}
     FILE.write_text(json.dumps(everything, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
-def _read() -> dict:
+def _read(file: Path) -> dict:
     try:
-        progress = json.loads(FILE.read_text(encoding="utf-8"))
+        progress = json.loads(file.read_text(encoding="utf-8"))
     except (FileNotFoundError, ValueError):  # after damage each question is only asked again
         return {}
     return progress if isinstance(progress, dict) else {}

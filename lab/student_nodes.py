@@ -9,6 +9,7 @@ from pathlib import Path
 from lab.connection import NAMESPACE, connection
 from lab.errors import LabError, NodeEndedError
 from lab.interaction_log import log
+from lab.life import Life
 from lab.processes import Process
 from lab.waiting import comes_true
 from ros_runtime.reachability import wait_until_reachable
@@ -111,6 +112,10 @@ class StudentNode:
     def log(self) -> str:
         """Everything it has printed: `print()`, log messages and tracebacks."""
         return self._process.output()
+
+    def life(self) -> Life:
+        """When it began, what it printed when, and how it ended, for a picture."""
+        return Life.of(self.file.name, self._process, was_stopped=self.was_stopped)
 
     def stop(self) -> None:
         """Press Ctrl-C. If the node does not end within 3 s, kill it and say so."""

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from typing import Any, NamedTuple
 
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import BatteryState, JointState
 
 from humanoid_interfaces.msg import RobotState
@@ -22,12 +24,14 @@ from lab.waiting import comes_true
 from ros_runtime.angles import yaw_of
 from ros_runtime.message_constants import RobotMode, name_of
 
-LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+QUEUE = 100  # messages: five seconds of odom, so that a busy notebook loses none
+LATCHED = QoSProfile(depth=QUEUE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+BEST_EFFORT = QoSProfile(depth=QUEUE, reliability=ReliabilityPolicy.BEST_EFFORT)
 TOPICS: dict[str, tuple[Any, Any]] = {
     "robot_state": (RobotState, LATCHED),
     "battery_state": (BatteryState, LATCHED),
-    "odom": (Odometry, 10),
-    "joint_states": (JointState, qos_profile_sensor_data),
+    "odom": (Odometry, QUEUE),
+    "joint_states": (JointState, BEST_EFFORT),
 }
 FRESH = 1.0  # s; every one of these topics comes at least twice as often
 
@@ -94,6 +98,17 @@ def forget() -> None:
     _memory().messages.clear()
 
 
+@contextmanager
+def listening(listener: Callable[[str, Any], object]) -> Iterator[None]:
+    """Call `listener(topic, message)` for each message, on a thread of the lab, as long as the `with` block lasts."""
+    listeners = _memory().listeners
+    listeners.append(listener)
+    try:
+        yield
+    finally:
+        listeners.remove(listener)
+
+
 def _memory() -> _Memory:
     return connection().once("last messages", _Memory)
 
@@ -103,6 +118,7 @@ class _Memory:
 
     def __init__(self, node: Node) -> None:
         self.messages: dict[str, tuple[Any, float]] = {}
+        self.listeners: list[Callable[[str, Any], object]] = []
         for topic, (message_type, qos) in TOPICS.items():
             node.create_subscription(message_type, topic, partial(self._keep, topic), qos)
 
@@ -116,3 +132,5 @@ class _Memory:
         self.messages[topic] = (message, time.monotonic())
         if topic == "robot_state" and before and before[0].mode != message.mode:
             log.append(ModeChanged(mode=message.mode))
+        for listener in tuple(self.listeners):
+            listener(topic, message)

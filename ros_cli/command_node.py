@@ -24,6 +24,7 @@ SPIN_TIME = 0.5  # s, as in ros2cli
 MISSING = 6  # times the spin time, as long as what is looked for is not seen: the machine may be busy
 LONGEST_DISCOVERY = 10  # times the spin time, for a graph that never stops changing
 PERIOD = 0.02  # s between two looks at the graph, whose changes rclpy does not report
+OF_EVERY_NODE = "/rosout"  # a topic that every node publishes
 NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
 
 
@@ -62,7 +63,7 @@ class CommandNode:
         self.node.destroy_node()
 
     def discover(self, is_there: Callable[[], bool] = lambda: True) -> None:
-        """Wait until the graph has not changed for the spin time.
+        """Wait until the graph has not changed for the spin time, and every node in it has its name.
 
         It waits six times as long while it sees no other node, or not yet what is looked for.
         """
@@ -72,7 +73,7 @@ class CommandNode:
         while time.monotonic() < min(changed + self._patience(seen, is_there), latest):
             time.sleep(PERIOD)
             graph = self._graph()
-            if graph != seen or NOT_YET_KNOWN in graph.nodes:
+            if graph != seen or NOT_YET_KNOWN in graph.nodes or self._has_nameless_endpoints():
                 seen, changed = graph, time.monotonic()
 
     def find(self, is_there: Callable[[], bool]) -> bool:
@@ -135,6 +136,11 @@ class CommandNode:
     def _graph(self) -> _Graph:
         nodes = sorted(name for name, _ in self.node.get_node_names_and_namespaces())
         return _Graph(nodes, list(self.topics()), list(self.services()))
+
+    def _has_nameless_endpoints(self) -> bool:
+        """Return whether a node is seen by its endpoints whose name has not come yet: the two travel apart."""
+        everybody = self.node.get_publishers_info_by_topic(OF_EVERY_NODE)
+        return any(endpoint.node_name == NOT_YET_KNOWN for endpoint in everybody)
 
     def _patience(self, graph: _Graph, is_there: Callable[[], bool]) -> float:
         return self._spin_time * (1 if len(graph.nodes) > 1 and is_there() else MISSING)

@@ -44,6 +44,7 @@ from ros_runtime.record.ground_truth import (
     ArmReported,
     BatteryPublished,
     JointsPublished,
+    MotorPowerReceived,
     RobotCommanded,
     RobotPeers,
     RobotReady,
@@ -116,6 +117,28 @@ class NodeUsage(Event):
     cpu: float
     wall: float
     peak_memory_mib: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class NodeTopics(Event):
+    """The full names of topics that somebody beside robot and grader publishes, and subscribes to.
+
+    It only helps to say what went wrong: no verdict may depend on it.
+    """
+
+    publishes: list[str]
+    subscribes: list[str]
+
+
+@dataclass(frozen=True, kw_only=True)
+class NodeStack(Event):
+    """Where the threads of the student's program stood when it was ended without having answered.
+
+    These are Python's own words (faulthandler), but the student's program may write others: it only helps to say what
+    went wrong.
+    """
+
+    lines: list[str]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -199,9 +222,9 @@ _EVENTS: list[type[Event]] = [
     *(ServiceCalled, ServiceAnswered, Unanswered, TooLarge),
     *(GoalSent, GoalAnswered, FeedbackReceived, StatusSeen, CancelSent, CancelAnswered, ResultReceived),
     *(RobotReady, RobotTruth, BatteryPublished, JointsPublished, ArmReported),
-    *(RobotPeers, RobotCommanded, RobotRefused),
+    *(RobotPeers, RobotCommanded, RobotRefused, MotorPowerReceived),
     *(NodeStarted, NodeReady, NodeNotReady, NodeOutput, NodeTyped),
-    *(NodeSignalled, NodeExited, NodeKilled, NodeUsage),
+    *(NodeSignalled, NodeExited, NodeKilled, NodeUsage, NodeTopics, NodeStack),
     *(ServiceOffered, ServiceWithdrawn, RequestReceived, ReplySent, MessagePublished, MessageReceived),
     *(
         ActionOffered,

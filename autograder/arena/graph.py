@@ -6,8 +6,9 @@ they are called. A question that fails has an empty answer, and `Graph.inspect` 
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from contextlib import suppress
 from typing import TypeVar
 
@@ -24,14 +25,17 @@ from autograder.arena.arena_log import ArenaLog
 MOST_NODES = 50  # a correct program has one or two
 MOST_ENDPOINTS = 100  # of one topic or service that are inspected one by one
 MOST_SERVICES = 40  # that a report lists
+MOST_TOPICS = 20  # that a report lists, in each direction
 MOST_NAMES = 1000  # of nodes and services that are inspected one by one
 OF_EVERY_NODE = (
     "rcl_interfaces/",
     "type_description_interfaces/",
 )  # types of services that rclpy offers itself
 EVERY_NODE_PUBLISHES = "/parameter_events"
+OF_EVERYBODY = (EVERY_NODE_PUBLISHES, "/rosout", "/clock")
 
 T = TypeVar("T")
+_SERVICE_TYPE = re.compile(r"(\w+)::srv::dds_::(\w+)_Request_")
 
 
 class Graph:
@@ -56,7 +60,7 @@ class Graph:
 
     def count_matchable_subscribers(self, topic: str) -> int:
         """Count the subscriptions of a topic, except those whose QoS no known publisher can serve."""
-        count = self._ask(lambda: self._node.count_subscribers(topic), 0)
+        count = self._count_subscribers(topic)
         if count > MOST_ENDPOINTS or self.count_publishers(topic) > MOST_ENDPOINTS:
             return count
         return self._ask(lambda: self._count_matchable(topic), count)
@@ -79,13 +83,37 @@ class Graph:
         nothing: list[tuple[str, list[str]]] = []
         found = self._ask(self._node.get_service_names_and_types, nothing)
         names = [
-            (name, types[0])
+            (name, types[0] if len(types) == 1 else self._type_of_server(name) or types[0])
             for name, types in found[:MOST_NAMES]
             if types and not types[0].startswith(OF_EVERY_NODE)
         ]
         offered = [f"{name} [{kind}]" for name, kind in names[:MOST_SERVICES] if self._is_offered(name)]
         more = len(found) - len(found[:MOST_NAMES]) + len(names) - len(names[:MOST_SERVICES])
         return sorted(offered) + ([f"and up to {more:,} more"] if more else [])
+
+    def _type_of_server(self, service: str) -> str:
+        """Return the type that a service is offered with, where a client asks for another; '' if nobody says."""
+        nothing: list[TopicEndpointInfo] = []
+        servers = self._ask(
+            lambda: self._node.get_subscriptions_info_by_topic(f"rq{service}Request", no_mangle=True), nothing
+        )
+        types = (_SERVICE_TYPE.fullmatch(server.topic_type) for server in servers[:MOST_ENDPOINTS])
+        return next((f"{found[1]}/srv/{found[2]}" for found in types if found), "")
+
+    def report_topics(self, robot_subscribes: Collection[str]) -> None:
+        """Record what the student's node publishes and subscribes to, in the robot's namespace and elsewhere."""
+        nothing: list[tuple[str, list[str]]] = []
+        found = self._ask(self._node.get_topic_names_and_types, nothing)[:MOST_NAMES]
+        names = [name for name, _types in found if name not in OF_EVERYBODY and "/_action/" not in name]
+        own = self._node.get_namespace() + "/"  # of its other topics the robot is the publisher
+        publishes = [name for name in names if name in robot_subscribes or not name.startswith(own)]
+        subscribes = [name for name in names if name not in robot_subscribes]
+        self._log.append(
+            ev.NodeTopics(
+                publishes=[name for name in publishes if self.count_publishers(name)][:MOST_TOPICS],
+                subscribes=[name for name in subscribes if self._count_subscribers(name)][:MOST_TOPICS],
+            )
+        )
 
     def inspect(self) -> None:
         """Record what is in the graph that no correct program puts there."""
@@ -103,6 +131,9 @@ class Graph:
         if reason:
             self._log.append(ev.GraphFlooded(nodes=len(nodes), reason=reason))
             self._failures.clear()
+
+    def _count_subscribers(self, topic: str) -> int:
+        return self._ask(lambda: self._node.count_subscribers(topic), 0)
 
     def _count_matchable(self, topic: str) -> int:
         offered = [publisher.qos_profile for publisher in self._node.get_publishers_info_by_topic(topic)]

@@ -79,6 +79,12 @@ class Robot:
         """Wait for a condition on its state; return False if `timeout` s are over first."""
         return self._wait_until(lambda: condition(self.state), timeout)
 
+    def wait(self, duration: float) -> bool:
+        """Wait until every command has taken effect, then for `duration` s of the robot's own time."""
+        self.wait_for_commands()
+        over = self.state.simulated + duration
+        return self.wait_for(lambda robot: robot.simulated >= over)
+
     def wait_for_commands(self) -> bool:
         """Wait until every command has taken effect."""
         return self._wait_until(self._commands_took_effect, TIMEOUT)

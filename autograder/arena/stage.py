@@ -122,6 +122,7 @@ class Stage(Offering):
         self._phases.end("discovery")
         self.wait_until(self._robot_and_node_are_connected, MATCHING_TIMEOUT)
         self._reach_node()
+        self._report_topics()
         self._graph.inspect()
         self.wait(SETTLING)
         self._speed_up()
@@ -186,6 +187,15 @@ class Stage(Offering):
             and all(n >= graph.count_matchable_subscribers(topic) for topic, n in peers.subscribers.items())
             and all(count >= graph.count_publishers(topic) for topic, count in peers.publishers.items())
         )
+
+    def close(self) -> None:
+        """End the scenario; a topic that the node made meanwhile is recorded, too."""
+        self._report_topics()
+        super().close()
+
+    def _report_topics(self) -> None:
+        if peers := self._log.last(ev.RobotPeers):
+            self._graph.report_topics(peers.publishers)
 
     def _reach_node(self) -> None:
         """Exchange messages with the student's node, so that no answer is lost on a client it has not discovered."""

@@ -16,6 +16,9 @@ from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.environment import ros_environment
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock
 
+ABORT_TIMEOUT = 0.5  # s of real time for a program to say where it stands
+LONGEST_STACK, LONGEST_LINE = 200, 200  # lines, characters
+
 
 class Student:
     """Runs the files of a submission in the student's sandbox and records output and exit.
@@ -37,6 +40,7 @@ class Student:
         self._process: StudentProcess | None = None
         self._watch: StudentLimitsMonitor | None = None
         self._closing = threading.Event()
+        self._stack: list[str] | None = None  # lines, once they are asked for
 
     def start(self, arguments: Sequence[str] = ()) -> None:
         """Run the student's program as a ROS node in the robot's namespace."""
@@ -79,6 +83,9 @@ class Student:
         self._closing.set()
         if self._process and self._watch:
             self._watch.report()
+            silent = self._log.count(ev.Unanswered) or self._log.count(ev.NodeSignalled)
+            if silent and not self.has_exited():
+                self._record_stack(self._process)
             self._process.kill()
 
     @property
@@ -95,7 +102,7 @@ class Student:
         self._process = start_student(
             arguments,
             workdir_files=files,
-            env={**ros_environment(), **self._clock.environment()},
+            env={**ros_environment(), **self._clock.environment(), "PYTHONFAULTHANDLER": "1"},
             read_only_paths=[*self._spec.student_paths, self._clock.path],
             interpreter=interpreter,
             on_line=self._on_line,
@@ -103,7 +110,17 @@ class Student:
         )
         self._watch = StudentLimitsMonitor(self._process, self._log, self._clock, StudentLimits())
 
+    def _record_stack(self, process: StudentProcess) -> None:
+        """Record where a program that answers no more stands, which is its last act."""
+        self._stack = []
+        process.abort()
+        process.wait(ABORT_TIMEOUT * self._clock.scale)
+        self._log.append(ev.NodeStack(lines=self._stack[:LONGEST_STACK]))
+
     def _on_line(self, t: float, stream: str, text: str) -> None:
+        if self._stack is not None:
+            self._stack.append(text[:LONGEST_LINE])
+            return
         self._log.append(ev.NodeOutput(t=t, stream="stderr" if stream == "stderr" else "stdout", text=text))
 
     def _on_exit(self, returncode: int) -> None:

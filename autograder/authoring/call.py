@@ -11,11 +11,7 @@ from autograder.authoring.failure import Failure
 from autograder.authoring.fields import expect_field
 from autograder.authoring.readiness import require_alive
 from autograder.authoring.robot_record import RobotRecord
-
-_BUSY = (
-    "The callback must return the response at once: it may not wait, sleep or call another service while the node has "
-    "only one thread."
-)
+from autograder.authoring.root_cause import about_waiting
 
 
 @dataclass(frozen=True)
@@ -49,13 +45,28 @@ class Call:
             return self.answer
         require_alive(self.run)
         given_up = self.run.given_up("call", self.name)
+        help, see = about_waiting(self.run)
         waited = given_up.waited if given_up else self.run.end - self.sent.t
         raise Failure(
             expected=f"an answer to {self.service}",
-            observed=f"none within {waited:.0f} s",
-            help=_BUSY,
+            observed=f"none within {waited:.0f} s{self._nor_to_others()}{self._meanwhile(waited)}",
+            help=help,
             at=self.sent.t,
+            see=see,
         )
+
+    def _nor_to_others(self) -> str:
+        """Say that no request at all was answered, where there were several."""
+        asked, answered = self.run.all(ev.ServiceCalled), self.run.first(ev.ServiceAnswered)
+        return f", nor to any other of {len(asked)} requests" if len(asked) > 1 and answered is None else ""
+
+    def _meanwhile(self, waited: float) -> str:
+        """Say which topic of the robot went on while nobody answered: the callback did not lack a message."""
+        for kind, topic in ((ev.BatteryPublished, "battery_state"), (ev.JointsPublished, "joint_states")):
+            times = sum(self.sent.t < message.t < self.sent.t + waited for message in self.run.all(kind))
+            if times:
+                return f"; the robot published {topic} {times} times meanwhile"
+        return ""
 
     @property
     def latency(self) -> float:

@@ -7,6 +7,7 @@ from autograder.authoring.call import Request
 from autograder.authoring.checks import Failure, expect
 from autograder.authoring.missing import Missing, ordinal, unseen
 from autograder.authoring.readiness import require_within_limits
+from autograder.authoring.standing import where_it_stood
 from autograder.authoring.transcript import Transcript
 
 SLACK = 2.0  # s on the arena's clock for start and shutdown: 0.4 s of real time at scale 5, on a busy machine
@@ -23,9 +24,9 @@ def require_end(run: Transcript, within: float) -> ev.NodeExited:
         raise Failure(
             expected=f"the program to end by itself within {within:g} s",
             observed=f"it still ran after {run.end - started.t:.0f} s",
-            help="Something waits without a time limit: give wait_for_service and spin_until_future_complete a "
-            "timeout_sec, do not spin after the last answer, and end every thread of your own.",
+            help=_where_it_hung(run),
             at=run.end,
+            see="03_clients_that_survive#kill-why",
         )
     expect(
         exited.t - started.t <= within + SLACK,
@@ -86,7 +87,7 @@ def require_requests(run: Transcript, service: str, number: int) -> list[Request
         len(requests) == number,
         expected=f"{number} request{'s' if number != 1 else ''} to {service}",
         observed=f"{len(requests)}",
-        help="Ask once; when no answer has come in time, remove that request and ask once more; then give up.",
+        help=_about_the_number(len(requests), number, service),
         at=requests[-1].received.t if requests else run.end,
     )
     return requests
@@ -129,3 +130,39 @@ def require_reply(run: Transcript, service: str, number: int = 1) -> ev.ReplySen
 
 def _ending(run: Transcript, exited: ev.NodeExited) -> str:
     return f"exit status {exited.returncode}; the last line on stderr: {run.last_words or 'none'}"
+
+
+def _about_the_number(observed: int, expected: int, service: str) -> str:
+    """Return what to do about too many requests, or too few."""
+    if observed == 0:
+        return f"Your program never asked {service}: compare its name and type, and wait until it is found."
+    if observed > expected:
+        few = "one retry is allowed" if expected == 2 else f"{expected} would do"
+        return f"{observed} request{'s' if observed != 1 else ''}: {few}."
+    if observed == 1:
+        return "Only one request, then it gave up. Where is the second try?"
+    return f"Only {observed} requests, then it gave up."
+
+
+def _where_it_hung(run: Transcript) -> str:
+    """Return why the program did not end: before its first request, at an unanswered one, or after the last answer."""
+    services = dict.fromkeys(event.service for event in run.all(ev.ServiceOffered))
+    requests = [request for service in services for request in run.requests(service)]
+    requests.sort(key=lambda request: request.received.t)
+    place = where_it_stood(run, in_main=True)
+    stood = f" It stood in {place}." if place else ""
+    if not requests:
+        return (
+            "It hung before any request was sent: wait_for_service has no timeout_sec, or its loop has no end."
+            + stood
+        )
+    last = requests[-1]
+    if last.reply is None:
+        return (
+            f"It hung after request {len(requests)} (to {last.received.service}) was sent and not answered: give "
+            f"spin_until_future_complete a timeout_sec, and look at future.done() afterwards.{stood}"
+        )
+    return (
+        f"It went on after the last answer, at {last.reply.t:.1f} s: do not spin after it, and end every thread of "
+        f"your own.{stood}"
+    )

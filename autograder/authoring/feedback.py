@@ -7,6 +7,7 @@ from itertools import pairwise
 
 from autograder.authoring.failure import expect
 from autograder.authoring.goal import Goal
+from autograder.authoring.goal_endings import why_rclpy_aborted
 from autograder.authoring.missing import Missing
 
 MIN_RATE, MAX_RATE = 3.0, 10.0  # Hz; 5 are asked for
@@ -35,7 +36,8 @@ def require_good_feedback_rate(goal: Goal) -> None:
         len(times) >= 3,
         expected="feedback about five times a second while the robot walks",
         observed=f"{len(times)} message(s)",
-        help="Call goal_handle.publish_feedback(feedback), with the action's Feedback, in the loop of execute.",
+        help=why_rclpy_aborted(goal)
+        or "Call goal_handle.publish_feedback(feedback), with the action's Feedback, in the loop of execute.",
         at=start,
     )
     rate = (len(times) - 1) / max(times[-1] - times[0], 1e-6)

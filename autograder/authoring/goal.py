@@ -6,29 +6,29 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
 
 from autograder.authoring import events as ev
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.fields import expect_field
+from autograder.authoring.goal_endings import (
+    BLIND,
+    lesson_on_the_end,
+    went_on,
+    why_blind,
+    why_it_ended_so,
+    why_no_result,
+)
 from autograder.authoring.missing import Missing, unseen
 from autograder.authoring.readiness import require_alive
 from autograder.authoring.robot_record import RobotRecord
+from autograder.authoring.standing import where_it_stood
+from ros_runtime.message_constants import GoalStatus, name_of
 
-SUCCEEDED, CANCELED, ABORTED = (
-    GoalStatus.STATUS_SUCCEEDED,
-    GoalStatus.STATUS_CANCELED,
-    GoalStatus.STATUS_ABORTED,
-)
+SUCCEEDED, CANCELED, ABORTED = GoalStatus.SUCCEEDED, GoalStatus.CANCELED, GoalStatus.ABORTED
 LISTENED = 1.2  # s after a result for which a scenario has to listen for feedback that must not come
 ON_ITS_WAY = 0.3  # s a message may be overtaken by the result
 
-_NAMES = {
-    getattr(GoalStatus, name): name.removeprefix("STATUS_")
-    for name in dir(GoalStatus)
-    if name.startswith("STATUS_")
-}
 _BUSY = (
     "The executor was busy: on one thread a callback that sleeps or waits keeps goals and cancels from being served. "
     "Use MultiThreadedExecutor, or an async execute callback that awaits."
@@ -36,10 +36,6 @@ _BUSY = (
 _ACCEPT = (
     "goal_callback must return GoalResponse.ACCEPT for a goal that can be carried out (True is not "
     "GoalResponse.ACCEPT)."
-)
-_NO_RESULT = (
-    "Every path through execute must make one terminal call (succeed, canceled or abort) and return a Result. "
-    "succeed() followed by `return None` never reaches the client."
 )
 _SLEEPS = (
     "While execute sleeps on the only thread, nobody serves the cancel request{in_time}: use MultiThreadedExecutor, or "
@@ -49,23 +45,6 @@ _REFUSES = (
     "rclpy refuses every cancel by default: give ActionServer a cancel_callback that returns "
     "CancelResponse.ACCEPT."
 )
-# What to do when a goal ended with one status instead of another.
-_ENDED_OTHERWISE = {
-    (
-        ABORTED,
-        SUCCEEDED,
-    ): "ABORTED is also what rclpy reports when execute raises or makes no terminal call: call "
-    "goal_handle.succeed().",
-    (
-        ABORTED,
-        CANCELED,
-    ): "Once is_cancel_requested is seen, stop the robot, call goal_handle.canceled() and return; an "
-    "exception or a missing terminal call gives ABORTED.",
-    (SUCCEEDED, CANCELED): "An accepted cancel ends with goal_handle.canceled(), not succeed(): look at "
-    "is_cancel_requested in every round.",
-}
-_ABORT = "Call goal_handle.abort(), with the reason in result.error_code, when the goal cannot be reached any more."
-_LOOK = "Look at which terminal call (succeed, canceled, abort) execute makes on this path."
 
 
 @dataclass(frozen=True)
@@ -88,6 +67,14 @@ class Cancel:
             )
         if goal.name in self.answer.canceling:
             return
+        if goal.result and goal.result.t <= self.sent.t:
+            raise Failure(
+                expected="a goal that is still active when the cancel comes",
+                observed=f"it had ended {name_of(GoalStatus, goal.result.status)} at {goal.result.t:.1f} s",
+                help=why_it_ended_so(goal, CANCELED),
+                at=goal.result.t,
+                see=lesson_on_the_end(goal),
+            )
         has_ended = self.answer.return_code == CancelGoal.Response.ERROR_GOAL_TERMINATED
         raise Failure(
             expected="the server to agree to cancel",
@@ -132,7 +119,10 @@ class Goal:
         if self.answer is None:
             require_alive(self.run)
             raise Failure(
-                expected="the goal to be accepted", observed=self._no_answer(), help=_BUSY, at=self.sent.t
+                expected="the goal to be accepted",
+                observed=self._no_answer(),
+                help=self._busy(),
+                at=self.sent.t,
             )
         expect(
             self.answer.accepted,
@@ -146,7 +136,9 @@ class Goal:
     def require_rejected(self, *, because: str, help: str) -> None:
         """Require that the server rejected it."""
         if self.answer is None:
-            require_alive(self.run)
+            require_alive(
+                self.run, "A goal_callback that raises ends the node: return GoalResponse.REJECT instead."
+            )
         expect(
             self.answer is not None and not self.answer.accepted,
             expected=f"the goal to be rejected: {because}",
@@ -155,23 +147,31 @@ class Goal:
             at=self.answer.t if self.answer else self.sent.t,
         )
 
-    def require_result(self, status: int) -> ev.ResultReceived:
-        """Require that it ended with a status (SUCCEEDED, CANCELED, ABORTED), and return the result."""
+    def require_result(self, status: int, help: str | None = None) -> ev.ResultReceived:
+        """Require that it ended with a status (SUCCEEDED, CANCELED, ABORTED), and return the result.
+
+        Args:
+            status: the final status.
+            help: what to do if the goal went on, or succeeded, instead of ending so.
+        """
         if self.result is None:
             require_alive(self.run)
+            observed, advice = why_no_result(self)
             raise Failure(
-                expected=f"a result with status {_NAMES[status]}",
-                observed="no result",
-                help=_NO_RESULT,
+                expected=f"a result with status {name_of(GoalStatus, status)}",
+                observed=observed,
+                help=help if help and went_on(self) and not why_blind(self) else advice,
                 at=self.run.end,
+                see=BLIND if why_blind(self) else "",
             )
         ended = self.result.status
         expect(
             ended == status,
-            expected=f"status {_NAMES[status]}",
-            observed=f"status {_NAMES.get(ended, ended)}",
-            help=_ENDED_OTHERWISE.get((ended, status), _ABORT if status == ABORTED else _LOOK),
+            expected=f"status {name_of(GoalStatus, status)}",
+            observed=f"status {name_of(GoalStatus, ended)}",
+            help=help if help and ended == SUCCEEDED else why_it_ended_so(self, status),
             at=self.result.t,
+            see=lesson_on_the_end(self),
         )
         return self.result
 
@@ -201,6 +201,10 @@ class Goal:
         """Require that a field of its result, which must be there, has a value."""
         assert self.result, "ask for its result first"
         expect_field(self.result.result, path, value, because=because, help=help, at=self.result.t, see=see)
+
+    def _busy(self) -> str:
+        place = where_it_stood(self.run)
+        return f"It stood in {place}. {_BUSY}" if place else _BUSY
 
     def _no_answer(self) -> str:
         given_up = self.run.given_up("goal", self.name)

@@ -20,6 +20,7 @@ class Missing(Failure):
             observed=f"{never}, because {why}",
             help=cause.help if cause else _FIRST_OF_ALL,
             at=cause.at if cause else run.end,
+            see=cause.see if cause else "",
         )
 
 
@@ -44,6 +45,7 @@ def _exception_for(run: Record, what: str, cause: Cause | None) -> Exception:
         observed=f"{what}, because {cause.words}",
         help=cause.help,
         at=cause.at,
+        see=cause.see,
     )
 
 

@@ -5,10 +5,16 @@ The engine asks before every check whether it appeared.
 
 from __future__ import annotations
 
+import difflib
+
 from autograder.authoring import events as ev
+from autograder.authoring.connections import OUTSIDE
+from autograder.authoring.ending import GROWS, LEAKS, end_in_words, remedy_for_the_end
 from autograder.authoring.failure import Failure
 from autograder.authoring.missing import unseen
 from autograder.authoring.record import Record
+
+ALIKE = 0.6  # of two names; above it one is taken for a misspelling of the other
 
 
 def require_ready(run: Record) -> None:
@@ -27,21 +33,24 @@ def require_ready(run: Record) -> None:
     require_within_limits(run)
     exited = run.first(ev.NodeExited)
     if exited:
-        reason = run.last_words
+        remedy = remedy_for_the_end(run, exited)
         raise Failure(
             expected=f"a node that offers {names} and keeps running",
-            observed=f"the program ended with status {exited.returncode}" + (f": {reason}" if reason else ""),
-            help="main() returned: the node must spin (rclpy.spin), and the file must call main() at its end."
-            if exited.returncode == 0
-            else "Read the end of the log; run the file by itself with `python` to see the whole error.",
+            observed=f"the program ended {end_in_words(run, exited)}",
+            help=remedy.help
+            if exited.returncode
+            else "main() returned, or was never called: the node must spin (rclpy.spin), and the file must call "
+            "main() at its end.",
             at=exited.t,
+            see=remedy.see,
         )
+    help, see = _what_is_offered_instead(run, absent)
     raise Failure(
         expected=f"a node that offers {names} within {absent.waited:.0f} s",
         observed=f"it runs, but offers {', '.join(absent.offered) or 'nothing'}",
-        help="Compare name and type letter by letter. Use a relative name (no leading '/'), create the server in "
-        "the node's constructor, and spin the node.",
+        help=help,
         at=absent.t,
+        see=see,
     )
 
 
@@ -58,25 +67,73 @@ def require_within_limits(run: Record) -> None:
         raise Failure(
             expected="a node that stays within its limits",
             observed=f"it was ended: {killed.reason}",
-            help="Look for a list that grows without end, or for processes and threads started in a loop.",
+            help=GROWS,
             at=killed.t,
+            see=LEAKS,
         )
 
 
-def require_alive(run: Record) -> None:
-    """Require that the student's process did not end while the scenario ran."""
+def require_alive(run: Record, instead: str = "") -> None:
+    """Require that the student's process did not end while the scenario ran; `instead` is what to do if it raised."""
     require_within_limits(run)
     exited = run.first(ev.NodeExited)
     if exited and run.first(ev.NodeSignalled) is None:
+        remedy = remedy_for_the_end(run, exited)
         raise Failure(
             expected="a node that keeps running",
-            observed=f"the program ended with status {exited.returncode}: {run.last_words}",
-            help="An exception in a callback ends rclpy.spin() and with it the node: find it in the log below.",
+            observed=f"the program ended {end_in_words(run, exited)}",
+            help=f"{instead} {remedy.help}" if instead and exited.returncode else remedy.help,
             at=exited.t,
+            see=remedy.see,
         )
 
 
 def _readable(missing: list[str]) -> str:
     """Name an action once instead of by its five endpoints."""
-    names = dict.fromkeys(name.split("/_action/")[0].rsplit("/", 1)[-1] for name in missing)
-    return ", ".join(names)
+    return ", ".join(dict.fromkeys(map(_base, missing)))
+
+
+def _base(name: str) -> str:
+    """Return the last part of a service's name, or of its action's."""
+    return name.split("/_action/")[0].rsplit("/", 1)[-1]
+
+
+def _what_is_offered_instead(run: Record, absent: ev.NodeNotReady) -> tuple[str, str]:
+    """Return the next step by the nearest miss among what is offered, and its lesson ('': the check's)."""
+    offered: dict[str, str] = {}  # by the full name, without an action's endpoints
+    for text in absent.offered:
+        name, _, type_name = text.partition(" ")
+        offered[name.split("/_action/")[0]] = type_name.strip("[]")
+    kind = "action" if any("/_action/" in name for name in absent.missing) else "service"
+    wanted = _base(absent.missing[0]) if absent.missing else ""
+    if not offered:
+        return (
+            f"Your node offers no {kind}: create the server in the node's constructor, and keep it in self.",
+            "",
+        )
+    namesakes = [name for name in offered if _base(name) == wanted]
+    if namesakes:
+        return _misplaced(namesakes[0], offered[namesakes[0]], _namespace(run), kind, wanted)
+    alike = difflib.get_close_matches(wanted, map(_base, offered), n=1, cutoff=ALIKE)
+    if alike:
+        return f"You offer {alike[0]}; the task's name is {wanted}, letter by letter.", ""
+    return (
+        f"You offer {', '.join(map(_base, offered))}, but not {wanted}: create it in the constructor too, under the "
+        "task's name.",
+        "",
+    )
+
+
+def _misplaced(name: str, type_name: str, namespace: str, kind: str, wanted: str) -> tuple[str, str]:
+    """Return what to do about a name that is right, though its namespace or its type is not."""
+    if name == f"/{wanted}":
+        return f"You offer {name}, outside the namespace: remove the slash.", OUTSIDE
+    if namespace and name != f"{namespace}/{wanted}":
+        return f"You offer {name}: give the name {wanted!r} alone, without '~' or a namespace.", OUTSIDE
+    return f"You offer {wanted} as {type_name}: give the {kind} the type that the task names.", ""
+
+
+def _namespace(run: Record) -> str:
+    """Return the robot's namespace, '' if there is no robot."""
+    peers = run.first(ev.RobotPeers)
+    return next((topic.rsplit("/", 1)[0] for topic in peers.subscribers), "") if peers else ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -12,6 +13,8 @@ from autograder.authoring import events as ev
 E = TypeVar("E")
 A = TypeVar("A", ev.GoalAnswered, ev.ResultReceived, ev.CancelAnswered, ev.ServiceAnswered)
 R = TypeVar("R", bound="Record")
+# What rclpy says beside a program's last words: of a task that it throws away at the end, and in its log.
+_ASIDE = re.compile(r"The following exception was never retrieved|\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[")
 
 
 @dataclass(frozen=True)
@@ -86,9 +89,10 @@ class Record:
 
     @property
     def last_words(self) -> str:
-        """The last line on stderr that is not blank, cut to a readable length."""
+        """The last line on stderr that is not blank nor rclpy's aside, cut to a readable length."""
         lines = [line.strip() for line in self.output("stderr").splitlines() if line.strip()]
-        return lines[-1][:300] if lines else ""
+        said = [line for line in lines if not _ASIDE.match(line)] or lines
+        return said[-1][:300] if said else ""
 
     @property
     def end(self) -> float:

@@ -5,25 +5,41 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from autograder.authoring import events as ev
+from autograder.authoring.ending import GROWS, LEAKS, end_in_words, remedy_for_the_end
 from autograder.authoring.record import Record
+from autograder.authoring.standing import where_it_stood, why_nobody_serves
 
 BUSY_PROCESSORS = 0.8  # processors; a submission that keeps more of them busy caused what comes late itself
 
-_ENDED = "An exception in a callback ends rclpy.spin() and with it the node: find it in the log below."
-_RETURNED = "main() returned before everything was done: look at what it waits for."
+SERVES = "02_services#first-intro"
+DEADLOCK = "02_services#m4-why"
 _WAITS = (
     "A callback may not wait, sleep or call another service while the node has only one thread: nobody else is "
     "served meanwhile."
+)
+_AWAITS = (
+    "No thread stood still, so a callback awaits what never comes. A node's default callback group lets in one "
+    "callback at a time: give a client inside a callback a group of its own, and the await a time limit."
 )
 
 
 @dataclass(frozen=True)
 class Cause:
-    """A reason that follows “because” in a sentence, what to do about it, and when it happened (s)."""
+    """A reason that follows “because” in a sentence, what to do about it, when it happened (s), and the lesson."""
 
     words: str
     help: str
     at: float
+    see: str = ""
+
+
+def about_waiting(run: Record) -> tuple[str, str]:
+    """Return what to do about a program that gives no answer, by the line on which it stood, and the lesson."""
+    if place := where_it_stood(run):
+        return f"It stood in {place}. {_WAITS}", DEADLOCK
+    if idle := why_nobody_serves(run):
+        return idle, SERVES
+    return _WAITS if run.first(ev.NodeStack) is None else _AWAITS, DEADLOCK
 
 
 def why_it_went_no_further(run: Record) -> Cause | None:
@@ -48,8 +64,9 @@ def _killed(run: Record) -> Cause | None:
         return None
     return Cause(
         f"the node had been ended at {killed.t:.1f} s: {killed.reason}",
-        "Look for a list that grows without end, or for processes and threads started in a loop.",
+        GROWS,
         killed.t,
+        LEAKS,
     )
 
 
@@ -57,9 +74,9 @@ def _exited(run: Record) -> Cause | None:
     exited, signalled = run.first(ev.NodeExited), run.first(ev.NodeSignalled)
     if exited is None or (signalled is not None and signalled.t <= exited.t):
         return None
-    reason = run.last_words or f"exit status {exited.returncode}"
-    help = _ENDED if exited.returncode else _RETURNED
-    return Cause(f"the node had ended at {exited.t:.1f} s: {reason}", help, exited.t)
+    remedy = remedy_for_the_end(run, exited)
+    words = f"the node had ended at {exited.t:.1f} s, {end_in_words(run, exited)}"
+    return Cause(words, remedy.help, exited.t, remedy.see)
 
 
 def _unanswered(run: Record) -> Cause | None:
@@ -73,7 +90,8 @@ def _unanswered(run: Record) -> Cause | None:
         "result": f"the goal “{given_up.id}” had got no result",
         "end": "the program still ran",
     }[given_up.what]
-    return Cause(f"{what} after {given_up.waited:.1f} s", _WAITS, given_up.t)
+    help, see = about_waiting(run)
+    return Cause(f"{what} after {given_up.waited:.1f} s", help, given_up.t, see)
 
 
 def _service_of(run: Record, call: str) -> str:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
 from autograder.authoring.checks import Failure, expect
+from autograder.authoring.ending import end_in_words, remedy_for_the_end
 from autograder.authoring.missing import Missing, unseen
 from autograder.authoring.readiness import require_within_limits
+from autograder.authoring.standing import where_it_stood
 from autograder.authoring.transcript import Transcript
 
 
@@ -26,6 +28,7 @@ _CLEAN_END = (
     "Catch KeyboardInterrupt and ExternalShutdownException around spin(), destroy the node and call "
     "rclpy.try_shutdown() in a finally block."
 )
+_STILL_RUNS = "Something keeps the process alive, such as a thread that is not a daemon. "
 # What the last line on stderr says about why a program did not end with status 0.
 _REASONS = {
     "rcl_shutdown already called": "Ctrl-C has shut rclpy down already, so rclpy.shutdown() raises: call "
@@ -47,20 +50,22 @@ def require_clean_exit(run: Transcript) -> None:
         raise unseen(run, "nobody pressed Ctrl-C")
     exited = run.first(ev.NodeExited)
     if exited is None:
+        place = where_it_stood(run, in_main=True)
         raise Failure(
             expected="the program to end after SIGINT (Ctrl-C)",
             observed=f"it still ran {run.end - signalled.t:.1f} s later",
-            help="Something keeps the process alive: a loop that does not look at rclpy.ok(), or a thread that is "
-            "not a daemon. " + _CLEAN_END,
+            help=(f"It stood in {place}: let Ctrl-C end that. " if place else _STILL_RUNS) + _CLEAN_END,
             at=signalled.t,
         )
-    expect(
-        exited.t >= signalled.t,
-        expected="a node that runs until Ctrl-C",
-        observed=f"it had ended before, with status {exited.returncode}: {run.last_words or 'nothing on stderr'}",
-        help="An exception in a callback ends rclpy.spin() and with it the node: find it in the log below.",
-        at=exited.t,
-    )
+    if exited.t < signalled.t:
+        remedy = remedy_for_the_end(run, exited)
+        raise Failure(
+            expected="a node that runs until Ctrl-C",
+            observed=f"Ctrl-C was not tested: the node had already ended {end_in_words(run, exited)}",
+            help=remedy.help,
+            at=exited.t,
+            see=remedy.see,
+        )
     last_words = run.last_words
     expect(
         exited.returncode == 0,

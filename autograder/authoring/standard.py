@@ -18,21 +18,21 @@ from autograder.authoring.transcript import Transcript
 Needs = Check | Sequence[Check]
 
 
-def server_appears(what: str, *, points: int, on: Scenario, see: str = "") -> Check:
+def server_appears(what: str, *, points: int, on: Scenario, see: str = "02_services#first-file") -> Check:
     """Make the check that the node offers `what`; choose the shortest scenario, as this verdict comes first."""
     return named_check(
         "server_appears", f"The node offers {what}", require_ready, points=points, on=on, see=see
     )
 
 
-def ends_cleanly(*, points: int, on: Scenario, needs: Needs, see: str = "") -> Check:
+def ends_cleanly(*, points: int, on: Scenario, needs: Needs, see: str = "02_services#conventions") -> Check:
     """Make the check that Ctrl-C, which the scenario presses, ends the node with exit status 0."""
     title = "Ctrl-C ends the node with exit status 0"
     return named_check("ends_cleanly", title, require_clean_exit, points=points, on=on, needs=needs, see=see)
 
 
 def feedback_ends_with_the_goal(
-    goal: str, *, points: int, on: Scenario, needs: Needs, see: str = ""
+    goal: str, *, points: int, on: Scenario, needs: Needs, see: str = "07_cancel_and_preempt#m13-why"
 ) -> Check:
     """Nothing comes after the end: no feedback of the goal of this name, once its result is there."""
 

@@ -17,7 +17,14 @@ _FROM_MEMORY = "Answer from memory: the callback must not sleep or wait for the 
 
 
 def answers_every_request(
-    requests: int, *, points: int, on: Scenario, needs: Needs, within: float = 2.0, help: str = _FROM_MEMORY
+    requests: int,
+    *,
+    points: int,
+    on: Scenario,
+    needs: Needs,
+    within: float = 2.0,
+    help: str = _FROM_MEMORY,
+    see: str = "02_services#m4-why",
 ) -> Check:
     """Make the check that all `requests` of the scenario, many at once, are answered within so many s."""
 
@@ -31,12 +38,18 @@ def answers_every_request(
         )
 
     title = f"{requests} requests, many at once, are all answered, each within {within:g} s"
-    return named_check("answers_every_request", title, judge, points=points, on=on, needs=needs)
+    return named_check("answers_every_request", title, judge, points=points, on=on, needs=needs, see=see)
 
 
 def works_in_any_namespace(
-    does: str, require: Callable[[Transcript], Any], *, points: int, on: Scenario, needs: Needs
+    does: str,
+    require: Callable[[Transcript], Any],
+    *,
+    points: int,
+    on: Scenario,
+    needs: Needs,
+    see: str = "01_robot_and_graph#names-why",
 ) -> Check:
     """Make the check that the node does the same in another namespace: `require` tests it, `does` names it."""
     title = f"Started in another namespace, it {does} there"
-    return named_check("works_in_any_namespace", title, require, points=points, on=on, needs=needs)
+    return named_check("works_in_any_namespace", title, require, points=points, on=on, needs=needs, see=see)

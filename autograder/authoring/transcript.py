@@ -22,16 +22,15 @@ class Transcript(RobotRecord):
 
     def mark(self, name: str) -> float:
         """Return the time (s) of a moment that the scenario named."""
-        for mark in self.all(ev.Mark):
-            if mark.name == name:
-                return mark.t
+        if mark := self.one(ev.Mark, "name", name):
+            return mark.t
         raise Missing(self, expected=f"a scenario that gets to “{name}”", never="it never got there")
 
     # -- actions ------------------------------------------------------------------------------------------------------
 
     def goal(self, name: str) -> Goal:
         """Return one goal, which must have been sent."""
-        sent = next((event for event in self.all(ev.GoalSent) if event.goal == name), None)
+        sent = self.one(ev.GoalSent, "goal", name)
         if sent is None:
             raise Missing(
                 self,
@@ -75,10 +74,6 @@ class Transcript(RobotRecord):
             Call(name, event, self.in_time(ev.ServiceAnswered, "call", name, of="call"), self)
             for name, event in reversed(sent.items())
         ]
-
-    def calls_to(self, service: str) -> list[Call]:
-        """Return the calls of one service, in order."""
-        return [call for call in self.calls if call.service == service]
 
     def call(self, name: str) -> Call:
         """Return the call that the scenario gave this name, which must have been made."""

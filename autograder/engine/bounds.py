@@ -29,6 +29,12 @@ PLURALS: Mapping[str, str] = {
     "unreadable": "messages that cannot be read",
 }
 
+PRINTS = "Print once when something happens, not in every round of a loop or in every callback."
+FLOODS = (
+    "Look for a loop that publishes, calls or answers without waiting: give it a rate, or a timer, and end it with its "
+    "goal."
+)
+
 
 def require_bounded(run: Transcript, scenario: Scenario) -> None:
     """Require that everything the student's processes sent was read.
@@ -76,8 +82,7 @@ def _require_nothing_dropped(run: Transcript, scenario: Scenario) -> None:
         raise Failure(
             expected=f"a program that sends as many {what} as it has something to say",
             observed=f"it sent {read + dropped.count:,} {what} in {dropped.seconds:.1f} s; {read:,} of them are read",
-            help="Look for a loop that publishes, calls or answers without waiting: give it a rate, or a timer, and "
-            "end it with its goal.",
+            help=PRINTS if dropped.what == ev.NodeOutput.kind else FLOODS,
             at=dropped.t,
         )
 

@@ -116,6 +116,10 @@ class StudentProcess:
         """Send SIGINT to the program itself, as Ctrl-C does."""
         self._running.signal(signal.SIGINT)
 
+    def abort(self) -> None:
+        """Send SIGABRT to the program itself: it ends, with PYTHONFAULTHANDLER after saying where its threads stand."""
+        self._running.signal(signal.SIGABRT)
+
     def terminate(self) -> None:
         """Send SIGTERM to the program itself."""
         self._running.signal(signal.SIGTERM)

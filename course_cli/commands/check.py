@@ -43,9 +43,9 @@ def check(
             if exercise in exercise_names() and path.exists():
                 arenas.open_ahead()
             # imported meanwhile, because the first verdict is waited for
-            from autograder.self_check import check_aloud
+            from autograder.self_check import check_and_keep
 
-            result = check_aloud(console, path, exercise, jobs=jobs, arenas=arenas)
+            result = check_and_keep(console, path, exercise, jobs=jobs, arenas=arenas)
     except (UnknownExercise, UnusableExercise, UnusableSubmission) as error:
         raise ended(console, error, UNUSABLE) from error
     if json_file:

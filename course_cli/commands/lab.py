@@ -18,7 +18,7 @@ CONFIGURATION = PROJECT / "course_cli" / "jupyter"
 
 
 def lab(context: typer.Context) -> None:
-    """Open JupyterLab on chapters and exercises, at the page that lists them.
+    """Open JupyterLab on chapters and exercises, at the page that shows what you have done.
 
     The address is printed, too. Its terminals and cells have `ros2`. Further arguments go to JupyterLab:
     --no-browser, --port 8890, --help-all.
@@ -29,7 +29,7 @@ def lab(context: typer.Context) -> None:
         *(sys.executable, "-m", "jupyterlab"),
         f"--ServerApp.root_dir={PROJECT}",
         f"--ServerApp.terminado_settings={terminals}",
-        "--LabApp.default_url=/lab/tree/chapters/README.md",
+        "--LabApp.default_url=/lab/tree/start_here.ipynb",
         *context.args,
     ]
     if os.geteuid() == 0:

@@ -8,11 +8,11 @@ QUESTIONS = (
         (
             Choice(
                 "It is being cancelled: 0 means that there was no error.",
-                "0 only says that the request was understood. The goals that will be cancelled are in the list, "
-                "and it is empty.",
+                "0 only says that the server understood the request. The goals that it will cancel are in the list, "
+                "and the list is empty.",
             ),
             Choice(
-                "It goes on as if nothing had been asked.",
+                "It goes on as if nobody had asked.",
                 "The server refused, as rclpy's default cancel callback does. Look for your goal in the list.",
                 right=True,
             ),
@@ -45,16 +45,16 @@ QUESTIONS = (
         (
             Choice(
                 "In the cancel callback: that is what it is for.",
-                "There the goal is still EXECUTING, and from EXECUTING there is no way to CANCELED: the call raises "
-                "and takes the node with it.",
+                "There the goal is still EXECUTING, and from EXECUTING no transition leads to CANCELED: the call "
+                "raises, and the exception ends the node.",
             ),
             Choice(
                 "In the execute callback, as soon as is_cancel_requested is true.",
-                "Right place, too early: the robot is still in mid-step. CANCELED tells the client that it is safe.",
+                "Right callback, too early: the robot is still in mid-step. CANCELED tells the client that it is safe.",
             ),
             Choice(
                 "In the execute callback, when the robot stands and the result is filled.",
-                "Robot safe, result filled, terminal call, return.",
+                "In that order: robot safe, result filled, terminal call, return.",
                 right=True,
             ),
         ),
@@ -78,7 +78,7 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "Your cancel was accepted, and the goal ends SUCCEEDED. Is the server broken?",
+        "The server accepts your cancel, and the goal ends SUCCEEDED. Is the server broken?",
         (
             Choice(
                 "Yes: after an accepted cancel the only end is CANCELED.",
@@ -86,7 +86,7 @@ QUESTIONS = (
             ),
             Choice(
                 "No: the robot arrived before it could stop.",
-                "A race that both sides must expect. The status says what happened; the cancel was only a wish.",
+                "Both sides must expect this race. The status says what happened; a cancel is only a request.",
                 right=True,
             ),
             Choice(
@@ -100,7 +100,8 @@ QUESTIONS = (
         (
             Choice(
                 "SUCCEEDED and an empty result",
-                "The door was closed before the result was filled. Fill it first, and the same bug ends ABORTED.",
+                "succeed() decided the status, and the exception lost the result. Fill it first, and the same bug "
+                "ends ABORTED.",
                 right=True,
             ),
             Choice(
@@ -183,8 +184,8 @@ PREDICTIONS = (
         ),
     ),
     Question(
-        "The server calls succeed(), fills the result, and then a line raises an exception. How does the "
-        "goal end for the client?",
+        "The server calls succeed(). After that it fills the result, and that raises an exception. How does "
+        "the goal end for the client?",
         (
             Choice(
                 "ABORTED.",
@@ -194,7 +195,7 @@ PREDICTIONS = (
             ),
             Choice(
                 "SUCCEEDED, with the final pose in the result.",
-                "A sensible guess: the server fills in the pose before the line that raises. But the "
+                "A sensible guess: self.result() fills in the pose before the line that raises. But the "
                 "exception keeps execute from returning that result. The client gets one full of zeros.",
             ),
             Choice(

@@ -4,39 +4,41 @@ from lab.question import Choice, Question
 
 QUESTIONS = (
     Question(
-        "Your node subscribes to imu, relative name, right type, create_subscription(Imu, 'imu', callback, 10). "
-        "The robot runs, and no message ever comes. Why?",
+        "Your node calls create_subscription(Imu, 'imu', callback, 10). Name and type are right and the robot "
+        "runs, but no message ever arrives. Why?",
         (
             Choice(
-                "The IMU publishes too fast, and the queue of 10 overflows.",
-                "Then you would miss some messages. Here not one arrives.",
+                "The robot publishes imu too fast, and the queue of 10 overflows.",
+                "A sensible guess, because a full queue does drop messages. But it would drop some of them; here "
+                "not one arrives.",
             ),
             Choice(
-                "A plain number asks for reliable, and imu offers only best effort.",
-                "Asked for more than is offered: no match at all. Use qos_profile_sensor_data, and look into the log: "
-                "one line there says 'incompatible QoS'.",
+                "A plain number requests reliable, and imu offers only best effort.",
+                "The subscription requests more than the publisher offers, so they don't match. Use "
+                "qos_profile_sensor_data. Your node's log has said it: 'incompatible QoS'.",
                 right=True,
             ),
             Choice(
-                "The robot does not know that your node listens.",
-                "It need not know. The middleware brings publishers and subscribers together, if their terms fit.",
+                "The robot does not know that your node subscribes.",
+                "It needn't know. The middleware matches publishers and subscriptions, if their QoS settings are "
+                "compatible.",
             ),
         ),
     ),
     Question(
-        "The node walk.py, which publishes cmd_vel ten times a second, crashes while the robot walks. What follows?",
+        "walk.py publishes cmd_vel ten times a second. It crashes while the robot walks. What happens?",
         (
             Choice(
                 "The robot walks on with the last command.",
-                "It would, without a watchdog. Ours takes a command for valid for 0.5 s and no longer.",
+                "It would, if it had no watchdog. This robot ignores a command that is older than 0.5 s.",
             ),
             Choice(
-                "The robot falls, because nobody balances it any more.",
-                "Balance is the robot's own business, 200 times a second. Your node only wished for a speed.",
+                "The robot falls, because no program balances it any more.",
+                "walk.py only commands a speed. The robot balances by itself, 200 times a second.",
             ),
             Choice(
                 "Half a second after the last command the robot finishes its step and stands.",
-                "A program that has crashed cannot say so. Whoever obeys has to notice the silence.",
+                "A program that has crashed can't say so. The watchdog in the robot notices that no command comes.",
                 right=True,
             ),
         ),
@@ -46,12 +48,13 @@ QUESTIONS = (
         (
             Choice(
                 "It walks: the names are the same but for the slash.",
-                "The slash makes the name absolute. The robot listens to /robot/cmd_vel, "
-                "and nobody listens to /cmd_vel.",
+                "The slash makes the name absolute. The robot subscribes to /robot/cmd_vel, "
+                "and nobody subscribes to /cmd_vel.",
             ),
             Choice(
                 "Nothing, and no error appears anywhere.",
-                "A topic without listeners is no mistake to ROS. Leave the slash out: the name becomes /robot/cmd_vel.",
+                "ROS sees no mistake in a topic without subscribers. Leave the slash out: the name becomes "
+                "/robot/cmd_vel.",
                 right=True,
             ),
             Choice(
@@ -61,31 +64,33 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "battery_state offers transient local. You subscribe with a plain 10, just after a message was sent. "
-        "When do you hear the charge?",
+        "battery_state offers transient local. You subscribe with a plain 10, just after the robot has published. "
+        "When do you receive the charge?",
         (
             Choice(
                 "At once: the publisher keeps its last message for me.",
-                "It keeps it for those who ask. A plain subscription asks for volatile and gets only what comes next.",
+                "It keeps it, but hands it only to a subscription that requests transient local. A plain 10 "
+                "requests volatile.",
             ),
             Choice(
                 "With the next message, up to half a second later.",
-                "Terms that ask for less than is offered do fit. You only do without the kept message.",
+                "A subscription may request less than the publisher offers. You only miss the kept message.",
                 right=True,
             ),
             Choice(
-                "Never: the terms do not fit.",
-                "That would be the other way round: asking for transient local where it is not offered.",
+                "Never: the QoS settings are incompatible.",
+                "They would be the other way round: if you request transient local where the publisher offers "
+                "volatile.",
             ),
         ),
     ),
     Question(
-        "odom says position x 2.0, y 0.0 and orientation x 0, y 0, z 0.71, w 0.71. "
+        "odom has position x 2.0, y 0.0 and orientation x 0, y 0, z 0.71, w 0.71. "
         "You send linear.x = 0.3. Which way does the robot go?",
         (
             Choice(
                 "To x 2.3 and on: linear.x is along x.",
-                "Along the x of base_link. The robot has turned, and its x with it.",
+                "It is along the x of base_link. The robot has turned, and its x axis with it.",
             ),
             Choice(
                 "Along the y of odom.",
@@ -94,40 +99,43 @@ QUESTIONS = (
             ),
             Choice(
                 "It lies on its side and goes nowhere.",
-                "So it looks to whoever reads the four numbers as w, x, y, z. ROS writes x, y, z, w.",
+                "It looks so if you read the four numbers as w, x, y, z. ROS writes x, y, z, w.",
             ),
         ),
     ),
     Question(
-        "Another team offers your arm as 'move the gripper to a position; the reply says whether it got there'. "
-        "Which pattern is right?",
+        "Another team writes an interface to move the gripper to a position; it tells the client whether the gripper "
+        "got there. Which pattern is right?",
         (
             Choice(
-                "A service, because the client needs a reply.",
-                "An action replies as well. A service cannot be taken back while the arm moves for three seconds.",
+                "A service, because the client needs an answer.",
+                "An action gives an answer, too: its result. But nobody can cancel a service while the arm moves "
+                "for three seconds.",
             ),
             Choice(
                 "A topic, because positions are data.",
-                "Nobody would answer that it got there, or that it did not.",
+                "A topic carries no answer, so the client would never learn whether the gripper got there.",
             ),
             Choice(
                 "An action.",
-                "Somebody may step into the way of the arm: the possibility of a cancel decides, "
-                "before any look at the clock.",
+                "Somebody may step in the way of the arm. That a client may want to cancel decides it, "
+                "however long the motion takes.",
                 right=True,
             ),
         ),
     ),
     Question(
-        "message.linear.x = 1 goes out with rclpy from PyPI, and the robot does not move. What was sent?",
+        "With rclpy from PyPI, ROS_PYTHON_CHECK_FIELDS unset, you publish a Twist with linear.x = 1. The "
+        "robot does not "
+        "move. What did your node send?",
         (
             Choice(
                 "1.0; the robot ignores speeds above its limit of 0.4 m/s.",
-                "It clamps them: 1.0 would make it walk at 0.4 m/s. But 1.0 was not what left your node.",
+                "It clamps them: with 1.0 it would walk at 0.4 m/s. But your node did not send 1.0.",
             ),
             Choice(
                 "Nothing: rclpy drops messages with wrong fields.",
-                "It would be kinder. Without ROS_PYTHON_CHECK_FIELDS=1 rclpy does not look.",
+                "A sensible guess, but without ROS_PYTHON_CHECK_FIELDS=1 rclpy does not check the fields at all.",
             ),
             Choice(
                 "5e-324: the int was taken for a float, bit by bit.",
@@ -141,18 +149,17 @@ QUESTIONS = (
 
 PREDICTIONS = (
     Question(
-        "senses.py subscribes to all five sensors, each with a plain 10. From how many does it receive "
-        "messages?",
+        "monitor.py subscribes to all five topics, each with a plain 10. On how many does it receive messages?",
         (
             Choice(
                 "All five.",
                 "A sensible guess: names and types match, and the robot publishes all five. But a "
-                "subscription also asks for a quality of service. The plain 10 asks for reliable, and "
+                "subscription also requests QoS settings. The plain 10 requests reliable, and "
                 "imu and joint_states offer only best effort.",
             ),
             Choice(
                 "Three of them.",
-                "A plain 10 asks for reliable. imu and joint_states offer only best effort, so you get "
+                "A plain 10 requests reliable. imu and joint_states offer only best effort, so you get "
                 "nothing from them. Your node's log says so: 'incompatible QoS'.",
                 right=True,
             ),
@@ -165,25 +172,25 @@ PREDICTIONS = (
         ),
     ),
     Question(
-        "The world stands still, so the robot publishes nothing. Now late.py starts and subscribes to "
-        "battery_state twice. What does it print before the world goes on?",
+        "The simulation is paused, so the robot publishes nothing. Now late.py starts and subscribes to "
+        "battery_state twice. What does it print before the simulation goes on?",
         (
             Choice(
                 "Nothing.",
-                "A sensible guess: nobody publishes while the world stands still. But battery_state "
+                "A sensible guess: nobody publishes during the pause. But battery_state "
                 "offers transient local. The publisher keeps its last message and hands it to a late "
-                "subscription that asks for it.",
+                "subscription that requests it.",
             ),
             Choice(
                 "One line, from the transient local subscription.",
-                "It asks for the kept message, and the publisher hands it over. The plain subscription "
+                "It requests the kept message, and the publisher hands it over. The plain subscription "
                 "waits for the next message.",
                 right=True,
             ),
             Choice(
                 "One line from each subscription.",
                 "A sensible guess: the publisher does keep its last message. But it hands it only to a "
-                "subscription that asks for transient local. The plain one waits for the next message.",
+                "subscription that requests transient local. The plain one waits for the next message.",
             ),
         ),
     ),
@@ -191,9 +198,9 @@ PREDICTIONS = (
         'You kill walk.py while the robot walks, and nothing has said "stop". What does the robot do?',
         (
             Choice(
-                "It walks on, for ever.",
+                "It walks on, forever.",
                 "A sensible guess: the last command said 0.3 m/s, and a crashed program can't take it "
-                "back. But this robot has a watchdog: a command older than 0.5 s counts for nothing.",
+                "back. But this robot has a watchdog: it ignores a command older than 0.5 s.",
             ),
             Choice(
                 "It freezes in mid-step and falls.",
@@ -203,7 +210,7 @@ PREDICTIONS = (
             ),
             Choice(
                 "It stops and stands.",
-                "A command older than 0.5 s counts for nothing, so the robot finishes its step and "
+                "The robot ignores a command older than 0.5 s, so it finishes its step and "
                 "stands. A crashed program can't say that it has crashed: the watchdog notices the "
                 "silence.",
                 right=True,

@@ -8,34 +8,36 @@ QUESTIONS = (
         (
             Choice(
                 "Raise an exception, so that the client notices.",
-                "The client notices nothing: the exception ends spin() and with it the node. No answer, no server.",
+                "The client gets nothing: the exception comes out of spin() and ends the node. "
+                "No response, and no server anymore.",
             ),
             Choice(
                 "Return a response with success false and a sentence that says why.",
-                "A failure is an answer. The flag is for programs, the sentence for people.",
+                "Report a failure as a response. The flag is for programs, the sentence for people.",
                 right=True,
             ),
             Choice(
-                "Wait until the robot has been stood up, then do it.",
-                "Meanwhile the only thread is occupied and every other client waits as well, perhaps for ever.",
+                "Wait until somebody has set the robot up again, then do it.",
+                "Your callback holds the node's only thread meanwhile, so every other client waits, too, "
+                "perhaps forever.",
             ),
         ),
     ),
     Question(
-        "A call has had no answer for two seconds, and you give up. What do you know about the request?",
+        "You have waited two seconds for a response, and you give up. What do you know about the request?",
         (
             Choice(
-                "It was not carried out.",
-                "It may well have been: the self-test of this chapter went on to its end after the client had left.",
+                "The server did not carry it out.",
+                "It may have: the self-test of this chapter ran to its end after the client had given up.",
             ),
             Choice(
-                "It was carried out, because services are reliable.",
-                "Reliable is the delivery between two living nodes. "
+                "The server carried it out, because services are reliable.",
+                "Only the delivery is reliable: between two living nodes, and up to the queue's ten requests. "
                 "The server can die before, during or after the work.",
             ),
             Choice(
-                "Nothing: it may have been carried out, half, or not at all.",
-                "So repeat only what does no harm when it is done twice.",
+                "Nothing: the server may have carried it out wholly, in part, or not at all.",
+                "So repeat a request only if asking twice does no harm.",
                 right=True,
             ),
         ),
@@ -45,17 +47,17 @@ QUESTIONS = (
         (
             Choice(
                 "The server is alive and will answer.",
-                "With Fast DDS a server that was killed looks like this for up to 20 s; one that is busy or deadlocked "
-                "forever.",
+                "With Fast DDS a killed server looks alive for up to 20 s. A busy or deadlocked one "
+                "looks alive as long as it runs.",
             ),
             Choice(
-                "A server of this name and type has been announced and has not said goodbye.",
-                "That is all that discovery knows. The time limit on the call is your protection.",
+                "A server of this name and type has announced itself and has not signed off.",
+                "Discovery knows no more than that. Only the time limit on the call protects you.",
                 right=True,
             ),
             Choice(
                 "The server has no other request to work on.",
-                "The client learns nothing about the server's queue before its own answer comes.",
+                "No client can see the server's queue.",
             ),
         ),
     ),
@@ -64,18 +66,18 @@ QUESTIONS = (
         (
             Choice(
                 "It works, because the other node has its own thread.",
-                "The other node does answer. But the answer waits for this node's only thread, "
-                "and that one is in call().",
+                "The other node does respond. But only this node's thread can take the response in, "
+                "and that thread waits in call().",
             ),
             Choice(
-                "A deadlock: the thread that would deliver the answer is the one that waits for it.",
-                "Make the callback async def, await client.call_async(), "
-                "and give the client a callback group of its own.",
+                "A deadlock: the thread that waits for the response is the one that would take it in.",
+                "Answer from memory instead. If you must ask another server, chapter 5 shows how: "
+                "async, await and a second callback group.",
                 right=True,
             ),
             Choice(
                 "rclpy raises an exception, because this is forbidden.",
-                "Nothing is raised and nothing is printed. The node just never answers again.",
+                "rclpy raises nothing and prints nothing. The node never responds again.",
             ),
         ),
     ),
@@ -84,16 +86,16 @@ QUESTIONS = (
         (
             Choice(
                 "available true and percentage 0.0, to be on the safe side",
-                "It reads as a measured, empty battery: the robot walks home or sits down although it may be full.",
+                "The client reads a measured, empty battery. The robot walks home, although its battery may be full.",
             ),
             Choice(
                 "available false and percentage NaN",
-                "A flag for programs, and a number that nobody can take for a measured one.",
+                "A flag for programs, and a number that no client can mistake for a measured one.",
                 right=True,
             ),
             Choice(
-                "Nothing: answer when the first message has come",
-                "Then the client waits for something that may never come, and so does everybody behind it.",
+                "No response yet: wait for the first message",
+                "It may never come. Then this client waits, and every client behind it.",
             ),
         ),
     ),
@@ -102,15 +104,15 @@ QUESTIONS = (
         (
             Choice(
                 "It goes home, because NaN counts as zero.",
-                "NaN is not zero. Every comparison with it is false, even the one with itself.",
+                "NaN isn't zero. Every <, > and == with it is false, even level == level.",
             ),
             Choice(
                 "It raises a ValueError.",
-                "Comparing with NaN is legal Python and silently false.",
+                "Python compares a NaN without an error, and the answer is False.",
             ),
             Choice(
                 "It goes on as if all were well.",
-                "The comparison is false. Ask math.isnan() first, and decide what to do when you do not know.",
+                "The comparison is false. Ask math.isnan() first, and decide what to do if you don't know.",
                 right=True,
             ),
         ),
@@ -119,7 +121,28 @@ QUESTIONS = (
 
 PREDICTIONS = (
     Question(
-        "The robot is away, so nothing arrives on odom. You call where_am_i. What do you get?",
+        "The callback fills its response and has no `return`. What does the client get?",
+        (
+            Choice(
+                "The filled response.",
+                "A sensible guess: rclpy made that object, so it could send it, and in C++ filling it is enough. "
+                "But in Python rclpy sends what your callback returns, and that is None.",
+            ),
+            Choice(
+                "An empty response.",
+                "A sensible guess: rclpy could replace None by an empty response. But it doesn't guess. "
+                "It raises a TypeError, and that ends the node.",
+            ),
+            Choice(
+                "No response at all.",
+                "rclpy sends what your callback returns. None is no Trigger.Response, so rclpy raises a "
+                "TypeError, and that ends the node.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "The robot is off, so nothing arrives on odom. You call where_am_i. What do you get?",
         (
             Choice(
                 "A response with success false.",
@@ -128,13 +151,13 @@ PREDICTIONS = (
             ),
             Choice(
                 "A response with an empty message.",
-                "A sensible guess: rclpy hands the callback an empty response. But self.odom is None, so "
+                "A sensible guess: rclpy passes an empty response to the callback. But self.odom is None, so "
                 "the callback raises before it returns that response.",
             ),
             Choice(
                 "No response at all.",
-                "self.odom is None, so the callback raises. The exception travels out of rclpy.spin() "
-                "and ends the node: no response, and no server any more.",
+                "self.odom is None, so the callback raises. The exception comes out of rclpy.spin() "
+                "and ends the node: no response, and no server anymore.",
                 right=True,
             ),
         ),
@@ -154,8 +177,8 @@ PREDICTIONS = (
             ),
             Choice(
                 "No response within one second, as before.",
-                "The client can't tell a test that was carried out from one that was cut off. No "
-                "response means unknown.",
+                "The client can't tell a test that ran to its end from one that was cut off. No "
+                "response means: unknown.",
                 right=True,
             ),
         ),
@@ -165,20 +188,20 @@ PREDICTIONS = (
         (
             Choice(
                 "The position.",
-                "A sensible guess: where_am_i runs in a process of its own and answers as always. But "
-                "client.call() blocks the executor's thread, and that same thread would deliver the "
-                "answer.",
+                "A sensible guess: where_am_i runs in a process of its own and responds as always. But "
+                "client.call() blocks the executor's thread, and only that thread would take in the "
+                "response.",
             ),
             Choice(
                 "No response, because an exception ends report.",
                 "A sensible guess: you saw that with where_am_i.py. But rclpy raises nothing here. "
-                "report still runs, and its thread waits for an answer that it would have to deliver "
+                "report still runs, and its thread waits for a response that it would have to take in "
                 "itself.",
             ),
             Choice(
                 "No response, and report goes on running.",
-                "It's a deadlock: client.call() blocks the executor's thread, and that same thread would "
-                "deliver the answer. rclpy raises nothing and prints nothing.",
+                "It's a deadlock: client.call() blocks the executor's thread, and only that thread would "
+                "take in the response. rclpy raises nothing and prints nothing.",
                 right=True,
             ),
         ),
@@ -188,19 +211,19 @@ PREDICTIONS = (
         (
             Choice(
                 "Only math.isnan.",
-                "Every comparison with NaN is false, even the one with itself. So ask math.isnan() "
+                "With NaN, <, >= and == are all false, even level == level. So ask math.isnan() "
                 "before you compare.",
                 right=True,
             ),
             Choice(
                 '"at least 0.20" and math.isnan.',
                 "A sensible guess: a number that isn't below 0.20 is at least 0.20. But NaN is no "
-                "number, and every comparison with it is false. Only math.isnan() tells you.",
+                "number, so >= is false as well as <. Only math.isnan() tells you.",
             ),
             Choice(
                 '"equal to itself" and math.isnan.',
-                "A sensible guess: every number is equal to itself. But NaN is no number, and every "
-                "comparison with it is false, even this one.",
+                "A sensible guess: every number is equal to itself. But NaN is no number, and "
+                "`level == level` is false.",
             ),
         ),
     ),

@@ -4,7 +4,7 @@ from lab.question import Choice, Question
 
 QUESTIONS = (
     Question(
-        "A service shall switch the gripper's light on or off. Which type?",
+        "A service switches the gripper's light on or off. Which type do you use?",
         (
             Choice(
                 "One of my own, SwitchLight.srv, because the name says what it does.",
@@ -12,12 +12,12 @@ QUESTIONS = (
             ),
             Choice(
                 "std_srvs/srv/SetBool, on a service called switch_light.",
-                "One bool in, success and a sentence out: that is what it is for, and every tool knows it.",
+                "One bool in, success and a sentence out. SetBool is made for that, and every tool knows it.",
                 right=True,
             ),
             Choice(
                 "A topic of std_msgs/msg/Bool.",
-                "It would do without an answer: nobody could say that the lamp is broken.",
+                "A topic has no response: the server could not say that the lamp is broken.",
             ),
         ),
     ),
@@ -67,7 +67,7 @@ QUESTIONS = (
         (
             Choice(
                 "ROS refuses to connect the two, because the definitions differ.",
-                "Both call the type by the same name, and that is all that is compared. "
+                "With DDS, ROS compares only the name of the type, and it is the same. "
                 "The hashes differ, but nobody looks at them for you.",
             ),
             Choice(
@@ -92,7 +92,7 @@ QUESTIONS = (
             ),
             Choice(
                 "The ValueError that acos raises.",
-                "It would end the server's spin, and with it the node. The client sees nothing at all.",
+                "The exception ends the server's spin, and with it the node. The client gets no response at all.",
             ),
             Choice(
                 "The angles for the nearest point that can be reached.",
@@ -140,7 +140,7 @@ PREDICTIONS = (
             Choice(
                 "It returns 0: the arm is stretched towards the target.",
                 "A sensible guess: the stretched arm comes closest. But math.acos doesn't clamp, it "
-                "raises. If you clamped the cosine yourself, the caller would hear success and close the "
+                "raises. If you clamped the cosine yourself, the caller would read success and close the "
                 "fingers on air.",
             ),
         ),

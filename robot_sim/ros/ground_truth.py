@@ -13,6 +13,7 @@ from ros_runtime.record.ground_truth import (
     ArmReported,
     BatteryPublished,
     JointsPublished,
+    MotorPowerReceived,
     RobotCommanded,
     RobotPeers,
     RobotReady,
@@ -21,6 +22,7 @@ from ros_runtime.record.ground_truth import (
 )
 
 GROUND_TRUTH_RATE = 50.0  # Hz, simulated
+MOST_POWER_MESSAGES = 100  # that are written; a flood of them is no news
 
 
 class GroundTruthWriter:
@@ -28,6 +30,7 @@ class GroundTruthWriter:
 
     def __init__(self, fd: int) -> None:
         self._fd = fd
+        self._power_messages = 0
 
     def ready(self) -> None:
         """Write that the robot stands and its topics exist."""
@@ -78,6 +81,12 @@ class GroundTruthWriter:
     def peers(self, subscribers: dict[str, int], publishers: dict[str, int]) -> None:
         """Write how many subscribers and publishers of other nodes the robot is connected to, by topic."""
         self._write(RobotPeers(subscribers=subscribers, publishers=publishers))
+
+    def motor_power(self, on: bool) -> None:
+        """Write a message that came on motor_power."""
+        self._power_messages += 1
+        if self._power_messages <= MOST_POWER_MESSAGES:
+            self._write(MotorPowerReceived(on=on))
 
     def refused(self, topic: str, count: int, largest: int, reason: str) -> None:
         """Write how many messages of a topic were refused so far, the largest one's bytes, and why."""

@@ -172,6 +172,8 @@ class HumanoidNode(Node):
             self.humanoid.move_body(0.0)
 
     def _on_motor_power(self, message: Bool) -> None:
+        if self._ground_truth:
+            self._ground_truth.motor_power(message.data)
         self.humanoid.set_motor_power(message.data)
 
     def _on_balance_gains(self, message: BalanceGainsMessage) -> None:

@@ -48,7 +48,7 @@ ament_package()
 
 
 def write_package(folder: Path, name: str, definitions: Sequence[Definition]) -> None:
-    """Write package.xml, CMakeLists.txt and the definitions into `folder`, which must not exist."""
+    """Write package.xml, CMakeLists.txt and the definitions into `folder`."""
     files = {f"{each.kind}/{each.file.name}": each.file for each in definitions}
     uses = sorted({"action_msgs", *(package for each in definitions for package in each.uses)} - {name})
     for place, file in files.items():

@@ -38,6 +38,10 @@ class BuiltPackage:
             "LD_LIBRARY_PATH": self._put_first(self.prefix / "lib", environ.get("LD_LIBRARY_PATH", "")),
         }
 
+    def prefix_path(self, environ: Mapping[str, str]) -> str:
+        """Return AMENT_PREFIX_PATH for that environment, by which the `ros2` commands find the definitions."""
+        return self._put_first(self.prefix, environ.get("AMENT_PREFIX_PATH", ""))
+
     def is_importable_here(self) -> bool:
         """Return whether this process can import it, which fails after an import of another build."""
         imported = getattr(sys.modules.get(self.name), "__file__", None)
@@ -48,6 +52,13 @@ class BuiltPackage:
         load_on_import(self.name, self.prefix / "lib")
         sys.path[:] = [str(self.prefix / PYTHON_LIB), *filter(self._is_no_other_build, sys.path)]
         importlib.invalidate_caches()
+        if getattr(sys.modules.get(self.name), "__file__", None) is None:
+            self._forget_the_folder()
+
+    def _forget_the_folder(self) -> None:
+        """Undo an import before the build, for which Python took the folder of definitions for a package."""
+        for module in [each for each in sys.modules if each.partition(".")[0] == self.name]:
+            del sys.modules[module]
 
     def _put_first(self, path: Path, paths: str) -> str:
         """Return a search path with `path` first, and without other builds of this package."""
@@ -69,18 +80,34 @@ def build_package(source: Path, builds: Path, name: str) -> BuiltPackage:
     """
     started = time.monotonic()
     builds = builds.resolve()
-    ros = ros_build(os.environ)
-    prefixes = [Path(entry) for entry in ros.environment["AMENT_PREFIX_PATH"].split(os.pathsep) if entry]
-    known = KnownTypes.installed(prefixes)
-    _require_free_name(name, prefixes)
-    definitions = read_definitions(source, name, known)
+    environ = without_packages_in(builds, os.environ)
+    definitions = checked_definitions(source, name, environ)
     builds.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=f"{name}-source-", dir=builds) as scratch:
         package = Path(scratch) / name
         write_package(package, name, definitions)
-        is_new = not cmake_package.built_prefix(package, builds, os.environ).is_dir()
-        prefix = cmake_package.build(package, builds, os.environ)
+        is_new = not cmake_package.built_prefix(package, builds, environ).is_dir()
+        prefix = cmake_package.build(package, builds, environ)
     return BuiltPackage(name, prefix, definitions, time.monotonic() - started, is_new)
+
+
+def checked_definitions(source: Path, name: str, environ: Mapping[str, str]) -> list[Definition]:
+    """Read the definitions in `source`, which are to become package `name`.
+
+    Raises:
+        InvalidDefinitions: naming file, line, what is wrong and what was expected.
+    """
+    ros = ros_build(environ)
+    prefixes = [Path(entry) for entry in ros.environment["AMENT_PREFIX_PATH"].split(os.pathsep) if entry]
+    _require_free_name(name, prefixes)
+    return read_definitions(source, name, KnownTypes.installed(prefixes))
+
+
+def without_packages_in(builds: Path, environ: Mapping[str, str]) -> dict[str, str]:
+    """Return the environment without the packages in `builds`: they are no part of the ROS that a build uses."""
+    entries = environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    others = [entry for entry in entries if entry and not Path(entry).is_relative_to(builds)]
+    return {**environ, "AMENT_PREFIX_PATH": os.pathsep.join(others)}
 
 
 def _require_free_name(name: str, prefixes: Sequence[Path]) -> None:

@@ -78,6 +78,13 @@ class RobotCommanded(Event):
 
 
 @dataclass(frozen=True, kw_only=True)
+class MotorPowerReceived(Event):
+    """A message on motor_power reached the robot; of many only the first are written."""
+
+    on: bool
+
+
+@dataclass(frozen=True, kw_only=True)
 class RobotRefused(Event):
     """How many messages of a topic the robot has refused so far, the bytes of the largest, and why."""
 

@@ -19,14 +19,21 @@ MANY_AT_ONCE = Scenario("ask_many_at_once", {"bursts": 4, "burst": 8}, robot=RES
 OTHER_NAMESPACE = Scenario("ask_once", robot=RESTING, namespace="/lab_7/robot")
 
 
-@check(points=1, on=UNPLUGGED, needs=[answers_with_the_last_message, says_when_it_knows_nothing])
+@check(
+    points=1,
+    on=UNPLUGGED,
+    needs=[answers_with_the_last_message, says_when_it_knows_nothing],
+    see="02_services#m9-fix-why",
+)
 def recovers_when_the_sensor_appears(run: Transcript) -> None:
     """Once the first message has come, it answers with it"""
     call = run.call("after the first message")
     require_last_message(call, since=run.told("battery_sensor", before=call.sent.t, connected=True).t)
 
 
-@check(points=1, on=[RANDOM_LEVELS, SENSOR_STOPPED], needs=follows_the_battery)
+@check(
+    points=1, on=[RANDOM_LEVELS, SENSOR_STOPPED], needs=follows_the_battery, see="02_services#battery-rules"
+)
 def keeps_the_last_message(changing: Transcript, stopped: Transcript) -> None:
     """Whatever the charge, and also when the sensor falls silent, it answers with the last message"""
     require_at_each_level(changing)

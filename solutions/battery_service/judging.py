@@ -7,6 +7,7 @@ from typing import Any
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
+from autograder.authoring.connections import lesson_on_hearing, why_nothing_is_heard
 from autograder.authoring.missing import unseen
 from autograder.authoring.robot_topic import RobotTopic
 from autograder.authoring.transcript import Transcript
@@ -27,7 +28,9 @@ def require_last_message(call: Call, since: float | None = None) -> None:
         "available",
         True,
         because="the robot had published its battery",
-        help="Subscribe to battery_state (relative name) and keep the last message; set available when there is one.",
+        help=why_nothing_is_heard(call.run, "battery_state")
+        or "Your node gets battery_state: keep the last message, and look at each request whether there is one.",
+        see=lesson_on_hearing(call.run, "battery_state"),
     )
     BATTERY_STATE.require_last_message(call, call.response.battery, since=since, advice=_advice)
 
@@ -48,10 +51,21 @@ def require_in_silence(call: Call) -> None:
     stopped = call.run.told("battery_sensor", before=call.sent.t - SILENCE, connected=False)
     if any(stopped.t < message.t <= call.sent.t for message in call.run.all(ev.BatteryPublished)):
         raise unseen(call.run, "the battery sensor went on though it was unplugged")
+    call.expect(
+        "available",
+        True,
+        because="the last message stays the answer when the robot falls silent",
+        help=f"It came {call.sent.t - stopped.t:.1f} s ago, and that is no reason to forget it: answer with it.",
+    )
     require_last_message(call)
 
 
 def _advice(battery: Any, last: Any) -> str | None:
+    if math.isnan(battery.percentage):
+        return (
+            "available is true, but the numbers are those for 'nothing known': assign the kept message, "
+            "response.battery = message."
+        )
     if math.isclose(battery.percentage, 100 * last.percentage, rel_tol=0.01):
         return "BatteryState.percentage runs from 0 to 1, not from 0 to 100: pass it on as it came."
     if math.isclose(battery.percentage, last.percentage, abs_tol=1e-5):

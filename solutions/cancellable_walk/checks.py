@@ -9,7 +9,7 @@ from autograder.authoring.goal import ABORTED
 from autograder.authoring.transcript import Transcript
 
 from .reports import require_error_code, require_filled_result, require_true_feedback
-from .robot import ACCEPT, require_arrival, require_fall, require_stopped, require_walking
+from .robot import require_accepted, require_arrival, require_fall, require_stopped, require_walking
 
 WALK = Scenario("walk", {"x": 0.6, "y": 0.2, "yaw": 0.5})
 IMPOSSIBLE = Scenario("ask_for_the_impossible", {"frame": "map"}, robot=RESTING)
@@ -31,10 +31,10 @@ server_appears = standard.server_appears(
 @check(points=1, on=WALK, needs=server_appears, see="07_cancel_and_preempt#m2-why")
 def accepts_a_goal(run: Transcript) -> None:
     """It accepts a pose in frame odom"""
-    run.goal("walk").require_accepted(ACCEPT)
+    require_accepted(run.goal("walk"))
 
 
-@check(points=2, on=WALK, needs=accepts_a_goal)
+@check(points=2, on=WALK, needs=accepts_a_goal, see="07_cancel_and_preempt#fix-intro")
 def arrives(run: Transcript) -> None:
     """It SUCCEEDS, and the robot is then within 0.10 m and 0.15 rad of the goal"""
     require_arrival(run.goal("walk"))
@@ -46,13 +46,13 @@ def fills_the_result(run: Transcript) -> None:
     require_filled_result(run.goal("walk"))
 
 
-@check(points=1, on=WALK, needs=accepts_a_goal)
+@check(points=1, on=WALK, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions")
 def feedback_keeps_its_rate(run: Transcript) -> None:
     """Feedback comes at 5 Hz without a gap over 1 s"""
     require_good_feedback_rate(run.goal("walk"))
 
 
-@check(points=1, on=WALK, needs=feedback_keeps_its_rate)
+@check(points=1, on=WALK, needs=feedback_keeps_its_rate, see="07_cancel_and_preempt#turner-intro")
 def feedback_is_true(run: Transcript) -> None:
     """Pose, distance and steps in the feedback are the robot's"""
     require_true_feedback(run.goal("walk"))
@@ -63,7 +63,7 @@ feedback_ends_with_the_goal = standard.feedback_ends_with_the_goal(
 )
 
 
-@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal)
+@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions")
 def rejects_a_wrong_frame(run: Transcript) -> None:
     """It rejects a pose in frame map"""
     run.goal("wrong frame").require_rejected(
@@ -73,7 +73,7 @@ def rejects_a_wrong_frame(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal)
+@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions")
 def rejects_nan(run: Transcript) -> None:
     """It rejects a pose that holds NaN"""
     for name in ("NaN position", "NaN orientation"):
@@ -84,7 +84,7 @@ def rejects_nan(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=UNPOWERED, needs=accepts_a_goal)
+@check(points=1, on=UNPOWERED, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions")
 def rejects_without_power(run: Transcript) -> None:
     """It rejects a goal while the motors are off"""
     _require_power_cut(run)
@@ -124,7 +124,7 @@ def stops_when_canceled(run: Transcript) -> None:
     require_stopped(run, request.t)
 
 
-@check(points=1, on=WALK_AGAIN, needs=[cancels_in_mid_stride, arrives])
+@check(points=1, on=WALK_AGAIN, needs=[cancels_in_mid_stride, arrives], see="07_cancel_and_preempt#fix-intro")
 def walks_again_after_a_cancel(run: Transcript) -> None:
     """A new goal after a cancel is walked to"""
     require_walking(run, run.goal("canceled").requests_to_cancel[-1].sent.t)
@@ -134,9 +134,17 @@ def walks_again_after_a_cancel(run: Transcript) -> None:
 @check(points=2, on=PREEMPT, needs=arrives, see="07_cancel_and_preempt#preempt-why")
 def new_goal_preempts_the_old(run: Transcript) -> None:
     """A new goal aborts the old one with PREEMPTED and is walked to"""
-    old, new = run.goal("old").require_accepted(ACCEPT), run.goal("new").require_accepted(ACCEPT)
+    old = require_accepted(run.goal("old"))
+    new = require_accepted(
+        run.goal("new"),
+        help="The new goal was rejected because another was active: accept it, and let the older one give way.",
+    )
     require_walking(run, new.sent.t)
-    end = old.require_result(ABORTED)
+    end = old.require_result(
+        ABORTED,
+        help="The old goal went on after the new one was accepted. How does its loop learn that it is no longer the "
+        "newest? (handle_accepted_callback)",
+    )
     require_error_code(old, "PREEMPTED", because="a new goal has taken its place")
     expect(
         end.t >= new.sent.t,
@@ -151,9 +159,12 @@ def new_goal_preempts_the_old(run: Transcript) -> None:
 @check(points=1, on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why")
 def aborts_when_the_robot_falls(run: Transcript) -> None:
     """When the robot falls the goal is ABORTED with FELL"""
-    goal = run.goal("walk").require_accepted(ACCEPT)
+    goal = require_accepted(run.goal("walk"))
     fallen = require_fall(run)
-    result = goal.require_result(ABORTED)
+    result = goal.require_result(
+        ABORTED,
+        help=f"The robot fell at {fallen.t:.1f} s and execute went on. Look at robot_state.mode in every round.",
+    )
     expect(
         result.t >= fallen.t - 1.0,
         expected="the goal to go on until the robot falls",

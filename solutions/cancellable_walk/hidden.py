@@ -10,7 +10,7 @@ from autograder.authoring.transcript import Transcript
 
 from .checks import arrives, cancels_in_mid_stride, stops_when_canceled
 from .planar import error
-from .robot import ACCEPT, require_arrival, require_stopped, require_walking
+from .robot import require_accepted, require_arrival, require_stopped, require_walking
 
 
 def _poses(random) -> dict:
@@ -44,14 +44,14 @@ NEAR = 0.1  # m the robot may have walked on, or back, until it was cancelled
 OTHER_NAMESPACE = Scenario("walk", {"x": 0.3, "y": 0.0, "yaw": 0.0}, namespace="/lab_7/robot")
 
 
-@check(points=2, on=RANDOM_POSES, needs=arrives)
+@check(points=2, on=RANDOM_POSES, needs=arrives, see="01_robot_and_graph#frames-intro")
 def arrives_anywhere(run: Transcript) -> None:
     """It reaches poses with any heading, one after the other"""
     for number in range(1, len(run.params["poses"]) + 1):
         require_arrival(run.goal(f"leg {number}"))
 
 
-@check(points=1, on=AT_THE_START, needs=cancels_in_mid_stride)
+@check(points=1, on=AT_THE_START, needs=cancels_in_mid_stride, see="07_cancel_and_preempt#m1-why")
 def cancels_at_the_start(run: Transcript) -> None:
     """A cancel before execution, or at the first feedback, ends CANCELED with the robot still"""
     run.goal("at once").require_canceled()
@@ -59,7 +59,7 @@ def cancels_at_the_start(run: Transcript) -> None:
     require_stopped(run, request.t)
 
 
-@check(points=2, on=SEVERAL_PHASES, needs=stops_when_canceled)
+@check(points=2, on=SEVERAL_PHASES, needs=stops_when_canceled, see="07_cancel_and_preempt#why")
 def stops_in_any_phase_of_the_gait(run: Transcript) -> None:
     """Wherever its feet are when the cancel comes, the robot stops upright"""
     for delay in run.params["delays"]:
@@ -68,10 +68,10 @@ def stops_in_any_phase_of_the_gait(run: Transcript) -> None:
         require_stopped(run, request.t)
 
 
-@check(points=1, on=NEAR_ARRIVAL, needs=stops_when_canceled)
+@check(points=1, on=NEAR_ARRIVAL, needs=stops_when_canceled, see="07_cancel_and_preempt#fix-read")
 def cancels_near_arrival(run: Transcript) -> None:
     """A cancel just before arrival ends CANCELED, or SUCCEEDED at the goal, with the robot still"""
-    goal = run.goal("near").require_accepted(ACCEPT)
+    goal = require_accepted(run.goal("near"))
     cancel = run.goal("near").requests_to_cancel[-1]
     distance, _turn = error(run.robot_at(cancel.sent.t), goal)
     expect(
@@ -89,7 +89,7 @@ def cancels_near_arrival(run: Transcript) -> None:
     require_stopped(run, cancel.sent.t)
 
 
-@check(points=1, on=AFTER_THE_END, needs=arrives)
+@check(points=1, on=AFTER_THE_END, needs=arrives, see="07_cancel_and_preempt#late-why")
 def survives_a_cancel_after_the_end(run: Transcript) -> None:
     """A cancel after the result changes nothing, and the next goal is walked to"""
     require_arrival(run.goal("first"))
@@ -128,7 +128,7 @@ def survives_two_cancels(run: Transcript) -> None:
     goal.require_silence_afterwards()
 
 
-@check(points=1, on=BY_A_STRANGER, needs=stops_when_canceled)
+@check(points=1, on=BY_A_STRANGER, needs=stops_when_canceled, see="07_cancel_and_preempt#conventions")
 def obeys_a_stranger(run: Transcript) -> None:
     """Another client may cancel every goal"""
     request = run.goal("walk").require_canceled(run.cancels_of_all[-1])

@@ -11,6 +11,7 @@ from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
 from autograder.authoring.feedback import end_of_feedback, require_feedback
 from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring.goal_endings import why_blind, why_rclpy_aborted
 from humanoid_interfaces.action import WalkTo
 
 from .planar import error, heading, turn
@@ -29,7 +30,9 @@ def require_true_feedback(goal: Goal) -> None:
     for feedback in goal.feedback:
         message = feedback.feedback
         recent = _recent(goal, feedback.t)
-        require_true_pose(message.current_pose, recent, "feedback.current_pose", feedback.t)
+        require_true_pose(
+            message.current_pose, recent, "feedback.current_pose", feedback.t, help=why_blind(goal)
+        )
         distances = [error(robot, goal)[0] for robot in recent]
         claimed = message.distance_remaining
         expect(
@@ -66,11 +69,14 @@ def require_error_code(goal: Goal, name: str, *, because: str) -> None:
         "error_code",
         getattr(WalkTo.Result, name),
         because=f"{because}: {name}",
-        help=f"Set result.error_code = WalkTo.Result.{name} before the terminal call, and return that same result.",
+        help=why_rclpy_aborted(goal)
+        or f"Set result.error_code = WalkTo.Result.{name} before the terminal call, and return that same result.",
     )
 
 
-def require_true_pose(stamped: PoseStamped, recent: Sequence[ev.RobotTruth], what: str, at: float) -> None:
+def require_true_pose(
+    stamped: PoseStamped, recent: Sequence[ev.RobotTruth], what: str, at: float, help: str | None = None
+) -> None:
     """Require that a reported pose is where the simulated robot was within the last moments, in frame odom."""
     position, frame = stamped.pose.position, stamped.header.frame_id.lstrip("/")
     expect(
@@ -85,7 +91,8 @@ def require_true_pose(stamped: PoseStamped, recent: Sequence[ev.RobotTruth], wha
         off <= REPORT_SLACK,
         expected=f"{what} near x {recent[-1].x:.2f}, y {recent[-1].y:.2f} m",
         observed=f"x {position.x:.2f}, y {position.y:.2f} m",
-        help=f"Fill {what} from the latest odom message before it is sent; the terminal call sends nothing that "
+        help=help
+        or f"Fill {what} from the latest odom message before it is sent; the terminal call sends nothing that "
         "is set after it.",
         at=at,
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from autograder.authoring import events as ev
+from autograder.authoring.connections import why_nothing_is_heard
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import SUCCEEDED, Goal
 from autograder.authoring.transcript import Transcript
@@ -12,7 +13,7 @@ from humanoid_interfaces.msg import RobotState
 
 from .planar import error
 
-ACCEPT = (
+_ACCEPT = (
     "goal_callback must return GoalResponse.ACCEPT for a finite pose in frame odom while the motors are on (True is "
     "not GoalResponse.ACCEPT)."
 )
@@ -24,18 +25,43 @@ STOP_SPEED = 0.05  # m/s
 WATCHED = 3.5  # s after the cancel
 
 
+def require_accepted(goal: Goal, help: str = _ACCEPT) -> Goal:
+    """Require that the server accepted the goal; `help` is what to do if it got the robot's topics and rejected it."""
+    deaf = (why_nothing_is_heard(goal.run, topic) for topic in ("odom", "robot_state"))
+    return goal.require_accepted(next(filter(None, deaf), help))
+
+
 def require_arrival(goal: Goal) -> None:
     """Require that the goal succeeded, and by then the simulated robot was where the goal says."""
-    result = goal.require_accepted(ACCEPT).require_result(SUCCEEDED)
+    result = require_accepted(goal).require_result(SUCCEEDED)
     distance, turn = error(goal.run.robot_at(result.t), goal)
     expect(
         distance <= POSITION_TOLERANCE and turn <= YAW_TOLERANCE,
         expected=f"the robot within {POSITION_TOLERANCE:.2f} m and {YAW_TOLERANCE:.2f} rad of the goal when it "
         "SUCCEEDED",
         observed=f"{distance:.2f} m and {turn:.2f} rad away in the simulator",
-        help="Compare odom with the goal pose, position and yaw, stop the robot, and look again once it stands "
-        "before succeed().",
+        help=_advice_on_arrival(goal, distance, turn),
         at=result.t,
+    )
+
+
+def _advice_on_arrival(goal: Goal, distance: float, turn: float) -> str:
+    """Say which test of the arrival was too generous, by what the server itself reported last."""
+    if distance <= POSITION_TOLERANCE:
+        return f"The position is right, the heading is {turn:.2f} rad off: turn to the goal's yaw before succeed()."
+    claimed = goal.feedback[-1].feedback.distance_remaining if goal.feedback else None
+    if claimed is not None and abs(claimed - distance) < POSITION_TOLERANCE:
+        return (
+            f"Your own feedback said that {claimed:.2f} m were left, and then came succeed(): let your loop go on "
+            "until it is less than 0.10 m."
+        )
+    if claimed is not None and claimed <= POSITION_TOLERANCE:
+        return (
+            f"Your feedback said that {claimed:.2f} m were left: measure from odom's pose to the goal, and measure "
+            "again once the robot stands."
+        )
+    return (
+        "Compare odom with the goal's pose, stop the robot, and look again once it stands, before succeed()."
     )
 
 
@@ -88,6 +114,6 @@ def require_upright(watched: Sequence[ev.RobotTruth]) -> None:
         fallen is None,
         expected="the robot upright",
         observed="it fell",
-        help="Stop with cmd_vel; motor_power off makes the robot collapse.",
+        help="Stop with a zero Twist on cmd_vel, and publish nothing on motor_power: without torque the robot falls.",
         at=fallen.t if fallen else None,
     )

@@ -7,6 +7,8 @@ from collections.abc import Callable
 
 from .two_link_arm import DEFAULT, TOLERANCE, Point, TwoLinkArm
 
+SAME = 1e-3  # rad
+NEARLY = 0.01  # m; rounding to two digits moves the hand no farther
 Reading = Callable[[float, float], tuple[float, float]]
 # How to read the angles (shoulder, elbow) so that a common mistake becomes right, and what to do about it.
 _MISREADINGS: list[tuple[Reading, str]] = [
@@ -20,8 +22,8 @@ _MISREADINGS: list[tuple[Reading, str]] = [
     ),
     (
         lambda shoulder, elbow: (shoulder, math.pi - elbow),
-        "The elbow's angle is 0 where the arm is straight; this is the angle between the links. Take it from pi, or "
-        "turn the sign of the cosine in the law of cosines.",
+        "The elbow's angle is 0 where the arm is straight; this is the angle between the links: turn the sign of the "
+        "cosine in the law of cosines.",
     ),
     (
         lambda shoulder, elbow: (shoulder, elbow - math.pi),
@@ -46,6 +48,12 @@ def advice_for(shoulder: float, elbow: float, target: Point, arm: TwoLinkArm) ->
         return "An angle is not a number: find the step that divides by 0 or takes acos of more than 1."
     if shoulder == elbow == 0:
         return "Both angles are 0, as in a new response: set response.shoulder and response.elbow."
+    direction = math.atan2(target[1], target[0])
+    if abs(math.remainder(shoulder - direction, math.tau)) <= SAME and _is_bent_right(elbow, target, arm):
+        return (
+            f"The shoulder equals the direction to the target, {direction:.4f}: subtract the angle that the bent elbow "
+            "adds."
+        )
     for reading, advice in _MISREADINGS:
         if arm.misses(*reading(shoulder, elbow), target) <= TOLERANCE:
             return advice
@@ -53,10 +61,12 @@ def advice_for(shoulder: float, elbow: float, target: Point, arm: TwoLinkArm) ->
         return "That is the target with x and y exchanged: it is math.atan2(y, x), in this order."
     if arm != DEFAULT and DEFAULT.misses(shoulder, elbow, target) <= TOLERANCE:
         return (
-            "That is right for 0.30 and 0.25 m. Declare the parameters upper_arm_length and forearm_length, and "
-            "compute with the values they have when the request comes."
+            "That is right for 0.30 and 0.25 m: read the parameters upper_arm_length and forearm_length in the "
+            "callback, and compute with what they are then."
         )
-    if abs(math.dist(arm.hand_at(shoulder, elbow), (0.0, 0.0)) - math.hypot(*target)) <= TOLERANCE:
+    if arm.misses(shoulder, elbow, target) <= NEARLY and _are_rounded(shoulder, elbow):
+        return "The angles are rounded, and 0.01 rad moves the hand by millimetres: leave out round()."
+    if _is_bent_right(elbow, target, arm):
         return (
             "The distance is right, so the elbow's angle is; the direction is not: look at the shoulder's, and take "
             "atan2(y, x), which knows all four quadrants, instead of atan(y / x) or asin."
@@ -65,3 +75,12 @@ def advice_for(shoulder: float, elbow: float, target: Point, arm: TwoLinkArm) ->
         "Put the angles back in: x = l1 cos(shoulder) + l2 cos(shoulder + elbow), y the same with sin. Begin with the "
         "elbow: cos(elbow) = (x² + y² - l1² - l2²) / (2 l1 l2)."
     )
+
+
+def _is_bent_right(elbow: float, target: Point, arm: TwoLinkArm) -> bool:
+    """Return whether the elbow's angle brings the hand as far from the shoulder as the target is."""
+    return abs(math.hypot(*arm.hand_at(0.0, elbow)) - math.hypot(*target)) <= TOLERANCE
+
+
+def _are_rounded(*angles: float) -> bool:
+    return all(round(angle, 3) == angle for angle in angles)

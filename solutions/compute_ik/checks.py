@@ -18,7 +18,7 @@ from .judging import (
     require_code,
     require_hit,
     require_refusal,
-    require_side,
+    require_sides,
 )
 from .questions import ask_for, ask_for_both
 from .two_link_arm import TwoLinkArm
@@ -77,8 +77,7 @@ def reaches_the_point(run: Transcript) -> None:
 @check(points=2, on=POINTS, needs=reaches_the_point, see="04_your_own_interfaces#cosine-why")
 def bends_the_elbow_as_asked(run: Transcript) -> None:
     """The elbow is above the line to the target with elbow_up, below it without"""
-    for reply in replies(run, "within reach"):
-        require_side(reply)
+    require_sides(replies(run, "within reach"))
 
 
 @check(points=2, on=POINTS, needs=server_appears, see="04_your_own_interfaces#cosine-why")
@@ -95,7 +94,7 @@ def says_what_is_out_of_reach(run: Transcript) -> None:
         require_refusal(reply)
 
 
-@check(points=1, on=FRAMES, needs=server_appears)
+@check(points=1, on=FRAMES, needs=server_appears, see="04_your_own_interfaces#server-why")
 def refuses_other_frames(run: Transcript) -> None:
     """A target in any frame but "shoulder" is FRAME_TRANSFORM_FAILURE, and no other is"""
     for reply in replies(run, "in shoulder"):
@@ -111,8 +110,8 @@ def refuses_other_frames(run: Transcript) -> None:
             reply,
             Response.FRAME_TRANSFORM_FAILURE,
             because="only 'shoulder' is the frame of the arm",
-            help="Numbers mean nothing without their frame: compare request.target.header.frame_id with 'shoulder', "
-            "letter by letter, before anything is computed. An empty frame is none.",
+            help=f"{reply.frame!r} is not 'shoulder'{'' if reply.frame else ' either'}: refuse everything else, "
+            "before computing.",
         )
 
 

@@ -55,7 +55,12 @@ OTHER_NAMESPACE = Scenario(
 )
 
 
-@check(points=2, on=[SET_LENGTHS, REAL_ARM], needs=[bends_the_elbow_as_asked, moves_the_real_hand])
+@check(
+    points=2,
+    on=[SET_LENGTHS, REAL_ARM],
+    needs=[bends_the_elbow_as_asked, moves_the_real_hand],
+    see="04_your_own_interfaces#fk-why",
+)
 def reaches_any_point(run: Transcript, with_other_lengths: Transcript) -> None:
     """All around the shoulder, and close to it with a forearm longer than the upper arm, it hits the point"""
     for reply in replies(run, "anywhere"):
@@ -65,7 +70,7 @@ def reaches_any_point(run: Transcript, with_other_lengths: Transcript) -> None:
         require_hit(reply, ROBOTS_ARM)
 
 
-@check(points=1, on=POINTS, needs=says_what_is_out_of_reach)
+@check(points=1, on=POINTS, needs=says_what_is_out_of_reach, see="02_services#nan")
 def refuses_what_is_no_number(run: Transcript) -> None:
     """A target that is not a number is no success, and the next question is answered as ever"""
     nonsense, sound = replies(run, "not a number")
@@ -85,7 +90,7 @@ def refuses_what_is_no_number(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=SET_LENGTHS, needs=server_appears)
+@check(points=1, on=SET_LENGTHS, needs=server_appears, see="04_your_own_interfaces#parameters-intro")
 def declares_its_lengths(run: Transcript) -> None:
     """upper_arm_length and forearm_length are parameters of type double: 0.30 and 0.25 m"""
     call = run.call("get_parameters")
@@ -106,6 +111,7 @@ def declares_its_lengths(run: Transcript) -> None:
     points=1,
     on=SET_LENGTHS,
     needs=[bends_the_elbow_as_asked, says_what_is_out_of_reach, declares_its_lengths],
+    see="04_your_own_interfaces#parameters-why",
 )
 def does_what_it_says_of_new_lengths(run: Transcript) -> None:
     """Lengths that are set while it runs are taken into account, or refused"""
@@ -118,7 +124,7 @@ def does_what_it_says_of_new_lengths(run: Transcript) -> None:
             require_refusal(reply, arm)
 
 
-@check(points=1, on=OTHER_NAMESPACE, needs=reaches_the_point)
+@check(points=1, on=OTHER_NAMESPACE, needs=reaches_the_point, see="01_robot_and_graph#names-why")
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it serves there"""
     for reply in replies(run, "within reach"):

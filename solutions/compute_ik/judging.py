@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from autograder.authoring.call import Call
@@ -32,6 +33,11 @@ class Reply:
         return point.x, point.y
 
     @property
+    def frame(self) -> str:
+        """The frame asked in."""
+        return self.call.request.target.header.frame_id
+
+    @property
     def elbow_up(self) -> bool:
         """The side asked for."""
         return self.call.request.elbow_up
@@ -55,8 +61,7 @@ class Reply:
     def question(self) -> str:
         """The request in words."""
         x, y = self.target
-        frame = self.call.request.target.header.frame_id
-        return f"({x:g}, {y:g}) in frame {frame!r}, elbow_up {shown(self.elbow_up)}"
+        return f"({x:g}, {y:g}) in frame {self.frame!r}, elbow_up {shown(self.elbow_up)}"
 
     @property
     def angles(self) -> str:
@@ -113,18 +118,53 @@ def require_hit(reply: Reply, arm: TwoLinkArm = DEFAULT) -> None:
     )
 
 
-def require_side(reply: Reply, arm: TwoLinkArm = DEFAULT) -> None:
-    """Require that the elbow is on the side asked for; judged only of targets ahead of the shoulder."""
+def require_side(reply: Reply, arm: TwoLinkArm = DEFAULT, twin: Reply | None = None) -> None:
+    """Require that the elbow is on the side asked for; judged only of targets ahead of the shoulder.
+
+    `twin` is the answer for the same target with the other elbow_up, which tells what a wrong side comes from.
+    """
     if reply.target[0] < AHEAD:
         return
-    is_above = arm.elbow_is_above(reply.shoulder_and_elbow[0], reply.target)
+    is_above = _elbow_is_above(reply, arm)
+    observed = f"{reply.angles}: the elbow is {_side(is_above)} it"
     expect(
         is_above == reply.elbow_up,
         expected=f"the elbow {_side(reply.elbow_up)} the line from shoulder to target for {reply.question}",
-        observed=f"{reply.angles}: the elbow is {_side(is_above)} it",
-        help="The arm bends to either side: cos(elbow) gives the size of the elbow's angle, elbow_up its sign. "
-        "Ahead of the shoulder a positive elbow angle has the elbow below the line.",
+        observed=observed,
+        help=_help_with_the_side(reply, None if twin is None else _elbow_is_above(twin, arm)),
         at=reply.at,
+    )
+
+
+def require_sides(answers: Sequence[Reply], arm: TwoLinkArm = DEFAULT) -> None:
+    """Require of each answer that the elbow is on the side asked for."""
+    for reply in answers:
+        twins = [
+            other for other in answers if other.target == reply.target and other.elbow_up != reply.elbow_up
+        ]
+        require_side(reply, arm, twins[0] if twins else None)
+
+
+def _elbow_is_above(reply: Reply, arm: TwoLinkArm) -> bool:
+    return arm.elbow_is_above(reply.shoulder_and_elbow[0], reply.target)
+
+
+def _help_with_the_side(reply: Reply, twin_is_above: bool | None) -> str:
+    """Say what to do about an elbow on the wrong side, given the side of the answer with the other elbow_up."""
+    if twin_is_above is None:
+        return (
+            "elbow_up decides the sign of the elbow's angle: ahead of the shoulder a positive angle has the elbow "
+            "below the line."
+        )
+    other = shown(not reply.elbow_up)
+    if twin_is_above == reply.elbow_up:
+        return (
+            f"With elbow_up {other} the elbow was {_side(twin_is_above)}: elbow_up is used the wrong way round. Turn "
+            "the sign of the elbow's angle."
+        )
+    return (
+        f"With elbow_up {other} the elbow was also {_side(twin_is_above)}: elbow_up is not used. Let it decide the "
+        "sign of the elbow's angle."
     )
 
 

@@ -77,9 +77,7 @@ def _move_to(stage: Stage, shoulder: float, elbow: float) -> None:
     if not (math.isfinite(shoulder) and math.isfinite(elbow)):
         return
     stage.robot.move_joints(_joint_positions(shoulder, elbow), MOVING)
-    stage.robot.wait_for_commands()
-    at_rest = stage.robot.state.simulated + MOVING + SETTLING
-    stage.robot.wait_for(lambda robot: robot.simulated >= at_rest)
+    stage.robot.wait(MOVING + SETTLING)
     stage.robot.report_arm("l")
     stage.robot.wait_for_commands()
 

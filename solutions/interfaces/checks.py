@@ -27,7 +27,7 @@ FEEDBACK = {
 @check(points=1, on=SERVICE, see="04_your_own_interfaces#draft-why")
 def service_builds(run: Transcript) -> None:
     """GetBatteryStatus.srv builds"""
-    require_built(run)
+    require_built(run, RESPONSE)
 
 
 @check(points=2, on=SERVICE, needs=service_builds, see="04_your_own_interfaces#anatomy")
@@ -39,7 +39,7 @@ def response_has_its_fields(run: Transcript) -> None:
 @check(points=1, on=ACTION, see="04_your_own_interfaces#draft-why")
 def action_builds(run: Transcript) -> None:
     """NavigateToPose.action builds"""
-    require_built(run)
+    require_built(run, GOAL | RESULT | FEEDBACK)
 
 
 @check(points=2, on=ACTION, needs=action_builds, see="04_your_own_interfaces#anatomy")

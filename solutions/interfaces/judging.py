@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from autograder.authoring import events as ev
@@ -13,18 +13,23 @@ from autograder.authoring.readiness import require_within_limits
 from autograder.authoring.transcript import Transcript
 
 BUSY = 60.0  # s of processor time; a correct file needs 25
+NO_FILE = "there is no definition in this folder"  # what the build says then
+NOTHING: Mapping[str, str] = {}
 LONGEST = 300  # characters of what a verdict quotes
 
 
-def require_built(run: Transcript) -> dict[str, Any]:
-    """Require that the file was built, and return its parts (request, …, feedback) with fields and constants."""
+def require_built(run: Transcript, wanted: Mapping[str, str] = NOTHING) -> dict[str, Any]:
+    """Require that the file was built, and return its parts (request, …, feedback) with fields and constants.
+
+    `wanted` are the fields that the task asks for (name → ROS type), for a line that does not build.
+    """
     try:
-        return _built(run)
+        return _built(run, wanted)
     except (AttributeError, KeyError, TypeError, ValueError) as error:  # it comes from the student's sandbox
         raise unseen(run, f"the build's report is not whole: {error!r}") from None
 
 
-def _built(run: Transcript) -> dict[str, Any]:
+def _built(run: Transcript, wanted: Mapping[str, str]) -> dict[str, Any]:
     report, file = _report(run), run.params["file"]
     if report["built"]:
         (parts,) = report["types"].values()
@@ -34,37 +39,45 @@ def _built(run: Transcript) -> dict[str, Any]:
         _require_time_for_it(run)
         raise CannotBeJudged(f"the build of a sound {file} failed: {report['log'][-2000:]}")
     first, more = problems[0], more + len(problems) - 1
+    expect(
+        first["wrong"] != NO_FILE,
+        expected=f"a file {file}",
+        observed="it was not handed in",
+        help=f"Begin the cell that holds it with %%writefile {file}.",
+    )
     place = f"line {first['line']}, “{first['text'].strip()}”: " if first["line"] else ""
     raise Failure(
         expected=f"{file} to build as part of an interface package",
         observed=f"{place}{first['wrong']}" + (f" (and {more:,} more)" if more else ""),
-        help=f"Expected here: {first['expected']}",
+        help=_what_to_write(first, wanted),
     )
 
 
 def require_fields(run: Transcript, part: str, wanted: Mapping[str, str]) -> None:
     """Require that one part of the definition has these fields (name → ROS type) and no others."""
     fields = _part(run, part)["fields"]
+    others = sorted(set(fields) - set(wanted))
     for name, ros_type in wanted.items():
         expect(
             name in fields,
             expected=f"a field “{ros_type} {name}” in the {part}",
             observed=f"the {part} has {_listed(fields)}",
-            help="Names are compared letter by letter; the parts stand in the task's order, with --- between them.",
+            help=_misplaced(run, part, "fields", name)
+            or _misnamed(name, [other for other in others if fields[other] == ros_type])
+            or f"Add the line “{ros_type} {name}” to the {part}.",
         )
         expect(
             fields[name] == ros_type,
             expected=f"“{ros_type} {name}” in the {part}",
             observed=f"“{fields[name]} {name}”",
-            help="The type decides what a message can say: a pose without a header has no frame, a float64 is another "
-            "type than a float32.",
+            help=_why_this_type(ros_type, fields[name]),
         )
-    others = sorted(set(fields) - set(wanted))
     expect(
         not others,
         expected=f"nothing in the {part} but {_listed(wanted) if wanted else 'an empty part'}",
         observed=f"also {_cut(', '.join(others))}",
-        help="Whoever uses the interface has to fill and read every field: leave out what the task does not name.",
+        help=f"Remove `{_cut(others[0]) if others else ''}`: everybody who uses the interface would have to fill and "
+        "read it.",
     )
 
 
@@ -73,14 +86,57 @@ def require_constants(run: Transcript, part: str, ros_type: str, wanted: Mapping
     constants = _part(run, part)["constants"]
     for name, value in wanted.items():
         observed = constants.get(name)
+        line = f"{ros_type} {name}={value}"
         expect(
             observed == {"type": ros_type, "value": value},
-            expected=f"the constant “{ros_type} {name}={value}” in the {part}",
+            expected=f"the constant “{line}” in the {part}",
             observed=f"“{observed['type']} {name}={str(observed['value'])[:LONGEST]}”"
             if observed
             else "no constant of that name",
-            help="A constant is a line TYPE NAME=VALUE in the part where it is used, its name in capitals.",
+            help=f"Write “{line}”: clients compare the number with that name."
+            if observed
+            else _misplaced(run, part, "constants", name)
+            or f"Add the line “{line}” to the {part}: a comment is for people, programs cannot read it.",
         )
+
+
+def _what_to_write(problem: Mapping[str, Any], wanted: Mapping[str, str]) -> str:
+    """Return the next step for a problem of the build."""
+    expected, line = problem["expected"], problem["line"]
+    if line:
+        name = problem["text"].partition("#")[0].split()[-1:]
+        if name and name[0] in wanted:
+            return f"Change line {line} to “{wanted[name[0]]} {name[0]}”."
+        return f"Change line {line}. What belongs there: {expected}."
+    number, _, shape = expected.partition(": ")
+    if shape and number.isdigit():
+        return f"Put {number} of these lines into it: {shape}."
+    return f"Change the file. What it needs: {expected}."
+
+
+def _misplaced(run: Transcript, part: str, what: str, name: str) -> str:
+    """Ask for the separator when a field or constant stands in another part, else return ""."""
+    for other, content in require_built(run).items():
+        if other != part and isinstance(content, dict) and name in (content.get(what) or {}):
+            return f"`{name}` is in the {other}. Is a --- missing or misplaced?"
+    return ""
+
+
+def _misnamed(name: str, candidates: Sequence[str]) -> str:
+    """Ask for the task's name when a single other field of the same type may be meant, else return ""."""
+    if len(candidates) != 1:
+        return ""
+    return (
+        f"Rename `{_cut(candidates[0])}` to `{name}`: a program finds a field by its name, letter by letter."
+    )
+
+
+def _why_this_type(wanted: str, written: str) -> str:
+    if wanted.endswith("Stamped"):
+        return f"Write {wanted}: without the header nobody can say in which frame the numbers are."
+    if wanted.endswith("/Duration"):
+        return f"Write {wanted}: it says itself that it is a time, in sec and nanosec."
+    return f"Write {wanted}: for a program {_cut(written)} is another type, and the two do not fit together."
 
 
 def _part(run: Transcript, part: str) -> Any:

@@ -44,7 +44,7 @@ server_appears = standard.server_appears(
 )
 
 
-@check(points=1, on=ASK, needs=server_appears)
+@check(points=1, on=ASK, needs=server_appears, see="01_robot_and_graph#joints-intro")
 def finds_the_joints(run: Transcript) -> None:
     """Asked for joints that the robot has, it answers success: true"""
     require_success(run.call("some joints"))
@@ -62,7 +62,7 @@ def positions_are_the_robots(run: Transcript) -> None:
     require_positions(run.call("some joints"))
 
 
-@check(points=1, on=ASK, needs=positions_are_the_robots)
+@check(points=1, on=ASK, needs=positions_are_the_robots, see="01_robot_and_graph#joints-intro")
 def no_names_means_all(run: Transcript) -> None:
     """Asked with an empty list, it answers with every joint once"""
     call = run.call("all joints")
@@ -79,7 +79,7 @@ def no_names_means_all(run: Transcript) -> None:
     require_positions(call)
 
 
-@check(points=1, on=ASK, needs=positions_are_the_robots)
+@check(points=1, on=ASK, needs=positions_are_the_robots, see="02_services#diagram")
 def follows_the_robot(run: Transcript) -> None:
     """When the arms have moved, the answer has moved with them"""
     call = run.call("moved joints")
@@ -97,7 +97,9 @@ def names_every_unknown_joint(run: Transcript) -> None:
     require_refusal(
         call,
         because=f"the robot has no {', '.join(unknown)}",
-        help="An unknown name fails the whole request: success stays false and message says which names.",
+        help="The message names the unknown joints, but success is true: leave response.success False."
+        if any(name in message for name in unknown)
+        else "An unknown name fails the whole request: success stays false and message says which names.",
     )
     unnamed = [name for name in unknown if not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", message)]
     expect(

@@ -72,7 +72,12 @@ def _require_positions_as_asked(call: Call) -> None:
     require_positions(call)
 
 
-@check(points=1, on=UNPLUGGED, needs=[positions_are_the_robots, says_when_it_knows_nothing])
+@check(
+    points=1,
+    on=UNPLUGGED,
+    needs=[positions_are_the_robots, says_when_it_knows_nothing],
+    see="02_services#m9-fix-why",
+)
 def recovers_when_the_sensors_appear(run: Transcript) -> None:
     """Once the first message has come, it answers with it"""
     call = run.call("after the first message")
@@ -80,7 +85,12 @@ def recovers_when_the_sensors_appear(run: Transcript) -> None:
     _require_positions_as_asked(call)
 
 
-@check(points=1, on=EVERY_WAY, needs=[keeps_the_order_asked, follows_the_robot])
+@check(
+    points=1,
+    on=EVERY_WAY,
+    needs=[keeps_the_order_asked, follows_the_robot],
+    see="01_robot_and_graph#joints-intro",
+)
 def answers_in_any_posture(run: Transcript) -> None:
     """Whatever the posture, it answers with it"""
     call = run.call("in a posture")
@@ -88,7 +98,7 @@ def answers_in_any_posture(run: Transcript) -> None:
     require_posture(call, run.params["posture"])
 
 
-@check(points=1, on=EVERY_WAY, needs=finds_the_joints)
+@check(points=1, on=EVERY_WAY, needs=finds_the_joints, see="02_services#m4-why")
 def answers_every_request(run: Transcript) -> None:
     """Eight different requests at once are all answered, each with its own joints and within 2 s"""
     for name in run.params["burst"]:
@@ -97,7 +107,7 @@ def answers_every_request(run: Transcript) -> None:
         expect(
             call.latency <= 2.0,
             expected="every answer within 2 s",
-            observed=f"one took {call.latency:.1f} s",
+            observed=f"one took {call.latency:.2f} s",
             help="Answer from memory: the callback must not sleep or wait for the next message.",
             at=call.sent.t,
         )
@@ -118,7 +128,7 @@ def looks_joints_up_by_name(run: Transcript) -> None:
     require_reversed(call)
 
 
-@check(points=1, on=EVERY_WAY, needs=names_every_unknown_joint)
+@check(points=1, on=EVERY_WAY, needs=names_every_unknown_joint, see="02_services#set-refuse-why")
 def takes_no_joint_for_another(run: Transcript) -> None:
     """A part of a joint's name is no joint: success: false"""
     for name in run.params["parts"]:
@@ -129,7 +139,7 @@ def takes_no_joint_for_another(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=OTHER_NAMESPACE, needs=positions_are_the_robots)
+@check(points=1, on=OTHER_NAMESPACE, needs=positions_are_the_robots, see="01_robot_and_graph#names-why")
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it serves the robot there"""
     call = run.call("some joints")

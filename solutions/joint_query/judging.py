@@ -7,9 +7,11 @@ from collections.abc import Mapping, Sequence
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
+from autograder.authoring.connections import lesson_on_hearing, why_nothing_is_heard
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.fields import shown_fields
 from autograder.authoring.missing import unseen
+from autograder.authoring.robot_record import RobotRecord
 from autograder.authoring.robot_topic import last_messages
 from autograder.authoring.transcript import Transcript
 
@@ -22,6 +24,11 @@ _NOT_HEARD = (
 )
 
 Positions = Mapping[str, float]  # rad, by the joint's name
+
+
+def not_heard(run: RobotRecord) -> str:
+    """Return why no joint_states reach the node, as far as the grader saw."""
+    return why_nothing_is_heard(run, "joint_states") or _NOT_HEARD
 
 
 def require_posture(call: Call, posture: Positions) -> None:
@@ -63,7 +70,8 @@ def robot_joints(run: Transcript) -> list[str]:
         raise Failure(
             expected="a node that listens to joint_states",
             observed="an answer without it: no message of joint_states has reached your node",
-            help=_NOT_HEARD,
+            help=not_heard(run),
+            see=lesson_on_hearing(run, "joint_states"),
         )
     return published.names
 
@@ -75,11 +83,23 @@ def require_success(call: Call) -> None:
         call.response.success,
         expected=f"success: true for {listed(call.request.names)}, which the robot has",
         observed=shown_fields(call.response, "success", "message"),
-        help="Look up each name in the name list of the last joint_states, and set success when all are there."
-        if heard
-        else _NOT_HEARD,
+        help=_advice_on_refusal(call) if heard else not_heard(call.run),
         at=call.answered.t,
+        see=lesson_on_hearing(call.run, "joint_states"),
     )
+
+
+def _advice_on_refusal(call: Call) -> str:
+    """Say what is wrong about a refusal of joints that exist, though joint_states arrives."""
+    message, asked = call.response.message, call.run.all(ev.ServiceCalled)
+    earlier = [name for other in asked if other.t < call.sent.t for name in other.request.names]
+    left = [name for name in earlier if name in message and name not in call.request.names]
+    if left:
+        return f"The message names {left[0]}, of an earlier request: begin a new list of unknown names in each request."
+    answers = call.run.all(ev.ServiceAnswered)
+    if any(answer.t < call.sent.t and answer.response.message == message for answer in answers):
+        return "joint_states has arrived since your last refusal: look at each request whether there is a message."
+    return "Look up each name in the name list of the last joint_states, and set success when all are there."
 
 
 def require_refusal(call: Call, *, because: str, help: str) -> None:
@@ -131,14 +151,18 @@ def require_positions(call: Call) -> None:
         any(message.t <= at for message in published),
         expected="positions from the robot's joint_states",
         observed=f"{_described(names, positions)}, although no joint_states had reached your node",
-        help=_NOT_HEARD,
+        help=not_heard(call.run),
         at=at,
+        see=lesson_on_hearing(call.run, "joint_states"),
     )
     recent = [_positions(message) for message in last_messages(call, ev.JointsPublished, since=_told(call))]
+    truth = [recent[-1].get(name, math.nan) for name in names]
+    off = [index for index in range(len(names)) if not abs(positions[index] - truth[index]) <= TOLERANCE]
+    wrong = [names[index] for index in off]
     expect(
         any(_agree(names, positions, message) for message in recent),
-        expected=_described(names, [recent[-1].get(name, math.nan) for name in names]),
-        observed=_described(names, positions),
+        expected=_described(wrong, [truth[index] for index in off]),
+        observed=_described(wrong, [positions[index] for index in off]),
         help=_advice(names, positions, recent[-1], published),
         at=at,
     )
@@ -184,6 +208,8 @@ def _advice(
             "These positions belong to other joints. position[i] of a joint_states belongs to name[i] of the same "
             "message: look it up by name, as in dict(zip(message.name, message.position))."
         )
+    if any(abs(one - other) <= TOLERANCE for one, other in zip(positions, truth, strict=True)):
+        return "The other joints are right: pass every position on as it came, without limits or corrections."
     return "Answer with joint_states.position of the last message, looked up by the joint's name."
 
 

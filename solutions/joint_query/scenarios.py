@@ -83,7 +83,5 @@ def _request(names: Names) -> GetJointPositions.Request:
 
 def _move(stage: Stage, posture: Posture) -> None:
     stage.robot.move_joints(posture, MOTION)
-    stage.robot.wait_for_commands()
-    at_rest = stage.robot.state.simulated + MOTION + SETTLING
-    stage.robot.wait_for(lambda robot: robot.simulated >= at_rest)
+    stage.robot.wait(MOTION + SETTLING)
     stage.wait(ON_ITS_WAY)

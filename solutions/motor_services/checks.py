@@ -36,7 +36,7 @@ def tells_the_status(run: Transcript) -> None:
     require_status(run.call("status at first"), on=True)
 
 
-@check(points=2, on=STATUS, needs=tells_the_status)
+@check(points=2, on=STATUS, needs=tells_the_status, see="02_services#diagram")
 def follows_the_robot(run: Transcript) -> None:
     """When somebody else cuts the power and returns it, get_status says so"""
     require_status_after_a_change(run.call("status after off"), on=False)

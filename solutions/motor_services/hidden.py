@@ -44,13 +44,15 @@ MANY_AT_ONCE = Scenario("ask_many_at_once", {"bursts": 3, "switches": 3, "questi
 OTHER_NAMESPACE = Scenario("switch_off_and_on", robot=ON_A_STAND, namespace="/lab_7/robot")
 
 
-@check(points=1, on=RANDOM_WALK, needs=refuses_off_while_walking)
+@check(points=1, on=RANDOM_WALK, needs=refuses_off_while_walking, see="02_services#set-refuse-why")
 def refuses_however_it_walks(run: Transcript) -> None:
     """Turning on the spot, sideways or backwards is walking, too"""
     require_refused(run.call("off while walking"))
 
 
-@check(points=2, on=RANDOM_WALK, needs=[powers_on, refuses_however_it_walks])
+@check(
+    points=2, on=RANDOM_WALK, needs=[powers_on, refuses_however_it_walks], see="02_services#set-refuse-why"
+)
 def refuses_nothing_else(run: Transcript) -> None:
     """Power on is granted while the robot walks, and power off once it stands again"""
     on, off = run.call("on while walking"), run.call("off once it stands")
@@ -61,7 +63,12 @@ def refuses_nothing_else(run: Transcript) -> None:
     require_switched(off)
 
 
-@check(points=1, on=SILENT_ROBOT, needs=[tells_the_status, says_when_it_knows_nothing])
+@check(
+    points=1,
+    on=SILENT_ROBOT,
+    needs=[tells_the_status, says_when_it_knows_nothing],
+    see="02_services#m9-fix-why",
+)
 def recovers_when_the_robot_speaks(run: Transcript) -> None:
     """Once the first robot_state has come, get_status answers with it"""
     call = run.call("after the first message")
@@ -78,7 +85,7 @@ answers_every_request = standard_hidden.answers_every_request(
 )
 
 
-@check(points=1, on=OTHER_NAMESPACE, needs=[tells_the_status, powers_on])
+@check(points=1, on=OTHER_NAMESPACE, needs=[tells_the_status, powers_on], see="01_robot_and_graph#names-why")
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it serves the robot there"""
     require_switched(run.call("off"))

@@ -11,7 +11,7 @@ PATTERNS = "01_robot_and_graph#patterns"  # the lesson
 ANSWERS = program("print_answers", timed=False)
 
 
-@check(points=1, on=ANSWERS)
+@check(points=1, on=ANSWERS, see=PATTERNS)
 def answers_everything(run: Transcript) -> None:
     """Each of the twelve situations has a pattern and a reason"""
     require_answers(run)
@@ -92,7 +92,4 @@ SEEN = (
     ),
 )
 
-situations = [
-    check(points=1, on=ANSWERS, needs=answers_everything, see=PATTERNS)(judge_of(situation))
-    for situation in SEEN
-]
+situations = [check(points=1, on=ANSWERS, see=PATTERNS)(judge_of(situation)) for situation in SEEN]

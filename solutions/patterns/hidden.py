@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from autograder.authoring.checks import check
 
-from .checks import ANSWERS, answers_everything
+from .checks import ANSWERS, PATTERNS
 from .judging import Situation, judge_of
 
 UNSEEN = (
@@ -41,7 +41,7 @@ UNSEEN = (
             "topic": "A topic does not tell the operator whether the step was made or cancelled in time.",
             "service": "A service cannot be cancelled, however short it is, so the robot would finish the step.",
             "a": "“Less than a second” is only a rule of thumb for services.",
-            "c": "Which part of the robot moves does not decide it.",
+            "c": "Which part moves does not matter: being able to cancel does.",
         },
     ),
     Situation(
@@ -65,7 +65,7 @@ UNSEEN = (
             "topic": "The value may be impossible, and a topic would not tell the sender.",
             "action": "The robot sets it at once, so there is nothing to watch or to cancel.",
             "b": "All three patterns can carry one number.",
-            "c": "It is about walking, but the robot does not move because of it.",
+            "c": "Setting a limit moves nothing; it is done at once, so what matters is the yes or no.",
         },
     ),
     Situation(
@@ -82,6 +82,4 @@ UNSEEN = (
     ),
 )
 
-situations = [
-    check(points=1, on=ANSWERS, needs=answers_everything)(judge_of(situation)) for situation in UNSEEN
-]
+situations = [check(points=1, on=ANSWERS, see=PATTERNS)(judge_of(situation)) for situation in UNSEEN]

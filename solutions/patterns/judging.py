@@ -40,31 +40,32 @@ def judge_of(situation: Situation) -> Callable[[Transcript], None]:
     return judge
 
 
-def require_answers(run: Transcript) -> dict[int, tuple[str, str]]:
-    """Require one printed answer for each situation, and return pattern and reason by number."""
-    require_success(run, WITHIN)
-    found = [match for line in run.output("stdout").splitlines() if (match := _LINE.fullmatch(line))]
-    answers = {int(match[1]): (match[2].lower(), match[3].lower()) for match in found}
+def require_answers(run: Transcript) -> None:
+    """Require one printed answer for each situation."""
+    answers = _answers(run)
+    for number in SITUATIONS:
+        if number in answers:
+            _require_form(number, *answers[number])
     missing = [number for number in SITUATIONS if number not in answers]
     expect(
         not missing,
-        expected="a line “NUMBER PATTERN REASON” for each of the 12 situations, such as “1 topic a”",
+        expected="a line “NUMBER PATTERN REASON” for each of the 12 situations",
         observed=f"none for {', '.join(map(str, missing))}",
-        help="Fill in ANSWERS and leave main() as it was: it prints them.",
+        help=_how_to_answer(run, missing[0] if missing else 0),
     )
-    for number, (pattern, reason) in answers.items():
-        expect(
-            pattern in PATTERNS and len(reason) == 1 and reason in REASONS,
-            expected=f"for situation {number} one of {', '.join(PATTERNS)}, and a reason a, b or c",
-            observed=f"{pattern} {reason}",
-            help="Write both as strings, such as ('topic', 'a').",
-        )
-    return answers
 
 
 def require_answer(run: Transcript, situation: Situation) -> None:
     """Require that one situation was answered with the right pattern for the right reason."""
-    pattern, reason = require_answers(run)[situation.number]
+    answers = _answers(run)
+    expect(
+        situation.number in answers,
+        expected="the pattern that fits, and the reason that decides it",
+        observed="no answer",
+        help=_how_to_answer(run, situation.number),
+    )
+    pattern, reason = answers[situation.number]
+    _require_form(situation.number, pattern, reason)
     if (pattern, reason) == (situation.pattern, situation.reason):
         return
     wrong = pattern if pattern != situation.pattern else reason
@@ -72,4 +73,30 @@ def require_answer(run: Transcript, situation: Situation) -> None:
         expected="the pattern that fits, and the reason that decides it",
         observed=f"{pattern}, because of {reason}",
         help=situation.against[wrong],
+    )
+
+
+def _answers(run: Transcript) -> dict[int, tuple[str, str]]:
+    """Return pattern and reason by the number of the situation; the last line for a situation counts."""
+    require_success(run, WITHIN)
+    found = [match for line in run.output("stdout").splitlines() if (match := _LINE.fullmatch(line))]
+    return {int(match[1]): (match[2].lower(), match[3].lower()) for match in found}
+
+
+def _how_to_answer(run: Transcript, number: int) -> str:
+    """Return what to do about a situation without an answer."""
+    printed = [line for line in run.output("stdout").splitlines() if line.strip()]
+    if not printed:
+        return "Nothing was printed: main() has to print number, pattern and reason of each line in ANSWERS."
+    if not _answers(run):
+        return f"“{printed[-1][:60]}” is of another form: print number, pattern and reason, and nothing else."
+    return f"Add a line {number}: (pattern, reason) to ANSWERS; main() prints it."
+
+
+def _require_form(number: int, pattern: str, reason: str) -> None:
+    expect(
+        pattern in PATTERNS and len(reason) == 1 and reason in REASONS,
+        expected=f"for situation {number} one of {', '.join(PATTERNS)}, and a reason a, b or c",
+        observed=f"{pattern} {reason}",
+        help="Write both as strings, the pattern first, such as ('topic', 'a').",
     )

@@ -8,6 +8,7 @@ from autograder.arena.client_stage import ClientStage
 from autograder.arena.scripted_service import SILENCE, Reply, ScriptedService
 
 FIRST_REQUEST_TIMEOUT = 15.0  # s
+END_OF_A_CALL = 5.0  # s from the first request, for a second one
 RESTART = 0.4  # s; a client may ask again 2 s after its first request
 
 
@@ -120,6 +121,21 @@ def two_of_one_name(stage: ClientStage, status: str) -> None:
     _offer_status(stage, _status(status))
     _offer_status(stage, _status(status))
     _run(stage)
+
+
+def late_and_silent(stage: ClientStage, appears: float, answers: float) -> None:
+    """Each server appears `appears` s after the client could look for it; enable_motors is slow, get_status silent.
+
+    enable_motors answers the second request, `answers` s after it. A client that waits for both servers before it asks
+    gets get_status that long after enable_motors, any other that long after the answer of enable_motors.
+    """
+    stage.start_program()
+    stage.wait(appears)
+    enable = _offer_enable(stage, SILENCE, _enabled(after=answers))
+    if stage.wait_for_requests(enable, 1, appears) and stage.wait_for_requests(enable, 2, END_OF_A_CALL):
+        stage.wait(answers + appears)
+    _offer_status(stage, SILENCE)
+    stage.wait_for_end()
 
 
 def refusing(stage: ClientStage, reason: str) -> None:

@@ -23,6 +23,10 @@ def run_program(arguments: Sequence[str], environment: Mapping[str, str], folder
     os.environ.update(environment)
     os.environ["PWD"] = folder  # as a shell would set it
     os.chdir(folder)
+    if os.environ.get("PYTHONFAULTHANDLER"):
+        import faulthandler  # a new interpreter has it, too, but only with this variable
+
+        faulthandler.enable()
     path = os.path.abspath(arguments[0])
     sys.argv = list(arguments)
     sys.orig_argv = [sys.executable, *arguments]

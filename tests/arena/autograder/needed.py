@@ -116,6 +116,7 @@ NEEDED = {
         "gives_up_without_servers": _ENDED,
         "asks_once_more": f"{_ENDED} service_offered request_received",
         "makes_use_of_the_second_answer": _SERVED,
+        "keeps_one_deadline": f"{_ENDED} service_offered",
         "prints_any_status": _SERVED,
         "works_in_any_namespace": _SERVED,
         "needs_both_services": f"{_ENDED} service_offered",

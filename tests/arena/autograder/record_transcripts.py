@@ -45,7 +45,7 @@ SUBMISSIONS_OF = {
     "patterns": ["correct/as_in_the_notebook", "faulty/eleven_answers"],
     "robot_controller": [
         *("correct/class_based", "faulty/asks_only_once", "faulty/both_at_once", "faulty/always_exit_0"),
-        "faulty/raises_before_the_node",
+        *("faulty/raises_before_the_node", "faulty/no_overall_deadline"),
     ],
 }
 

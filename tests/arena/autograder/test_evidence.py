@@ -231,3 +231,28 @@ def without_robot(case):
 
 def reference(exercise):
     return [known.path.stem for known in known_submissions(exercise) if known.kind == "correct"]
+
+
+# What only a real arena can tell: where a node stood, whom it subscribes to, what reached the robot.
+SAID = {
+    (
+        "battery_service",
+        "waits_for_the_first_message",
+        "says_when_it_knows_nothing",
+    ): "It stood in line 27 of battery_service.py, in on_request().",
+    ("battery_service", "no_test_for_none", "says_when_it_knows_nothing"): "It was raised in line 23 of "
+    "battery_service.py, in on_request().",
+    (
+        "motor_services",
+        "only_a_flag",
+        "powers_off",
+    ): "On motor_power the grader saw no message after the request.",
+    ("motor_services", "flag_of_its_own", "follows_the_robot"): "get_status never changed, though",
+    ("cancellable_walk", "walks_on", "stops_when_canceled"): "Publish a zero Twist",
+}
+
+
+@pytest.mark.parametrize(("exercise", "submission", "check"), SAID)
+def test_a_recorded_failure_names_what_the_arena_saw(exercise, submission, check):
+    failed = {(case.submission, case.check.id): verdict(case) for case in recorded(exercise)}
+    assert SAID[exercise, submission, check] in failed[submission, check].help

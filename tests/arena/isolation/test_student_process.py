@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import signal
 
 import pytest
@@ -67,6 +68,20 @@ def test_it_gets_the_environment_it_was_given_and_the_arenas_network(kind: Kind)
 )
 def test_its_own_status_is_seen(kind: Kind, code: str, returncode: int) -> None:
     assert run_student(Student(code), kind).returncode == returncode
+
+
+def test_one_that_is_aborted_says_where_its_threads_stand(kind: Kind) -> None:
+    code = """
+import threading
+def wait():
+    print("waiting", flush=True)
+    threading.Event().wait()
+wait()
+"""
+    meanwhile = "wait_for_line('waiting'); student.abort()"
+    run = run_student(Student(code, meanwhile, env={"PYTHONFAULTHANDLER": "1"}), kind)
+    assert run.returncode == -signal.SIGABRT
+    assert re.search(r'node\.py", line \d in wait\n', run.stderr)
 
 
 def test_an_interrupt_reaches_its_handler_and_nothing_else(kind: Kind) -> None:

@@ -76,7 +76,7 @@ UNIMPORTABLE = (
 
 
 def in_both(namespaces, code, **options):
-    env = {**ros_environment(), **options.pop("env", {})}
+    env = {**ros_environment(), "PYTHONFAULTHANDLER": "1", **options.pop("env", {})}
     return [run_student(Student(code, warm=warm, env=env, **options), namespaces) for warm in (False, True)]
 
 

@@ -76,7 +76,7 @@ def page(address: str) -> Iterator[Page]:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OFFLINE)
         page = browser.new_page(viewport={"width": 1100, "height": 1000})
         page.set_default_timeout(1000 * TIMEOUT)
-        page.goto(address)
+        page.goto(f"{address}&reset")  # without the tabs of an earlier test
         yield page
         browser.close()
 
@@ -100,6 +100,16 @@ def test_from_the_start_page_to_a_robot_that_walks(page: Page) -> None:
         assert time.monotonic() < deadline, f"the picture has not moved within {TIMEOUT:g} s"
 
 
+def test_the_first_page_shows_what_is_done_and_a_first_step(page: Page) -> None:
+    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
+    page.get_by_text("import lab").click()
+    page.keyboard.press("Shift+Enter")
+    page.get_by_text("Nothing done yet. Your first step").wait_for()
+    assert page.get_by_label("Predictions: 0 of").count() >= 5
+    page.get_by_role("row").get_by_role("link", name="battery_service").click()
+    page.get_by_role("heading", name="Battery service").wait_for()
+
+
 def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, address: str) -> None:
     cells = [
         new_code_cell('import lab\n\nprediction_1 = lab.predict("services", 1)\nprediction_1'),
@@ -107,7 +117,7 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     ]
     kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)"}}
     nbformat.write(new_notebook(cells=cells, metadata=kernel), folder / TOP / "chapters" / "predict.ipynb")
-    page.goto(address.replace("README.md", "predict.ipynb"))
+    page.goto(address.replace("start_here.ipynb", "chapters/predict.ipynb") + "&reset")
     page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
     notebook = page.get_by_label("predict.ipynb")  # others are open, too
     notebook.get_by_text("import lab").click()

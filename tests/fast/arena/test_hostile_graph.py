@@ -119,3 +119,52 @@ def test_what_every_node_offers_and_what_nobody_offers_is_not_listed(log: ArenaL
     wanted = ("/robot/get_status", ["std_srvs/srv/Trigger"])
     assert graph_of(log, get_service_names_and_types=[parameters], count_services=1).offered() == []
     assert graph_of(log, get_service_names_and_types=[wanted], count_services=0).offered() == []
+
+
+def test_the_topics_of_a_students_node_are_told_from_the_robots(log: ArenaLog) -> None:
+    names = (
+        "/robot/odom",
+        "/robot/imu",
+        "/robot/cmd_vel",
+        "/motor_power",
+        "/rosout",
+        "/robot/walk/_action/feedback",
+    )
+    graph = graph_of(
+        log,
+        get_namespace="/robot",
+        get_topic_names_and_types=[(name, ["std_msgs/msg/Empty"]) for name in names],
+        count_publishers=1,
+        count_subscribers=1,
+    )
+    graph.report_topics({"/robot/cmd_vel": 1})
+    found = log.last(ev.NodeTopics)
+    assert found is not None
+    assert found.publishes == ["/robot/cmd_vel", "/motor_power"]
+    assert found.subscribes == ["/robot/odom", "/robot/imu", "/motor_power"]
+
+
+class Server(NamedTuple):
+    """What the graph says of a server."""
+
+    topic_type: str
+
+
+@pytest.mark.parametrize(
+    ("mangled", "told"),
+    [
+        ("std_srvs::srv::dds_::Trigger_Request_", "/robot/get_status [std_srvs/srv/Trigger]"),
+        ("nonsense", "/robot/get_status [std_srvs/srv/SetBool]"),
+    ],
+)
+def test_a_service_is_told_with_the_type_of_its_server_not_of_our_client(
+    log: ArenaLog, mangled: str, told: str
+) -> None:
+    types = ["std_srvs/srv/SetBool", "std_srvs/srv/Trigger"]
+    graph = graph_of(
+        log,
+        get_service_names_and_types=[("/robot/get_status", types)],
+        count_services=1,
+        get_subscriptions_info_by_topic=[Server(mangled)],
+    )
+    assert graph.offered() == [told]

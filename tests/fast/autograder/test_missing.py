@@ -45,10 +45,11 @@ def test_a_question_that_was_never_asked_since_the_node_had_ended():
     with pytest.raises(Missing) as missing:
         transcript(ASKED, ANSWERED, RAISED, EXITED).call("second")
     assert (
-        missing.value.observed == "the request “second” was never sent, because the node had ended at 3.1 s: "
+        missing.value.observed
+        == "the request “second” was never sent, because the node had ended at 3.1 s, with status 1: "
         "RuntimeError: no motors"
     )
-    assert "the log below" in missing.value.help
+    assert "An exception in a callback" in missing.value.help
     assert missing.value.at == 3.1
 
 
@@ -85,7 +86,7 @@ def test_the_reason_is_the_first_thing_that_went_wrong(events, because):
 def test_every_query_for_what_never_happened_is_a_failure_of_the_submission(ask, never):
     with pytest.raises(Missing) as missing:
         ask(transcript(EXITED))
-    assert missing.value.observed == f"{never}, because the node had ended at 3.1 s: exit status 1"
+    assert missing.value.observed == f"{never}, because the node had ended at 3.1 s, with status 1"
 
 
 def test_a_goal_that_nobody_asked_to_cancel_is_a_failure_of_the_submission():

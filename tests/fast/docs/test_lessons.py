@@ -55,3 +55,8 @@ def test_the_next_step_names_the_lesson_of_the_failure_or_of_the_check(own: str,
     help = judge(fails, [Transcript.from_events("any", {}, WHOLE)]).help
     assert help.startswith("Do this. Read chapters/02_services.ipynb, ")
     assert told in help
+
+
+@pytest.mark.parametrize("exercise", exercise_names())
+def test_every_check_points_to_a_lesson(exercise: str) -> None:
+    assert [check.id for check in load_exercise(exercise, hidden=True).checks if not check.see] == []

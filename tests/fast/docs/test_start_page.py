@@ -1,4 +1,4 @@
-"""The page where `course lab` opens leads to everything, and no link between notebooks is broken."""
+"""The pages at which the lab is entered lead to everything, and no link between notebooks is broken."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import nbformat
 import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
+FIRST_PAGE = ROOT / "start_here.ipynb"  # shows progress, when its cell is run
 START_PAGE = ROOT / "chapters/README.md"
 NOTEBOOKS = [
     path
@@ -28,11 +29,15 @@ def linked_from(page: Path) -> set[Path]:
     return {(page.parent / link).resolve() for link in links if not re.match(r"https?:|#", link)}
 
 
+def test_the_first_page_leads_to_the_list_and_to_chapter_1() -> None:
+    assert {START_PAGE, ROOT / "chapters/01_robot_and_graph.ipynb"} <= linked_from(FIRST_PAGE)
+
+
 def test_it_leads_to_every_chapter_and_every_exercise() -> None:
     wanted = {path for path in NOTEBOOKS if not path.is_relative_to(ROOT / "solutions")}
     assert {path.relative_to(ROOT).as_posix() for path in wanted - linked_from(START_PAGE)} == set()
 
 
-@pytest.mark.parametrize("page", [START_PAGE, *NOTEBOOKS], ids=lambda page: page.stem)
+@pytest.mark.parametrize("page", [FIRST_PAGE, START_PAGE, *NOTEBOOKS], ids=lambda page: page.stem)
 def test_its_links_lead_somewhere(page: Path) -> None:
     assert [link for link in linked_from(page) if not link.exists()] == []

@@ -97,3 +97,20 @@ def test_the_gaps_of_a_notebook_are_found_with_their_solutions() -> None:
         new_markdown_cell(FOLDED),
     ]
     assert gaps_of(new_notebook(cells=cells)) == {"double.py": (PROGRAM, "return 2 * x\n")}
+
+
+DEFINITION = "# YOUR CODE HERE: a speed, with its unit (1 line)\n...\n---\nbool success\n"
+
+
+def test_a_definition_has_another_placeholder_and_is_not_compiled(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(gap_module, "read_gaps", lambda chapter: (Gap("Walk.srv", lambda: "a speed"),))
+    with pytest.raises(lab.GapError, match=r"Walk\.srv: nothing is written yet. Replace `\.\.\.` by"):
+        write_and_check("Walk.srv", DEFINITION)
+    lines = solution(
+        "<details><summary>Solution</summary>\n\n```text\nfloat64 speed  # m/s\n```\n\n</details>"
+    )
+    write_and_check("Walk.srv", fill(DEFINITION, lines))
+    assert Path("Walk.srv").read_text() == "float64 speed  # m/s\n---\nbool success\n"
+    assert capsys.readouterr().out == "✓ Walk.srv: a speed\n"

@@ -137,3 +137,41 @@ def test_without_a_usable_home_the_clone_serves_as_one(clone: Path, home: str) -
 
     assert printed.splitlines()[-1] == str(clone / "build/home")
     assert (clone / "build/home").is_dir()
+
+
+def launch_with_rclpy(clone: Path, prefix: Path, version: str) -> subprocess.CompletedProcess[str]:
+    """Run a command of the course where ROS 2 Jazzy is sourced and has this rclpy; the environment is up to date."""
+    (prefix / "lib/python3.12/site-packages/rclpy").mkdir(parents=True)
+    (prefix / "share/rclpy").mkdir(parents=True)
+    (prefix / "share/rclpy/package.xml").write_text(
+        f'<?xml version="1.0"?>\n<package format="2">\n  <name>rclpy</name>\n  <version>{version}</version>\n'
+        "</package>\n"
+    )
+    sourced = {"ROS_DISTRO": "jazzy", "AMENT_PREFIX_PATH": str(prefix)}
+    fingerprint = dry_run(clone, **sourced)[1]
+    (clone / ".venv/course.stamp").write_text(f"{fingerprint}\n{clone}\napt\n")
+    (clone / ".venv/bin/course").write_text("#!/bin/sh\necho it runs\n")
+    return subprocess.run(
+        [clone / "course"], env={**os.environ, **sourced}, capture_output=True, text=True, check=False
+    )
+
+
+@pytest.mark.parametrize("version", ["7.1.8", "7.1.9"])
+def test_an_rclpy_that_loses_results_is_refused(clone: Path, tmp_path: Path, version: str) -> None:
+    launched = launch_with_rclpy(clone, tmp_path / "opt/ros/jazzy", version)
+
+    assert launched.returncode == 1
+    assert "it runs" not in launched.stdout
+    seen, remedy, other = launched.stderr.splitlines()[-3:]
+    assert f"rclpy {version}" in seen
+    assert "empty" in seen
+    assert "sudo apt upgrade ros-jazzy-rclpy" in remedy
+    assert "not sourced" in other
+
+
+@pytest.mark.parametrize("version", ["7.1.7", "7.1.10", "7.1.80"])
+def test_every_other_rclpy_of_apt_is_used(clone: Path, tmp_path: Path, version: str) -> None:
+    launched = launch_with_rclpy(clone, tmp_path / "opt/ros/jazzy", version)
+
+    assert launched.stdout.splitlines()[-1] == "it runs"
+    assert launched.returncode == 0

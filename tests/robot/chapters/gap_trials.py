@@ -30,15 +30,19 @@ class GapTrials:
                     written.write_text(program)
         self._kernel = Kernel(folder)
 
-    def run(self, code: str) -> str:
+    def run(self, code: str, timeout: float = 90.0) -> str:
         """Run a cell that a gap needs before it, such as `lab.start_robot()`; return what it printed."""
-        return self._kernel.run(code)
+        return self._kernel.run(code, timeout)
 
     def reply(self, file: str, lines: str) -> str:
         """What a student reads who writes these lines into the gap; the test fails when they are accepted."""
         with pytest.raises(CellError) as raised:
             self._kernel.run(f"%%gap {file}\n{fill(self._programs[file], lines + chr(10))}")
         return str(raised.value)
+
+    def accept(self, file: str, lines: str) -> str:
+        """What a student reads whose lines are accepted; the test fails when they are not."""
+        return self._kernel.run(f"%%gap {file}\n{fill(self._programs[file], lines + chr(10))}")
 
     def end(self) -> None:
         """End the kernel and what runs in it."""

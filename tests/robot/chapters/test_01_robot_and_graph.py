@@ -7,11 +7,14 @@ from collections.abc import Callable
 
 import pytest
 from execution import Executed, in_order
+from gap_trials import GapTrials
+
+CHAPTER = "01_robot_and_graph"
 
 
 @pytest.fixture
 def chapter(executed: Callable[[str], Executed]) -> Executed:
-    return executed("01_robot_and_graph")
+    return executed(CHAPTER)
 
 
 def number(text: str, pattern: str) -> float:
@@ -25,6 +28,34 @@ def test_the_first_command_walks_ten_steps(chapter: Executed) -> None:
     assert number(chapter.text("first-walk"), r"x (-?[\d.]+) m") > 0.3
 
 
+def test_ros2_lists_the_robot_and_the_notebook(chapter: Executed) -> None:
+    assert chapter.text("ros2-nodes").split() == ["/robot/humanoid", "/robot/notebook"]
+    topics = chapter.text("ros2-topics").splitlines()
+    assert "/robot/cmd_vel [geometry_msgs/msg/Twist]" in topics
+    assert "/robot/odom [nav_msgs/msg/Odometry]" in topics
+
+
+def test_ros2_shows_a_type_and_both_ends_of_its_topic(chapter: Executed) -> None:
+    assert in_order(
+        chapter.text("ros2-interface"),
+        *("linear", "float64 x", "angular", "Type: geometry_msgs/msg/Twist"),
+        *("Publisher count: 1", "Node name: notebook", "QoS profile"),
+        *("Subscription count: 1", "Node name: humanoid"),
+    )
+
+
+def test_ros2_reads_a_message_and_measures_its_rate(chapter: Executed) -> None:
+    assert in_order(chapter.text("ros2-echo"), "position:", "x: ", "orientation:", "w: ")
+    assert number(chapter.text("ros2-hz"), r"average rate: ([\d.]+)") == pytest.approx(20, abs=4)
+
+
+def test_one_message_from_ros2_moves_the_robot_a_step(chapter: Executed) -> None:
+    printed = chapter.text("ros2-pub")
+    assert "publishing #1: geometry_msgs.msg.Twist(linear=geometry_msgs.msg.Vector3(x=0.3" in printed
+    before, after = (number(printed, rf"{when}: +x (-?[\d.]+) m") for when in ("before", "after"))
+    assert 0.02 < after - before < 0.35
+
+
 def test_the_graph_has_the_robot_and_the_notebook(chapter: Executed) -> None:
     assert chapter.text("graph") == "['/robot/humanoid', '/robot/notebook']\n"
     drawn = chapter.html("graph")
@@ -32,35 +63,41 @@ def test_the_graph_has_the_robot_and_the_notebook(chapter: Executed) -> None:
     assert "/robot/cmd_vel: from /robot/notebook to /robot/humanoid." in drawn
 
 
-def test_the_types_have_their_fields(chapter: Executed) -> None:
-    assert in_order(
-        chapter.text("types"), "Twist", "geometry_msgs/Vector3", "Vector3", "x ", "double", "Odometry"
-    )
-
-
-def test_the_first_node_hears_where_the_robot_walks(chapter: Executed) -> None:
+def test_the_first_node_prints_where_the_robot_walks(chapter: Executed) -> None:
     walked = [float(x) for x in re.findall(r"^x (-?[\d.]+) m", chapter.text("listen-run"), re.MULTILINE)]
     assert len(walked) >= 3
     assert walked == sorted(walked)
     assert walked[-1] > walked[0] + 0.3, chapter.text("listen-run")
-    assert "/robot/odom: from /robot/humanoid to /robot/listen, /robot/notebook." in chapter.html(
+    assert "/robot/odom: from /robot/humanoid to /robot/first_node, /robot/notebook." in chapter.html(
         "listen-run"
     )
 
 
-def test_a_reliable_subscriber_hears_no_sensor_and_the_log_says_so(chapter: Executed) -> None:
-    printed = chapter.text("senses-run")
+def test_a_reliable_subscription_gets_no_best_effort_sensor_and_the_log_says_so(chapter: Executed) -> None:
+    printed = chapter.text("qos-run")
     for topic in ("imu", "joint_states"):
         assert re.search(f"topic '{topic}', offering incompatible QoS", printed)
-    assert "heard: battery_state, odom, robot_state\n" in printed
-    assert in_order(printed, "/robot/imu", "to   /robot/senses: reliable", "which offers only best effort")
-    assert "/robot/imu: from /robot/humanoid to /robot/senses (which hears nothing)." in chapter.html(
-        "senses-run"
+    assert "received: battery_state, odom, robot_state\n" in printed
+    assert "/robot/imu: from /robot/humanoid to /robot/monitor (which receives nothing)." in chapter.html(
+        "qos-run"
     )
 
 
-def test_a_subscriber_that_asks_for_less_hears_all_five(chapter: Executed) -> None:
-    assert chapter.text("senses-fix-run") == "heard: battery_state, imu, joint_states, odom, robot_state\n\n"
+def test_ros2_shows_what_is_offered_and_what_is_requested(chapter: Executed) -> None:
+    assert in_order(
+        chapter.text("qos-info"),
+        *("Node name: humanoid", "PUBLISHER", "BEST_EFFORT"),
+        *("Node name: monitor", "SUBSCRIPTION", "RELIABLE"),
+    )
+
+
+def test_the_solutions_of_the_gaps_are_accepted(chapter: Executed) -> None:
+    assert (
+        chapter.text("qos-fix-file")
+        == "✓ monitor_fixed.py: messages arrived on battery_state, imu, joint_states, odom, robot_state\n"
+    )
+    assert "✓ robot_mode.py: paused, and it knows at once: 'mode 1, motors on" in chapter.text("mode-file")
+    assert 0.9 < number(chapter.text("metre-file"), r"walked ([\d.]+) m") < 1.5
 
 
 def test_the_left_arm_is_raised_and_read_by_name(chapter: Executed) -> None:
@@ -68,11 +105,11 @@ def test_the_left_arm_is_raised_and_read_by_name(chapter: Executed) -> None:
     assert float(pitches[0]) > 0 > -2 > float(pitches[-1])
 
 
-def test_only_the_transient_local_subscription_hears_what_was_said_before(chapter: Executed) -> None:
-    still, _, on = chapter.text("late-run").partition("the world goes on")
-    assert in_order(still, "the world stands still", "transient local: 0.9")
-    assert "plain:" not in still
-    assert "plain:           0.9" in on
+def test_only_the_transient_local_subscription_gets_what_was_published_before(chapter: Executed) -> None:
+    paused, _, running = chapter.text("late-run").partition("running again:")
+    assert in_order(paused, "paused:", "transient local: 0.9")
+    assert "plain:" not in paused
+    assert "plain:           0.9" in running
 
 
 def test_the_robot_stops_by_itself_when_its_commander_is_killed(chapter: Executed) -> None:
@@ -96,6 +133,8 @@ def test_without_torque_the_walking_robot_falls(chapter: Executed) -> None:
     printed = chapter.text("fall")
     assert 0.2 < number(printed, r"after ([\d.]+) s") < 2.0
     assert "FALLEN | motors enabled: False" in printed
+    assert "a stone" in chapter.html("fall-plot")
+    assert "image/webp" in chapter.html("fall-film")
 
 
 def test_forward_is_where_the_robot_looks(chapter: Executed) -> None:
@@ -113,8 +152,14 @@ def test_a_quaternion_in_the_wrong_order_lays_the_robot_down(chapter: Executed) 
 
 
 def test_a_slash_in_front_makes_another_topic(chapter: Executed) -> None:
-    assert "odom: 20 | /odom: 0" in chapter.text("names-run")
+    assert in_order(
+        chapter.text("names-run"), "odom: 20 | /odom: 0", "Publisher count: 0", "Subscription count: 1"
+    )
     assert "/odom: from nobody to /robot/slash." in chapter.html("names-run")
+
+
+def test_the_pattern_questions_begin_with_the_cancel(chapter: Executed) -> None:
+    assert "Question 1. Cancel: " in str(chapter.notebook.metadata.widgets)
 
 
 def test_an_int_in_a_float_field_moves_nothing_or_is_refused(chapter: Executed) -> None:
@@ -123,3 +168,108 @@ def test_an_int_in_a_float_field_moves_nothing_or_is_refused(chapter: Executed) 
     assert walked_nothing or "exit status -6" in unchecked  # rclpy compiled with assertions ends the process
     assert "AssertionError: The 'x' field must be of type 'float'" in checked
     assert number(fixed, r"walked ([\d.]+) m") > 0.1
+
+
+@pytest.fixture(scope="module")
+def robot_and_gaps(gaps: GapTrials) -> GapTrials:
+    gaps.run("lab.start_robot()")
+    return gaps
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ("return 10", "On /robot/imu you request reliable, and the publisher offers best effort"),
+        (
+            "if topic == 'imu':\n    return qos_profile_sensor_data\nreturn 10",
+            "nothing arrived on joint_states.",
+        ),
+        ("qos_profile_sensor_data", "end each path of qos with `return` and a profile"),
+        (
+            "return QoSProfile(reliability=ReliabilityPolicy.BEST_EFFORT)",
+            "give the profile a depth: QoSProfile(depth=10",
+        ),
+    ],
+)
+def test_the_gap_of_qos_profiles_says_what_is_wrong(robot_and_gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in robot_and_gaps.reply("monitor_fixed.py", lines)
+
+
+LATCHED = "qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)\n"
+BEST_EFFORT = (
+    "from rclpy.qos import ReliabilityPolicy\n"
+    "qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL,"
+    " reliability=ReliabilityPolicy.BEST_EFFORT)\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (
+            "self.create_subscription(RobotState, 'robot_state', self.on_state, 10)",
+            "your subscription requests reliable\n",
+        ),
+        (
+            BEST_EFFORT + "self.create_subscription(RobotState, 'robot_state', self.on_state, qos)",
+            "leave the reliability at its default",
+        ),
+        (
+            LATCHED + "self.create_subscription(RobotState, '/robot_state', self.on_state, qos)",
+            "it subscribes to /robot_state",
+        ),
+        (
+            LATCHED + "self.create_subscription(RobotState, 'robot_state', self.on_state(), qos)",
+            "pass the callback itself: self.on_state",
+        ),
+        (
+            LATCHED + "self.create_subscription(RobotState, 'robot_state', print, qos)",
+            "give self.on_state as the callback",
+        ),
+        (LATCHED, "the node has no subscription"),
+    ],
+)
+def test_the_gap_of_the_latched_topic_says_what_is_wrong(
+    robot_and_gaps: GapTrials, lines: str, said: str
+) -> None:
+    assert said in robot_and_gaps.reply("robot_mode.py", lines)
+
+
+WAIT = "if self.start is None:\n    return\n"
+AHEAD = "command = Twist()\ncommand.linear.x = 0.3\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (
+            AHEAD + "if math.dist(self.start, self.here) < 1.0:\n    self.cmd_vel.publish(command)",
+            "return from on_timer as long as self.start is None",
+        ),
+        (WAIT + AHEAD + "self.cmd_vel.publish(command)", "the robot still walks"),
+        (WAIT + AHEAD, "m ahead of its start"),
+        (WAIT + AHEAD.replace("0.3", "-0.2") + "self.cmd_vel.publish(command)", "m ahead of its start"),
+        (
+            WAIT + AHEAD + "if math.dist(self.start, self.here) < 0.02:\n    self.cmd_vel.publish(command)",
+            "publish in every call of on_timer",
+        ),
+        (WAIT + AHEAD.replace("0.3", "1") + "self.cmd_vel.publish(command)", "a float64 field needs a float"),
+    ],
+)
+def test_the_gap_of_the_metre_says_what_is_wrong(robot_and_gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in robot_and_gaps.reply("one_metre.py", lines)
+
+
+@pytest.mark.parametrize(
+    ("file", "lines"),
+    [
+        ("monitor_fixed.py", "return qos_profile_sensor_data"),
+        (
+            "one_metre.py",
+            "if self.start and math.dist(self.start, self.here) < 1:\n"
+            "    self.cmd_vel.publish(Twist(linear=Twist().linear.__class__(x=0.3)))",
+        ),
+    ],
+)
+def test_other_sound_lines_are_accepted(robot_and_gaps: GapTrials, file: str, lines: str) -> None:
+    assert "✓" in robot_and_gaps.accept(file, lines)

@@ -5,13 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+import nbformat
 import pytest
-from execution import Executed, in_order
+from execution import CHAPTERS, Executed, in_order
+from gap_trials import GapTrials
+
+CHAPTER = "07_cancel_and_preempt"
 
 
 @pytest.fixture
 def chapter(executed: Callable[[str], Executed]) -> Executed:
-    return executed("07_cancel_and_preempt")
+    return executed(CHAPTER)
 
 
 def test_without_a_cancel_callback_the_cancel_is_refused(chapter: Executed) -> None:
@@ -20,15 +24,17 @@ def test_without_a_cancel_callback_the_cancel_is_refused(chapter: Executed) -> N
 
 
 def test_an_action_is_three_services_and_two_topics(chapter: Executed) -> None:
-    listed = re.findall(
-        r"^(service|topic) +/robot/turn_to/_action/(\w+) ", chapter.text("endpoints"), re.MULTILINE
+    printed = chapter.text("endpoints")
+    assert in_order(
+        printed, "/robot/turn_to [humanoid_interfaces/action/WalkTo]", "Action servers: 1", "/robot/turner"
     )
+    listed = re.findall(r"^/robot/turn_to/_action/(\w+) \[\w+/(\w+)/", printed, re.MULTILINE)
     services = {"cancel_goal", "get_result", "send_goal"}
-    assert {name for kind, name in listed if kind == "service"} == services
-    assert {name for kind, name in listed if kind == "topic"} == {"feedback", "status"}
+    assert {name for name, kind in listed if kind in ("srv", "action")} >= services
+    assert {name for name, _ in listed} == services | {"feedback", "status"}
 
 
-def test_on_one_thread_the_server_is_deaf_and_blind(chapter: Executed) -> None:
+def test_on_one_thread_the_server_receives_neither_cancel_nor_odom(chapter: Executed) -> None:
     printed = chapter.text("m2-run")
     assert in_order(printed, "not accepted, return_code 3", "ABORTED (error_code 3")
     turned = re.search(r"turned by (\d+)° instead of 40°", printed)
@@ -44,6 +50,13 @@ def test_the_fixed_server_is_canceled_only_when_the_robot_stands(chapter: Execut
     assert in_order(drawn, "cancel_goal", "cancel accepted", "robot: STANDING", "status: CANCELED")
 
 
+def test_a_cancel_is_drawn_with_what_the_robot_did(chapter: Executed) -> None:
+    took = re.search(r"CANCELED: ([\d.]+) s", chapter.text("fix-plot"))
+    assert took
+    assert 0.0 < float(took[1]) < 5.0
+    assert "A cancel, and what the robot does" in chapter.html("fix-plot")
+
+
 def test_a_late_cancel_changes_nothing(chapter: Executed) -> None:
     assert in_order(chapter.text("late-run"), "not accepted, return_code 3", "status: CANCELED")
 
@@ -51,18 +64,28 @@ def test_a_late_cancel_changes_nothing(chapter: Executed) -> None:
 def test_ending_the_goal_in_the_cancel_callback_ends_the_node(chapter: Executed) -> None:
     printed = chapter.text("m12-run")
     assert in_order(
-        printed, "never answered", "<eager_turn.py: ended with exit status 1>", "invalid transition"
+        printed,
+        "never answered the cancel",
+        "<eager_turn.py: ended with exit status 1>",
+        "invalid transition",
     )
     assert "robot: STANDING" in chapter.text("m12-robot")
 
 
 def test_a_result_after_the_terminal_call_is_lost(chapter: Executed) -> None:
-    assert in_order(chapter.text("m13-run"), "status: SUCCEEDED", "frame of final_pose: ''", "total_steps: 0")
+    printed = chapter.text("m13-run")
+    assert re.search(
+        r"^20°: SUCCEEDED, frame of final_pose: 'odom', total_steps: [1-9]", printed, re.MULTILINE
+    )
+    assert " 0°: SUCCEEDED, frame of final_pose: '', total_steps: 0" in printed
+    assert "ZeroDivisionError" in printed
+    assert "✓ careful_turn.py: 0° ended ABORTED" in chapter.text("m13-fix-file")
 
 
 def test_two_goals_run_at_once_until_one_preempts_the_other(chapter: Executed) -> None:
     both = chapter.text("two-run")
-    assert in_order(both, "left:  EXECUTING", "right: EXECUTING", "ends:   CANCELED CANCELED")
+    assert in_order(both, "left:  EXECUTING", "right: EXECUTING", "0.4", "ends:   CANCELED CANCELED")
+    assert re.search(r"^cmd_vel:(?=.* 0\.4)(?=.* -0\.4)", both, re.MULTILINE)
     assert in_order(
         chapter.text("preempt-run"), "left:  ABORTED (error_code 2", "right: SUCCEEDED (error_code 0"
     )
@@ -76,3 +99,145 @@ def test_a_fall_aborts_with_its_own_code(chapter: Executed) -> None:
 
 def test_the_button_cancels(chapter: Executed) -> None:
     assert chapter.text("button-code") == "end: CANCELED | robot: STANDING\n"
+
+
+def test_a_goal_from_the_command_line_is_turned_to_and_one_request_cancels_every_goal(
+    chapter: Executed,
+) -> None:
+    printed = chapter.text("cli")
+    assert in_order(printed, "Goal accepted", "distance_remaining: .nan", "total_steps: ", "SUCCEEDED")
+    assert re.search(r"steps_taken: [1-9]", printed)
+    printed = chapter.text("cancel-all")
+    assert in_order(printed, "return_code=0, goals_canceling=[action_msgs", "end: CANCELED | robot: STANDING")
+
+
+def test_feedback_of_a_turn_is_filled_five_times_a_second(gaps: GapTrials) -> None:
+    gaps.run("import lab, math, time\nfrom humanoid_interfaces.action import WalkTo\nlab.start_robot()")
+    gaps.run(_cell("goal"))
+    gaps.run("server = start('cancellable_turn.py')\ngoal = lab.send_goal('turn_to', WalkTo, turn_by(90))")
+    printed = gaps.run(
+        "outcome = goal.result(show_feedback=False)\n"
+        "last = goal.feedback[-1]\n"
+        "left = [each.estimated_time_remaining.sec for each in goal.feedback]\n"
+        "print(last.steps_taken > 3, math.isnan(last.distance_remaining), left[0] > 2, left[-1], len(goal.feedback))"
+    )
+    steps, has_no_distance, begins, ends, count = printed.split()
+    assert (steps, has_no_distance, begins, ends) == ("True", "True", "True", "0")
+    assert 12 <= int(count) <= 35  # in 4 to 6 s
+
+
+def test_a_goal_is_rejected_until_the_server_has_data(gaps: GapTrials) -> None:
+    gaps.run(
+        "lab.stop_nodes()\nwhere = turn_by(20)\nlab.stop_robot()\nserver = lab.run_node('cancellable_turn.py')"
+    )
+    assert gaps.run("print(lab.send_goal('turn_to', WalkTo, where).accepted)") == "False\n"
+    assert gaps.run("print(server)") == "<cancellable_turn.py: running>\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (
+            "result = self.result(first_step)\ngoal_handle.canceled()\nreturn result",
+            "CANCELED while the robot was in mid-step",
+        ),
+        ("self.stand_still()\nreturn self.result(first_step)", "status ABORTED; its log says: "),
+        ("self.stand_still()\ngoal_handle.canceled()", "end the branch with `return result`"),
+        (
+            "self.stand_still()\ngoal_handle.canceled()\nreturn WalkTo.Result()",
+            "result = self.result(first_step)",
+        ),
+        (
+            "goal_handle.canceled()\nself.stand_still()\nreturn self.result(first_step)",
+            "CANCELED while the robot was in mid-step",
+        ),
+        (
+            "self.stand_still()\nresult = self.result(first_step)\ngoal_handle.succeed()\nreturn result",
+            "status SUCCEEDED",
+        ),
+        (
+            "self.stand_still()\nresult = self.result(first_step)\nreturn goal_handle.cancel()",
+            "AttributeError",
+        ),
+        ("self.stand_still()\ngoal_handle.canceled()\nreturn", "end the path with `return result`"),
+        ("pass", "call goal_handle.canceled()"),
+    ],
+)
+def test_the_gap_of_the_cancelled_branch_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("cancellable_turn.py", lines)
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (
+            "self.stand_still()\ngoal_handle.succeed()\nreturn self.result_with_log(first_step)",
+            "0°: SUCCEEDED with an empty result",
+        ),
+        (
+            "self.stand_still()\nresult = self.result(first_step)\ngoal_handle.succeed()\nreturn result",
+            "fill the result with self.result_with_log(first_step)",
+        ),
+        (
+            "self.stand_still()\nresult = self.result_with_log(first_step)\ngoal_handle.abort()\nreturn result",
+            "20°: ABORTED",
+        ),
+        ("self.stand_still()\nreturn self.result_with_log(first_step)", "20°: ABORTED"),
+        (
+            "result = self.result_with_log(first_step)\ngoal_handle.succeed()\nreturn result",
+            "call self.stand_still()",
+        ),
+        ("self.stand_still()\nself.result_with_log(first_step)\ngoal_handle.succeed()", "`return result`"),
+    ],
+)
+def test_the_gap_of_the_order_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("careful_turn.py", lines)
+
+
+BRANCH = "if {}:\n    result = self.result(first_step{})\n    {}\n    return result"
+CODE = ", WalkTo.Result.PREEMPTED, 'newer'"
+NEWER = "self.newest is not goal_handle"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (
+            BRANCH.format("self.newest is goal_handle", CODE, "goal_handle.abort()"),
+            "the only goal ended ABORTED",
+        ),
+        (BRANCH.format(NEWER, "", "goal_handle.abort()"), "ABORTED with error_code 0"),
+        (BRANCH.format(NEWER, CODE, "goal_handle.canceled()"), "canceled() raises"),
+        (BRANCH.format(NEWER, ", WalkTo.Result.PREEMPTED", "goal_handle.abort()"), "an empty error_msg"),
+        (BRANCH.format(NEWER, CODE, "goal_handle.succeed()"), "the older goal ended SUCCEEDED"),
+        (BRANCH.format(NEWER, CODE, "pass"), "call goal_handle.abort() before you return"),
+        (BRANCH.format("goal_handle.is_cancel_requested", CODE, "goal_handle.abort()"), "still EXECUTING"),
+        ("if self.newest is not goal_handle:\n    goal_handle.abort()", "ABORTED with error_code 0"),
+    ],
+)
+def test_the_gap_of_preemption_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("preemptable_turn.py", lines)
+
+
+@pytest.mark.parametrize(
+    ("file", "lines"),
+    [
+        (
+            "preemptable_turn.py",
+            "if self.newest != goal_handle:\n    self.stand_still()\n    goal_handle.abort()\n"
+            "    return self.result(first_step, error_code=WalkTo.Result.PREEMPTED, error_msg='newer')",
+        ),
+        (
+            "cancellable_turn.py",
+            "while self.state.mode == 2:\n    self.stand_still()\nmade = WalkTo.Result(final_pose=self.pose)\n"
+            "made.total_steps = self.state.steps - first_step\ngoal_handle.canceled()\nreturn made",
+        ),
+    ],
+)
+def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+    assert f"✓ {file}" in gaps.accept(file, lines)
+
+
+def _cell(cell_id: str) -> str:
+    notebook = nbformat.read(CHAPTERS / f"{CHAPTER}.ipynb", as_version=4)
+    return next(cell.source for cell in notebook.cells if cell.id == cell_id)

@@ -59,8 +59,23 @@ def test_a_wrong_definition_is_named_with_its_line(kernel: Kernel) -> None:
         CellError, match=r"bad_interfaces was not built\.\nmsg/Level\.msg, line 2: float level\n"
     ):
         kernel.run("lab.build_interfaces('bad_interfaces')")
+    with pytest.raises(
+        CellError, match=r"bad_interfaces was not written\.\nmsg/Level\.msg, line 2: float level\n"
+    ):
+        kernel.run("lab.export_package('bad_interfaces', 'ros2_ws')")
 
 
 def test_a_missing_folder_is_named(kernel: Kernel) -> None:
     with pytest.raises(CellError, match=r"no folder gone_interfaces .* run the cells that write its files"):
         kernel.run("lab.build_interfaces('gone_interfaces')")
+
+
+def test_an_import_before_the_build_does_not_spoil_the_one_after_it(kernel: Kernel) -> None:
+    kernel.run(
+        "from pathlib import Path\nPath('early_interfaces/msg').mkdir(parents=True)\n"
+        "Path('early_interfaces/msg/Level.msg').write_text('float32 percentage')"
+    )
+    with pytest.raises(CellError, match="cannot import name 'Level'"):
+        kernel.run("from early_interfaces.msg import Level")
+    kernel.run("lab.build_interfaces('early_interfaces')", 600)
+    assert kernel.run("from early_interfaces.msg import Level\nprint(Level())").startswith("early_interfaces")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from kernels import CellError, Kernel
 
-LISTENERS = """
+SUBSCRIBES = """
 from sensor_msgs.msg import Imu
 from rclpy.qos import qos_profile_sensor_data
 asks_too_much = lab.node().create_subscription(Imu, "imu", print, 10)
@@ -15,7 +15,7 @@ asks_too_much = lab.node().create_subscription(Imu, "imu", print, 10)
 @pytest.fixture(scope="module")
 def robot(kernel: Kernel) -> Kernel:
     kernel.run("lab.start_robot()")
-    kernel.run(LISTENERS)
+    kernel.run(SUBSCRIBES)
     kernel.run(
         "lab.wait_until(lambda: '/robot/imu' in [topic.name for topic in lab.graph.topics_in_graph()])"
     )
@@ -26,7 +26,7 @@ def test_the_nodes_have_their_full_names(robot: Kernel) -> None:
     assert robot.run("print(lab.nodes_in_graph())") == "['/robot/humanoid', '/robot/notebook']\n"
 
 
-def test_a_topic_is_listed_with_its_ends_and_their_terms(robot: Kernel) -> None:
+def test_a_topic_is_listed_with_its_ends_and_their_qos(robot: Kernel) -> None:
     assert robot.run("lab.list_graph('robot_state')").splitlines() == [
         "/robot/robot_state  humanoid_interfaces/msg/RobotState",
         "    from /robot/humanoid: reliable, transient local",
@@ -34,12 +34,12 @@ def test_a_topic_is_listed_with_its_ends_and_their_terms(robot: Kernel) -> None:
     ]
 
 
-def test_a_listener_that_asks_for_too_much_is_told_so(robot: Kernel) -> None:
+def test_a_subscription_that_requests_too_much_is_told_so(robot: Kernel) -> None:
     assert robot.run("lab.list_graph('imu')").splitlines() == [
         "/robot/imu  sensor_msgs/msg/Imu",
         "    from /robot/humanoid: best effort",
         "    to   /robot/notebook: reliable",
-        "         hears nothing from /robot/humanoid, which offers only best effort",
+        "         receives nothing from /robot/humanoid, which offers only best effort",
     ]
 
 
@@ -50,10 +50,10 @@ def test_all_topics_are_listed_but_those_of_every_node(robot: Kernel) -> None:
     assert "/rosout" not in listed
 
 
-def test_the_drawing_says_in_words_who_hears_whom(robot: Kernel) -> None:
+def test_the_drawing_says_in_words_who_receives_what(robot: Kernel) -> None:
     svg = robot.run("print(lab.draw_graph('imu', 'odom', 'cmd_vel', title='A & B').data)")
     assert "<title>A &amp; B</title>" in svg
-    assert "/robot/imu: from /robot/humanoid to /robot/notebook (which hears nothing)." in svg
+    assert "/robot/imu: from /robot/humanoid to /robot/notebook (which receives nothing)." in svg
     assert "/robot/odom: from /robot/humanoid to /robot/notebook." in svg
     assert "/robot/cmd_vel: from nobody to /robot/humanoid." in svg
     assert svg.count('stroke="#c0392b"') == 1

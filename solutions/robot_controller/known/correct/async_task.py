@@ -1,4 +1,4 @@
-"""Style: a coroutine of the executor; each answer races with a timer that stands for the time limit."""
+"""Style: a coroutine of the executor; each answer races with a timer, and the whole coroutine with another."""
 
 import sys
 
@@ -70,7 +70,10 @@ def main(args=None):
     executor.add_node(node)
     try:
         task = executor.create_task(Controller(node).run)
-        executor.spin_until_future_complete(task)
+        executor.spin_until_future_complete(task, timeout_sec=10.0)
+        if not task.done():
+            print("not done within 10 s", file=sys.stderr)
+            return 1
         return task.result()
     finally:
         node.destroy_node()

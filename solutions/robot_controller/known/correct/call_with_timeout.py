@@ -2,6 +2,7 @@
 
 import sys
 import threading
+import time
 from contextlib import suppress
 
 import rclpy
@@ -9,11 +10,15 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from std_srvs.srv import SetBool, Trigger
 
 
-def ask(client, request):
-    if not client.wait_for_service(timeout_sec=2.0):
+def left_until(end):
+    return max(0.0, min(2.0, end - time.monotonic()))
+
+
+def ask(client, request, end):
+    if not client.wait_for_service(timeout_sec=left_until(end)):
         return None
     for _ in range(2):
-        answer = client.call(request, timeout_sec=2.0)  # None when the time is over
+        answer = client.call(request, timeout_sec=left_until(end))  # None when the time is over
         if answer is not None:
             return answer
     return None
@@ -25,6 +30,7 @@ def spin(executor):
 
 
 def main(args=None):
+    end = time.monotonic() + 9.5  # leaves half a second for shutting down
     rclpy.init(args=args)
     node = rclpy.create_node("robot_controller")
     executor = SingleThreadedExecutor()
@@ -32,11 +38,11 @@ def main(args=None):
     spinning = threading.Thread(target=spin, args=(executor,))
     spinning.start()
     try:
-        on = ask(node.create_client(SetBool, "enable_motors"), SetBool.Request(data=True))
+        on = ask(node.create_client(SetBool, "enable_motors"), SetBool.Request(data=True), end)
         if on is None or not on.success:
             node.get_logger().error("the motors cannot be switched on")
             return 1
-        status = ask(node.create_client(Trigger, "get_status"), Trigger.Request())
+        status = ask(node.create_client(Trigger, "get_status"), Trigger.Request(), end)
         if status is None:
             node.get_logger().error("the robot does not tell its status")
             return 1

@@ -38,7 +38,7 @@ def main(args=None):
             return 1
         if not answer.success:
             print(f"enable_motors refused: {answer.message}", file=sys.stderr)
-            return 3
+            return 1
         answer = call(node, status, Trigger.Request(), deadline)
         if answer is None:
             print("no answer from get_status", file=sys.stderr)

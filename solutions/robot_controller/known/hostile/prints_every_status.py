@@ -12,7 +12,7 @@ from std_srvs.srv import SetBool, Trigger
 
 PER_CALL = 2.0  # s
 ATTEMPTS = 2
-NO_ANSWER, REFUSED = 1, 2
+NO_ANSWER, REFUSED = 1, 1
 
 
 class NoAnswer(Exception):

@@ -1,0 +1,184 @@
+"""Why a student's program ended by itself, and the one thing to do about it: by its status and its last words."""
+
+from __future__ import annotations
+
+import re
+import signal
+from dataclasses import dataclass
+
+from autograder.authoring import events as ev
+from autograder.authoring.record import Record
+
+GROWS = "Look for a list that grows with every message, request or round of a loop: keep only the last."
+LEAKS = "03_clients_that_survive#leak-why"
+SERVES_ONE_REQUEST = "02_services#first-intro"
+WRONG_TYPE = "02_services#fields-why"
+CRASHES = "02_services#m9-why"
+OWN_FILE = re.compile(r"/work(?:-[^/]+)?/(\w+\.py)$")  # the folder in which a student's program runs
+_CRASHED = (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS)
+
+
+@dataclass(frozen=True)
+class Remedy:
+    """What to do, and the lesson that shows it; the default is the check's."""
+
+    help: str
+    see: str = ""
+
+
+# What the student's traceback says, from the most particular sign to the most general one.
+_SIGNS: tuple[tuple[str, Remedy], ...] = (
+    (
+        r"in send_response\n(?s:.*)^TypeError$",
+        Remedy(
+            "Your service callback{of} returned nothing, or something else than the response. Its last line must be "
+            "`return response`, in every branch.",
+            "02_services#first-intro",
+        ),
+    ),
+    (
+        r"^AssertionError: The 'result' field must be a sub message",
+        Remedy(
+            "Your execute callback returned nothing, or something else than a Result. Its last line must be "
+            "`return result`, in every branch.",
+            "07_cancel_and_preempt#m13-why",
+        ),
+    ),
+    (
+        r"invalid transition from state EXECUTING with event CANCELED",
+        Remedy(
+            "goal_handle.canceled() was called while the goal was EXECUTING. A cancel_callback only returns "
+            "CancelResponse.ACCEPT; execute calls canceled() when it sees is_cancel_requested.",
+            "07_cancel_and_preempt#m12-why",
+        ),
+    ),
+    (
+        r"^AssertionError: The '\w+' field must be a set or sequence",
+        Remedy("That field is a list: give it a list with values of its type, such as [1.0].", WRONG_TYPE),
+    ),
+    (
+        r"^AssertionError: The '\w+' field must be",
+        Remedy(
+            "A field got a value of the wrong type: give it the type that the interface names, such as 1.0 for a "
+            "float and True for a bool.",
+            WRONG_TYPE,
+        ),
+    ),
+    (
+        r"^AttributeError: '\w+_(Request|Response|Goal|Result|Feedback)' object has no attribute",
+        Remedy("The interface has no field of that name: compare it with `ros2 interface show`.", CRASHES),
+    ),
+    (
+        r"^AttributeError: module 'rclpy' has no attribute",
+        Remedy(
+            "`import rclpy` does not import its parts: import what you use, as in `from rclpy.node import Node`.",
+            "02_services#first-file",
+        ),
+    ),
+    (
+        r"'NoneType' object has no attribute|'NoneType' object is not",
+        Remedy(
+            "A variable is still None, because no message has arrived yet: test `is None` before you use it.",
+            CRASHES,
+        ),
+    ),
+    (
+        r"^RuntimeError: no running event loop",
+        Remedy(
+            "rclpy's executor is no asyncio event loop, so asyncio.sleep() fails in a callback. Await a future of "
+            "rclpy, or do not wait.",
+            "02_services#m4-why",
+        ),
+    ),
+    (
+        r"No space left on device|File too large",
+        Remedy("It wrote too much to disk: do not write files in a callback or in a loop."),
+    ),
+    (
+        r"can't start new thread|Resource temporarily unavailable",
+        Remedy("It started too many threads or processes: start none in a callback or in a loop."),
+    ),
+    (
+        r"^OSError: .*Too many open files",
+        Remedy("It opened too many files or nodes: make each once, and close it when you are done."),
+    ),
+    (
+        r"^(MemoryError|std::bad_alloc)|Cannot allocate memory",
+        Remedy(f"It used too much memory. {GROWS}", LEAKS),
+    ),
+    (
+        r"^(ImportError|ModuleNotFoundError|IndentationError|SyntaxError|TabError)\b",
+        Remedy("Python could not load the file: mend the line that the log names, and run its cell again."),
+    ),
+)
+
+
+def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
+    """Return what to do about a program that ended by itself, or by an exception."""
+    traceback = _last_traceback(run)
+    for sign, remedy in _SIGNS:
+        if exited.returncode and re.search(sign, traceback, re.MULTILINE):
+            return _with_place(remedy, run)
+    if -exited.returncode in _CRASHED:
+        return Remedy(
+            f"{signal.Signals(-exited.returncode).name} ended the program, a crash below Python: use no node "
+            "or publisher after destroy_node(), and none of them in two threads at once."
+        )
+    if exited.returncode and run.first(ev.NodeReady) is None:
+        return _with_place(Remedy("The exception came before your node could serve."), run)
+    if exited.returncode:
+        return _with_place(
+            Remedy("An exception in a callback ends rclpy.spin(), and with it the node.", CRASHES), run
+        )
+    if _is_a_server(run):
+        return Remedy(
+            "Use rclpy.spin(node), not spin_once, and do not shut down in a callback: a server runs until Ctrl-C.",
+            SERVES_ONE_REQUEST,
+        )
+    return Remedy("main() returned before everything was done: look at what it waits for.")
+
+
+def end_in_words(run: Record, exited: ev.NodeExited) -> str:
+    """Return how it ended: 'with status 1: TypeError', 'by itself with status 0 after 1 answer'."""
+    if exited.returncode:
+        return f"with status {exited.returncode}" + (f": {run.last_words}" if run.last_words else "")
+    if not _is_a_server(run):
+        return "with status 0"
+    answers = len(run.all(ev.ServiceAnswered)) + len(run.all(ev.GoalAnswered))
+    return f"by itself with status 0 after {answers} answer{'' if answers == 1 else 's'}"
+
+
+def raised_in(traceback: str) -> str | None:
+    """Return the last line of a traceback that is in the student's file, unless that is where the program spins."""
+    frames = re.findall(r'^\s*File "([^"]+)", line (\d+), in ([\w.<>]+)', traceback, re.MULTILINE)
+    own = [index for index, (path, *_) in enumerate(frames) if OWN_FILE.search(path)]
+    if not own or any(function.startswith("spin") for *_, function in frames[own[-1] + 1 :]):
+        return None
+    path, line, function = frames[own[-1]]
+    return f"line {line} of {path.rsplit('/', 1)[-1]}" + (
+        "" if function.startswith("<") else f", in {function}()"
+    )
+
+
+def _with_place(remedy: Remedy, run: Record) -> Remedy:
+    """Name the student's line that raised, if one did, and the service that was being answered."""
+    place = raised_in(_last_traceback(run))
+    where = f" It was raised in {place}." if place else ""
+    return Remedy(remedy.help.replace("{of}", _being_answered(run)) + where, remedy.see)
+
+
+def _last_traceback(run: Record) -> str:
+    """Return the end of stderr from the last traceback on: an earlier one did not end the program."""
+    return run.output("stderr").rpartition("Traceback (most recent call last):")[2]
+
+
+def _being_answered(run: Record) -> str:
+    """Return ' of get_status' for the first request that got no answer, '' if there is none."""
+    answered = {answer.call for answer in run.all(ev.ServiceAnswered)}
+    waiting = [asked.service for asked in run.all(ev.ServiceCalled) if asked.call not in answered]
+    return f" of {waiting[0]}" if waiting else ""
+
+
+def _is_a_server(run: Record) -> bool:
+    """Return whether the grader asked the program for something, and not the other way round."""
+    return any(run.first(kind) is not None for kind in (ev.ServiceCalled, ev.GoalSent, ev.NodeSignalled))

@@ -1,0 +1,63 @@
+"""Where a program stood that gave no answer: the line of the student's file, from what Python said at its end."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from autograder.authoring import events as ev
+from autograder.authoring.ending import OWN_FILE
+from autograder.authoring.record import Record
+
+_FRAME = re.compile(r'File "([^"]+)", line (\d+) in ([\w.<>]+)')
+_SPINNING = ("main", "<module>")  # functions in which a healthy program waits for something to do
+
+
+@dataclass(frozen=True)
+class Place:
+    """A line of the student's file, and what it was calling."""
+
+    file: str
+    line: int
+    function: str
+    calls: str  # "" where it is Python's own, such as time.sleep
+
+    def __str__(self) -> str:
+        calls = f", in a call of {self.calls}()" if self.calls else ""
+        return f"line {self.line} of {self.file}, in {self.function}(){calls}"
+
+
+def where_it_stood(run: Record, *, in_main: bool = False) -> Place | None:
+    """Return where a thread of the student's stood in a callback when the program was ended, if one did.
+
+    `in_main` looks also into main(), where a client waits, but where a server only spins.
+    """
+    stack = run.first(ev.NodeStack)
+    if stack is None:
+        return None
+    threads = "\n".join(stack.lines).split("(most recent call first):")[1:]
+    for place in filter(None, map(_innermost, threads)):
+        if in_main or place.function not in _SPINNING:
+            return place
+    return None
+
+
+def why_nobody_serves(run: Record) -> str | None:
+    """Return what to do if no thread of a server spun when it was ended, though none stood in a callback."""
+    stack = run.first(ev.NodeStack)
+    main = where_it_stood(run, in_main=True)
+    if stack is None or main is None or main.function not in _SPINNING:
+        return None
+    if any(function.startswith("spin") for line in stack.lines for *_, function in _FRAME.findall(line)):
+        return None
+    return f"Nothing serves the node's callbacks: it stood in {main}, and not in rclpy.spin(node)."
+
+
+def _innermost(thread: str) -> Place | None:
+    """Return the innermost line of a thread that is in the student's file."""
+    calls = ""
+    for path, line, function in _FRAME.findall(thread):
+        if own := OWN_FILE.search(path):
+            return Place(own[1], int(line), function, calls)
+        calls = function
+    return None

@@ -1,0 +1,115 @@
+"""A chapter executed from top to bottom, as a student would who predicts, answers and fills every gap."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import nbformat
+import psutil
+from nbclient import NotebookClient
+from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
+from nbformat.v4 import new_code_cell
+
+from lab.gap_cells import fill_gaps
+from ros_cli.real_ros2 import path_with_ros2
+
+# s; building interfaces takes ten seconds alone, and minutes on a machine that everybody uses
+CELL_TIMEOUT = 300
+
+
+class ChapterFailed(Exception):
+    """A cell of a chapter raised, did not end in time, or lost its kernel."""
+
+
+@dataclass(frozen=True)
+class Executed:
+    """A chapter after its run."""
+
+    notebook: nbformat.NotebookNode
+    left_behind: list[str]  # processes
+
+    def text(self, cell_id: str) -> str:
+        """What a cell printed."""
+        return "".join(output.text for output in self._outputs[cell_id] if output.output_type == "stream")
+
+    def html(self, cell_id: str) -> str:
+        """The HTML that a cell showed."""
+        return "".join(
+            output.data.get("text/html", "") for output in self._outputs[cell_id] if "data" in output
+        )
+
+    @cached_property
+    def _outputs(self) -> dict[str, list[nbformat.NotebookNode]]:
+        return {cell.id: cell.outputs for cell in self.notebook.cells if cell.cell_type == "code"}
+
+
+def execute(
+    chapter: Path, folder: Path, *, on_cell: Callable[[int, int], object] = lambda cell, of: None
+) -> Executed:
+    """Run all cells of a chapter in a folder; `on_cell` is told each cell's number and how many there are.
+
+    Raises:
+        ChapterFailed: it names the chapter and the cell.
+        KeyboardInterrupt: Ctrl-C; the kernel has been ended.
+    """
+    notebook = answered(nbformat.read(chapter, as_version=4))
+    reached = notebook.cells[0]
+
+    def begin(cell: nbformat.NotebookNode, cell_index: int) -> None:
+        nonlocal reached
+        reached = cell
+        on_cell(cell_index + 1, len(notebook.cells))
+
+    client = NotebookClient(
+        notebook,
+        timeout=CELL_TIMEOUT,
+        kernel_name="python3",
+        resources={"metadata": {"path": str(folder)}},
+        on_cell_start=begin,
+        extra_arguments=["--log-level=ERROR"],  # the kernel's own log, which else goes to the terminal
+    )
+    try:
+        client.execute(env={**os.environ, "PATH": path_with_ros2(os.environ["PATH"])})  # as in `course lab`
+    except CellExecutionError as error:
+        raise ChapterFailed(f"{chapter.name}, cell {reached.id}: {error.ename}: {error.evalue}") from error
+    except CellTimeoutError as error:
+        raise ChapterFailed(
+            f"{chapter.name}, cell {reached.id}: did not end within {CELL_TIMEOUT} s"
+        ) from error
+    except DeadKernelError as error:
+        raise ChapterFailed(f"{chapter.name}, cell {reached.id}: its kernel died") from error
+    except AssertionError as error:
+        if client.km is None:  # nbclient handles Ctrl-C by ending the kernel, and then stumbles over that
+            raise KeyboardInterrupt from error
+        raise
+    return Executed(notebook, [str(process) for process in processes_in(folder)])
+
+
+def answered(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:
+    """A chapter with its gaps filled, and "a" for each prediction and question, as a student without a mouse does."""
+    fill_gaps(notebook)
+    cells = []
+    for cell in notebook.cells:
+        cell.source = cell.source.replace('.answer("")', '.answer("a")')
+        cells.append(cell)
+        if prediction := re.match(r"(prediction_\d+) = lab\.predict", cell.source):
+            cells.append(new_code_cell(f'{prediction[1]}.choose("a")', id=f"{cell.id}-a"))
+    notebook.cells = cells
+    return notebook
+
+
+def processes_in(folder: Path) -> list[psutil.Process]:
+    """The processes that run in a folder: a chapter's robot and nodes do, and so does its kernel."""
+
+    def runs_there(process: psutil.Process) -> bool:
+        try:
+            return process.cwd() == str(folder) and process.status() != psutil.STATUS_ZOMBIE
+        except psutil.Error:
+            return False
+
+    return [process for process in psutil.process_iter() if runs_there(process)]

@@ -1,0 +1,38 @@
+"""Links of a page, made to fit the book: to a cell of a chapter, to another page, or none where the book has none."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Collection
+from pathlib import PurePosixPath
+
+CELL = "cell-id="  # JupyterLab's fragment for a cell
+_FENCED = re.compile(r"(^```.*?^```$)", re.MULTILINE | re.DOTALL)
+_LINK = re.compile(r"(?<!!)\[(?P<words>(?:[^\[\]]|\[[^\[\]]*\])+)\]\((?P<target>[^()\s]+)\)")
+
+
+class Links:
+    """The links of one page, whose path and whose fellows are relative to the project."""
+
+    def __init__(self, page: PurePosixPath, pages: Collection[PurePosixPath]) -> None:
+        self._page = page
+        self._pages = pages
+
+    def rewritten(self, text: str) -> str:
+        """Return Markdown with its links made to fit, except in fenced code."""
+        parts = _FENCED.split(text)
+        parts[::2] = [_LINK.sub(self._fitting, part) for part in parts[::2]]
+        return "".join(parts)
+
+    def _fitting(self, link: re.Match[str]) -> str:
+        path, _, fragment = link["target"].partition("#")
+        if "://" in path or not path:
+            return link[0]
+        page = PurePosixPath(os.path.normpath(self._page.parent / path))
+        if page not in self._pages:
+            return link["words"]
+        if fragment.startswith(CELL):
+            address = f"{PurePosixPath(path).with_suffix('.html')}#{fragment.removeprefix(CELL)}"
+            return f'<a class="reference internal" href="{address}">{link["words"]}</a>'
+        return link[0]

@@ -1,0 +1,95 @@
+"""A notebook as a reader of the book sees it: without its buttons, and with the outputs of a run."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import nbformat
+from nbformat import NotebookNode
+from nbformat.v4 import new_markdown_cell, new_output
+
+from book import still_questions
+from book.links import Links
+from book.still_widgets import VIEW, Models, models_of, still
+from lab.question import Question, read_question
+
+ASKS = re.compile(r'(?P<name>\w+) = lab\.(?P<way>predict|quiz)\("(?P<chapter>\w+)", (?P<number>\d+)\)')
+KINDS = {"predict": "PREDICTIONS", "quiz": "QUESTIONS"}
+ANSWERS = re.compile(r'^\w+\.answer\(""\)')
+REPLIES = re.compile(r"^(?P<name>\w+)\.reply\(\)$")
+REQUIRES = re.compile(r"^\w+\.require\(\)\n+")
+HIDDEN_INPUT = "remove-input"  # a tag that myst-nb knows
+
+
+def reader_copy(notebook: NotebookNode, run: NotebookNode | None, links: Links) -> NotebookNode:
+    """Return a copy for the book; `run` is the same notebook executed, with cells of its own perhaps, or None.
+
+    Each cell can be linked to by its id.
+    """
+    copy = nbformat.from_dict(notebook)
+    outputs = {cell.id: cell.outputs for cell in run.cells if cell.cell_type == "code"} if run else {}
+    models = models_of(run) if run else {}
+    asked: dict[str, tuple[int, Question]] = {}
+    copy.cells = [
+        shown
+        for number, cell in enumerate(notebook.cells)
+        for shown in _shown(cell, outputs.get(cell.id, []), models, asked, links, anchored=number > 0)
+    ]
+    copy.metadata.pop("widgets", None)
+    return copy
+
+
+def _shown(
+    cell: NotebookNode,
+    outputs: list[NotebookNode],
+    models: Models,
+    asked: dict[str, tuple[int, Question]],
+    links: Links,
+    *,
+    anchored: bool,
+) -> Iterator[NotebookNode]:
+    """The cells that stand for one in the book. A page begins with its heading, so the first has no anchor."""
+    anchor = f'<span id="{cell.id}"></span>'
+    if cell.cell_type != "code":
+        text = links.rewritten(cell.source)
+        yield _changed(cell, source=f"{anchor}\n\n{text}" if anchored else text)
+        return
+    if ANSWERS.match(cell.source):
+        return
+    if anchored:
+        yield new_markdown_cell(anchor)
+    if asks := ASKS.match(cell.source):
+        number = int(asks["number"])
+        question = read_question(asks["chapter"], KINDS[asks["way"]], number)
+        asked[asks["name"]] = number, question
+        draw = still_questions.prediction if asks["way"] == "predict" else still_questions.quiz
+        yield _paper(cell, draw(number, question))
+    elif (replies := REPLIES.match(cell.source)) and replies["name"] in asked:
+        yield _paper(cell, still_questions.replies(*asked[replies["name"]]))
+    else:
+        yield _changed(
+            cell,
+            source=REQUIRES.sub("", cell.source),
+            outputs=[_still(output, models) for output in outputs],
+        )
+
+
+def _paper(cell: NotebookNode, html: str) -> NotebookNode:
+    """The cell with this HTML instead of its code."""
+    shown = _changed(cell, outputs=[_html(html)])
+    shown.metadata = nbformat.from_dict({"tags": [HIDDEN_INPUT]})
+    return shown
+
+
+def _still(output: NotebookNode, models: Models) -> NotebookNode:
+    view = output.get("data", {}).get(VIEW)
+    return _html(still(view["model_id"], models)) if view else output
+
+
+def _html(html: str) -> NotebookNode:
+    return new_output("display_data", {"text/html": html})
+
+
+def _changed(cell: NotebookNode, **changes: object) -> NotebookNode:
+    return nbformat.from_dict({**cell, **changes})

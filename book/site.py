@@ -1,0 +1,115 @@
+"""The site: pages gathered from the project into one folder of sources, and made into HTML by Sphinx."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterable, Mapping
+from pathlib import Path, PurePosixPath
+
+import nbformat
+from nbformat import NotebookNode
+
+from book.links import Links
+from book.reader_copy import reader_copy
+from ros_runtime.project import PROJECT
+
+CONFIGURATION = Path(__file__).with_name("sphinx")
+PARTS = {
+    "Chapters": ("chapters/*.ipynb",),
+    "Exercises": ("exercises/*/*.ipynb",),
+    "Look it up": ("docs/glossary.md", "docs/cheat_sheet.md", "docs/ros2_commands.md", "docs/robot.md"),
+    "Set it up": ("docs/for_students.md",),
+    "For instructors": (
+        "docs/for_instructors.md",
+        "docs/grading.md",
+        "docs/write_an_exercise.md",
+        "docs/coverage.md",
+        "docs/architecture.md",
+    ),
+}
+# The README of the students' archive, to which its links and pictures are relative.
+MOVED = {"docs/for_students.md": "README.md"}
+PICTURES = ("chapters/images", "docs/images")
+WELCOME = """\
+# ROS 2 services and actions on a humanoid
+
+A humanoid stands by its own control, walks when a node tells it to, and falls when a node lets it down. The chapters
+show what goes wrong between ROS 2 programs, on that robot, and how to do it right.{outputs}
+
+![The humanoid in three phases of a step](docs/images/robot.png)
+
+**Predict** before you read on: the replies to each choice are folded. With a robot of your own, in the lab, you run
+every cell and change it.
+"""
+OUTPUTS = " Their outputs and pictures come from a run of every cell."
+
+
+class BookFailed(Exception):
+    """Sphinx could not make the site, or warns of something in it."""
+
+
+def parts_of(project: Path) -> dict[str, dict[PurePosixPath, Path]]:
+    """Return the pages of the book, in order, by part: their place in the sources, and the file they are made from."""
+    return {
+        part: {
+            _place(path.relative_to(project)): path
+            for pattern in patterns
+            for path in sorted(project.glob(pattern))
+        }
+        for part, patterns in PARTS.items()
+    }
+
+
+def _place(path: Path) -> PurePosixPath:
+    name = path.as_posix()
+    return PurePosixPath(MOVED.get(name, name))
+
+
+def make_site(
+    output: Path, work: Path, runs: Mapping[str, NotebookNode | None], *, project: Path = PROJECT
+) -> Path:
+    """Make the site in `output`, with the chapters' `runs` by name, and return its first page.
+
+    `work` is a folder for what Sphinx reads and remembers.
+
+    Raises BookFailed, with what Sphinx says.
+    """
+    sources = work / "sources"
+    shutil.rmtree(sources, ignore_errors=True)
+    _gather(sources, runs, project)
+    command = [
+        *(sys.executable, "-m", "sphinx", "--builder", "html", "--quiet", "--jobs", "auto"),
+        *("--fail-on-warning", "--conf-dir", str(CONFIGURATION), "--doctree-dir", str(work / "doctrees")),
+        *(str(sources), str(output)),
+    ]
+    finished = subprocess.run(command, capture_output=True, text=True, cwd=PROJECT)
+    if finished.returncode != 0:
+        raise BookFailed(f"Sphinx could not make the book:\n{finished.stderr.strip()}")
+    return output / "index.html"
+
+
+def _gather(sources: Path, runs: Mapping[str, NotebookNode | None], project: Path) -> None:
+    parts = parts_of(project)
+    pages = {page: file for part in parts.values() for page, file in part.items()}
+    for page, file in pages.items():
+        (sources / page).parent.mkdir(parents=True, exist_ok=True)
+        links = Links(page, pages)
+        if page.suffix == ".ipynb":
+            notebook = nbformat.read(file, as_version=4)
+            nbformat.write(reader_copy(notebook, runs.get(page.stem), links), sources / page)
+        else:
+            text = file.read_text(encoding="utf-8")
+            (sources / page).write_text(links.rewritten(text), encoding="utf-8")
+    for folder in PICTURES:
+        if (project / folder).is_dir():
+            shutil.copytree(project / folder, sources / folder)
+    contents = "\n".join(_table_of_contents(part, pages) for part, pages in parts.items() if pages)
+    welcome = WELCOME.format(outputs=OUTPUTS if runs else "")
+    (sources / "index.md").write_text(f"{welcome}\n{contents}", encoding="utf-8")
+
+
+def _table_of_contents(part: str, pages: Iterable[PurePosixPath]) -> str:
+    entries = "\n".join(page.with_suffix("").as_posix() for page in pages)
+    return f"```{{toctree}}\n:caption: {part}\n:maxdepth: 1\n\n{entries}\n```\n"

@@ -1,0 +1,58 @@
+"""What a widget showed last, as HTML that needs no kernel."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping
+from html import escape
+from typing import Any
+
+VIEW = "application/vnd.jupyter.widget-view+json"
+STATE = "application/vnd.jupyter.widget-state+json"
+LIVE = "The robot, as the live view showed it last"
+ELSEWHERE = "In the lab, a control stands here."
+
+Models = Mapping[str, Mapping[str, Any]]
+
+
+def models_of(notebook: Mapping[str, Any]) -> Models:
+    """Return the widgets of an executed notebook, by id."""
+    return notebook["metadata"].get("widgets", {}).get(STATE, {}).get("state", {})
+
+
+def still(model_id: str, models: Models) -> str:
+    """Return the HTML of a widget and of those in it; a sentence stands for one that says nothing on paper."""
+    model = models.get(model_id, {})
+    state = model.get("state", {})
+    kind = model.get("model_name", "").removesuffix("Model")
+    if kind in {"HBox", "VBox"}:
+        inside = "".join(still(child.removeprefix("IPY_MODEL_"), models) for child in state["children"])
+        return f'<div class="still-{kind.lower()}">{inside}</div>'
+    if kind == "Image":
+        return _picture(model)
+    if kind == "Label":
+        return f"<span>{escape(state['value'])}</span>"
+    if kind == "HTML":
+        return f"<span>{state['value']}</span>"
+    if kind == "Button":
+        return f"<button disabled>{escape(state['description'])}</button>"
+    if kind == "FloatProgress":
+        of = state["max"] - state["min"]
+        words = escape(state["description"])
+        return (
+            f'<label>{words} <progress value="{state["value"] - state["min"]}" max="{of}"></progress></label>'
+        )
+    return f"<p><em>{ELSEWHERE}</em></p>"
+
+
+def _picture(model: Mapping[str, Any]) -> str:
+    data = next(
+        (part["data"] for part in model.get("buffers", ()) if part["path"] == ["value"]),
+        "",
+    )
+    base64.b64decode(data, validate=True)
+    kind = model["state"].get("format", "png")
+    return (
+        f'<figure><img src="data:image/{kind};base64,{data}" alt="{LIVE}">'
+        f"<figcaption>{LIVE}; in the lab it moves.</figcaption></figure>"
+    )

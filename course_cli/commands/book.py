@@ -1,0 +1,73 @@
+"""`course book`: chapters, exercises and docs as one static site."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Annotated
+
+import typer
+from nbformat import NotebookNode
+from rich.console import Console
+
+from book.chapter_run import ChapterFailed
+from book.chapter_run import execute as execute_chapter
+from book.kept_runs import KeptRuns
+from book.site import BookFailed, make_site
+from course_cli.ending import COULD_NOT, ended
+from ros_runtime.project import PROJECT
+
+WORK = PROJECT / "build" / "book"
+
+
+def book(
+    output: Annotated[Path, typer.Option(help="folder of the site")] = WORK / "site",
+    execute: Annotated[
+        bool,
+        typer.Option(
+            "--execute/--no-execute", help="run the chapters that have changed, each with a robot of its own"
+        ),
+    ] = True,
+) -> None:
+    """Make the chapters with their outputs, the exercises and the docs into one static site.
+
+    A chapter takes minutes to run; its outputs are kept until it or the code it runs changes. The site needs no
+    server and no network: open its index.html.
+    """
+    console = Console(highlight=False)
+    try:
+        first_page = make_site(output, WORK, _runs(console) if execute else {})
+    except (ChapterFailed, BookFailed) as error:
+        raise ended(console, error, COULD_NOT) from error
+    except KeyboardInterrupt:
+        raise ended(
+            console, "Interrupted. The chapters that have run are kept: type it again to go on.", COULD_NOT
+        ) from None
+    console.print(f"The book: {first_page}", markup=False, soft_wrap=True)
+
+
+def _runs(console: Console) -> dict[str, NotebookNode | None]:
+    """Every chapter executed, now or before."""
+    kept = KeptRuns(WORK / "runs", PROJECT)
+    chapters = sorted((PROJECT / "chapters").glob("*.ipynb"))
+    for number, chapter in enumerate(chapters, start=1):
+        title = f"{number}/{len(chapters)} {chapter.stem}"
+        if kept.of(chapter):
+            console.print(f"{title}: as it ran before", markup=False)
+        else:
+            seconds = _run(chapter, title, kept, console)
+            console.print(f"{title}: ran in {seconds:.0f} s", markup=False)
+    return {chapter.stem: kept.of(chapter) for chapter in chapters}
+
+
+def _run(chapter: Path, title: str, kept: KeptRuns, console: Console) -> float:
+    """Execute a chapter and keep its run; return how many seconds it took."""
+    began = time.monotonic()
+    with console.status(title) as status, TemporaryDirectory() as folder:
+
+        def on_cell(cell: int, of: int) -> None:
+            status.update(f"{title}: cell {cell} of {of}")
+
+        kept.keep(chapter, execute_chapter(chapter, Path(folder), on_cell=on_cell).notebook)
+    return time.monotonic() - began

@@ -1,0 +1,57 @@
+"""What can be plotted of the robot: each quantity, its unit, and how it is read from a message."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from lab.errors import LabError
+from ros_runtime.angles import yaw_of
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Something measured: read from the messages of `topic`, in `unit`.
+
+    A plot shows at least a range of `least_range`, so that noise does not look like a motion; `is_angle` if it turns
+    over at ±π.
+    """
+
+    topic: str
+    unit: str
+    least_range: float
+    read: Callable[[Any], float]
+    is_angle: bool = False
+
+
+def _tilt(odometry: Any) -> float:
+    q = odometry.pose.pose.orientation
+    return math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (q.x * q.x + q.y * q.y))))
+
+
+def _heading(odometry: Any) -> float:
+    q = odometry.pose.pose.orientation
+    return yaw_of(q.x, q.y, q.z, q.w)
+
+
+QUANTITIES = {
+    "speed": Quantity("odom", "m/s", 0.2, lambda odometry: odometry.twist.twist.linear.x),
+    "turn rate": Quantity("odom", "rad/s", 0.2, lambda odometry: odometry.twist.twist.angular.z),
+    "height": Quantity("odom", "m", 0.1, lambda odometry: odometry.pose.pose.position.z),
+    "heading": Quantity("odom", "rad", 0.2, _heading, is_angle=True),
+    "tilt": Quantity("odom", "rad", 0.2, _tilt),
+    "power": Quantity("battery_state", "W", 10.0, lambda battery: -battery.voltage * battery.current),
+}
+
+
+def quantity_named(name: str) -> Quantity:
+    """Return a quantity by its name.
+
+    Raises LabError, which lists the names, when there is none.
+    """
+    if name not in QUANTITIES:
+        there_are = ", ".join(f'"{known}" ({quantity.unit})' for known, quantity in QUANTITIES.items())
+        raise LabError(f"nothing called {name!r} is recorded; there are: {there_are}")
+    return QUANTITIES[name]

@@ -1,0 +1,75 @@
+"""The book opened from the disk, without a network: formulas, pictures, folded replies, search."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbformat.v4 import new_output
+from playwright.sync_api import Page, sync_playwright
+
+from book.site import make_site
+from ros_runtime.project import PROJECT
+
+CHROMIUM = shutil.which("chromium")
+OFFLINE = ("--no-sandbox", "--disable-quic", "--disable-background-networking", "--disable-component-update")
+DOT = "data:image/webp;base64,UklGRhoAAABXRUJQVlA4TA0AAAAvAAAAEAcQERGIiP4HAA=="
+
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium to look with")
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The book, with a film in the first code cell of chapter 1."""
+    folder = tmp_path_factory.mktemp("book")
+    run = nbformat.read(PROJECT / "chapters/01_robot_and_graph.ipynb", as_version=4)
+    first = next(cell for cell in run.cells if cell.cell_type == "code")
+    first.outputs = [
+        new_output("display_data", {"text/html": f'<figure><img src="{DOT}" alt="film"></figure>'})
+    ]
+    return make_site(folder / "site", folder / "work", {"01_robot_and_graph": run}).parent
+
+
+@pytest.fixture
+def page(site: Path) -> Iterator[Page]:
+    """A page that may load files of the book and nothing else."""
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OFFLINE)
+        page = browser.new_page(viewport={"width": 1250, "height": 1000})
+        wanted: list[str] = []
+        problems: list[str] = []
+        page.on("request", lambda request: wanted.append(request.url))
+        page.on("pageerror", lambda error: problems.append(str(error)))
+        page.goto(f"file://{site}/index.html")
+        yield page
+        browser.close()
+    assert [url for url in wanted if not url.startswith((f"file://{site}/", "data:"))] == []
+    assert problems == []
+
+
+def test_a_chapter_has_its_formulas_and_pictures_and_unfolds_a_reply(page: Page) -> None:
+    page.get_by_role("link", name="1 · The robot and its graph").first.click()
+    formula = page.locator("math[display=block]").first.bounding_box()
+    assert formula
+    assert formula["height"] > 10
+    loaded = "images => images.every(image => image.complete && image.naturalWidth > 0)"
+    page.get_by_alt_text("film").wait_for()
+    assert page.locator("main img, article img").evaluate_all(loaded)
+
+    reply = page.locator(".question details").first
+    assert not reply.locator("p").is_visible()
+    reply.locator("summary").click()
+    assert reply.locator("p").is_visible()
+
+
+def test_the_search_finds_a_word_and_the_glossary_leads_to_the_cell(page: Page) -> None:
+    page.get_by_role("textbox", name="Search").first.fill("deadlock")
+    page.keyboard.press("Enter")
+    page.locator("#search-results").get_by_role("link", name="Glossary").click()
+    page.get_by_role("row").filter(has_text="idempotent").get_by_role("link").click()
+    page.wait_for_url("**/chapters/03*.html#*")
+    cell = page.url.partition("#")[2]
+    assert page.locator(f"#{cell}").bounding_box()

@@ -1,0 +1,67 @@
+"""Each situation is marked by itself, and nothing is given for what is not answered."""
+
+import pytest
+
+from autograder.authoring import events as ev
+from autograder.authoring.transcript import Transcript
+from autograder.engine.exercise import exercise_module, load_exercise
+from autograder.engine.judging import judge
+
+CHECKS = load_exercise("patterns", hidden=True).checks
+SITUATIONS = [
+    *exercise_module("patterns", "checks").SEEN,
+    *exercise_module("patterns", "hidden").UNSEEN,
+]
+LINES = [f"{situation.number} {situation.pattern} {situation.reason}" for situation in SITUATIONS]
+
+
+def verdicts(*lines):
+    """Return the verdict on each check of a program that prints these lines."""
+    printed = [ev.NodeOutput(t=2.0, stream="stdout", text=line) for line in lines]
+    begin = [ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0)]
+    end = [ev.NodeExited(t=3.0, returncode=0), ev.ScenarioEnded(t=3.1)]
+    run = Transcript.from_events("print_answers", {}, [*begin, *printed, *end])
+    return {check.id: judge(check, [run]) for check in CHECKS}
+
+
+def points(*lines):
+    return sum(verdict.points for verdict in verdicts(*lines).values())
+
+
+def test_all_right_is_all_points():
+    assert points(*LINES) == 13
+
+
+def test_nothing_answered_is_no_point():
+    assert points() == 0
+
+
+@pytest.mark.parametrize("answered", [1, 6, 11])
+def test_each_right_answer_is_a_point_whatever_else_is_missing(answered):
+    assert points(*LINES[:answered]) == answered
+    assert points(*LINES[-answered:]) == answered
+
+
+def test_what_is_not_answered_is_named():
+    seen = verdicts(*LINES[:3])
+    assert "none for 4, 5" in seen["answers_everything"].observed
+    assert "Add a line 4:" in seen["answers_everything"].help
+    assert (seen["situation_7"].observed, seen["situation_7"].points) == ("no answer", 0)
+
+
+def test_nothing_printed_and_another_form_are_told_apart():
+    assert "Nothing was printed" in verdicts()["answers_everything"].help
+    told = verdicts("1) I say: topic, because of a")["situation_1"]
+    assert "is of another form" in told.help
+
+
+def test_an_answer_in_another_form_spoils_no_other():
+    seen = verdicts(*LINES[:-1], "12 parameter a")
+    assert sum(verdict.points for verdict in seen.values()) == 11
+    assert seen["situation_12"].observed == "parameter a"
+
+
+def test_a_wrong_answer_is_told_what_speaks_against_it():
+    seen = verdicts(*LINES[:8], "9 action c", "10 topic c", "11 service c", "12 action c")
+    assert "Which part moves does not matter: being able to cancel does." in seen["situation_9"].help
+    assert "what matters is the yes or no" in seen["situation_11"].help

@@ -1,0 +1,318 @@
+"""What a client is told about its failure: what the record knows of it, and one thing to do."""
+
+from itertools import count
+
+import pytest
+from std_srvs.srv import SetBool, Trigger
+
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Failure
+from autograder.authoring.transcript import Transcript
+from autograder.engine.exercise import exercise_module, load_exercise
+
+CHECKS = {check.id: check for check in load_exercise("robot_controller", hidden=True).checks}
+JUDGING = exercise_module("robot_controller", "judging")
+ENABLE, STATUS = "enable_motors", "get_status"
+ON = SetBool.Response(success=True, message="the motors are on")
+REFUSED = SetBool.Response(success=False, message="the emergency stop is pressed")
+STATUS_ON = Trigger.Response(success=True, message="Motors: ON")
+TRACEBACK = (
+    "Traceback (most recent call last):",
+    "AttributeError: 'NoneType' object has no attribute 'message'",
+)
+NUMBERS = count(1)
+END = 26.0  # s
+
+
+def offered(service, t=0.1, server="server", type_=None):
+    types = {ENABLE: "std_srvs/srv/SetBool", STATUS: "std_srvs/srv/Trigger"}
+    return [
+        ev.ServiceOffered(t=t, service=service, server=f"{server} of {service}", type=type_ or types[service])
+    ]
+
+
+BOTH = [*offered(ENABLE), *offered(STATUS)]
+
+
+def asked(service, t, answered=None, response=None, server="server"):
+    """A request at t, answered at another time or never."""
+    name = f"request {next(NUMBERS)}"
+    message = SetBool.Request(data=True) if service == ENABLE else Trigger.Request()
+    request = ev.RequestReceived(
+        t=t, request=name, service=service, server=f"{server} of {service}", message=message
+    )
+    if answered is None:
+        return [request]
+    reply = response or (ON if service == ENABLE else STATUS_ON)
+    return [request, ev.ReplySent(t=answered, request=name, response=reply)]
+
+
+def said(t, *lines, stream="stderr"):
+    return [ev.NodeOutput(t=t, stream=stream, text=line) for line in lines]
+
+
+def ended(t, status):
+    return [ev.NodeExited(t=t, returncode=status)]
+
+
+HUNG = [ev.Unanswered(t=END, what="end", id="program", waited=25.0)]
+ENABLED = asked(ENABLE, 2.0, 2.1)
+PRINTED = said(3.0, "Robot status: Motors: ON", stream="stdout")
+
+
+def failure(check, *parts, **params):
+    """Return how a check fails on one transcript that consists of these events."""
+    events = [event for part in parts for event in part]
+    begin = [ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0)]
+    run = Transcript.from_events("it", params, [*begin, *events, ev.ScenarioEnded(t=END)])
+    with pytest.raises(Failure) as failed:
+        CHECKS[check].run([run])
+    return failed.value
+
+
+# -- it hangs ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("parts", "where", "what_to_do"),
+    [
+        (
+            [BOTH],
+            "It hung before any request was sent (wait_for_service)",
+            "wait_for_service(timeout_sec=2.0)",
+        ),
+        (
+            [BOTH, asked(ENABLE, 2.0)],
+            "It hung after request 1 to enable_motors was sent (waiting for its answer)",
+            "future.done()",
+        ),
+        (
+            [BOTH, ENABLED, asked(STATUS, 3.0), asked(STATUS, 5.0)],
+            "after request 2 to get_status was sent (waiting for its answer)",
+            "future.done()",
+        ),
+        (
+            [BOTH, *(asked(ENABLE, 2.0 * number) for number in range(1, 8))],
+            "It sent 7 requests to enable_motors and went on asking",
+            "Ask once more, then give up",
+        ),
+        (
+            [offered(ENABLE), ENABLED],
+            "after enable_motors had answered, while nobody offered get_status",
+            "wait_for_service(timeout_sec=2.0)",
+        ),
+        (
+            [offered(ENABLE), offered(STATUS, type_="std_srvs/srv/SetBool"), ENABLED],
+            "while nobody offered get_status",
+            "wait_for_service(timeout_sec=2.0)",
+        ),
+        ([BOTH, ENABLED], "and never asked get_status", "do not wait in a callback"),
+        (
+            [BOTH, ENABLED, asked(STATUS, 3.0, 3.1)],
+            "It went on after get_status had answered",
+            "Return from main()",
+        ),
+    ],
+)
+def test_a_program_that_hangs_is_told_where(parts, where, what_to_do):
+    told = failure("prints_the_status", *parts, HUNG, status="Motors: ON")
+    assert where in told.observed
+    assert what_to_do in told.help
+
+
+def test_a_program_that_waits_for_a_dead_server_is_told_so():
+    gone = [ev.ServiceWithdrawn(t=3.5, service=STATUS, server=f"server of {STATUS}")]
+    told = failure("survives_a_dying_server", BOTH, ENABLED, asked(STATUS, 3.0), gone, HUNG)
+    assert told.observed == "It hung after request 1 to get_status was sent, when the server had died."
+    assert "it may never" in told.help
+
+
+def test_a_program_that_hangs_is_not_told_that_it_gave_up():
+    assert "It hung after request 1" in failure("asks_once_more", BOTH, asked(ENABLE, 2.0), HUNG).observed
+
+
+# -- it fails where all would have gone well --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("parts", "observed", "what_to_do"),
+    [
+        (
+            [BOTH, asked(ENABLE, 2.0), ended(4.1, 1)],
+            "Status 1 after one request to enable_motors: the second one, which would have been answered, was never "
+            "sent.",
+            "send it once more",
+        ),
+        (
+            [BOTH, ENABLED, asked(STATUS, 3.0), ended(5.1, 1)],
+            "Status 1 after one request to get_status: the second one",
+            "send it once more",
+        ),
+        (
+            [BOTH, asked(ENABLE, 2.0), asked(ENABLE, 4.0, 4.1), ended(6.0, 1)],
+            "Status 1, although request 2 to enable_motors was answered",
+            "counts like one to the first",
+        ),
+        (
+            [BOTH, asked(ENABLE, 2.0), asked(ENABLE, 4.0, 4.1), asked(STATUS, 4.2), ended(6.2, 1)],
+            "Status 1 after one request to get_status: the second one",
+            "send it once more",
+        ),
+        (
+            [BOTH, asked(ENABLE, 2.0, 3.0), asked(ENABLE, 2.5), ended(3.1, 1)],
+            "It waited only 0.5 s for the answer to request 1 to enable_motors",
+            "timeout_sec=2.0",
+        ),
+        (
+            [BOTH, ENABLED, asked(STATUS, 3.0, 5.6), asked(STATUS, 5.0), ended(5.5, 1)],
+            "It gave up 0.5 s after request 2 to get_status, before the answer came.",
+            "timeout_sec=2.0",
+        ),
+        (
+            [
+                BOTH,
+                ENABLED,
+                asked(STATUS, 3.0),
+                asked(STATUS, 5.0, 6.2),
+                said(5.5, "no answer"),
+                ended(6.4, 1),
+            ],
+            "It gave up 0.5 s after request 2 to get_status, before the answer came.",
+            "timeout_sec=2.0",
+        ),
+        (
+            [BOTH, asked(ENABLE, 2.0, 3.0), asked(ENABLE, 4.0, 5.0), ended(6.0, 1)],
+            "enable_motors answered request 1 after 1.0 s, and was asked again all the same",
+            "time.sleep takes none",
+        ),
+        (
+            [BOTH, ENABLED, asked(STATUS, 3.0, 3.1), PRINTED, ended(3.2, 1)],
+            "Status 1, although both services have answered",
+            "Return 0 from main()",
+        ),
+        (
+            [BOTH, ENABLED, said(3.0, *TRACEBACK), ended(3.2, 1)],
+            f"An exception ended it with status 1: {TRACEBACK[1]}",
+            "names the line of your file",
+        ),
+        (
+            [BOTH, offered(STATUS, server="another"), ENABLED, ended(3.2, 1)],
+            "get_status was never asked, although 2 servers offer it",
+            "Any server of that name will do",
+        ),
+        (
+            [BOTH, ENABLED, said(5.0, "nobody offers /robot/robot_status"), ended(5.2, 1)],
+            "get_status was never asked; the last line on stderr: nobody offers /robot/robot_status",
+            "letter by letter",
+        ),
+    ],
+)
+def test_a_program_that_gives_up_too_early_is_told_what_it_missed(parts, observed, what_to_do):
+    told = failure("prints_the_status", *parts, status="Motors: ON")
+    assert told.observed.startswith(observed) or observed in told.observed
+    assert what_to_do in told.help
+
+
+@pytest.mark.parametrize(
+    ("output", "what_to_do"),
+    [
+        (said(3.0, "[INFO] [robot_controller]: Robot status: Motors: ON"), "where a logger writes"),
+        ([], "print(f'Robot status: {response.message}') when get_status has answered"),
+        ([*PRINTED, *PRINTED], "Print once"),
+        ([*asked(STATUS, 2.0, 2.9), *PRINTED, *PRINTED], "remove that request"),
+        (said(3.0, "Robot status: ON", stream="stdout"), "all of it"),
+    ],
+)
+def test_what_is_wrong_with_the_printed_line(output, what_to_do):
+    answered = asked(STATUS, 2.5, 2.6)
+    told = failure("prints_the_status", BOTH, ENABLED, answered, output, ended(3.2, 0), status="Motors: ON")
+    assert what_to_do in told.help
+
+
+def test_a_program_in_another_namespace_that_finds_nobody_has_a_slash_too_many():
+    told = failure("works_in_any_namespace", BOTH, said(3.0, "nobody offers it"), ended(3.2, 1), status="it")
+    assert told.expected == "a request to /lab_7/robot/enable_motors"
+    assert "without a slash" in told.help
+
+
+# -- it does not fail as it should ------------------------------------------------------------------------------------
+
+
+def test_a_refusal_that_is_not_looked_at():
+    refused, went_on = asked(ENABLE, 2.0, 2.1, REFUSED), asked(STATUS, 2.2, 2.3)
+    told = failure("reports_a_refusal", BOTH, refused, went_on, PRINTED, ended(3.2, 0))
+    assert told.observed == "You asked get_status although enable_motors answered success: false."
+    assert told.help == "Look at response.success and return 1."
+
+
+@pytest.mark.parametrize("status", [2, 3])
+def test_a_refusal_is_exit_status_1_like_every_other_failure(status):
+    refused, words = asked(ENABLE, 2.0, 2.1, REFUSED), said(2.2, "the motors stay off")
+    told = failure("reports_a_refusal", BOTH, refused, words, ended(2.4, status))
+    assert told.expected == "exit status 1: enable_motors answered success: false"
+    assert told.observed == f"Status {status}; the last line on stderr: the motors stay off"
+    assert "2 to 4 are for goals of actions" in told.help
+
+
+def test_a_status_that_main_does_not_hand_over():
+    told = failure("gives_up_without_servers", said(3.0, "no server"), ended(3.2, 0))
+    assert "Status 0, which says that all went well" in told.observed
+    assert "sys.exit(main())" in told.help
+
+
+@pytest.mark.parametrize(
+    ("requests", "observed", "what_to_do"),
+    [
+        (1, "Only one request, then it gave up.", "Where is the second try?"),
+        (7, "7 requests", "One retry is allowed"),
+    ],
+)
+def test_too_few_and_too_many_requests(requests, observed, what_to_do):
+    sent = [asked(ENABLE, 2.0 * number) for number in range(1, requests + 1)]
+    gave_up = 2.0 * requests + 2.0
+    told = failure("asks_once_more", BOTH, *sent, said(gave_up, "no answer"), ended(gave_up + 0.1, 1))
+    assert told.observed == observed
+    assert what_to_do in told.help
+
+
+@pytest.mark.parametrize(("second", "what_to_do"), [(2.5, "too early"), (6.5, "too long")])
+def test_a_pause_that_is_too_short_or_too_long(second, what_to_do):
+    told = failure("asks_once_more", BOTH, asked(ENABLE, 2.0), asked(ENABLE, second), ended(9.0, 1))
+    assert what_to_do in told.help
+
+
+# -- one deadline over everything -------------------------------------------------------------------------------------
+
+
+def late(gave_up, exited):
+    """The servers come late, and the second get_status is sent at 8 s of the program's own time."""
+    servers = [*offered(ENABLE, 2.6), *offered(STATUS, 7.2)]
+    enable = [*asked(ENABLE, 2.8), *asked(ENABLE, 4.8, 6.5)]
+    status = [*asked(STATUS, 7.3), *asked(STATUS, 9.3)]
+    return [servers, enable, status, said(gave_up, "get_status does not answer"), ended(exited, 1)]
+
+
+def run_of(parts):
+    begin = [ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0)]
+    events = [*begin, *(event for part in parts for event in part), ev.ScenarioEnded(t=END)]
+    return Transcript.from_events("late_and_silent", {"appears": 1.6, "answers": 1.7}, events)
+
+
+@pytest.mark.parametrize(("gave_up", "exited"), [(10.4, 10.9), (11.1, 11.6), (11.6, 12.6)])
+def test_a_deadline_of_10_s_is_kept_also_where_the_program_takes_its_time_to_end(gave_up, exited):
+    CHECKS["keeps_one_deadline"].run([run_of(late(gave_up, exited))])
+
+
+def test_limits_of_their_own_are_no_deadline():
+    with pytest.raises(Failure) as told:
+        CHECKS["keeps_one_deadline"].run([run_of(late(12.2, 12.5))])
+    assert told.value.observed == "it gave up after 11.2 s; get_status was asked at 6.3 s and 8.3 s"
+    assert "at most what is left of it" in told.value.help
+
+
+def test_the_scenario_leaves_no_doubt_whether_there_is_a_deadline():
+    """Without one the waits take longer than what is allowed, whether the servers are found at once or in turn."""
+    (scenario,) = CHECKS["keeps_one_deadline"].on
+    appears, answers = scenario.draw(0)["appears"], scenario.draw(0)["answers"]
+    assert appears < 2.0 > answers
+    assert 2 * appears + 2.0 + answers + 2 * 2.0 > JUDGING.WITHIN + JUDGING.DEADLINE_SLACK

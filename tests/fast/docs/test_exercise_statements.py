@@ -1,0 +1,41 @@
+"""What a student reads of an exercise before writing: how long it takes, where hints are, which step passes what."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+
+from autograder.engine.exercise import exercises_folder, load_exercise
+
+EXERCISES = ("battery_service", "cancellable_walk", "joint_query", "motor_services")
+ON_NO_STEP = {"server_appears", "ends_cleanly"}  # the starter passes them
+
+
+def cells_of(exercise: str) -> dict[str, str]:
+    notebook = json.loads((exercises_folder() / exercise / f"{exercise}.ipynb").read_text(encoding="utf-8"))
+    return {cell["id"]: "".join(cell["source"]) for cell in notebook["cells"]}
+
+
+@pytest.mark.parametrize("exercise", EXERCISES)
+def test_a_statement_says_how_long_it_takes_and_how_hard_it_is(exercise: str) -> None:
+    title = cells_of(exercise)["title"]
+    assert re.search(r"^About \d+ (minutes|hours): \d+", title, re.MULTILINE)
+    assert re.search(r"Difficulty: (easy|medium|hard)\.", title)
+
+
+@pytest.mark.parametrize("exercise", EXERCISES)
+def test_hints_are_folded_and_a_stretch_task_comes_after_the_self_check(exercise: str) -> None:
+    cells = cells_of(exercise)
+    assert cells["stuck"].count("<details>") == cells["stuck"].count("</details>") >= 2
+    assert list(cells)[list(cells).index("verdicts") - 1] == "stretch"
+    assert "Not graded." in cells["stretch"]
+
+
+def test_the_ladder_of_the_walk_names_every_visible_check_once() -> None:
+    solution = cells_of("cancellable_walk")["solution"]
+    ladder = solution[solution.index("# The ladder.") : solution.index("def __init__")]
+    named = [check for step in re.findall(r"\[([\w, ]+)\]", ladder) for check in step.split(", ")]
+    visible = {check.id for check in load_exercise("cancellable_walk", hidden=False).checks}
+    assert sorted(named) == sorted(visible - ON_NO_STEP)

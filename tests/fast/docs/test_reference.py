@@ -1,0 +1,134 @@
+"""The glossary and the cheat sheet say what is there, and minutes are the same wherever they are written."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from pathlib import Path
+
+import nbformat
+import pytest
+import rclpy
+from rclpy.action import ActionClient
+from rclpy.action.client import ClientGoalHandle
+from rclpy.action.server import ServerGoalHandle
+from rclpy.client import Client
+from rclpy.node import Node
+
+import lab
+
+ROOT = Path(__file__).resolve().parents[3]
+DOCS = ROOT / "docs"
+CELL_LINK = re.compile(r"\[(\d+\w?): [^\]]+\]\(\.\./chapters/([\w]+)\.ipynb#cell-id=([a-z0-9-]+)\)")
+WORDS = (
+    "node, graph, namespace, topic, message, publisher, subscription, QoS, reliability, durability, "
+    "depth, service, server, client, request, response, future, timeout, deadline, idempotent, action, "
+    "goal, accept, reject, feedback, result, cancel, preempt, abort, executor, reentrant, spin, deadlock, "
+    "parameter, frame, odom, map, base_link, quaternion, interface, package, discovery, DDS, RMW, lease, "
+    "remap, transient local, latched, goal handle, terminal state, callback group, relative name, type "
+    "hash "
+)
+
+
+@cache
+def cells(chapter: str) -> set[str]:
+    path = ROOT / f"chapters/{chapter}.ipynb"
+    return {cell.id for cell in nbformat.read(path, as_version=4).cells} if path.exists() else set()
+
+
+def rows(page: Path) -> list[list[str]]:
+    """The cells of a page's tables, without the heads."""
+    lines = [line for line in page.read_text().splitlines() if line.startswith("| ")]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+
+
+def code(column: int) -> list[str]:
+    """What stands in backticks in one column of the cheat sheet."""
+    return [
+        snippet
+        for row in rows(DOCS / "cheat_sheet.md")
+        if len(row) > column
+        for snippet in re.findall(r"`([^`]+)`", row[column])
+    ]
+
+
+def test_the_glossary_has_every_word_and_shows_where_it_is_taught() -> None:
+    entries = [row for row in rows(DOCS / "glossary.md") if row[0] != "Word"]
+    words = {word for row in entries for part in row for word in re.findall(r"\*\*(.+?)\*\*", part)}
+    assert set(WORDS.strip().split(", ")) - {word.partition(" (")[0] for word in words} == set()
+    for row in entries:
+        found = CELL_LINK.search(row[2])
+        assert found, row[0]
+        number, chapter, cell = found.groups()
+        assert chapter.lstrip("0").startswith(f"{number}_"), row[0]
+        assert cell in cells(chapter), f"{row[0]}: {chapter} has no cell {cell}"
+        assert 1 <= len(re.findall(r"[.?]( |$)", row[1])) <= 4, row[0]
+
+
+def test_the_cheat_sheet_has_every_function_of_the_lab_and_no_other() -> None:
+    named = {name for text in code(1) for name in re.findall(r"\blab\.(\w+)", text)}
+    assert named == {name for name in lab.__all__ if name[0].islower()}
+
+
+def test_its_ros2_commands_are_those_that_there_are() -> None:
+    known = set(re.findall(r"^\| `(\w+ \w+)", (DOCS / "ros2_commands.md").read_text(), re.MULTILINE))
+    used = {verb for text in code(2) for verb in re.findall(r"\bros2 (\w+ \w+)", text)}
+    assert len(used) > 15
+    assert used - known == set()
+
+
+@pytest.mark.parametrize(
+    ("owner", "classes"),
+    [
+        ("node", (Node,)),
+        ("client", (Client, ActionClient)),
+        ("goal_handle", (ServerGoalHandle, ClientGoalHandle)),
+        ("rclpy", (rclpy,)),
+    ],
+)
+def test_its_rclpy_names_exist(owner: str, classes: tuple[object, ...]) -> None:
+    named = {name for text in code(3) for name in re.findall(rf"\b{owner}\.(\w+)", text)}
+    assert named
+    assert {name for name in named if not any(hasattr(one, name) for one in classes)} == set()
+
+
+def minutes_of_the_start_page() -> dict[str, int]:
+    """The minutes of each chapter, by file, and of each exercise, as chapters/README.md says them."""
+    minutes = {}
+    for row in rows(ROOT / "chapters/README.md"):
+        if chapter := re.search(r"\((\w+)\.ipynb\)", row[0]):
+            minutes[chapter[1]] = int(row[1])
+            minutes |= {name: int(number) for name, number in re.findall(r"\[(\w+)\]\S+ \((\d+)\)", row[2])}
+    return minutes
+
+
+def test_instructors_read_the_same_minutes_as_students() -> None:
+    students = minutes_of_the_start_page()
+    titles = {re.sub(r"[\[\]]|\(.*?\)", "", row[0]): row[1] for row in rows(ROOT / "chapters/README.md")}
+    instructors = {row[1]: row for row in rows(DOCS / "for_instructors.md") if row[0].isdigit()}
+    assert {title for title in titles if title[0].isdigit()} == set(instructors)
+    for title, row in instructors.items():
+        assert row[2] == titles[title], title
+        for exercise, number in re.findall(r"(\w+) \((\d+)\)", row[3]):
+            assert students.pop(exercise) == int(number), exercise
+    assert [name for name in students if not name[0].isdigit()] == []
+
+
+def test_a_notebook_that_says_how_long_it_takes_says_what_the_start_page_says() -> None:
+    for name, minutes in minutes_of_the_start_page().items():
+        chapter = ROOT / f"chapters/{name}.ipynb"
+        path = chapter if chapter.exists() else ROOT / f"exercises/{name}/{name}.ipynb"
+        text = path.read_text()
+        if said := re.search(r"Reading: (\d+) minutes\. Doing: (\d+) minutes", text):
+            assert int(said[1]) + int(said[2]) == minutes, f"{name}: reading and doing"
+        if said := re.search(r"About (\d+) minutes", text):
+            assert int(said[1]) == minutes, name
+
+
+@pytest.mark.parametrize("page", sorted(DOCS.glob("*.md")), ids=lambda page: page.stem)
+def test_the_links_of_a_page_lead_somewhere(page: Path) -> None:
+    base = (
+        ROOT if page.stem == "for_students" else page.parent
+    )  # it becomes the README of the students' archive
+    links = re.findall(r"\]\(([^)\s#]+)", page.read_text())
+    assert [link for link in links if "://" not in link and not (base / link).exists()] == []

@@ -1,0 +1,70 @@
+"""Topic, service or action, by the first question that is answered with yes."""
+
+from __future__ import annotations
+
+import pytest
+
+import lab
+
+
+@pytest.mark.parametrize(
+    ("words", "pattern"),
+    [
+        (["yes"], "action"),
+        (["no", "yes"], "action"),
+        (["no", "no", "yes"], "action"),
+        (["no", "no", "no", "yes"], "service"),
+        (["no", "no", "no", "no"], "topic"),
+    ],
+)
+def test_the_first_yes_decides_and_says_why(
+    words: list[str], pattern: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    choice = lab.choose_pattern()
+    for word in words:
+        assert choice.pattern is None
+        choice.answer(word)
+    assert choice.pattern == pattern
+    last = capsys.readouterr().out.splitlines()[-1]
+    assert last.startswith(f"{pattern.capitalize()}: ")
+    assert len(last) > 60
+
+
+def test_the_questions_are_asked_in_order(capsys: pytest.CaptureFixture[str]) -> None:
+    choice = lab.choose_pattern()
+    asked = [choice.text()]
+    for _ in range(3):
+        choice.answer("no")
+        asked.append(choice.text())
+    assert [text.split(":")[0] for text in asked] == [
+        "Question 1. Cancel",
+        "Question 2. Progress",
+        "Question 3. Duration",
+        "Question 4. Answer",
+    ]
+    assert capsys.readouterr().out.splitlines() == asked[1:]
+
+
+def test_the_buttons_do_the_same_and_rest_when_it_is_decided() -> None:
+    choice = lab.choose_pattern()
+    note, row = choice._panel().children
+    yes, no, restart = row.children
+    no.click()
+    assert note.value.startswith("Question 2.")
+    yes.click()
+    assert note.value.startswith("Action: ")
+    assert (yes.disabled, no.disabled) == (True, True)
+    restart.click()
+    assert note.value.startswith("Question 1.")
+    assert (yes.disabled, no.disabled) == (False, False)
+
+
+def test_other_words_and_further_answers_are_told() -> None:
+    choice = lab.choose_pattern()
+    with pytest.raises(lab.LabError, match="'maybe' is no answer"):
+        choice.answer("maybe")
+    choice.answer("yes")
+    with pytest.raises(lab.LabError, match=r"it is decided: action; begin again with restart\(\)"):
+        choice.answer("no")
+    choice.restart()
+    assert choice.pattern is None

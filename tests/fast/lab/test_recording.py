@@ -1,0 +1,182 @@
+"""What a recording holds, and what its plots show."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import Any
+
+import numpy as np
+import pytest
+from drawings import read
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import BatteryState
+
+from humanoid_interfaces.msg import RobotState
+from lab.errors import LabError
+from lab.means_plot import plot_means
+from lab.recording import Recording
+from ros_runtime.record.client_events import CancelAnswered, CancelSent, FeedbackReceived, ResultReceived
+
+
+class Stage:
+    """Feeds a recording with what a robot would publish, at times since its beginning."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.now = 1000.0
+        monkeypatch.setattr(time, "monotonic", lambda: self.now)
+        monkeypatch.setattr(time, "time", lambda: self.now + 5e8)
+        self.recording = Recording()
+
+    def publish(self, topic: str, message: Any, at: float) -> None:
+        stamp = 5e8 + 1000.0 + at
+        message.header.stamp.sec = int(stamp)
+        message.header.stamp.nanosec = int((stamp - int(stamp)) * 1e9)
+        self.recording.keep(topic, message)
+
+    def walk(
+        self, at: float, *, speed: float = 0.3, height: float = 0.6, yaw: float = 0.0, pitch: float = 0.0
+    ) -> None:
+        message = Odometry()
+        message.twist.twist.linear.x = speed
+        message.pose.pose.position.z = height
+        q = message.pose.pose.orientation
+        half, lean = yaw / 2, pitch / 2
+        q.w, q.z = math.cos(half) * math.cos(lean), math.sin(half) * math.cos(lean)
+        q.x, q.y = -math.sin(half) * math.sin(lean), math.cos(half) * math.sin(lean)
+        self.publish("odom", message, at)
+
+    def be(self, mode: int, at: float) -> None:
+        self.publish("robot_state", RobotState(mode=mode), at)
+
+    def end(self, at: float) -> Recording:
+        self.now = 1000.0 + at
+        self.recording.end()
+        return self.recording
+
+
+@pytest.fixture
+def stage(monkeypatch: pytest.MonkeyPatch) -> Stage:
+    return Stage(monkeypatch)
+
+
+def test_messages_stand_at_their_stamps_and_those_outside_the_block_are_left_out(stage: Stage) -> None:
+    for tenth in range(-2, 14):
+        stage.walk(tenth / 10, speed=tenth / 10)
+    recording = stage.end(1.05)
+    times, speeds = recording.values("speed")
+    np.testing.assert_allclose(times, np.arange(11) / 10, atol=1e-6)
+    np.testing.assert_allclose(speeds, times, atol=1e-6)
+    assert recording.mean("speed") == pytest.approx(0.5)
+
+
+def test_tilt_is_the_angle_from_upright_whatever_the_heading(stage: Stage) -> None:
+    for yaw in (0.0, 1.0, 3.0):
+        stage.walk(0.1 + yaw / 10, yaw=yaw, pitch=0.4)
+    np.testing.assert_allclose(stage.end(1.0).values("tilt")[1], 0.4, atol=1e-6)
+
+
+def test_the_heading_goes_on_where_it_turns_over(stage: Stage) -> None:
+    for step in range(9):
+        stage.walk(step / 10, yaw=2.8 + 0.1 * step)
+    np.testing.assert_allclose(stage.end(1.0).values("heading")[1], 2.8 + 0.1 * np.arange(9), atol=1e-6)
+
+
+def test_power_is_what_leaves_the_battery(stage: Stage) -> None:
+    stage.publish("battery_state", BatteryState(voltage=50.0, current=-2.0), at=0.5)
+    assert stage.end(1.0).mean("power") == pytest.approx(100.0)
+
+
+def test_a_plot_has_a_panel_for_each_quantity_and_a_label_for_each_moment(stage: Stage) -> None:
+    stage.be(RobotState.WALKING, at=-0.1)
+    for twentieth in range(40):
+        stage.walk(twentieth / 20, speed=0.3 if twentieth < 25 else 0.0)
+    stage.recording.note(CancelSent(t=1001.0, cancel="cancel 1", goal="turn_to 1", by="notebook"))
+    stage.recording.note(CancelAnswered(t=1001.01, cancel="cancel 1", return_code=0, canceling=["turn_to 1"]))
+    stage.recording.note(FeedbackReceived(t=1001.1, goal="turn_to 1", feedback=None))
+    stage.be(RobotState.STANDING, at=1.25)
+    stage.recording.note(ResultReceived(t=1001.5, goal="turn_to 1", status=5, result=None))
+    drawing = read(stage.end(2.0).plot("speed", "height", title="A cancel"))
+
+    labels = ["cancel requested", "cancel accepted", "WALKING → STANDING", "result: CANCELED"]
+    for text in (
+        *labels,
+        "A cancel",
+        "speed, m/s",
+        "height, m",
+        "s since the recording began (system clock)",
+    ):
+        assert drawing.texts.count(text) == 1, text
+    assert not any("feedback" in text for text in drawing.texts)
+    assert "speed in m/s: 0.30 at first, 0.00 at last" in drawing.alt
+    places = [
+        drawing.alt.index(f"{at}: {label}.")
+        for at, label in zip(("1.00 s", "1.01 s", "1.25 s", "1.50 s"), labels, strict=True)
+    ]
+    assert places == sorted(places)
+
+
+def test_the_time_between_two_moments_can_be_asked_for(stage: Stage) -> None:
+    stage.be(RobotState.WALKING, at=-0.1)
+    stage.now = 1000.4
+    stage.recording.mark("power off")
+    stage.be(RobotState.OFF, at=0.5)
+    recording = stage.end(1.0)
+    assert recording.time_of("OFF") - recording.time_of("power off") == pytest.approx(0.1)
+    assert recording.time_of("WALKING → OFF") == recording.time_of("OFF")
+    with pytest.raises(LabError, match=r'there is: "power off" at 0\.40 s; "WALKING → OFF" at 0\.50 s'):
+        recording.time_of("FALLEN")
+
+
+def test_a_curve_to_compare_with_is_named_and_does_not_stretch_the_panel(stage: Stage) -> None:
+    for twentieth in range(20):
+        stage.walk(twentieth / 20)
+    recording = stage.end(1.0)
+    drawing = read(recording.plot("height", compare={"a stone": lambda t: 0.6 - 4.905 * t * t}))
+    assert "a stone" in drawing.texts
+    assert "Dashed beside height: a stone." in drawing.alt
+    ticks = [float(text.replace("−", "-")) for text in drawing.texts if text.replace("−", "-")[-1:].isdigit()]
+    assert min(ticks) >= -0.1
+
+
+def test_marks_with_letters_that_mean_something_elsewhere_are_shown_as_they_are(stage: Stage) -> None:
+    stage.walk(0.5)
+    stage.recording.mark("$x$ < y & z_1")
+    assert "$x$ < y & z_1" in read(stage.end(1.0).plot("speed")).texts
+
+
+def test_an_unknown_quantity_is_refused_with_those_that_there_are(stage: Stage) -> None:
+    stage.walk(0.5)
+    recording = stage.end(1.0)
+    for ask in (recording.values, recording.mean, recording.plot):
+        with pytest.raises(LabError, match=r"nothing called 'sped' .* \"speed\" \(m/s\), .*\"power\" \(W\)"):
+            ask("sped")
+
+
+def test_an_empty_recording_says_so(stage: Stage) -> None:
+    stage.walk(-0.1)
+    recording = stage.end(0.02)
+    for ask in (lambda: recording.plot("speed"), lambda: recording.mean("power"), recording.film):
+        with pytest.raises(LabError, match=r"was recorded: the block lasted 0\.02 s"):
+            ask()
+    with pytest.raises(LabError, match="say what to plot"):
+        recording.plot()
+
+
+def test_it_is_whole_when_a_later_message_has_come(stage: Stage) -> None:
+    stage.walk(0.9)
+    recording = stage.end(1.0)
+    assert not recording.has_all_messages()
+    stage.walk(1.02)
+    assert recording.has_all_messages()
+
+
+def test_means_are_points_with_the_names_of_their_recordings(stage: Stage) -> None:
+    stage.walk(0.5, speed=0.25)
+    stage.publish("battery_state", BatteryState(voltage=50.0, current=-2.0), at=0.5)
+    drawing = read(plot_means({"a walk": stage.end(1.0)}, "speed", "power", title="Power against speed"))
+    for text in ("a walk", "mean speed, m/s", "mean power, W", "Power against speed"):
+        assert text in drawing.texts
+    assert drawing.alt == "Power against speed. a walk: mean speed, m/s 0.25, mean power, W 100.00."
+    with pytest.raises(LabError, match="nothing to plot"):
+        plot_means({}, "speed", "power")

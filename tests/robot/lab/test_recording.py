@@ -1,0 +1,82 @@
+"""A recording of the robot that runs: a walk, a goal that is cancelled meanwhile, and a fall."""
+
+from __future__ import annotations
+
+import pytest
+from kernels import Kernel
+
+
+@pytest.fixture(scope="module")
+def recorded(kernel: Kernel) -> Kernel:
+    """A kernel whose `recording` has a walk, in which a goal was cancelled, and after which the torque went."""
+    kernel.run(
+        """
+        import time
+        from humanoid_interfaces.action import StandUp
+        from std_msgs.msg import Bool
+        lab.start_robot()
+        server = lab.run_node("riser.py", "cancel")
+        with lab.record_robot() as recording:
+            with lab.walking(forward=0.3):
+                lab.wait_until(lambda: lab.pose().x > 0.4, timeout=20)
+                goal = lab.send_goal("stand_up", StandUp, StandUp.Goal())
+                goal.cancel()
+                goal.result(show_feedback=False)
+                recording.mark("motor power off")
+                lab.publish("motor_power", Bool(data=False))
+                lab.wait_until(lambda: lab.mode() == "FALLEN")
+    """.replace("\n        ", "\n")
+    )
+    return kernel
+
+
+def test_its_plot_shows_the_robot_and_what_was_asked(recorded: Kernel) -> None:
+    html = recorded.run("print(recording.plot('speed', 'height', title='A walk and its end').data)")
+    assert '<img src="data:image/svg+xml;base64,' in html
+    labels = ["goal sent", "cancel requested", "cancel accepted", "result: CANCELED", "motor power off"]
+    places = [html.index(f"s: {label}.") for label in labels]
+    assert places == sorted(places)
+    assert "STANDING → WALKING" in html
+    assert "→ FALLEN" in html
+
+
+def test_it_reaches_from_the_beginning_to_the_end_of_the_block(recorded: Kernel) -> None:
+    recorded.run(
+        """
+        times, speeds = recording.values("speed")
+        assert (times[1:] > times[:-1]).all()
+        assert times[0] < 0.5 and recording.seconds - times[-1] < 0.5, (times[0], times[-1], recording.seconds)
+        assert speeds.max() > 0.2
+        heights = recording.values("height")[1]
+        assert heights[0] > 0.5 and heights[-1] < 0.5
+        assert recording.mean("power") > 0
+        assert recording.time_of("goal sent") < recording.time_of("result: CANCELED")
+    """.replace("\n        ", "\n")
+    )
+
+
+def test_its_film_is_drawn_afterwards(recorded: Kernel) -> None:
+    html = recorded.run("print(recording.film('fall.webp', camera='side', slow_motion=2).data)")
+    assert "2 times as slow as it was" in html
+    assert "data:image/webp" in html or "No film: no OpenGL" in html
+
+
+def test_a_time_line_shows_the_server_and_its_end(recorded: Kernel) -> None:
+    recorded.run("server.stop()")
+    html = recorded.run("print(lab.draw_timeline(server, title='The server').data)")
+    assert "The server. riser.py began at 0.00 s;" in html
+    assert " s: stopped." in html
+
+
+def test_without_a_robot_it_says_so(kernel: Kernel) -> None:
+    kernel.run("lab.stop_robot(); lab.topics.forget()")
+    printed = kernel.run(
+        """
+        try:
+            with lab.record_robot():
+                pass
+        except lab.NoRobotError as error:
+            print(error)
+    """.replace("\n        ", "\n")
+    )
+    assert "nothing arrived on /robot/robot_state" in printed
