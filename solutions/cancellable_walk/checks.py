@@ -7,9 +7,18 @@ from autograder.authoring.checks import RESTING, Scenario, check, expect
 from autograder.authoring.feedback import require_good_feedback_rate
 from autograder.authoring.goal import ABORTED
 from autograder.authoring.transcript import Transcript
-
-from .reports import require_error_code, require_filled_result, require_true_feedback
-from .robot import require_accepted, require_arrival, require_fall, require_stopped, require_walking
+from autograder.authoring.walking.reports import (
+    require_error_code,
+    require_filled_result,
+    require_true_feedback,
+)
+from autograder.authoring.walking.truth import (
+    require_accepted,
+    require_arrival,
+    require_fall,
+    require_stopped,
+    require_walking,
+)
 
 WALK = Scenario("walk", {"x": 0.6, "y": 0.2, "yaw": 0.5})
 IMPOSSIBLE = Scenario("ask_for_the_impossible", {"frame": "map"}, robot=RESTING)

@@ -7,10 +7,15 @@ from autograder.authoring.goal import CANCELED, SUCCEEDED
 from autograder.authoring.missing import unseen
 from autograder.authoring.readiness import require_alive
 from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.planar import error
+from autograder.authoring.walking.truth import (
+    require_accepted,
+    require_arrival,
+    require_stopped,
+    require_walking,
+)
 
 from .checks import arrives, cancels_in_mid_stride, stops_when_canceled
-from .planar import error
-from .robot import require_accepted, require_arrival, require_stopped, require_walking
 
 
 def _poses(random) -> dict:

@@ -9,9 +9,8 @@ from autograder.authoring.connections import why_nothing_is_heard
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import SUCCEEDED, Goal
 from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.planar import error
 from humanoid_interfaces.msg import RobotState
-
-from .planar import error
 
 _ACCEPT = (
     "goal_callback must return GoalResponse.ACCEPT for a finite pose in frame odom while the motors are on (True is "

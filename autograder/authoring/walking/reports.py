@@ -12,9 +12,8 @@ from autograder.authoring.failure import expect
 from autograder.authoring.feedback import end_of_feedback, require_feedback
 from autograder.authoring.goal import SUCCEEDED, Goal
 from autograder.authoring.goal_endings import why_blind, why_rclpy_aborted
+from autograder.authoring.walking.planar import error, heading, turn
 from humanoid_interfaces.action import WalkTo
-
-from .planar import error, heading, turn
 
 REPORT_SLACK = 0.08  # m or rad, over what the robot moved while the message was made and delivered
 REPORT_AGE = 0.6  # s that a reported pose may be old: odom's period, the feedback's period, delivery
