@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,6 +14,7 @@ from nbclient import NotebookClient
 from nbformat.v4 import new_code_cell
 
 from lab.gap_cells import fill_gaps
+from ros_cli.real_ros2 import path_with_ros2
 
 CHAPTERS = Path(__file__).resolve().parents[3] / "chapters"
 CELL_TIMEOUT = (
@@ -45,9 +47,10 @@ class Executed:
 def execute(name: str, folder: Path) -> Executed:
     """Run all cells of a chapter; a cell that raises fails the test with its traceback."""
     notebook = answered(nbformat.read(CHAPTERS / f"{name}.ipynb", as_version=4))
+    with_ros2 = {**os.environ, "PATH": path_with_ros2(os.environ["PATH"])}  # as in `course lab`
     NotebookClient(
         notebook, timeout=CELL_TIMEOUT, kernel_name="python3", resources={"metadata": {"path": str(folder)}}
-    ).execute()
+    ).execute(env=with_ros2)
     return Executed(notebook, [str(process) for process in processes_in(folder)])
 
 

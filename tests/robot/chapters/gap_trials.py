@@ -40,6 +40,10 @@ class GapTrials:
             self._kernel.run(f"%%gap {file}\n{fill(self._programs[file], lines + chr(10))}")
         return str(raised.value)
 
+    def accept(self, file: str, lines: str) -> str:
+        """What a student reads who writes these lines into the gap; the test fails when they are not accepted."""
+        return self._kernel.run(f"%%gap {file}\n{fill(self._programs[file], lines + chr(10))}")
+
     def end(self) -> None:
         """End the kernel and what runs in it."""
         self._kernel.shut_down()
