@@ -43,6 +43,11 @@ def test_the_textbook_client_ends_only_when_all_is_well(chapter: Executed) -> No
     assert "The robot is at" not in killed
 
 
+def test_silence_is_drawn_as_a_request_without_an_answer(chapter: Executed) -> None:
+    assert "no answer within one second" in chapter.text("kill-draw")
+    assert "notebook to where_am_i" in chapter.html("kill-draw")
+
+
 def test_a_limit_alone_turns_silence_into_none(chapter: Executed) -> None:
     printed = chapter.text("half-run")
     assert in_order(printed, "exit status 1", "AttributeError: 'NoneType' object has no attribute 'message'")
@@ -91,6 +96,16 @@ def test_the_gap_of_one_try_says_what_is_wrong(gaps: GapTrials, lines: str, said
     assert said in gaps.reply("ask_once.py", lines)
 
 
+ONE_TRY = """
+import rclpy
+
+
+def ask_once(node, client, request, seconds):
+    future = client.call_async(request)
+    rclpy.spin_until_future_complete(node, future, timeout_sec=seconds)
+    client.remove_pending_request(future)
+    return future.result()
+"""
 FIND = "if not client.wait_for_service(timeout_sec=left_until(deadline)):\n    return None\n"
 
 
@@ -124,7 +139,15 @@ FIND = "if not client.wait_for_service(timeout_sec=left_until(deadline)):\n    r
     ],
 )
 def test_the_gap_of_the_deadline_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    gaps.run(f"%%writefile ask_once.py\n{ONE_TRY}")
     assert said in gaps.reply("bounded.py", lines)
+
+
+def test_the_gap_of_the_deadline_asks_for_the_one_before_it(gaps: GapTrials) -> None:
+    gaps.run(
+        "%%writefile ask_once.py\ndef ask_once(node, client, request, seconds):\n    raise NotImplementedError"
+    )
+    assert "fill the gap of ask_once.py first" in gaps.reply("bounded.py", f"{FIND}return None")
 
 
 @pytest.mark.parametrize(
@@ -144,4 +167,5 @@ def test_the_gap_of_the_deadline_says_what_is_wrong(gaps: GapTrials, lines: str,
     ],
 )
 def test_other_sound_lines_fill_the_gaps(gaps: GapTrials, file: str, lines: str) -> None:
+    gaps.run(f"%%writefile ask_once.py\n{ONE_TRY}")
     assert f"✓ {file}" in gaps.accept(file, lines)
