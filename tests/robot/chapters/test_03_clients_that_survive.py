@@ -147,7 +147,9 @@ def test_the_gap_of_the_deadline_asks_for_the_one_before_it(gaps: GapTrials) -> 
     gaps.run(
         "%%writefile ask_once.py\ndef ask_once(node, client, request, seconds):\n    raise NotImplementedError"
     )
-    assert "fill the gap of ask_once.py first" in gaps.reply("bounded.py", "return ask_once(node, client, request, 1.0)")
+    assert "fill the gap of ask_once.py first" in gaps.reply(
+        "bounded.py", "return ask_once(node, client, request, 1.0)"
+    )
 
 
 @pytest.mark.parametrize(
