@@ -10,7 +10,7 @@ from autograder.authoring import events as ev
 from autograder.authoring.record import Record
 
 GROWS = "Look for a list that grows with every message, request or round of a loop: keep only the last."
-LEAKS = "03_clients_that_survive#leak-why"
+LEAKS = "03b_clients_in_bad_company#leak-why"
 SERVES_ONE_REQUEST = "02_services#first-intro"
 WRONG_TYPE = "02_services#fields-why"
 CRASHES = "02_services#m9-why"

@@ -1,4 +1,4 @@
-"""Chapter 3: clients that survive."""
+"""Chapter 3a: a bounded call."""
 
 from lab.question import Choice, Question
 
@@ -7,111 +7,99 @@ QUESTIONS = (
         "spin_until_future_complete(node, future, timeout_sec=2.0) has returned. What do you do next?",
         (
             Choice(
-                "Read future.result(): if there was no answer, an exception would have been raised.",
-                "Nothing is raised. The function returns, result() is None, and the next line fails.",
+                "Read future.result(): without an answer, rclpy would have raised an exception.",
+                "Sensible, because many libraries do raise one. rclpy doesn't: it returns, result() is "
+                "None, and the next line fails.",
             ),
             Choice(
                 "Ask future.done(); if it is not done, remove the request and treat the outcome as unknown.",
-                "The function only bounds the waiting. Whether there is an answer is yours to look up.",
+                "The function only limits the wait. You look whether there is an answer.",
                 right=True,
             ),
             Choice(
-                "Call it again until it is done.",
-                "That is waiting for ever, in slices of two seconds. A dead server never answers.",
+                "Call it again until the future is done.",
+                "That is waiting forever, in slices of two seconds. A dead server never answers.",
             ),
         ),
     ),
     Question(
-        "The server is killed in the middle of your request. What does your client see?",
+        "The server is killed while it has your request. What does your client see?",
         (
             Choice(
                 "The future gets an exception: connection lost.",
-                "There is no connection that could be lost. The future just stays undone.",
+                "With TCP you might see one. A ROS service has no connection that could be lost: the "
+                "future just isn't done.",
             ),
             Choice(
                 "service_is_ready() turns false at once, so the client can stop waiting.",
-                "Nobody said goodbye. With Fast DDS the dead server looks ready for up to 20 s.",
+                "A server that dies tells nobody. With Fast DDS it looks ready for up to 20 s more, with "
+                "Cyclone DDS for up to 10 s.",
             ),
             Choice(
                 "Nothing: the same silence as with a slow server or a lost message.",
-                "So the only protection is your own time limit.",
+                "So your own time limit is the only protection.",
                 right=True,
             ),
         ),
     ),
     Question(
-        "Which of these requests may a client send again when no answer came?",
+        "A client has 10 s for two calls, two tries each, 2 s a try. Finding the servers took 5 s, the first "
+        "call 4 s. How long may it wait for the first try of the second call?",
         (
             Choice(
-                "'Turn left by 10 degrees'",
-                "If only the answer was lost, the robot turns by 20. Relative requests add up.",
+                "2 s, as for every try.",
+                "Then it ends after 11 s, and a second try makes it 13. 2 s is the most that a try may "
+                "take; the deadline leaves less.",
             ),
             Choice(
-                "'Face north'",
-                "Asked twice, it ends the same: idempotent.",
+                "1 s.",
+                "min(2.0, deadline - now): 10 - 5 - 4 leaves 1 s. Then nothing is left for another try.",
                 right=True,
             ),
             Choice(
-                "'Toggle the gripper'",
-                "Two toggles are none. Ask for 'open' or 'closed' instead.",
-            ),
-            Choice(
-                "None: a retry is always dangerous.",
-                "Then a single lost message would end every job. Make the request harmless instead.",
+                "0.5 s, so that the second try gets as much.",
+                "A fair idea, and a different rule. The one of this chapter gives each step what is left, "
+                "up to its own limit.",
             ),
         ),
     ),
     Question(
-        "A client stores every response in self.answer. After a time-out it asks again. What can go wrong?",
+        "A client computes its deadline with time.time(). While it waits, the robot's clock is set back by a "
+        "minute, because it found a time server. What happens?",
         (
             Choice(
-                "The late answer to the first request is taken for the answer to the second.",
-                "rclpy matches each response to its own future; the shared variable throws that away.",
+                "Nothing: both times come from the same clock.",
+                "They do, but the clock was changed between the two.",
+            ),
+            Choice(
+                "The client may wait a minute longer.",
+                "deadline - now has grown by 60 s. time.monotonic() only ever goes forward, whatever "
+                "anybody sets.",
                 right=True,
             ),
             Choice(
-                "rclpy gives the first answer to the second future.",
-                "Never: requests are numbered, and each future gets only its own response.",
-            ),
-            Choice(
-                "Nothing, because services keep the order.",
-                "Order does not help: the old answer comes first, and that is exactly the trouble.",
+                "The client gives up at once.",
+                "That is what happens when the clock is set forward.",
             ),
         ),
     ),
     Question(
-        "A service callback needs the answer of another service, with a time limit. What works in every executor?",
+        "main() returns 1 on failure. The last lines of the file are: if __name__ == '__main__': main(). What "
+        "does the script see that started it?",
         (
             Choice(
-                "rclpy.spin_until_future_complete(self, future, timeout_sec=1.0)",
-                "It moves the node to another executor and does not bring it back: one answer, then a deaf node.",
+                "Exit status 1, since main() returned 1.",
+                "In C it would be so. Python ignores what main() returns unless you hand it on: "
+                "sys.exit(main()).",
             ),
             Choice(
-                "client.call(request, timeout_sec=1.0)",
-                "On one thread it blocks the thread that would deliver the answer: a second lost, and always None.",
-            ),
-            Choice(
-                "async def, await the future, and a timer in another callback group that cancels it",
-                "The thread is free while it waits, and the timer ends the waiting.",
-                right=True,
-            ),
-        ),
-    ),
-    Question(
-        "What is left of the deadline is -0.1 s, and you pass it on as timeout_sec. How long does rclpy spin?",
-        (
-            Choice(
-                "Not at all: the time is up.",
-                "That would be 0.0. Hence max(0.0, left).",
-            ),
-            Choice(
-                "Without a limit.",
-                "To spin_until_future_complete a negative limit means none, like None.",
+                "Exit status 0, as if all had gone well.",
+                "Without sys.exit(main()), a Python program that ends without an exception ends with 0.",
                 right=True,
             ),
             Choice(
-                "It raises a ValueError.",
-                "It would be kinder. It is accepted silently.",
+                "No exit status at all.",
+                "Every process has one. Without sys.exit() Python sets it to 0.",
             ),
         ),
     ),
@@ -120,22 +108,45 @@ QUESTIONS = (
         (
             Choice(
                 "0, because the call itself worked.",
-                "Whoever started the client wants to know whether the job is done. It is not.",
+                "The call did work, and ros2 service call sees it so, too. But whoever started your client "
+                "wants to know whether the job is done. It isn't.",
             ),
             Choice(
                 "1, and the server's message on stderr.",
-                "0 is for success only, and the sentence tells a person why it failed.",
+                "0 is for success only, and the message tells a person why it failed.",
                 right=True,
             ),
             Choice(
                 "None: the client should ask until success is true.",
-                "The server has understood and refused. Asking again gets the same refusal, and the client never ends.",
+                "The server has understood and refused. If you ask again you get the same refusal, and the "
+                "client never ends.",
             ),
         ),
     ),
 )
 
 PREDICTIONS = (
+    Question(
+        "The client of the textbooks runs twice. 1: nobody started the server. 2: the server is killed while "
+        "it has the request. How do the two runs end?",
+        (
+            Choice(
+                "Both give up with an error after a few seconds.",
+                "A sensible guess: most network programs have a time limit from the start. But rclpy has none "
+                "unless you pass one, so both clients wait until the lab stops them.",
+            ),
+            Choice(
+                "The first waits forever; the second gets an error, because its server is gone.",
+                "A sensible guess: a broken TCP connection does raise an error. But a ROS service has no "
+                "connection, and a killed server tells nobody. The second client waits forever, too.",
+            ),
+            Choice(
+                "Neither ends by itself.",
+                "No wait in it has a limit, and nobody tells a client that its server has died.",
+                right=True,
+            ),
+        ),
+    ),
     Question(
         "The server takes 2.5 s, and the client waits 1 s. How does ask_half.py end?",
         (
@@ -159,91 +170,67 @@ PREDICTIONS = (
         ),
     ),
     Question(
-        "The robot walks at 0.3 m/s. The client gives up after 1 s and asks again, and the first answer "
-        "takes 2 s. How far off is the second position that the client prints?",
+        "ask_for.py gets a time limit of -0.1 s, and the server doesn't answer for 30 s. What does it do?",
         (
             Choice(
-                "A few centimetres.",
-                "A sensible guess: the client set self.answer to None and asked again. But the late "
-                "answer to the first request lands in the same place, and the client takes it for the "
-                "second.",
+                "It prints None at once: the time is up.",
+                "A sensible guess: you would want that, and rclpy does it with 0.0. But it takes a negative "
+                "limit for no limit, so the client waits.",
             ),
             Choice(
-                "About half a metre.",
-                "The answer to the first request came while the client waited for the second. One "
-                "mailbox can't tell them apart, so the client prints an old position.",
+                "It ends with a ValueError: a time can't be negative.",
+                "A sensible guess: that would be kinder. But rclpy accepts a negative limit without a word and "
+                "takes it for no limit, so the client waits.",
+            ),
+            Choice(
+                "It waits without a limit.",
+                "To spin_until_future_complete a negative limit means no limit, like None. So compute "
+                "max(0.0, what is left).",
                 right=True,
-            ),
-            Choice(
-                "It prints None for the second position too.",
-                "A sensible guess: a server that was slow once may be slow again. But only its first "
-                "answer is late, and it comes while the client waits for the second. The client takes "
-                "one for the other.",
             ),
         ),
     ),
     Question(
-        "The client asks forward for 0.3 m. The answer comes after 2.5 s, and the client retries after 2 "
-        "s. How far does the robot walk?",
+        "The fourth server dies while it has the request. A try takes 2 s at most, and there are two. What "
+        "does ask.py say?",
         (
             Choice(
-                "0.3 m.",
-                "A sensible guess: that's what the client asked for. But the server got the request "
-                "twice, and each request means 0.3 m more.",
+                '"where_am_i is not there", after a try.',
+                "A sensible guess: the process is gone. But it couldn't say goodbye, so Fast DDS takes it "
+                "for ready for up to 20 s more. The client tries twice and gets no answer.",
             ),
             Choice(
-                "0.6 m.",
-                "The server got both requests, and each one adds 0.3 m. Only the first answer was late; "
-                "its request was carried out.",
+                '"where_am_i looks ready and does not answer", after two tries.',
+                "Nobody has announced that the server is gone. It looks ready, each try waits its 2 s, and "
+                "then the client gives up.",
                 right=True,
             ),
             Choice(
-                "Not at all.",
-                "A sensible guess: the client gave up on its first request. But the server doesn't learn "
-                "that, so it carries out the first request and the retry. Each one adds 0.3 m.",
+                '"The robot is at …": the second try is answered.',
+                "A sensible guess: that's what happened with the slow server. But this one is dead, and nobody "
+                "starts another.",
             ),
         ),
     ),
     Question(
-        "The robot lies on the floor without power. What do forward.py and go_to.py say?",
+        "The server dies with the first request, and another is started. The client keeps its client object "
+        "and tries again every 2 s. What happens?",
         (
             Choice(
-                "Both say that the service refuses.",
-                "A sensible guess: the service does refuse both requests. But forward.py looks only "
-                "whether there is an answer, and never reads success. It says that the robot walks.",
+                "The new server answers the first request when it is up.",
+                "A sensible guess: the client still exists, so the middleware could send the request again. "
+                "But services keep nothing for servers that come later. The request died with its server, "
+                "and a retry gets the answer.",
             ),
             Choice(
-                "forward.py says that the robot walks, go_to.py that the service refuses.",
-                "Both get an answer with success false. forward.py looks only whether there is one; "
-                "go_to.py also reads what it says.",
-                right=True,
+                "No answer: the client belongs to the server that died.",
+                "A sensible guess: a TCP connection would be gone. But a ROS client belongs to a name. It "
+                "discovers the new server, and a retry gets the answer.",
             ),
             Choice(
-                "Both say that the service doesn't answer.",
-                "A sensible guess: the robot can't do anything without power. But the server is a "
-                "program of its own, and it answers both: success false. forward.py doesn't read that.",
-            ),
-        ),
-    ),
-    Question(
-        "You call report three times in a row. Which of the calls get an answer?",
-        (
-            Choice(
-                "All three.",
-                "A sensible guess: there's a time limit, there are threads, and the client has a "
-                "callback group of its own. But spin_until_future_complete takes the node away from "
-                "main's executor and doesn't give it back.",
-            ),
-            Choice(
-                "None of them.",
-                "A sensible guess: client.call() in a callback gave no answer in chapter 2. But "
-                "spin_until_future_complete spins with another executor, so the first answer does come. "
-                "It keeps the node, and then report is deaf.",
-            ),
-            Choice(
-                "Only the first.",
-                "spin_until_future_complete spins with another executor and takes the node along. The "
-                "executor of main goes on without a single node, so the second call reaches nobody.",
+                "The first request is lost, and a retry is answered.",
+                "A client asks whoever offers the name. The request died with the old server; the new one "
+                "answers the next try.",
                 right=True,
             ),
         ),

@@ -89,7 +89,7 @@ def waits_for_slow_answers(run: Transcript) -> None:
     require_slow_answers(run, run.params["after"])
 
 
-@check(points=1, on=LATE, needs=makes_use_of_the_second_answer, see="03_clients_that_survive#late-why")
+@check(points=1, on=LATE, needs=makes_use_of_the_second_answer, see="03b_clients_in_bad_company#late-why")
 def is_not_confused_by_a_late_answer(run: Transcript) -> None:
     """An answer that comes after its time, while the next is waited for, does no harm"""
     require_printed_status(run, run.params["statuses"])
@@ -114,14 +114,14 @@ def finds_a_restarted_server(run: Transcript) -> None:
     require_printed_status(run, [run.params["status"]])
 
 
-@check(points=1, on=TWO, needs=prints_the_status, see="03_clients_that_survive#two-why")
+@check(points=1, on=TWO, needs=prints_the_status, see="03b_clients_in_bad_company#two-why")
 def copes_with_two_servers(run: Transcript) -> None:
     """Two servers of one name give one status"""
     require_offered(run, STATUS, servers=2)
     require_printed_status(run, [run.params["status"]])
 
 
-@check(points=1, on=REFUSING, needs=prints_the_status, see="03_clients_that_survive#success-why")
+@check(points=1, on=REFUSING, needs=prints_the_status, see="03b_clients_in_bad_company#success-why")
 def reports_a_refusal(run: Transcript) -> None:
     """When enable_motors answers success: false, it ends with status 1"""
     reply = require_reply(run, ENABLE)

@@ -1,4 +1,4 @@
-"""Chapter 3 shows what it says."""
+"""Chapter 3a shows what it says."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ from collections.abc import Callable
 
 import pytest
 from execution import Executed, in_order
+from gap_trials import GapTrials
+
+CHAPTER = "03_clients_that_survive"
 
 
 @pytest.fixture
 def chapter(executed: Callable[[str], Executed]) -> Executed:
-    return executed("03_clients_that_survive")
+    return executed(CHAPTER)
 
 
 def metres(text: str, pattern: str) -> float:
@@ -23,9 +26,13 @@ def metres(text: str, pattern: str) -> float:
 
 def test_the_time_limit_follows_from_the_way_to_stop(chapter: Executed) -> None:
     printed = chapter.text("budget")
-    way = metres(printed, "stops within # m")
-    assert 0 < way < 0.5
-    assert metres(printed, "leaves # s") == pytest.approx((1 - way) / 0.3, abs=0.1)
+    distance = metres(printed, "stops within # m")
+    assert 0 < distance < 0.5
+    assert metres(printed, "leaves # s") == pytest.approx((1 - distance) / 0.3, abs=0.1)
+
+
+def test_ros2_service_call_gets_an_answer(chapter: Executed) -> None:
+    assert in_order(chapter.text("server-run"), "requester: making request", "success=True", "x ")
 
 
 def test_the_textbook_client_ends_only_when_all_is_well(chapter: Executed) -> None:
@@ -36,81 +43,131 @@ def test_the_textbook_client_ends_only_when_all_is_well(chapter: Executed) -> No
     assert "The robot is at" not in killed
 
 
+def test_silence_is_drawn_as_a_request_without_an_answer(chapter: Executed) -> None:
+    assert "no answer within one second" in chapter.text("kill-draw")
+    assert "notebook to where_am_i" in chapter.html("kill-draw")
+
+
 def test_a_limit_alone_turns_silence_into_none(chapter: Executed) -> None:
     printed = chapter.text("half-run")
     assert in_order(printed, "exit status 1", "AttributeError: 'NoneType' object has no attribute 'message'")
+
+
+def test_a_negative_limit_is_no_limit(chapter: Executed) -> None:
+    printed = chapter.text("negative-run")
+    assert in_order(printed, "exit status 0", "response: None", "had not ended", "was stopped")
 
 
 def test_the_bounded_client_ends_and_says_how(chapter: Executed) -> None:
     well, missing, slow, dies = re.split("missing:|slow:|dies:", chapter.text("fix-run"))
     assert in_order(well, "exit status 0", "The robot is at x")
     assert in_order(missing, "exit status 1", "where_am_i is not there")
-    assert in_order(slow, "exit status 0", "The robot is at x", "try 1: no answer; the server looks ready")
-    assert "try 2" not in slow
-    assert in_order(dies, "exit status 1", "the server looks ready", "try 2", "where_am_i does not answer")
+    assert in_order(slow, "exit status 0", "The robot is at x", "asked, answered, asked, answered")
+    assert in_order(dies, "exit status 1", "where_am_i looks ready and does not answer")
 
 
 def test_a_retry_reaches_the_server_that_came_back(chapter: Executed) -> None:
-    assert in_order(chapter.text("restart"), "exit status 0", "The robot is at x", "try 1: no answer")
+    assert in_order(chapter.text("restart"), "exit status 0", "The robot is at x")
 
 
-def test_a_late_answer_is_an_old_position_unless_its_request_was_removed(chapter: Executed) -> None:
-    mailbox, own_future = chapter.text("late-run"), chapter.text("late-fix-run")
-    assert in_order(mailbox, "first:  None", "second:", "success=True")
-    assert in_order(own_future, "first:  None", "second:", "success=True")
-    assert metres(mailbox, "is # m off") > 0.3
-    assert abs(metres(own_future, "is # m off")) < 0.2
-
-
-def test_only_removed_requests_are_forgotten(chapter: Executed) -> None:
-    printed = chapter.text("leak-run")
-    assert in_order(printed, "given up:             100 of 100", "given up and removed: 0 of 100")
-
-
-def test_a_retry_walks_twice_unless_the_request_is_idempotent(chapter: Executed) -> None:
-    twice, once = chapter.text("forward-run"), chapter.text("go-run")
-    assert in_order(twice, "exit status 0", "try 1: no answer", "to x 0.30 m", "to x 0.60 m")
-    assert metres(twice, "has walked # m") > 0.5
-    assert in_order(once, "exit status 0", "try 1: no answer", "to x 0.30 m", "to x 0.30 m")
-    assert 0.2 < metres(once, "has walked # m") < 0.4
-
-
-def test_a_refusal_is_read_or_overlooked(chapter: Executed) -> None:
-    printed = chapter.text("success-run")
-    assert in_order(printed, "<forward.py: exit status 0", "The robot walks 0.3 m forward.")
-    assert in_order(printed, "<go_to.py: exit status 1", "go_to_x refuses: cannot walk: the motors are off")
-    assert "FALLEN" in chapter.html("success-run")
-
-
-def test_a_shared_request_and_foreign_arguments_mislead(chapter: Executed) -> None:
-    printed = chapter.text("sum-run")
-    assert in_order(printed, "20 + 30 = 5\n", "20 + 30 = 50")
-    assert in_order(printed, "exit status 1", "ValueError: invalid literal for int()", "'--ros-args'")
-    fixed = chapter.text("sum-fix-run")
-    assert in_order(fixed, "2 + 3 = 5 ", "20 + 30 = 50 ", "exit status 1", "usage: sum_fixed.py A B")
-    assert metres(fixed, "ready after # ms") > metres(fixed, r"20 \+ 30 = 50 after # ms")
-
-
-def test_two_servers_of_one_name_both_work(chapter: Executed) -> None:
-    printed = chapter.text("two-run")
-    assert printed.count("asked True, answered True") == 2
-    assert "servers of that name: 2" in printed
-
-
-def test_an_exception_in_a_pool_is_lost_until_somebody_collects_it(chapter: Executed) -> None:
-    lost, collected = chapter.text("lost-run").split("\n<ask_in_pool.py: ")
-    assert re.fullmatch(r"<ask_in_pool\.py: exit status 0 after [\d.]+ s>", lost.strip())
-    assert in_order(collected, "exit status 1", "AttributeError", "'mesage'")
-
-
-def test_spinning_in_a_callback_makes_the_node_deaf_and_await_does_not(chapter: Executed) -> None:
-    printed = chapter.text("inside-run")
-    assert in_order(printed, "1 std_srvs", "2 no answer", "3 no answer", "<report.py: running>")
-    fixed = chapter.text("inside-fix-run")
+def test_a_refusal_is_exit_status_1_and_is_not_retried(chapter: Executed) -> None:
+    printed = chapter.text("refused")
     assert in_order(
-        fixed, "alone:     std_srvs", "success=False, message='no position'", "together:  std_srvs"
+        printed, "exit status 1", "where_am_i refuses: no odom has arrived yet", "the server: asked\n"
     )
-    assert in_order(
-        fixed, "together:  ", "I am at x", "killed:    ", "no position", "restarted: ", "I am at x"
+    assert in_order(chapter.text("refused-cli"), "success=False", "go on")
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ("return future.result()", "still keeps the request"),
+        ("if future.done():\n    return future.result()\nreturn None", "still keeps the request"),
+        (
+            "client.remove_pending_request(future)\nreturn None",
+            "the server answered, and ask_once() returned None",
+        ),
+        ("return future", "ask_once() returned a Future"),
+        ("while not future.done():\n    rclpy.spin_once(node)\nreturn future.result()", "had not returned"),
+        ("if future.done():\n    return future.result()\nraise TimeoutError('late')", "TimeoutError: late"),
+    ],
+)
+def test_the_gap_of_one_try_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("ask_once.py", lines)
+
+
+ONE_TRY = """
+import rclpy
+
+
+def ask_once(node, client, request, seconds):
+    future = client.call_async(request)
+    rclpy.spin_until_future_complete(node, future, timeout_sec=seconds)
+    client.remove_pending_request(future)
+    return future.result()
+"""
+FIND = "if not client.wait_for_service(timeout_sec=left_until(deadline)):\n    return None\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (f"{FIND}return ask_once(node, client, request, min(PER_TRY, left_until(deadline)))", "1 request\n"),
+        (
+            f"{FIND}left = left_until(deadline)\nfor _ in range(tries):\n"
+            "    response = ask_once(node, client, request, min(PER_TRY, left))\n"
+            "    if response is not None:\n        return response",
+            "give each try what is left at that moment",
+        ),
+        (
+            f"{FIND}for _ in range(tries):\n    response = ask_once(node, client, request, left_until(deadline))\n"
+            "    if response is not None:\n        return response",
+            "a second request after PER_TRY",
+        ),
+        (
+            "client.wait_for_service(timeout_sec=PER_TRY)\nfor _ in range(tries):\n"
+            "    response = ask_once(node, client, request, min(PER_TRY, left_until(deadline)))\n"
+            "    if response is not None:\n        return response",
+            "nobody offers the service, 0.5 s for everything",
+        ),
+        (
+            f"{FIND}for _ in range(tries):\n"
+            "    response = ask_once(node, client, request, min(PER_TRY, deadline - time.monotonic()))\n"
+            "    if response is not None:\n        return response",
+            "with a deadline that has passed",
+        ),
+    ],
+)
+def test_the_gap_of_the_deadline_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    gaps.run(f"%%writefile ask_once.py\n{ONE_TRY}")
+    assert said in gaps.reply("bounded.py", lines)
+
+
+def test_the_gap_of_the_deadline_asks_for_the_one_before_it(gaps: GapTrials) -> None:
+    gaps.run(
+        "%%writefile ask_once.py\ndef ask_once(node, client, request, seconds):\n    raise NotImplementedError"
     )
-    assert in_order(chapter.html("inside-draw"), "notebook to report server", "report server to notebook")
+    assert "fill the gap of ask_once.py first" in gaps.reply(
+        "bounded.py", "return ask_once(node, client, request, 1.0)"
+    )
+
+
+@pytest.mark.parametrize(
+    ("file", "lines"),
+    [
+        ("ask_once.py", "client.remove_pending_request(future)\nreturn future.result()"),
+        (
+            "ask_once.py",
+            "if not future.done():\n    future.cancel()\n    return None\nreturn future.result()",
+        ),
+        (
+            "bounded.py",
+            "for _ in range(tries):\n    if not client.wait_for_service(left_until(deadline)):\n        break\n"
+            "    response = ask_once(node, client, request, min(PER_TRY, left_until(deadline)))\n"
+            "    if response:\n        return response\n    if left_until(deadline) == 0:\n        break",
+        ),
+    ],
+)
+def test_other_sound_lines_fill_the_gaps(gaps: GapTrials, file: str, lines: str) -> None:
+    gaps.run(f"%%writefile ask_once.py\n{ONE_TRY}")
+    assert f"✓ {file}" in gaps.accept(file, lines)

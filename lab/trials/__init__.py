@@ -1,0 +1,1 @@
+"""Programs that checks of gaps run beside a student's file, each in a process of its own."""
