@@ -14,7 +14,7 @@ from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED
 from autograder.authoring.readiness import require_ready
 from autograder.authoring.server_checks import require_clean_exit
 from autograder.authoring.transcript import Transcript
-from autograder.authoring.walking import truth
+from autograder.authoring.walking import truth as walking_truth
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
@@ -418,7 +418,7 @@ def test_a_robot_that_has_not_arrived_is_told_which_test_was_too_generous(
         result(SUCCEEDED),
         *(robot(tenth / 10, x=x, yaw=0.5) for tenth in range(100)),
     ]
-    walk = truth
+    walk = walking_truth
     assert failure_of(walk.require_arrival, run_of(*events).goal("walk")).help.startswith(next_step)
 
 
