@@ -164,7 +164,7 @@ def test_too_much_memory_points_to_the_lesson_on_what_grows() -> None:
     killed = ev.NodeKilled(t=3.0, reason="it used 900 MiB of memory; 700 MiB are allowed")
     failure = failure_of(lambda: run_of(asked(), killed).call("first").response)
     assert "keep only the last" in failure.help
-    assert failure.see == "03_clients_that_survive#leak-why"
+    assert failure.see == "03b_clients_in_bad_company#leak-why"
 
 
 # -- a program that gives no answer -----------------------------------------------------------------------------------
