@@ -15,6 +15,7 @@ os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
 
 from lab.commands import publish, walking
 from lab.connection import node
+from lab.curves_plot import plot_curves
 from lab.diagram import draw_sequence
 from lab.errors import (
     LabError,
@@ -82,6 +83,7 @@ __all__ = [
     "node",
     "nodes_in_graph",
     "odometry",
+    "plot_curves",
     "plot_means",
     "pose",
     "predict",
