@@ -53,7 +53,7 @@ QUESTIONS = (
             ),
             Choice(
                 "The largest that the data sheet names, because people prefer short times.",
-                "People prefer times that come true. On a trip with two half turns this one was four times too small.",
+                "People prefer times that come true. On a trip with two half turns this one was three times too small.",
             ),
         ),
     ),
