@@ -30,7 +30,9 @@ def plot_curves(
     lines = {name: (np.asarray(xs, float), np.asarray(ys, float)) for name, (xs, ys) in curves.items()}
     for name, (xs, ys) in lines.items():
         if not len(xs) or xs.shape != ys.shape:
-            raise LabError(f"{name}: {len(xs)} values for {x} and {len(ys)} for {y}; both need the same, at least one")
+            raise LabError(
+                f"{name}: {len(xs)} values for {x} and {len(ys)} for {y}; both need the same, at least one"
+            )
     width, height = LEFT + WIDTH + 0.25, TOP + HEIGHT + BOTTOM
     with sheet(width, height, title) as page:
         panel = page.add_axes((LEFT / width, BOTTOM / height, WIDTH / width, HEIGHT / height))
@@ -39,7 +41,9 @@ def plot_curves(
         panel.set_xlabel(x)
         panel.set_ylabel(y)
         panel.legend(loc="best", frameon=False)
-        return as_html(page, " ".join([f"{title}.", *(_in_words(name, *line, x, y) for name, line in lines.items())]))
+        return as_html(
+            page, " ".join([f"{title}.", *(_in_words(name, *line, x, y) for name, line in lines.items())])
+        )
 
 
 def _in_words(name: str, xs: np.ndarray, ys: np.ndarray, x: str, y: str) -> str:

@@ -92,8 +92,8 @@ class Recording:
         """The times of a quantity, in s since the beginning, and its values.
 
         There are "speed" (m/s, forwards, in base_link), "turn rate" (rad/s, left is positive), "x" and "y" (m, of the
-        pelvis in frame odom), "height" (m, of the pelvis above the floor), "heading" (rad, in frame odom), "tilt" (rad, of the pelvis from upright) and
-        "power" (W, out of the battery).
+        pelvis in frame odom), "height" (m, of the pelvis above the floor), "heading" (rad, in frame odom), "tilt" (rad,
+        of the pelvis from upright) and "power" (W, out of the battery).
 
         Raises LabError when there is no such quantity, or nothing of it was recorded.
         """

@@ -6,12 +6,13 @@ import math
 import runpy
 import traceback
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from lab.gap import Gap, expect, not_yet
 
-FILES = "route.py", "odometer.py", "battery_watch.py"
 RATE = 20  # Hz, of odom
 SPEED = 0.35  # m/s, of the robot
 SWAY, PERIOD = 0.03, 0.88  # m to each side, s for two steps
@@ -36,7 +37,7 @@ def decides_the_phase() -> str:
     first, walk, last, arrived = (program[name] for name in ("FIRST", "WALK", "LAST", "ARRIVED"))
     far = "is further than NEAR"
     situations = (
-        (walk, Way(1.5, 0.0, 2.0), walk, f"{far}: the turn to the goal's heading has time"),
+        (walk, Way(1.5, 0.0, 2.0), walk, f"the goal {far}: the turn to the goal's heading has time"),
         (walk, Way(1.5, 0.3, 0.0), walk, "the robot walks and the bearing is below ASTRAY: it steers while it walks"),
         (walk, Way(1.5, 0.8, 0.0), first, "a bearing over ASTRAY ends the walking"),
         (walk, Way(1.5, -0.8, 0.0), first, "a bearing to the right is negative: compare abs(way.bearing)"),
@@ -46,11 +47,11 @@ def decides_the_phase() -> str:
         (first, Way(0.02, 2.5, -0.5), last, "the turn is not below TURNED; a turn to the right is negative"),
         (last, Way(0.15, 0.1, 0.01), last, "the distance is not below CLOSE: arrived needs both"),
         (last, Way(0.03, -2.0, -0.03), arrived, "the distance is below CLOSE and the turn below TURNED"),
-        (last, Way(0.6, 1.5, 0.0), first, f"a push took the robot away from the goal: it {far}, and the bearing is large"),
-        (last, Way(0.6, 0.05, 0.0), walk, f"a push took the robot away from the goal: it {far}"),
+        (last, Way(0.6, 1.5, 0.0), first, f"a push took the robot away: the goal {far}, and the bearing is large"),
+        (last, Way(0.6, 0.05, 0.0), walk, f"a push took the robot away: the goal {far}"),
     )  # fmt: skip
     for phase, way, wanted, reason in situations:
-        got = _asked(lambda phase=phase, way=way: program["next_phase"](phase, way), "route.py")
+        got = _asked(partial(program["next_phase"], phase, way), "route.py")
         expect(
             got == wanted,
             seen=f"{got!r} for phase {phase!r} and {way}",
@@ -73,7 +74,7 @@ def forgets_the_sway() -> str:
     naive = _walked_naively(_march())
     expect(
         marched < naive / 2,
-        seen=f"{marched:.2f} m for a robot that marches {MARCH:g} s on the spot; the sum of all pieces is {naive:.2f} m",
+        seen=f"{marched:.2f} m for a robot that marches {MARCH:g} s on the spot; all pieces are {naive:.2f} m",
         expected=f"less than {MOST_SWAY} m",
         next="do nothing as long as the piece from self.last to self.here is shorter than LONG_ENOUGH; move self.last "
         "only when a piece counts",
@@ -111,8 +112,20 @@ def cancels_once() -> str:
             f"{name} is no charge: ignore it",
             "ask whether 0.0 <= percentage <= 1.0 before you compare with LIMIT; with NaN that is false",
         )
-    _decide(make, [0.2000000030], [False], "0.20 as it arrives: not below LIMIT", "use < and not <=, and do not round")
-    _decide(make, [0.5, 0.19], [False, True], "0.19 is below LIMIT", "return True for the first charge below LIMIT")
+    _decide(
+        make,
+        [0.2000000030],
+        [False],
+        "0.20 as it arrives: not below LIMIT",
+        "use < and not <=, and do not round",
+    )
+    _decide(
+        make,
+        [0.5, 0.19],
+        [False, True],
+        "0.19 is below LIMIT",
+        "return True for the first charge below LIMIT",
+    )
     _decide(make, [0.0], [True], "0.0 is a charge: an empty battery", "let 0.0 through: 0.0 <= percentage")
     _decide(
         make,
@@ -136,7 +149,12 @@ def cancels_once() -> str:
         next="call self.warn when self.has_warned is not set yet, and then set it",
     )
     quiet = _decide(make, [0.9, 0.19], [False, True], "True for 0.19", "return True")
-    expect(not quiet, seen=f"a warning for sound charges: {quiet}", expected="none", next="warn of no charges only")
+    expect(
+        not quiet,
+        seen=f"a warning for sound charges: {quiet}",
+        expected="none",
+        next="warn of no charges only",
+    )
     return "True once, with the first charge below 0.20; NaN and 17.0 ignored, with one warning"
 
 
@@ -153,7 +171,12 @@ def _decide(
     got = _asked(decide, "battery_watch.py")
     if None in got:
         advice = "end each path with `return` and True or False"
-    expect([bool(each) for each in got] == wanted and None not in got, seen=f"{got} for {values}", expected=f"{wanted}: {expected}", next=advice)  # fmt: skip
+    expect(
+        None not in got and [bool(each) for each in got] == wanted,
+        seen=f"{got} for {values}",
+        expected=f"{wanted}: {expected}",
+        next=advice,
+    )
     return warnings
 
 
@@ -186,13 +209,13 @@ def _walked(make: Callable[[], Any], points: Iterable[tuple[float, float]]) -> f
 
 def _walked_naively(points: Iterable[tuple[float, float]]) -> float:
     places = list(points)
-    return sum(math.dist(one, other) for one, other in zip(places, places[1:], strict=False))
+    return sum(math.dist(one, other) for one, other in pairwise(places))
 
 
 def _along(corners: list[tuple[float, float]]) -> list[tuple[float, float]]:
     """The path through the corners as odom tells it, 20 times a second, with the sway across."""
     points: list[tuple[float, float]] = []
-    for (x, y), (then_x, then_y) in zip(corners, corners[1:], strict=False):
+    for (x, y), (then_x, then_y) in pairwise(corners):
         length = math.dist((x, y), (then_x, then_y))
         ahead = (then_x - x) / length, (then_y - y) / length
         count = round(length / SPEED * RATE)

@@ -22,7 +22,7 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "You sum up all small pieces of odom while the robot turns around on the spot for eight seconds. What do you get?",
+        "You sum up all small pieces of odom while the robot turns on the spot for eight seconds. What do you get?",
         (
             Choice(
                 "Nothing: the robot does not move from its place.",
@@ -62,7 +62,7 @@ QUESTIONS = (
         (
             Choice(
                 "Reject it: there is nothing to do.",
-                "A client that asks for a place wants the robot to be there, and it is. A rejection gives no reason, so "
+                "A client that asks for a place wants the robot to be there, and it is. A rejection gives no reason: "
                 "the client would believe that it cannot be reached.",
             ),
             Choice(
@@ -85,7 +85,7 @@ QUESTIONS = (
             ),
             Choice(
                 "When the status is CANCELED.",
-                "A sound server says that only when the robot stands. A guard does not know whether the server is sound.",
+                "A sound server says that only when the robot stands. But is this server sound?",
             ),
             Choice(
                 "When the status is CANCELED and robot_state says STANDING.",
@@ -149,8 +149,8 @@ PREDICTIONS = (
             ),
             Choice(
                 "ABORTED: the server sees that the robot is not there.",
-                "A sensible guess: it has all it needs to see that. But nobody wrote that comparison, and rclpy does not "
-                "know what a goal means.",
+                "A sensible guess: it has all it needs to see that. But nobody wrote that comparison, and rclpy "
+                "does not know what a goal means.",
             ),
         ),
     ),

@@ -13,6 +13,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import BatteryState
 
 from humanoid_interfaces.msg import RobotState
+from lab.curves_plot import plot_curves
 from lab.errors import LabError
 from lab.means_plot import plot_means
 from lab.recording import Recording
@@ -180,3 +181,35 @@ def test_means_are_points_with_the_names_of_their_recordings(stage: Stage) -> No
     assert drawing.alt == "Power against speed. a walk: mean speed, m/s 0.25, mean power, W 100.00."
     with pytest.raises(LabError, match="nothing to plot"):
         plot_means({}, "speed", "power")
+
+
+def test_the_place_of_the_pelvis_can_be_asked_for(stage: Stage) -> None:
+    stage.walk(0.2)
+    recording = stage.end(1.0)
+    assert [len(recording.values(name)[1]) for name in ("x", "y")] == [1, 1]
+
+
+def test_curves_are_named_and_described_in_words() -> None:
+    drawing = read(
+        plot_curves(
+            {"truth": ([0, 1], [2, 4]), "a guess": ([0, 1], [3, 3])}, "time, s", "way, m", title="Ways"
+        )
+    )
+    for text in ("Ways", "truth", "a guess", "time, s", "way, m"):
+        assert text in drawing.texts, text
+    assert "truth: way, m from 2.00 at time, s 0.00 to 4.00 at 1.00" in drawing.alt
+
+
+@pytest.mark.parametrize(
+    ("curves", "said"),
+    [
+        ({}, "0 curves"),
+        ({"a": ([], [])}, "a: 0 values for t and 0 for y"),
+        ({"a": ([1], [1, 2])}, "a: 1 values for t and 2 for y"),
+    ],
+)
+def test_curves_that_are_none_are_refused(
+    curves: dict[str, tuple[list[float], list[float]]], said: str
+) -> None:
+    with pytest.raises(LabError, match=said):
+        plot_curves(curves, "t", "y")

@@ -138,7 +138,10 @@ def test_canceled_is_not_standing(chapter: Executed) -> None:
 def test_every_comparison_with_nan_is_false_and_float32_is_not_the_number(chapter: Executed) -> None:
     assert re.findall(r"True|False", chapter.text("guard-traps")) == ["False", "True", "False", "False"]
     assert in_order(
-        chapter.text("float-run"), "received 0.20000000298023224, below: False", "received 0.69", "below: True"
+        chapter.text("float-run"),
+        "received 0.20000000298023224, below: False",
+        "received 0.69",
+        "below: True",
     )
 
 
@@ -164,8 +167,14 @@ LIMIT = "limit = ASTRAY if phase == WALK else ALIGNED"
             ROUTE.format(f"{LIMIT}\n    return FIRST if way.bearing > limit else WALK", THERE),
             "a bearing to the right is negative",
         ),
-        (ROUTE.format("return FIRST if abs(way.bearing) > ALIGNED else WALK", THERE), "it steers while it walks"),
-        (ROUTE.format("return FIRST if abs(way.bearing) > ASTRAY else WALK", THERE), "goes on until the bearing"),
+        (
+            ROUTE.format("return FIRST if abs(way.bearing) > ALIGNED else WALK", THERE),
+            "it steers while it walks",
+        ),
+        (
+            ROUTE.format("return FIRST if abs(way.bearing) > ASTRAY else WALK", THERE),
+            "goes on until the bearing",
+        ),
         (ROUTE.format("return WALK", THERE), "a bearing over ASTRAY ends the walking"),
         (
             ROUTE.format(
@@ -206,7 +215,10 @@ def test_the_gap_of_the_phases_says_what_is_wrong(gaps: GapTrials, lines: str, s
             "if piece >= LONG_ENOUGH:\n    self.metres = piece\n    self.last = self.here",
             "with +=",
         ),
-        ("piece = math.dist(self.last, self.here)\nif piece > LONG_ENOUGH:\n    self.metres += piece", "TypeError"),
+        (
+            "piece = math.dist(self.last, self.here)\nif piece > LONG_ENOUGH:\n    self.metres += piece",
+            "TypeError",
+        ),
         ("self.metres += 1", "not yet"),
     ],
 )
