@@ -135,15 +135,15 @@ QUESTIONS = (
 
 PREDICTIONS = (
     Question(
-        "A push throws the robot aside in the middle of its walk. How does the goal of the three loops end?",
+        "Somebody turns the robot off its way in the middle of its walk. How does the goal of the three loops end?",
         (
             Choice(
                 "SUCCEEDED, at the goal: the server measures with odom.",
-                "A sensible guess: odom does see the push. But the server asks it only how far the robot has walked, "
+                "A sensible guess: odom does see the turn. But the server asks it only how far the robot has walked, "
                 "and never again where the goal is.",
             ),
             Choice(
-                "SUCCEEDED, some decimetres beside the goal.",
+                "SUCCEEDED, far beside the goal.",
                 "The loop ends after 1.5 m of walking, and succeed() follows whatever loop has ended.",
                 right=True,
             ),

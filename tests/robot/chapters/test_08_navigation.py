@@ -38,10 +38,10 @@ def test_the_action_has_the_fields_of_nav2(chapter: Executed) -> None:
 def test_three_loops_succeed_beside_the_goal(chapter: Executed) -> None:
     printed = chapter.text("loops-run")
     assert "end: SUCCEEDED" in printed
-    assert number(r"stands (\d+) cm", printed) > 15
+    assert number(r"stands (\d+) cm", printed) > 25
 
 
-def test_after_the_same_push_a_phase_that_is_decided_anew_leads_to_the_goal(chapter: Executed) -> None:
+def test_after_a_push_a_phase_that_is_decided_anew_leads_to_the_goal(chapter: Executed) -> None:
     printed = chapter.text("push-run")
     assert in_order(printed, "end: SUCCEEDED", "phases:", "walking", "turning to the heading", "arrived")
     assert number(r"stands (\d+) cm", printed) <= 10
@@ -54,7 +54,7 @@ def test_a_robot_that_is_turned_off_its_way_gets_back_and_counts_it(chapter: Exe
     assert in_order(printed, "end: SUCCEEDED", "walking", "turning to the goal", "walking", "arrived")
     assert number(r"arrived +[\d.]+ m left, (\d+) rec", printed) >= 1
     assert number(r"stands (\d+) cm", printed) <= 10
-    assert "another node takes the robot" in chapter.html("recovery-plot")
+    assert "the joystick takes the robot" in chapter.html("recovery-plot")
 
 
 def test_the_trip_is_filmed(chapter: Executed) -> None:
