@@ -183,8 +183,8 @@ PREDICTIONS = (
             ),
             Choice(
                 "It is 100 % all the time: the robot is at the goal.",
-                "A sensible guess, if the pelvis stayed where it is. It sways by 3 cm, and the formula divides by the "
-                "half millimetre of the start.",
+                "A sensible guess: the place does not change. But the pelvis sways by 3 cm, and the formula divides that "
+                "by the half millimetre of the start.",
             ),
             Choice(
                 "It says minus some thousand percent.",
@@ -208,7 +208,7 @@ PREDICTIONS = (
             ),
             Choice(
                 "None: the server is busy with the first one.",
-                "A sensible guess on one thread. This server has eight, and answers at once.",
+                "A sensible guess: a server on one thread would be. But this one has eight, and answers at once.",
             ),
         ),
     ),
@@ -217,12 +217,13 @@ PREDICTIONS = (
         (
             Choice(
                 "Neither: they are equal.",
-                "A sensible guess, and true of a message that you only create. On its way through a message a Python "
-                "number loses half of its digits.",
+                "A sensible guess: it is true of a message that you only create. But on its way to you the Python number "
+                "becomes a float32, with half of the digits.",
             ),
             Choice(
                 "Both: float32 cuts digits off.",
-                "A sensible guess, but it rounds to the nearest float32, which may lie above.",
+                "A sensible guess: digits do get lost. But the number is rounded to the nearest float32, which may lie "
+                "above.",
             ),
             Choice(
                 "0.7 is below, 0.2 is not.",
