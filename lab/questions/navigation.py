@@ -183,8 +183,8 @@ PREDICTIONS = (
             ),
             Choice(
                 "It is 100 % all the time: the robot is at the goal.",
-                "A sensible guess: the place does not change. But the pelvis sways by 3 cm, and the formula divides that "
-                "by the half millimetre of the start.",
+                "A sensible guess: the place does not change. But the pelvis sways by 3 cm, and the formula divides "
+                "that by the half millimetre of the start.",
             ),
             Choice(
                 "It says minus some thousand percent.",
@@ -217,8 +217,8 @@ PREDICTIONS = (
         (
             Choice(
                 "Neither: they are equal.",
-                "A sensible guess: it is true of a message that you only create. But on its way to you the Python number "
-                "becomes a float32, with half of the digits.",
+                "A sensible guess: it is true of a message that you only create. But on its way to you the Python "
+                "number becomes a float32, with half of the digits.",
             ),
             Choice(
                 "Both: float32 cuts digits off.",
