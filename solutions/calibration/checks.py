@@ -48,7 +48,7 @@ server_appears = standard.server_appears("calibrate_imu", points=1, on=INTERRUPT
 
 @check(points=2, on=TWICE, needs=server_appears, see=WAITS)
 def keeps_its_heartbeat(run: Transcript) -> None:
-    """heartbeat goes on at 10 Hz while it calibrates"""
+    """The heartbeat goes on at 10 Hz while it calibrates"""
     require_heartbeat(run, run.call("first"), "while calibrate_imu was at work")
 
 
@@ -56,7 +56,11 @@ def keeps_its_heartbeat(run: Transcript) -> None:
 def refuses_before_the_first_state(run: Transcript) -> None:
     """As long as no robot_state has come, it refuses"""
     call = run.call("before the first state")
-    if any(command.t <= call.answered.t for command in run.all(ev.RobotCommanded) if "published" in command.command):
+    if any(
+        command.t <= call.answered.t
+        for command in run.all(ev.RobotCommanded)
+        if "published" in command.command
+    ):
         raise unseen(run, "robot_state was published too early")
     require_refused(
         call,
@@ -111,7 +115,7 @@ def refuses_without_an_answer(run: Transcript) -> None:
 
 @check(points=2, on=SILENT_STATUS, needs=asks_get_status, see=WAITS)
 def lives_while_it_waits(run: Transcript) -> None:
-    """heartbeat goes on while get_status is silent"""
+    """The heartbeat goes on while get_status is silent"""
     require_heartbeat(run, run.call("silent status"), "while get_status was silent")
 
 

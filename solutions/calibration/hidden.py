@@ -70,9 +70,7 @@ TWO_WHILE_ASKING = Scenario("calibrate_from_two_clients", {"apart": 0.3, "status
 A_FEW_STEPS = Scenario("begin_to_walk_meanwhile", _a_few_steps)
 FEW_SAMPLES = Scenario("lose_the_imu", {"begin": 1.3}, robot=RESTING)
 ENOUGH_SAMPLES = Scenario("lose_the_imu", {"begin": 2.5}, robot=RESTING)
-OTHER_NAMESPACE = Scenario(
-    "calibrate_twice", {"biases": BIASES[:1]}, robot=RESTING, namespace="/lab_7/robot"
-)
+OTHER_NAMESPACE = Scenario("calibrate_twice", {"biases": BIASES[:1]}, robot=RESTING, namespace="/lab_7/robot")
 
 
 @check(points=2, on=ANY_BIAS_TWICE, needs=publishes_the_bias, see=WAITS)

@@ -28,7 +28,6 @@ GAP = 0.3  # s without a heartbeat
 JITTER = 0.03  # s of real time by which a message may be late on a busy machine
 SLOWEST, FASTEST = 7.5, 13.0  # Hz, heartbeats
 MOST_SAMPLES = 1000  # a greater number in the message is no count
-ASYNC, GROUPS = "02_services#m4-why", "02_services#m4-why"
 
 _NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
@@ -36,15 +35,21 @@ _NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 # -- what was asked of the grader's get_status ------------------------------------------------------------------------
 
 
+def run_of(call: Call) -> Transcript:
+    """Return the transcript of a call."""
+    assert isinstance(call.run, Transcript)
+    return call.run
+
+
 def status_request(call: Call) -> Request | None:
     """Return the request to get_status that belongs to a call: the first one after it was sent."""
     until = call.answer.t if call.answer else call.run.end
-    requests = (request for request in call.run.requests("get_status"))
+    requests = (request for request in run_of(call).requests("get_status"))
     return next((request for request in requests if call.sent.t <= request.received.t <= until), None)
 
 
 def collecting_from(call: Call) -> float:
-    """Return when (s) collecting can begin at the earliest: when get_status answered, or at once if it was not asked."""
+    """Return when (s) collecting can begin at the earliest: when get_status answered, or at the request."""
     request = status_request(call)
     return request.reply.t if request and request.reply else call.sent.t
 
@@ -54,7 +59,7 @@ def require_status_asked(call: Call) -> None:
     answered = call.answered
     if not call.run.all(ev.ServiceOffered):
         raise unseen(call.run, "nobody offered get_status")
-    asked = [request.received.t for request in call.run.requests("get_status")]
+    asked = [request.received.t for request in run_of(call).requests("get_status")]
     expect(
         any(call.sent.t <= t <= answered.t for t in asked),
         expected="a request to get_status while calibrate_imu works",
@@ -90,7 +95,9 @@ def true_bias(call: Call) -> Sequence[float]:
     """Return the gyro's bias (rad/s) during a calibration, as the simulator tells it; the robot stood all the while."""
     told = call.run.told("gyro_bias", before=call.sent.t - DELIVERY)
     end = call.answer.t if call.answer else call.run.end
-    walking = [robot for robot in call.run.robot_between(call.sent.t, end) if robot.mode != RobotMode.STANDING]
+    walking = [
+        robot for robot in call.run.robot_between(call.sent.t, end) if robot.mode != RobotMode.STANDING
+    ]
     expect(
         not walking,
         expected="the robot standing as long as nobody commands it",
@@ -134,7 +141,7 @@ def require_bias_in_message(call: Call, bias: Sequence[float]) -> None:
     message = call.response.message
     numbers = [float(number) for number in _NUMBER.findall(message)]
     triples = list(zip(numbers, numbers[1:], numbers[2:], strict=False))
-    if any(map(lambda triple: _is_near(triple, bias), triples)):
+    if any(_is_near(triple, bias) for triple in triples):
         return
     raise Failure(
         expected=f"a message with the mean angular velocity {_shown_vector(bias)} rad/s, within {TOLERANCE:g}",
@@ -165,12 +172,12 @@ def require_bias_published(call: Call) -> None:
     """Require that imu_bias was published for a calibration, with the gyro's bias in frame imu_link."""
     bias, answered = true_bias(call), call.answered
     published = [
-        event for event in call.run.heard("imu_bias") if call.sent.t <= event.t <= answered.t + DELIVERY
+        event for event in run_of(call).heard("imu_bias") if call.sent.t <= event.t <= answered.t + DELIVERY
     ]
     expect(
         bool(published),
         expected="a message on imu_bias within 1 s of the answer",
-        observed=_what_is_published(call.run),
+        observed=_what_is_published(run_of(call)),
         help="Make the publisher of imu_bias in the constructor, and publish one Vector3Stamped before you answer.",
         at=answered.t,
     )
@@ -236,7 +243,7 @@ def require_refused_meanwhile(first: Call, second: Call) -> None:
 def require_nothing_published(call: Call) -> None:
     """Require that imu_bias stayed silent from a request until shortly after its answer."""
     until = call.answered.t + DELIVERY
-    published = [event for event in call.run.heard("imu_bias") if call.sent.t <= event.t <= until]
+    published = [event for event in run_of(call).heard("imu_bias") if call.sent.t <= event.t <= until]
     expect(
         not published,
         expected="nothing on imu_bias, as there was no calibration",
@@ -346,9 +353,7 @@ def _advice_on_failing(call: Call, published: int) -> str:
     return f"Your answer was {said}: refuse only for a reason that the task names."
 
 
-def _advice_on_vector(
-    call: Call, triples: Sequence[Sequence[float]], bias: Sequence[float]
-) -> str | None:
+def _advice_on_vector(call: Call, triples: Sequence[Sequence[float]], bias: Sequence[float]) -> str | None:
     """Return what kind of mistake makes one of the triples of the bias, if it is known."""
     samples = [sample.angular_velocity for sample in imu_between(call, 0.0, call.answered.t)]
     now = imu_between(call, call.sent.t, call.answered.t)
@@ -366,7 +371,7 @@ def _advice_on_vector(
         if abs(triple[2]) > 5.0:
             return "These are accelerations: take angular_velocity of each message."
         if _is_near(triple, older) or any(_is_near(triple, other) for other in earlier[:-1]):
-            return "Samples of before are in it: begin each calibration with an empty list, when get_status has answered."
+            return "Samples of before are in it: begin with an empty list each time, when get_status has answered."
         if not any(triple):
             return "A mean of exactly 0 comes from no sample: average what on_imu has collected."
     return None
