@@ -17,7 +17,7 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 def make_asking():
-    """Return a node and a function that asks get_status; it may be called from a callback of another node."""
+    """Return a node, its executor, and a function that asks get_status, even from a callback of another node."""
     helper = rclpy.create_node("calibration_helper")
     executor = SingleThreadedExecutor()
     executor.add_node(helper)
@@ -33,7 +33,7 @@ def make_asking():
             client.remove_pending_request(future)
         return future.done()
 
-    return helper, ask
+    return helper, executor, ask
 
 
 def offer(node, ask):
@@ -84,7 +84,7 @@ def offer(node, ask):
 
 def main(args=None):
     rclpy.init(args=args)
-    helper, ask = make_asking()
+    helper, own_executor, ask = make_asking()
     node = rclpy.create_node("calibration")
     offer(node, ask)
     executor = MultiThreadedExecutor(4)
@@ -95,6 +95,7 @@ def main(args=None):
         pass
     finally:
         executor.shutdown()
+        own_executor.shutdown()
         node.destroy_node()
         helper.destroy_node()
         rclpy.try_shutdown()
