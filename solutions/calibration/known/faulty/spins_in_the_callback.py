@@ -6,7 +6,6 @@ Also fails: calibrates
 import rclpy
 from geometry_msgs.msg import Vector3Stamped
 from humanoid_interfaces.msg import RobotState
-from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
@@ -35,7 +34,7 @@ class Calibration(Node):
         self._walked = False  # whether the robot has walked since it began
         self._samples = []  # angular velocities (rad/s) of the calibration that runs
         # A callback that awaits, and what completes its futures, must be let in at the same time.
-        self._together = ReentrantCallbackGroup()
+        self._together = self.default_callback_group
         self._imu_bias = self.create_publisher(Vector3Stamped, "imu_bias", LATCHED)
         self._heartbeat = self.create_publisher(Empty, "heartbeat", 10)
         self._get_status = self.create_client(Trigger, "get_status", callback_group=self._together)
