@@ -1,6 +1,6 @@
 """Fault: the heartbeat is in the group of a callback that blocks
 Caught by: keeps_its_heartbeat
-Also fails: lives_while_it_waits, refuses_a_second_caller
+Also fails: lives_while_it_waits, refuses_a_second_caller, refuses_without_a_server, works_in_any_namespace
 """
 
 import threading

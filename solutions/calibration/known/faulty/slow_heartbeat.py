@@ -1,6 +1,6 @@
 """Fault: five heartbeats a second
 Caught by: keeps_its_heartbeat
-Also fails: lives_while_it_waits, refuses_without_a_server
+Also fails: lives_while_it_waits, refuses_without_a_server, works_in_any_namespace
 """
 
 import rclpy
