@@ -26,6 +26,7 @@ EARLY = 0.1  # s less than COLLECTING that pass: clocks are read at either end
 LATE = 1.5  # s more than there is work for; the task says 1 s
 GAP = 0.3  # s without a heartbeat
 JITTER = 0.06  # s of real time by which a message may be late on a busy machine
+MOST_JITTER = 1.0  # s; a callback that blocks costs 2 s at least
 SLOWEST, FASTEST = 7.5, 13.0  # Hz, heartbeats
 MOST_SAMPLES = 1000  # a greater number in the message is no count
 
@@ -294,7 +295,8 @@ def require_heartbeat(run: Transcript, call: Call, meanwhile: str) -> None:
         help="Make a publisher (std_msgs/Empty) and a timer of 0.1 s in the constructor, with relative names.",
     )
     late = [woken.late for woken in run.all(ev.WokenLate)] + [robot.lag for robot in run.ground_truth]
-    limit = GAP + JITTER * run.scale + max(late, default=0.0)
+    late += [starved.seconds for starved in run.all(ev.Starved)]
+    limit = GAP + JITTER * run.scale + min(max(late, default=0.0), MOST_JITTER)
     ends = [*beats[1:], run.end]
     start, end = max(zip(beats, ends, strict=True), key=lambda pair: pair[1] - pair[0])
     until = call.answer.t if call.answer else run.end
