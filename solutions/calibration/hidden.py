@@ -134,7 +134,7 @@ def refuses_without_a_server(run: Transcript) -> None:
     require_heartbeat(run, call, "while it looked for get_status")
 
 
-@check(points=1, on=TWO_WHILE_ASKING, needs=refuses_a_second_caller, see=WAITS)
+@check(points=1, on=TWO_WHILE_ASKING, needs=[refuses_a_second_caller, waits_for_a_slow_status], see=WAITS)
 def is_busy_while_it_asks(run: Transcript) -> None:
     """A calibration has begun as soon as it is asked for, also while it waits for get_status"""
     first, second = run.call("first caller"), run.call("second caller")

@@ -233,6 +233,7 @@ def require_refused(call: Call, *, because: str, within: float = LATE, help: str
 def require_refused_meanwhile(first: Call, second: Call) -> None:
     """Require that the second caller was refused while the calibration of the first one ran."""
     if first.answer is not None and second.sent.t >= first.answer.t - DELIVERY:
+        require_calibrated(first)  # if it ended early, that is the reason
         raise unseen(first.run, "the second request did not come while the first one was at work")
     require_refused(
         second,
