@@ -371,6 +371,15 @@ class Humanoid:
         """Return a sample of the inertial sensor in the pelvis."""
         return self._imu.read()
 
+    @property
+    def gyro_bias(self) -> list[float]:
+        """The lasting error of the gyro, rad/s about x, y and z of imu_link; a reset draws it from the seed again."""
+        return self._imu.gyro_bias.tolist()
+
+    @gyro_bias.setter
+    def gyro_bias(self, bias: Sequence[float]) -> None:
+        self._imu.gyro_bias = np.array(bias, dtype=float)
+
     # Helpers
 
     def _follow(self, command: Command) -> None:

@@ -43,6 +43,7 @@ from ros_runtime.record.event import Event
 from ros_runtime.record.ground_truth import (
     ArmReported,
     BatteryPublished,
+    ImuPublished,
     JointsPublished,
     MotorPowerReceived,
     RobotCommanded,
@@ -221,7 +222,7 @@ class CommandSent(Event):
 _EVENTS: list[type[Event]] = [
     *(ServiceCalled, ServiceAnswered, Unanswered, TooLarge),
     *(GoalSent, GoalAnswered, FeedbackReceived, StatusSeen, CancelSent, CancelAnswered, ResultReceived),
-    *(RobotReady, RobotTruth, BatteryPublished, JointsPublished, ArmReported),
+    *(RobotReady, RobotTruth, BatteryPublished, JointsPublished, ImuPublished, ArmReported),
     *(RobotPeers, RobotCommanded, RobotRefused, MotorPowerReceived),
     *(NodeStarted, NodeReady, NodeNotReady, NodeOutput, NodeTyped),
     *(NodeSignalled, NodeExited, NodeKilled, NodeUsage, NodeTopics, NodeStack),

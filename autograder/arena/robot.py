@@ -65,6 +65,14 @@ class Robot:
         """Begin, or stop, publishing joint_states."""
         self._command("joint_sensors", connected=connected)
 
+    def connect_imu(self, connected: bool = True) -> None:
+        """Begin, or stop, publishing imu."""
+        self._command("imu_sensor", connected=connected)
+
+    def set_gyro_bias(self, bias: Sequence[float]) -> None:
+        """Give the gyro another bias (rad/s about x, y and z of imu_link)."""
+        self._command("gyro_bias", bias=list(bias))
+
     def reverse_joint_states(self) -> None:
         """List the joints of joint_states in reverse order from now on."""
         self._command("joint_states", reversed=True)

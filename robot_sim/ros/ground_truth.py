@@ -12,6 +12,7 @@ from ros_runtime.record.event import Event, to_line
 from ros_runtime.record.ground_truth import (
     ArmReported,
     BatteryPublished,
+    ImuPublished,
     JointsPublished,
     MotorPowerReceived,
     RobotCommanded,
@@ -68,6 +69,10 @@ class GroundTruthWriter:
     def joints_published(self, names: Sequence[str], positions: Sequence[float]) -> None:
         """Write what goes out on joint_states: a position for each name, rad (fingers: m)."""
         self._write(JointsPublished(names=list(names), positions=list(positions)))
+
+    def imu_published(self, angular_velocity: Sequence[float], gyro_bias: Sequence[float]) -> None:
+        """Write what goes out on imu, and the gyro's true bias: rad/s about x, y and z of imu_link."""
+        self._write(ImuPublished(angular_velocity=list(angular_velocity), gyro_bias=list(gyro_bias)))
 
     def arm(self, humanoid: Humanoid, side: Side) -> None:
         """Write where elbow and hand of an arm are: m from its shoulder, along the torso's x, y and z."""

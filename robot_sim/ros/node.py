@@ -54,6 +54,7 @@ class HumanoidNode(Node):
         self.humanoid = humanoid
         self.battery_sensor_connected = True
         self.joint_sensors_connected = True
+        self.imu_connected = True
         self.joint_states_reversed = False
         self.robot_state_published = True
         self._ground_truth = ground_truth
@@ -202,10 +203,12 @@ class HumanoidNode(Node):
         self._joint_states.publish(message)
 
     def _publish_imu(self) -> None:
-        if not has_subscribers(self._imu):
+        if not self.imu_connected or not has_subscribers(self._imu):
             return
         sample, message = self.humanoid.imu(), self._imu_message
         self._read_clock()
+        if self._ground_truth:  # before others can answer with it
+            self._ground_truth.imu_published(sample.angular_velocity.tolist(), self.humanoid.gyro_bias)
         set_fields(message.orientation, "xyzw", sample.orientation.tolist())
         set_fields(message.angular_velocity, "xyz", sample.angular_velocity.tolist())
         set_fields(message.linear_acceleration, "xyz", sample.linear_acceleration.tolist())

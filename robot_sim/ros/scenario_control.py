@@ -14,7 +14,7 @@ from robot_sim.ros.node import HumanoidNode
 
 COMMANDS = (
     *("push", "walk", "set_battery", "battery_sensor", "robot_state", "motor_power"),
-    *("joint_sensors", "joint_states", "move_joints", "report_arm", "reset"),
+    *("joint_sensors", "joint_states", "imu_sensor", "gyro_bias", "move_joints", "report_arm", "reset"),
 )
 
 
@@ -59,6 +59,10 @@ def apply_command(
             node.joint_sensors_connected = connected
         case {"do": "joint_states", "reversed": is_reversed}:
             node.joint_states_reversed = is_reversed
+        case {"do": "imu_sensor", "connected": connected}:
+            node.imu_connected = connected
+        case {"do": "gyro_bias", "bias": bias}:
+            humanoid.gyro_bias = bias
         case {"do": "move_joints", "positions": positions, "duration": duration}:
             goal = Waypoint(duration, tuple(positions.values()))
             humanoid.move_joints(JointTrajectory(tuple(positions), (goal,)))

@@ -54,6 +54,14 @@ class JointsPublished(Event):
 
 
 @dataclass(frozen=True, kw_only=True)
+class ImuPublished(Event):
+    """What the robot published on imu, and the gyro's true bias: rad/s about x, y and z of imu_link."""
+
+    angular_velocity: list[float]
+    gyro_bias: list[float]
+
+
+@dataclass(frozen=True, kw_only=True)
 class ArmReported(Event):
     """Where elbow and hand (between the fingers) of an arm were: m from its shoulder, along the torso's x, y and z."""
 

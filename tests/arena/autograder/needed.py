@@ -1,13 +1,14 @@
 """Without which kinds of events each check passes no sound submission: the evidence it stands on.
 
 ALWAYS are needed by all, 'robot_truth' being the simulator's and 'node_ready' a server's appearance; where
-'battery_published', 'joints_published', 'arm_reported' or 'robot_commanded' stand, it is also the simulator who says
-that the stimulus took place.
+'battery_published', 'joints_published', 'imu_published', 'arm_reported' or 'robot_commanded' stand, it is also the
+simulator who says that the stimulus took place.
 """
 
 ALWAYS = ("node_started", "node_ready", "robot_truth", "scenario_ended")
 
 _ASKED = "service_called service_answered"
+_CALIBRATED = f"{_ASKED} imu_published robot_commanded"
 _INTERRUPTED = "node_signalled node_exited"
 _ENDED = "node_output node_exited"
 _SERVED = f"{_ENDED} request_received reply_sent"
@@ -26,6 +27,33 @@ NEEDED = {
         "keeps_the_last_message": f"{_ASKED} battery_published robot_commanded",
         "answers_every_request": _ASKED,
         "works_in_any_namespace": f"{_ASKED} battery_published",
+    },
+    "calibration": {
+        "server_appears": "",
+        "keeps_its_heartbeat": "message_received service_called",
+        "refuses_before_the_first_state": _ASKED,
+        "refuses_while_walking": f"{_ASKED} robot_commanded",
+        "asks_get_status": f"{_ASKED} request_received service_offered",
+        "calibrates": _CALIBRATED,
+        "refuses_without_an_answer": f"{_ASKED} request_received service_offered",
+        "lives_while_it_waits": "message_received service_called",
+        "refuses_a_second_caller": _CALIBRATED,
+        "fails_when_it_begins_to_walk": f"{_ASKED} robot_commanded",
+        "fails_without_samples": f"{_ASKED} robot_commanded",
+        "publishes_the_bias": f"{_ASKED} message_received robot_commanded",
+        "latches_the_bias": f"{_CALIBRATED} message_received",
+        "ends_cleanly": _INTERRUPTED,
+        "calibrates_afresh": f"{_CALIBRATED} message_received",
+        "waits_for_a_slow_status": f"{_CALIBRATED} reply_sent",
+        "recovers_when_status_answers": _CALIBRATED,
+        "takes_no_answer_for_another": f"{_ASKED} reply_sent request_received",
+        "refuses_without_a_server": f"{_ASKED} message_received",
+        "is_busy_while_it_asks": f"{_CALIBRATED} request_received",
+        "fails_after_a_few_steps": f"{_ASKED} robot_commanded",
+        "fails_with_few_samples": _CALIBRATED,
+        "is_content_with_enough_samples": _CALIBRATED,
+        "recovers_when_the_robot_speaks": _CALIBRATED,
+        "works_in_any_namespace": f"{_CALIBRATED} message_received",
     },
     "cancellable_walk": {
         "server_appears": "",

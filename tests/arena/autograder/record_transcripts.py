@@ -28,6 +28,10 @@ SUBMISSIONS_OF = {
         *("correct/class_based", "faulty/answers_from_a_cache", "faulty/no_test_for_none"),
         *("faulty/forgets_after_a_second", "faulty/waits_for_the_first_message"),
     ],
+    "calibration": [
+        *("correct/threads_and_events", "faulty/async_but_sleeps", "faulty/awaits_in_one_group"),
+        *("faulty/looks_only_before", "faulty/never_forgets"),
+    ],
     "cancellable_walk": [
         *("correct/threads_and_sleep", "faulty/sleeps_on_one_thread", "faulty/pretends", "faulty/walks_on"),
         "faulty/feedback_for_ever",

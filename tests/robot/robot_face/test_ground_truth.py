@@ -7,7 +7,7 @@ import threading
 import pytest
 from rclpy.qos import qos_profile_sensor_data
 from robot_process import TIMEOUT, running_robot
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import Imu, JointState
 
 
 class Pipes:
@@ -110,3 +110,29 @@ def test_a_scenario_moves_joints_and_turns_the_order_of_joint_states_round(robot
     positions = dict(zip(after.name, after.position, strict=True))
     assert positions["head_pan"] == pytest.approx(0.4, abs=0.01)
     assert positions["r_elbow"] == pytest.approx(before.position[before.name.index("r_elbow")], abs=0.01)
+
+
+def test_imu_is_told_as_published_with_the_bias_that_a_scenario_gave_the_gyro(robot):
+    bias = [0.01, -0.02, 0.015]
+    robot.command("gyro_bias", bias=bias)
+    messages = robot.listener.collect(Imu, "imu", 3, qos_profile_sensor_data, lambda message: True)
+    for message in messages:
+        velocity = message.angular_velocity
+        told = {"angular_velocity": [velocity.x, velocity.y, velocity.z], "gyro_bias": bias}
+        robot.wait_for(lambda record, wanted=told: wanted.items() <= record.items())
+        assert told["angular_velocity"] == pytest.approx(bias, abs=0.01)
+
+
+def test_an_unplugged_imu_is_silent_until_it_is_plugged_in(robot):
+    heard = threading.Event()
+    robot.command("imu_sensor", connected=False)
+    robot.listener.node.create_subscription(Imu, "imu", lambda message: heard.set(), qos_profile_sensor_data)
+    robot.wait_for(
+        lambda record: any(
+            topic.endswith("imu") and count for topic, count in record.get("subscribers", {}).items()
+        )
+    )
+    robot.simulate(0.5)
+    assert not heard.is_set()
+    robot.command("imu_sensor", connected=True)
+    assert heard.wait(TIMEOUT)

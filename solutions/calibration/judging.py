@@ -1,0 +1,399 @@
+"""Compares the answers of the calibration server with the gyro's true bias, and with what the robot published."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from statistics import fmean
+
+from autograder.authoring import events as ev
+from autograder.authoring.call import Call, Request
+from autograder.authoring.connections import lesson_on_hearing, why_nothing_is_heard
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.fields import shown, shown_fields
+from autograder.authoring.missing import unseen
+from autograder.authoring.readiness import require_alive
+from autograder.authoring.robot_topic import DELIVERY
+from autograder.authoring.standing import where_it_stood
+from autograder.authoring.transcript import Transcript
+from ros_runtime.message_constants import RobotMode, name_of
+
+TOLERANCE = 0.001  # rad/s
+ASKING = 2.0  # s, at most, for get_status
+COLLECTING = 3.0  # s
+FEWEST_SAMPLES = 100
+EARLY = 0.1  # s less than COLLECTING that pass: clocks are read at either end
+LATE = 1.5  # s more than there is work for; the task says 1 s
+GAP = 0.3  # s without a heartbeat
+JITTER = 0.06  # s of real time by which a message may be late on a busy machine
+MOST_JITTER = 1.0  # s; a callback that blocks costs 2 s at least
+SLOWEST, FASTEST = 7.5, 13.0  # Hz, heartbeats
+MOST_SAMPLES = 1000  # a greater number in the message is no count
+
+_NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+
+
+# -- what was asked of the grader's get_status ------------------------------------------------------------------------
+
+
+def run_of(call: Call) -> Transcript:
+    """Return the transcript of a call."""
+    assert isinstance(call.run, Transcript)
+    return call.run
+
+
+def status_request(call: Call) -> Request | None:
+    """Return the request to get_status that belongs to a call: the first one after it was sent."""
+    until = call.answer.t if call.answer else call.run.end
+    requests = (request for request in run_of(call).requests("get_status"))
+    return next((request for request in requests if call.sent.t <= request.received.t <= until), None)
+
+
+def collecting_from(call: Call) -> float:
+    """Return when (s) collecting can begin at the earliest: when get_status answered, or at the request."""
+    request = status_request(call)
+    return request.reply.t if request and request.reply else call.sent.t
+
+
+def require_status_asked(call: Call) -> None:
+    """Require that get_status was asked, and had answered before the samples were collected."""
+    answered = call.answered
+    if not call.run.all(ev.ServiceOffered):
+        raise unseen(call.run, "nobody offered get_status")
+    asked = [request.received.t for request in run_of(call).requests("get_status")]
+    expect(
+        any(call.sent.t <= t <= answered.t for t in asked),
+        expected="a request to get_status while calibrate_imu works",
+        observed=f"{len(asked)} requests, all of them at other times" if asked else "none",
+        help="Make a client of get_status in the constructor, and in the callback of calibrate_imu ask with "
+        "call_async before you collect.",
+        at=call.sent.t,
+    )
+
+
+# -- calibrations that succeed ----------------------------------------------------------------------------------------
+
+
+def require_calibrated(call: Call) -> None:
+    """Require success after 3 s of samples, with the gyro's bias and the number of samples in the message."""
+    bias = true_bias(call)
+    answered = call.answered
+    published = imu_between(call, call.sent.t, answered.t)
+    call.expect(
+        "success",
+        True,
+        because=f"the robot is {name_of(RobotMode, call.run.robot_at(call.sent.t).mode)} and published imu "
+        f"{len(published)} times meanwhile",
+        help=_advice_on_failing(call, len(published)),
+        see=lesson_on_hearing(call.run, "imu") if not published else "",
+    )
+    _require_three_seconds(call)
+    require_bias_in_message(call, bias)
+    _require_count_in_message(call, len(imu_between(call, call.sent.t - EARLY, answered.t)))
+
+
+def true_bias(call: Call) -> Sequence[float]:
+    """Return the gyro's bias (rad/s) during a calibration, as the simulator tells it; the robot stood all the while."""
+    told = call.run.told("gyro_bias", before=call.sent.t - DELIVERY)
+    end = call.answer.t if call.answer else call.run.end
+    walking = [
+        robot for robot in call.run.robot_between(call.sent.t, end) if robot.mode != RobotMode.STANDING
+    ]
+    expect(
+        not walking,
+        expected="the robot standing as long as nobody commands it",
+        observed=f"it is {name_of(RobotMode, walking[0].mode) if walking else ''}",
+        help="Publish nothing but heartbeat and imu_bias: a calibration commands nothing.",
+        at=walking[0].t if walking else None,
+    )
+    return told.command["bias"]
+
+
+def imu_between(call: Call, start: float, end: float) -> list[ev.ImuPublished]:
+    """Return what the robot published on imu between two times (s)."""
+    return [sample for sample in call.run.all(ev.ImuPublished) if start <= sample.t <= end]
+
+
+def _require_three_seconds(call: Call) -> None:
+    answered, since = call.answered, collecting_from(call)
+    took = answered.t - since
+    asked = since > call.sent.t
+    after = "after get_status had answered" if asked else "after the request"
+    expect(
+        took >= COLLECTING - EARLY,
+        expected=f"samples of {COLLECTING:g} s, collected {after}",
+        observed=f"the answer came {took:.1f} s {after}",
+        help="Begin to collect when get_status has answered, not before, and wait 3 s from then."
+        if asked and answered.t - call.sent.t >= COLLECTING - EARLY
+        else "Wait 3 s between the first sample and the answer: count the time, not the samples.",
+        at=answered.t,
+    )
+    expect(
+        took <= COLLECTING + LATE,
+        expected=f"an answer within 1 s of the {COLLECTING:g} s of collecting",
+        observed=f"it came {took:.1f} s {after}",
+        help="Answer when the 3 s are over: wait for time, and not for a number of samples.",
+        at=answered.t,
+    )
+
+
+def require_bias_in_message(call: Call, bias: Sequence[float]) -> None:
+    """Require the means of x, y and z, in this order, in the message."""
+    message = call.response.message
+    numbers = [float(number) for number in _NUMBER.findall(message)]
+    triples = list(zip(numbers, numbers[1:], numbers[2:], strict=False))
+    if any(_is_near(triple, bias) for triple in triples):
+        return
+    raise Failure(
+        expected=f"a message with the mean angular velocity {_shown_vector(bias)} rad/s, within {TOLERANCE:g}",
+        observed=f"message: {shown(message)}",
+        help=_advice_on_vector(call, triples, bias)
+        or "Put the three means into the message, x, y and z, as plain numbers in rad/s with at least four decimals.",
+        at=call.answered.t,
+    )
+
+
+def _require_count_in_message(call: Call, published: int) -> None:
+    message = call.response.message
+    integers = [int(number) for number in _NUMBER.findall(message) if number.lstrip("+-").isdigit()]
+    counts = [number for number in integers if FEWEST_SAMPLES <= number <= MOST_SAMPLES]
+    if any(count <= published for count in counts):
+        return
+    raise Failure(
+        expected=f"the count of samples in the message; the robot published {published} while you worked",
+        observed=f"message: {shown(message)}",
+        help=f"{counts[0]} samples are more than those of this calibration: begin each one with an empty list."
+        if counts
+        else "Put the number of samples that you averaged into the message.",
+        at=call.answered.t,
+    )
+
+
+def require_bias_published(call: Call) -> None:
+    """Require that imu_bias was published for a calibration, with the gyro's bias in frame imu_link."""
+    bias, answered = true_bias(call), call.answered
+    published = [
+        event for event in run_of(call).heard("imu_bias") if call.sent.t <= event.t <= answered.t + DELIVERY
+    ]
+    expect(
+        bool(published),
+        expected="a message on imu_bias within 1 s of the answer",
+        observed=_what_is_published(run_of(call)),
+        help="Make the publisher of imu_bias in the constructor, and publish one Vector3Stamped before you answer.",
+        at=answered.t,
+    )
+    require_bias_message(call, published[-1], bias)
+
+
+def require_bias_message(call: Call, event: ev.MessageReceived, bias: Sequence[float]) -> None:
+    """Require that a message on imu_bias holds the bias in frame imu_link."""
+    header, vector = event.message.header, event.message.vector
+    expect(
+        header.frame_id == "imu_link",
+        expected="header.frame_id 'imu_link': the bias is that of the sensor, about its axes",
+        observed=f"header.frame_id {shown(header.frame_id)}",
+        help='Set header.frame_id = "imu_link".',
+        at=event.t,
+    )
+    found = (vector.x, vector.y, vector.z)
+    expect(
+        _is_near(found, bias),
+        expected=f"imu_bias {_shown_vector(bias)} rad/s, within {TOLERANCE:g}",
+        observed=_shown_vector(found),
+        help=_advice_on_vector(call, [found], bias)
+        or "Publish the mean of the angular velocities of this calibration, in rad/s.",
+        at=event.t,
+    )
+
+
+# -- calibrations that are refused, or fail ---------------------------------------------------------------------------
+
+
+def require_refused(call: Call, *, because: str, within: float = LATE, help: str) -> None:
+    """Require success false with a sentence within so many s, and nothing on imu_bias."""
+    answered = call.answered
+    call.expect("success", False, because=because, help=help)
+    expect(
+        bool(call.response.message.strip()),
+        expected="a message that says why there is no calibration",
+        observed="an empty message",
+        help="Set response.message to a sentence with the reason.",
+        at=answered.t,
+    )
+    expect(
+        call.latency <= within,
+        expected=f"a refusal within {within - LATE + 1.0:g} s",
+        observed=f"it came {call.latency:.1f} s after the request",
+        help="Look at the reasons to refuse before you begin, and return at once.",
+        at=answered.t,
+    )
+    require_nothing_published(call)
+
+
+def require_refused_meanwhile(first: Call, second: Call) -> None:
+    """Require that the second caller was refused while the calibration of the first one ran."""
+    if first.answer is not None and second.sent.t >= first.answer.t - DELIVERY:
+        require_calibrated(first)  # if it ended early, that is the reason
+        raise unseen(first.run, "the second request did not come while the first one was at work")
+    require_refused(
+        second,
+        because="the calibration of another caller was at work",
+        help="Remember that a calibration runs from its request to its answer, and refuse others meanwhile.",
+    )
+
+
+def require_nothing_published(call: Call) -> None:
+    """Require that imu_bias stayed silent from a request until shortly after its answer."""
+    until = call.answered.t + DELIVERY
+    published = [event for event in run_of(call).heard("imu_bias") if call.sent.t <= event.t <= until]
+    expect(
+        not published,
+        expected="nothing on imu_bias, as there was no calibration",
+        observed=f"{_shown_vector(_xyz(published[0].message.vector))} was published" if published else "",
+        help="Publish on imu_bias only when all is known to be well, just before you answer success: true.",
+        at=published[0].t if published else None,
+    )
+
+
+def require_walking_at(call: Call) -> None:
+    """Require evidence that the robot walked when the request came, for long enough that the node knew."""
+    call.run.told("walk", before=call.sent.t - DELIVERY)
+    watched = call.run.robot_between(call.sent.t - DELIVERY, call.sent.t)
+    if any(robot.mode != RobotMode.WALKING for robot in watched):
+        raise unseen(call.run, "the robot did not walk when calibrate_imu was called")
+
+
+def require_walk_begun_meanwhile(call: Call) -> None:
+    """Require evidence that the robot stood at the request, and walked before the 3 s were over."""
+    call.run.told("walk", before=collecting_from(call) + COLLECTING)
+    before = call.run.robot_between(call.sent.t - DELIVERY, call.sent.t)
+    meanwhile = call.run.robot_between(call.sent.t, collecting_from(call) + COLLECTING - DELIVERY / 2)
+    if any(robot.mode == RobotMode.WALKING for robot in before) or not any(
+        robot.mode == RobotMode.WALKING for robot in meanwhile
+    ):
+        raise unseen(call.run, "the robot did not begin to walk during the calibration")
+
+
+def require_imu_lost(call: Call, *, fewest: int, most: int) -> None:
+    """Require evidence that the imu fell silent so that so many samples, more or less, could be collected."""
+    call.run.told("imu_sensor", before=collecting_from(call) + COLLECTING, connected=False)
+    count = len(imu_between(call, collecting_from(call), collecting_from(call) + COLLECTING))
+    if not fewest <= count <= most:
+        raise unseen(call.run, f"the robot published imu {count} times, not {fewest} to {most} times")
+
+
+# -- heartbeat --------------------------------------------------------------------------------------------------------
+
+
+def require_heartbeat(run: Transcript, call: Call, meanwhile: str) -> None:
+    """Require heartbeats at 10 Hz without a gap, from the first to the end of the scenario; `call` falls into it."""
+    beats = [event.t for event in run.heard("heartbeat")]
+    require_alive(run)
+    expect(
+        len(beats) > 1 and beats[0] <= call.sent.t,
+        expected="messages on heartbeat, ten a second, from the start on",
+        observed=f"{len(beats)} messages" if len(beats) < 2 else f"the first one at {beats[0]:.1f} s",
+        help="Make a publisher (std_msgs/Empty) and a timer of 0.1 s in the constructor, with relative names.",
+    )
+    late = [woken.late for woken in run.all(ev.WokenLate)] + [robot.lag for robot in run.ground_truth]
+    late += [starved.seconds for starved in run.all(ev.Starved)]
+    limit = GAP + JITTER * run.scale + min(max(late, default=0.0), MOST_JITTER)
+    ends = [*beats[1:], run.end]
+    start, end = max(zip(beats, ends, strict=True), key=lambda pair: pair[1] - pair[0])
+    until = call.answer.t if call.answer else run.end
+    during = call.sent.t - GAP <= start <= until
+    expect(
+        end - start <= limit,
+        expected=f"no gap of more than {GAP:g} s between two heartbeats",
+        observed=f"{end - start:.1f} s without one, from {start:.1f} s on{f', {meanwhile}' if during else ''}",
+        help=_advice_on_the_gap(run, during),
+        at=start,
+    )
+    rate = (len(beats) - 1) / (beats[-1] - beats[0])
+    expect(
+        SLOWEST <= rate <= FASTEST,
+        expected="10 heartbeats a second",
+        observed=f"{rate:.1f} a second",
+        help="Make one timer with a period of 0.1 s that publishes one message each time.",
+    )
+
+
+def _advice_on_the_gap(run: Transcript, during: bool) -> str:
+    if not during:
+        return "The timer of the heartbeat must go on as long as the node runs: make it in the constructor."
+    if place := where_it_stood(run):
+        return f"The timer got no turn: a callback stood in {place}, and held its thread or its group. Await there."
+    return (
+        "The timer gets no turn while the callback of calibrate_imu waits. Either await in it (async def, and futures "
+        "that an answer or a timer completes), or give the timer a callback group and a thread of its own."
+    )
+
+
+# -- advice -----------------------------------------------------------------------------------------------------------
+
+
+def _advice_on_failing(call: Call, published: int) -> str:
+    said = shown_fields(call.response, "message")
+    if deaf := why_nothing_is_heard(call.run, "imu"):
+        return deaf
+    if deaf := why_nothing_is_heard(call.run, "robot_state"):
+        return deaf
+    if status_request(call) is None and call.run.all(ev.ServiceOffered):
+        return (
+            f"The grader's get_status was never asked, and your answer was {said}: did the request get as far as "
+            "call_async?"
+        )
+    waited = call.latency
+    if ASKING - EARLY <= waited < COLLECTING:
+        return (
+            f"get_status had answered, but not to you ({said}): its answer could not be handled while the callback "
+            "waited. Give client and service a ReentrantCallbackGroup, or groups of their own and a second thread."
+        )
+    if published >= FEWEST_SAMPLES and waited >= COLLECTING:
+        return (
+            f"{published} samples came while the callback waited, but they were not counted ({said}): on_imu gets no "
+            "turn while the callback holds its thread or its group, or they are dropped where you count."
+        )
+    return f"Your answer was {said}: refuse only for a reason that the task names."
+
+
+def _advice_on_vector(call: Call, triples: Sequence[Sequence[float]], bias: Sequence[float]) -> str | None:
+    """Return what kind of mistake makes one of the triples of the bias, if it is known."""
+    samples = [sample.angular_velocity for sample in imu_between(call, 0.0, call.answered.t)]
+    now = imu_between(call, call.sent.t, call.answered.t)
+    older = [fmean(values) for values in zip(*samples, strict=True)] if samples else bias
+    earlier = [event.command["bias"] for event in call.run.all(ev.RobotCommanded) if "bias" in event.command]
+    for triple in triples:
+        if _is_near([value / max(len(now), 1) for value in triple], bias, TOLERANCE / 5):
+            return "These are the sums: divide them by the number of samples."
+        if _is_near([value / 57.29578 for value in triple], bias, TOLERANCE / 5):
+            return "These are degrees: imu tells rad/s, and so do you."
+        if _is_near([-value for value in triple], bias):
+            return "The signs are the wrong way round: the bias is the mean itself."
+        if _is_near(sorted(triple), sorted(bias)):
+            return "The values are right, but not in the order x, y, z."
+        if abs(triple[2]) > 5.0:
+            return "These are accelerations: take angular_velocity of each message."
+        if _is_near(triple, older) or any(_is_near(triple, other) for other in earlier[:-1]):
+            return "Samples of before are in it: begin with an empty list each time, when get_status has answered."
+        if not any(triple):
+            return "A mean of exactly 0 comes from no sample: average what on_imu has collected."
+    return None
+
+
+def _what_is_published(run: Transcript) -> str:
+    others = [name for topics in run.all(ev.NodeTopics) for name in topics.publishes]
+    names = sorted({name for name in others if not name.endswith(("/rosout", "/parameter_events"))})
+    return "none" + (f"; your node publishes {', '.join(names)}" if names else "")
+
+
+def _is_near(found: Sequence[float], bias: Sequence[float], tolerance: float = TOLERANCE) -> bool:
+    return all(abs(one - other) <= tolerance for one, other in zip(found, bias, strict=True))
+
+
+def _xyz(vector: object) -> tuple[float, float, float]:
+    return vector.x, vector.y, vector.z  # type: ignore[attr-defined]
+
+
+def _shown_vector(vector: Sequence[float]) -> str:
+    return "(" + ", ".join(f"{value:.4f}" for value in vector) + ")"
