@@ -22,7 +22,7 @@ from ros_runtime.angles import wrap
 FACING = 0.6  # rad between heading and goal while it walks
 IN_PLACE, WALKS = 0.10, 0.20  # m/s of the body as a whole
 TURNS = 0.15  # rad/s
-SHARE, LEAST = 0.15, 0.10  # of the path, or m, that distance_traveled may be off
+SHARE, LEAST = 0.15, 0.20  # of the path, or m (one step), that distance_traveled may be off
 TIME_SLACK = 1.0  # s that a reported time may be off: feedback's period and delivery
 HALF_WAY = (25.0, 75.0)  # percent
 COMPLETE = 99.5  # percent
@@ -145,7 +145,7 @@ def require_measured_path(goal: Goal, end: ev.ResultReceived) -> None:
             "The pelvis sways 3 cm to each side with every step, also while the robot turns on the spot. Count a leg "
             "only when odom is 0.15 m away from where the last one ended."
         )
-    elif abs(claimed - straight) < LEAST:
+    elif abs(claimed - straight) < LEAST / 2:
         help = "That is the straight distance from start to end: add up the legs of the path, also those that lead back."
     else:
         help = "Count the path in every round of the loop, from acceptance to the end, also while the robot turns."
