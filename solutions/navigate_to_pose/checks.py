@@ -18,11 +18,11 @@ from autograder.authoring.walking.truth import (
 
 from .judging import (
     accepted_at,
+    require_detour_counted,
     require_facing,
     require_good_estimate,
     require_half_done_half_way,
     require_led_astray,
-    require_detour_counted,
     require_measured_path,
     require_named_phases,
     require_no_detour,
@@ -82,9 +82,14 @@ def feedback_is_true(run: Transcript) -> None:
     require_true_places(run.goal("go"))
 
 
-@check(points=1, on=GO, needs=[arrives, faces_its_way, feedback_keeps_its_rate], see="07_cancel_and_preempt#turner-intro")
+@check(
+    points=1,
+    on=GO,
+    needs=[arrives, faces_its_way, feedback_keeps_its_rate],
+    see="07_cancel_and_preempt#turner-intro",
+)
 def names_its_phases(run: Transcript) -> None:
-    """status names the phase: turn, walk, turn to the heading"""
+    """Status names the phase: turn, walk, turn to the heading"""
     require_named_phases(run.goal("go"))
 
 
@@ -200,27 +205,34 @@ def rejects_without_power(run: Transcript) -> None:
 @check(points=2, on=ASTRAY, needs=arrives, see="07_cancel_and_preempt#why")
 def gets_back_on_its_way(run: Transcript) -> None:
     """Led back and turned by a remote control, it finds its way again, and arrives"""
-    require_led_astray(run)
+    require_led_astray(run.goal("go"))
     require_arrival(run.goal("go"))
 
 
-@check(points=1, on=ASTRAY, needs=[gets_back_on_its_way, feedback_keeps_its_rate], see="07_cancel_and_preempt#why")
+@check(
+    points=1,
+    on=ASTRAY,
+    needs=[gets_back_on_its_way, feedback_keeps_its_rate],
+    see="07_cancel_and_preempt#why",
+)
 def counts_the_recovery(run: Transcript) -> None:
     """number_of_recoveries counts it, once"""
     require_detour_counted(run.goal("go"))
 
 
-@check(points=1, on=ASTRAY, needs=[gets_back_on_its_way, progress_rises_to_100], see="07_cancel_and_preempt#why")
+@check(
+    points=1, on=ASTRAY, needs=[gets_back_on_its_way, progress_rises_to_100], see="07_cancel_and_preempt#why"
+)
 def progress_never_falls(run: Transcript) -> None:
     """progress_percentage does not fall when the robot is led back"""
-    require_led_astray(run)
+    require_led_astray(run.goal("go"))
     require_rising_progress(run.goal("go"))
 
 
 @check(points=1, on=ASTRAY, needs=[gets_back_on_its_way, measures_its_path], see="07_cancel_and_preempt#why")
 def measures_a_detour(run: Transcript) -> None:
     """distance_traveled includes the way back and forth"""
-    require_led_astray(run)
+    require_led_astray(run.goal("go"))
     require_measured_path(run.goal("go"), run.goal("go").require_result(SUCCEEDED))
 
 
@@ -232,8 +244,8 @@ def gives_up_in_time(run: Transcript) -> None:
     limit = 30.0 + 15.0 * run.params["x"]
     end = goal.require_result(
         ABORTED,
-        help=f"The robot was held {taken.t - accepted_at(goal):.0f} s after acceptance. Compare the time since acceptance "
-        "with the limit in every round.",
+        help=f"The robot was held {taken.t - accepted_at(goal):.0f} s after acceptance. Compare the time since "
+        "acceptance with the limit in every round.",
     )
     require_error_code(goal, "TIMEOUT", because="the time is over")
     took = end.t - accepted_at(goal)

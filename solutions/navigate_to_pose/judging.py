@@ -14,7 +14,6 @@ from autograder.authoring.failure import expect
 from autograder.authoring.feedback import require_feedback
 from autograder.authoring.goal import SUCCEEDED, Goal
 from autograder.authoring.missing import unseen
-from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.path import length_walked, walking_speed
 from autograder.authoring.walking.planar import error, target
 from ros_runtime.angles import wrap
@@ -84,7 +83,7 @@ def require_facing(goal: Goal) -> None:
         expect(
             off <= FACING,
             expected="the robot to turn toward the goal first, and to walk straight ahead",
-            observed=f"it walks with its heading {off:.1f} rad off the goal, {robot.t - leg.start:.1f} s after acceptance",
+            observed=f"it walks with its heading {off:.1f} rad off the goal",
             help="While the goal is farther than 0.3 m, publish angular.z alone until math.atan2(dy, dx) minus the "
             "heading is small; only then linear.x.",
             at=robot.t,
@@ -92,7 +91,7 @@ def require_facing(goal: Goal) -> None:
 
 
 def require_named_phases(goal: Goal) -> None:
-    """Require that the turn at the start, the walk and the turn at the end have names, of which the walk's is its own."""
+    """Require that the walk has a name of its own, and the turns before and after it have others."""
     leg = Leg.of(goal)
     turning = _statuses(goal, leg.start, leg.half, lambda robot, speed: speed < IN_PLACE and _turns(robot))
     walking = _statuses(goal, leg.start, leg.end, lambda robot, speed: speed > WALKS)
@@ -115,8 +114,8 @@ def require_named_phases(goal: Goal) -> None:
     expect(
         names[1] not in (names[0], names[2]),
         expected="a status of its own for the walk, and others for the turns before and after it",
-        observed=f"{names[0]!r} while it turns, {names[1]!r} while it walks, {names[2]!r} while it turns to the heading",
-        help="Set the phase where the loop decides to turn, to walk, or to align: a status that is set once says nothing.",
+        observed=f"{names[0]!r} as it turns, {names[1]!r} as it walks, {names[2]!r} as it turns to the heading",
+        help="Set the phase where the loop decides to turn, to walk or to align, and send that.",
         at=leg.half,
     )
 
@@ -139,14 +138,18 @@ def require_measured_path(goal: Goal, end: ev.ResultReceived) -> None:
     """Require that the result's distance_traveled is the length of the path that the robot walked."""
     walked = length_walked(goal.run, accepted_at(goal), end.t)
     claimed = float(end.result.distance_traveled)
-    straight = math.dist(*((r.x, r.y) for r in (goal.run.robot_at(accepted_at(goal)), goal.run.robot_at(end.t))))
+    straight = math.dist(
+        *((r.x, r.y) for r in (goal.run.robot_at(accepted_at(goal)), goal.run.robot_at(end.t)))
+    )
     if claimed > walked:
         help = (
             "The pelvis sways 3 cm to each side with every step, also while the robot turns on the spot. Count a leg "
             "only when odom is 0.15 m away from where the last one ended."
         )
     elif abs(claimed - straight) < LEAST / 2:
-        help = "That is the straight distance from start to end: add up the legs of the path, also those that lead back."
+        help = (
+            "That is the straight distance from start to end: add up the legs of the path, and the way back."
+        )
     else:
         help = "Count the path in every round of the loop, from acceptance to the end, also while the robot turns."
     slack = max(SHARE * walked, LEAST)
@@ -171,7 +174,7 @@ def require_rising_progress(goal: Goal) -> None:
             0.0 <= progress <= 100.01,
             expected="progress_percentage from 0 to 100",
             observed=f"{progress:g}",
-            help="0/0 is NaN where nothing is left to walk, a longer way than at first is below 0: clamp what you compute.",
+            help="0/0 is NaN where nothing is left to walk, and a longer way than at first is below 0: clamp it.",
             at=feedback.t,
         )
         expect(
@@ -242,7 +245,7 @@ def require_true_navigation_time(goal: Goal) -> None:
             abs(claimed - true) <= TIME_SLACK,
             expected=f"navigation_time near {true:.1f} s, since the goal was accepted",
             observed=f"{claimed:.1f} s",
-            help="Remember the time when the goal is accepted and subtract it: neither the node's start nor the phase's."
+            help="Remember when the goal is accepted, and subtract that: neither the node's start nor the phase's."
             if claimed
             else "Fill feedback.navigation_time from the time since the goal was accepted.",
             at=feedback.t,
@@ -257,18 +260,19 @@ def require_no_detour(goal: Goal) -> None:
         counted.feedback.number_of_recoveries == 0,
         expected="number_of_recoveries 0: nothing disturbed the robot",
         observed=f"{counted.feedback.number_of_recoveries}",
-        help="The turn at the start is no recovery, nor is a bearing that swings when the goal is a step away: count only "
-        "when the robot walks, farther than 0.3 m from the goal, and is off by more than 0.5 rad.",
+        help="The turn at the start is no recovery, nor is a bearing that swings when the goal is a step away: count "
+        "only when the robot walks, farther than 0.3 m from the goal, and is off by more than 0.5 rad.",
         at=counted.t,
     )
 
 
-def require_led_astray(run: Transcript) -> tuple[float, float]:
+def require_led_astray(goal: Goal) -> tuple[float, float]:
     """Return when the robot was taken over and given back; it must then have been off its way by more than 0.5 rad."""
+    run = goal.run
     taken, given = run.told("take_over", velocity=[-0.2, 0.0, 0.0]), run.told("take_over", velocity=None)
-    goal = target(run.goal("go")).position
+    place = target(goal).position
     robot = run.robot_at(given.t)
-    off = abs(wrap(robot.yaw - math.atan2(goal.y - robot.y, goal.x - robot.x)))
+    off = abs(wrap(robot.yaw - math.atan2(place.y - robot.y, place.x - robot.x)))
     if off < FACING:
         raise unseen(run, f"the robot was only {off:.1f} rad off its way when it was given back")
     return taken.t, given.t
@@ -276,7 +280,7 @@ def require_led_astray(run: Transcript) -> tuple[float, float]:
 
 def require_detour_counted(goal: Goal) -> None:
     """Require that a recovery is counted once the robot has been led astray, and not before."""
-    taken, given = require_led_astray(goal.run)
+    taken, given = require_led_astray(goal)
     require_feedback(goal)
     early = [f for f in goal.feedback if f.t < taken]
     counts = [f.feedback.number_of_recoveries for f in goal.feedback]
@@ -291,7 +295,7 @@ def require_detour_counted(goal: Goal) -> None:
         1 <= counts[-1] <= MOST_DETOURS,
         expected="number_of_recoveries 1 after the robot was led astray once",
         observed=f"{counts[-1]}",
-        help="Count where the walking phase changes back to turning, which happens once, not in every round of the loop."
+        help="Count where the walking phase changes back to turning, not in every round of the loop."
         if counts[-1]
         else "While it walks, compare the goal's bearing with the heading: beyond 0.5 rad go back to the turning phase "
         "and add 1.",

@@ -48,13 +48,9 @@ def require_true_places(goal: Goal) -> None:
         _require_true_place(goal, feedback, _recent(goal, feedback.t))
 
 
-def _require_true_place(
-    goal: Goal, feedback: ev.FeedbackReceived, recent: Sequence[ev.RobotTruth]
-) -> None:
+def _require_true_place(goal: Goal, feedback: ev.FeedbackReceived, recent: Sequence[ev.RobotTruth]) -> None:
     message = feedback.feedback
-    require_true_pose(
-        message.current_pose, recent, "feedback.current_pose", feedback.t, help=why_blind(goal)
-    )
+    require_true_pose(message.current_pose, recent, "feedback.current_pose", feedback.t, help=why_blind(goal))
     distances = [error(robot, goal)[0] for robot in recent]
     claimed = message.distance_remaining
     expect(

@@ -36,8 +36,7 @@ def require_arrival(goal: Goal, within: float = POSITION_TOLERANCE) -> None:
     distance, turn = error(goal.run.robot_at(result.t), goal)
     expect(
         distance <= within and turn <= YAW_TOLERANCE,
-        expected=f"the robot within {within:.2f} m and {YAW_TOLERANCE:.2f} rad of the goal when it "
-        "SUCCEEDED",
+        expected=f"the robot within {within:.2f} m and {YAW_TOLERANCE:.2f} rad of the goal when it SUCCEEDED",
         observed=f"{distance:.2f} m and {turn:.2f} rad away in the simulator",
         help=_advice_on_arrival(goal, distance, turn, within),
         at=result.t,

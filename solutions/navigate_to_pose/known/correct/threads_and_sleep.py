@@ -91,21 +91,6 @@ class Journey:
 
 
 class NavigationServer(Node):
-    # The ladder. After each step, run the self-check: the checks in brackets should pass.
-    #
-    # 1. Reject goals, in _on_goal: another frame, numbers that are not finite, a tolerance below 0.05 m that is not 0,
-    #    motors that are off.
-    #    [accepts_a_goal, rejects_a_wrong_pose, rejects_a_wrong_tolerance, rejects_without_power]
-    # 2. Get there, in _drive and _steer: turn to the goal, walk, turn to the heading, stop, look again.
-    #    [arrives, faces_its_way, succeeds_at_once_where_it_stands]
-    # 3. Publish feedback from the same loop: what odom says, the phase, the time since acceptance.
-    #    [feedback_keeps_its_rate, feedback_is_true, names_its_phases, tells_its_time, feedback_ends_with_the_goal]
-    # 4. Fill Journey.count: a path without the sway, in the result.  [measures_its_path]
-    # 5. Fill Journey.time_left and Journey.advance.  [estimates_the_time, progress_rises_to_100]
-    # 6. In the walking phase, turn first when the goal is off the way, and count that.  [recovers, counts_detours]
-    # 7. Give up: a fall, the time limit.  [aborts_when_the_robot_falls, gives_up_in_time]
-    # 8. Cancel and preempt, as in cancellable_walk.  [cancels_in_mid_stride, new_goal_preempts_the_old]
-
     def __init__(self):
         super().__init__("navigation_server")
         self._pose = None  # PoseStamped: base_link in odom
