@@ -59,7 +59,7 @@ TO_THE_OTHER_SIDE = Scenario(
     lambda random: {
         "x": 1.8,
         "y": round(random.uniform(-0.2, 0.2), 2),
-        "back": round(random.uniform(1.5, 3.0), 2),
+        "back": round(random.uniform(3.5, 4.5), 2),
         "turn": -1,
     },
 )

@@ -71,7 +71,7 @@ def lead_astray(stage: Stage, x: float, y: float, back: float, turn: float) -> N
         turn: to the left (1) or to the right (-1).
     """
     goal = _open(stage).send_and_wait(_pose(x, y, 0.0), as_="go")
-    stage.robot.wait_for(lambda robot: math.hypot(robot.x, robot.y) > 0.7, timeout=20.0)
+    stage.robot.wait_for(lambda robot: math.hypot(robot.x, robot.y) > 0.9, timeout=20.0)
     stage.robot.take_over((-0.2, 0.0, 0.0))
     stage.wait(back)
     stage.robot.take_over((0.0, 0.0, turn * 0.45))
