@@ -27,9 +27,10 @@ from .judging import (
 
 
 def _poses(random) -> dict:
-    """Two poses a metre or so apart: one with a small tolerance, then one behind it with a large one."""
+    """Two poses a metre or so apart: one straight ahead with a small tolerance, then one behind it with a large one."""
     side = random.choice((-1, 1))
-    first = (random.uniform(0.6, 1.0), side * random.uniform(0.4, 0.8), side * random.uniform(2.0, 2.9))
+    x, y = random.uniform(0.6, 1.0), side * random.uniform(0.4, 0.8)
+    first = (x, y, math.atan2(y, x))  # a turn at the end would bring a careless server nearer
     angle = random.uniform(-0.5, 0.5)
     second = (
         first[0] - 0.9 * math.cos(angle),
