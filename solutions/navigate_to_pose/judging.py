@@ -21,7 +21,7 @@ from ros_runtime.angles import wrap
 FACING = 0.6  # rad between heading and goal while it walks
 IN_PLACE, WALKS = 0.10, 0.20  # m/s of the body as a whole
 TURNS = 0.15  # rad/s
-SHARE, LEAST = 0.15, 0.20  # of the path, or m (one step), that distance_traveled may be off
+SHARE, LEAST = 0.15, 0.25  # of the path, or m (more than a step), that distance_traveled may be off
 TIME_SLACK = 1.0  # s that a reported time may be off: feedback's period and delivery
 HALF_WAY = (25.0, 75.0)  # percent
 COMPLETE = 99.5  # percent

@@ -70,10 +70,10 @@ class Journey:
         self._longest = None  # s that were left at first
         self._counted = x, y  # the path is counted up to here
 
-    def count(self, x, y):
-        """Count the way to (x, y), but only legs that are no sway."""
+    def count(self, x, y, shortest=LEG):
+        """Count the way to (x, y), but only legs that are no sway; at the end, when it stands, whatever is left."""
         leg = math.hypot(x - self._counted[0], y - self._counted[1])
-        if leg >= LEG:
+        if leg >= shortest:
             self.traveled += leg
             self._counted = x, y
 
@@ -143,6 +143,8 @@ class NavigationServer(Node):
         journey = Journey(time.monotonic(), here.x, here.y, distance)  # since acceptance, before the lock
         with self._legs:
             finish, result.error_code, result.error_msg = self._drive(goal_handle, journey)
+            here = self._pose.pose.position
+            journey.count(here.x, here.y, shortest=0.0)
             result.distance_traveled = journey.traveled
             if rclpy.ok():
                 finish()
