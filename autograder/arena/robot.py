@@ -41,6 +41,14 @@ class Robot:
         """Walk with a velocity (m/s, m/s, rad/s in base_link); zeros stop it."""
         self._command("walk", velocity=list(velocity))
 
+    def take_over(self, velocity: Sequence[float]) -> None:
+        """Walk with a velocity (m/s, m/s, rad/s in base_link) and do not heed cmd_vel, as under a remote control."""
+        self._command("take_over", velocity=list(velocity))
+
+    def give_back(self) -> None:
+        """Stop, and heed cmd_vel again."""
+        self._command("take_over", velocity=None)
+
     def set_battery(self, percentage: float) -> None:
         """Charge or drain the battery to 0..1."""
         self._command("set_battery", percentage=percentage)

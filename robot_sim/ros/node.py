@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist
@@ -59,6 +60,7 @@ class HumanoidNode(Node):
         self.robot_state_published = True
         self._ground_truth = ground_truth
         self._velocity_command_time: float | None = None
+        self._is_taken_over = False
         self._last_announced: tuple[int, bool, int] | None = None
 
         self._joint_states = self.create_publisher(JointState, "joint_states", qos_profile_sensor_data)
@@ -149,8 +151,21 @@ class HumanoidNode(Node):
     def restart(self) -> None:
         """Forget commands and deadlines of before; call it after the humanoid was reset."""
         self._velocity_command_time = None
+        self._is_taken_over = False
         self._last_announced = None
         self._periodic_jobs.restart()
+
+    def take_over(self, velocity: Sequence[float] | None) -> None:
+        """Walk with a velocity (m/s, m/s, rad/s in base_link), whatever cmd_vel says, until called with None.
+
+        So does an operator's joystick, which goes before the velocities of programs: with zeros it holds the robot.
+        """
+        self._is_taken_over = velocity is not None
+        self._velocity_command_time = None
+        if velocity is None:
+            self.humanoid.stop()
+        else:
+            self.humanoid.walk_velocity(*velocity)
 
     # -- commands -----------------------------------------------------------------------------------------------------
 
@@ -159,6 +174,8 @@ class HumanoidNode(Node):
         command = (message.linear.x, message.linear.y, message.angular.z)
         if not all(math.isfinite(value) for value in (*command, message.linear.z)):
             self.get_logger().error(f"cmd_vel ignored: it must be finite, got {command}")
+            return
+        if self._is_taken_over:
             return
         self._velocity_command_time = self.humanoid.time
         self.humanoid.walk_velocity(*command)

@@ -13,7 +13,7 @@ from robot_sim.ros.ground_truth import GroundTruthWriter
 from robot_sim.ros.node import HumanoidNode
 
 COMMANDS = (
-    *("push", "walk", "set_battery", "battery_sensor", "robot_state", "motor_power"),
+    *("push", "walk", "take_over", "set_battery", "battery_sensor", "robot_state", "motor_power"),
     *("joint_sensors", "joint_states", "imu_sensor", "gyro_bias", "move_joints", "report_arm", "reset"),
 )
 
@@ -51,6 +51,8 @@ def apply_command(
             humanoid.push(impulse, rest.get("duration", 0.1))
         case {"do": "walk", "velocity": velocity}:
             humanoid.walk_velocity(*velocity)
+        case {"do": "take_over", "velocity": velocity}:
+            node.take_over(velocity)
         case {"do": "set_battery", "percentage": percentage}:
             humanoid.battery.set_percentage(percentage)
         case {"do": "battery_sensor", "connected": connected}:

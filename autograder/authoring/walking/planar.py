@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from geometry_msgs.msg import Quaternion
+from geometry_msgs.msg import Pose, Quaternion
 
 from autograder.authoring import events as ev
 from autograder.authoring.goal import Goal
@@ -13,9 +13,16 @@ from ros_runtime.angles import wrap, yaw_of
 
 def error(robot: ev.RobotTruth, goal: Goal) -> tuple[float, float]:
     """Return how far the robot is from the goal: m, rad."""
-    pose = goal.request.target_pose.pose
+    pose = target(goal)
     distance = math.hypot(robot.x - pose.position.x, robot.y - pose.position.y)
     return distance, turn(robot, pose.orientation)
+
+
+def target(goal: Goal) -> Pose:
+    """Return the pose a goal asks for: that of WalkTo's target_pose, or of NavigateToPose's pose."""
+    request = goal.request
+    stamped = request.target_pose if hasattr(request, "target_pose") else request.pose
+    return stamped.pose
 
 
 def turn(robot: ev.RobotTruth, orientation: Quaternion) -> float:

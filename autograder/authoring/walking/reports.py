@@ -13,7 +13,6 @@ from autograder.authoring.feedback import end_of_feedback, require_feedback
 from autograder.authoring.goal import SUCCEEDED, Goal
 from autograder.authoring.goal_endings import why_blind, why_rclpy_aborted
 from autograder.authoring.walking.planar import error, heading, turn
-from humanoid_interfaces.action import WalkTo
 
 REPORT_SLACK = 0.08  # m or rad, over what the robot moved while the message was made and delivered
 REPORT_AGE = 0.6  # s that a reported pose may be old: odom's period, the feedback's period, delivery
@@ -29,18 +28,7 @@ def require_true_feedback(goal: Goal) -> None:
     for feedback in goal.feedback:
         message = feedback.feedback
         recent = _recent(goal, feedback.t)
-        require_true_pose(
-            message.current_pose, recent, "feedback.current_pose", feedback.t, help=why_blind(goal)
-        )
-        distances = [error(robot, goal)[0] for robot in recent]
-        claimed = message.distance_remaining
-        expect(
-            min(distances) - REPORT_SLACK <= claimed <= max(distances) + REPORT_SLACK,
-            expected=f"feedback.distance_remaining near {distances[-1]:.2f} m",
-            observed=f"{claimed:.2f} m",
-            help="It is the straight distance in x and y (m) from odom's pose to the goal.",
-            at=feedback.t,
-        )
+        _require_true_place(goal, feedback, recent)
         _require_true_steps(message.steps_taken, start, recent, "feedback.steps_taken", feedback.t)
         expect(
             message.steps_taken >= steps,
@@ -50,6 +38,28 @@ def require_true_feedback(goal: Goal) -> None:
             at=feedback.t,
         )
         steps = message.steps_taken
+
+
+def require_true_places(goal: Goal) -> None:
+    """Require that pose and distance in the feedback are those of the robot at about that time."""
+    require_feedback(goal)
+    end_of_feedback(goal)  # until then it has to be true
+    for feedback in goal.feedback:
+        _require_true_place(goal, feedback, _recent(goal, feedback.t))
+
+
+def _require_true_place(goal: Goal, feedback: ev.FeedbackReceived, recent: Sequence[ev.RobotTruth]) -> None:
+    message = feedback.feedback
+    require_true_pose(message.current_pose, recent, "feedback.current_pose", feedback.t, help=why_blind(goal))
+    distances = [error(robot, goal)[0] for robot in recent]
+    claimed = message.distance_remaining
+    expect(
+        min(distances) - REPORT_SLACK <= claimed <= max(distances) + REPORT_SLACK,
+        expected=f"feedback.distance_remaining near {distances[-1]:.2f} m",
+        observed=f"{claimed:.2f} m",
+        help="It is the straight distance in x and y (m) from odom's pose to the goal.",
+        at=feedback.t,
+    )
 
 
 def require_filled_result(goal: Goal) -> None:
@@ -64,12 +74,15 @@ def require_filled_result(goal: Goal) -> None:
 
 def require_error_code(goal: Goal, name: str, *, because: str) -> None:
     """Require that the result names the reason."""
+    assert goal.result, "ask for its result first"
+    result = type(goal.result.result)
+    constant = f"{result.__name__.replace('_', '.')}.{name}"  # such as WalkTo.Result.FELL
     goal.expect(
         "error_code",
-        getattr(WalkTo.Result, name),
+        getattr(result, name),
         because=f"{because}: {name}",
         help=why_rclpy_aborted(goal)
-        or f"Set result.error_code = WalkTo.Result.{name} before the terminal call, and return that same result.",
+        or f"Set result.error_code = {constant} before the terminal call, and return that same result.",
     )
 
 

@@ -30,31 +30,30 @@ def require_accepted(goal: Goal, help: str = _ACCEPT) -> Goal:
     return goal.require_accepted(next(filter(None, deaf), help))
 
 
-def require_arrival(goal: Goal) -> None:
-    """Require that the goal succeeded, and by then the simulated robot was where the goal says."""
+def require_arrival(goal: Goal, within: float = POSITION_TOLERANCE) -> None:
+    """Require that the goal succeeded, and by then the simulated robot was where the goal says, `within` m."""
     result = require_accepted(goal).require_result(SUCCEEDED)
     distance, turn = error(goal.run.robot_at(result.t), goal)
     expect(
-        distance <= POSITION_TOLERANCE and turn <= YAW_TOLERANCE,
-        expected=f"the robot within {POSITION_TOLERANCE:.2f} m and {YAW_TOLERANCE:.2f} rad of the goal when it "
-        "SUCCEEDED",
+        distance <= within and turn <= YAW_TOLERANCE,
+        expected=f"the robot within {within:.2f} m and {YAW_TOLERANCE:.2f} rad of the goal when it SUCCEEDED",
         observed=f"{distance:.2f} m and {turn:.2f} rad away in the simulator",
-        help=_advice_on_arrival(goal, distance, turn),
+        help=_advice_on_arrival(goal, distance, turn, within),
         at=result.t,
     )
 
 
-def _advice_on_arrival(goal: Goal, distance: float, turn: float) -> str:
+def _advice_on_arrival(goal: Goal, distance: float, turn: float, within: float) -> str:
     """Say which test of the arrival was too generous, by what the server itself reported last."""
-    if distance <= POSITION_TOLERANCE:
+    if distance <= within:
         return f"The position is right, the heading is {turn:.2f} rad off: turn to the goal's yaw before succeed()."
     claimed = goal.feedback[-1].feedback.distance_remaining if goal.feedback else None
-    if claimed is not None and abs(claimed - distance) < POSITION_TOLERANCE:
+    if claimed is not None and abs(claimed - distance) < within:
         return (
             f"Your own feedback said that {claimed:.2f} m were left, and then came succeed(): let your loop go on "
-            "until it is less than 0.10 m."
+            f"until it is less than {within:.2f} m."
         )
-    if claimed is not None and claimed <= POSITION_TOLERANCE:
+    if claimed is not None and claimed <= within:
         return (
             f"Your feedback said that {claimed:.2f} m were left: measure from odom's pose to the goal, and measure "
             "again once the robot stands."

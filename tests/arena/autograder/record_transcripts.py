@@ -46,6 +46,10 @@ SUBMISSIONS_OF = {
         *("correct/class_based", "faulty/sets_a_field_of_its_own", "faulty/refuses_and_obeys"),
         *("faulty/flag_of_its_own", "faulty/only_a_flag"),
     ],
+    "navigate_to_pose": [
+        *("correct/threads_and_sleep", "faulty/sleeps_on_one_thread", "faulty/velocity_goes_on"),
+        "faulty/feedback_for_ever",
+    ],
     "patterns": ["correct/as_in_the_notebook", "faulty/eleven_answers"],
     "robot_controller": [
         *("correct/class_based", "faulty/asks_only_once", "faulty/both_at_once", "faulty/always_exit_0"),

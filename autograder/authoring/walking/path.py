@@ -1,0 +1,39 @@
+"""The path that a robot really walked, without the sway of its pelvis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from statistics import fmean
+
+from autograder.authoring.robot_record import RobotRecord
+
+STRIDE = 1.0  # s, two steps: the pelvis sways to the left and to the right once in them
+SPACING = 0.1  # s between the points of the path
+
+Point = tuple[float, float]  # m, m in odom
+
+
+def length_walked(run: RobotRecord, start: float, end: float) -> float:
+    """Return how far (m) the robot walked between two moments (s).
+
+    Each point of the path is the mean of the pelvis's positions over a stride around it, so the sway cancels out and
+    what remains is where the body as a whole went.
+    """
+    return length([_middle(run, start + SPACING * k) for k in range(int((end - start) / SPACING) + 1)])
+
+
+def length(points: Sequence[Point]) -> float:
+    """Return the length (m) of a polyline."""
+    return sum(math.dist(one, next) for one, next in pairwise(points))
+
+
+def walking_speed(run: RobotRecord, t: float) -> float:
+    """Return how fast (m/s) the body as a whole went at a moment (s), in a stride around it."""
+    return math.dist(_middle(run, t - STRIDE / 2), _middle(run, t + STRIDE / 2)) / STRIDE
+
+
+def _middle(run: RobotRecord, t: float) -> Point:
+    robots = run.robot_between(t - STRIDE / 2, min(t + STRIDE / 2, run.ground_truth[-1].t))
+    return fmean(robot.x for robot in robots), fmean(robot.y for robot in robots)

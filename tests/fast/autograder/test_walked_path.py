@@ -1,0 +1,48 @@
+"""The path that a robot really walked, without the sway of its pelvis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import pytest
+
+from autograder.authoring import events as ev
+from autograder.authoring.robot_record import RobotRecord
+from autograder.authoring.walking.path import length, length_walked, walking_speed
+
+SWAY = 0.03  # m to each side
+STRIDE = 0.98  # s, two steps
+
+
+def walk(x: Callable[[float], float], duration: float) -> RobotRecord:
+    """A robot at x(t) m on a straight line, swaying as it goes, at 50 Hz."""
+
+    def at(t: float) -> ev.RobotTruth:
+        sway = SWAY * math.sin(2 * math.pi * t / STRIDE)
+        return ev.RobotTruth(
+            t=t, simulated=t, lag=0, x=x(t), y=sway, z=0.6, yaw=0, speed=0.3, turn_rate=0, up=1, mode=2,
+            motors_enabled=True, steps=0, battery=1,
+        )  # fmt: skip
+
+    return RobotRecord.from_events("walk", {}, [at(0.02 * k) for k in range(int(duration / 0.02) + 1)])
+
+
+def test_sway_is_no_way() -> None:
+    run = walk(lambda t: 0.3 * t, 8.0)
+    raw = length([(robot.x, robot.y) for robot in run.robot_between(1.0, 7.0)])
+    assert raw > 1.06 * 1.8
+    assert length_walked(run, 1.0, 7.0) == pytest.approx(1.8, rel=0.02)
+
+
+def test_a_robot_that_sways_on_the_spot_walks_nothing() -> None:
+    run = walk(lambda t: 0.0, 8.0)
+    assert length_walked(run, 1.0, 7.0) < 0.05
+    assert walking_speed(run, 4.0) < 0.02
+
+
+def test_the_way_back_is_a_part_of_the_path() -> None:
+    run = walk(lambda t: 0.3 * min(t, 8.0 - t), 8.0)
+    # The mean cuts the point where it turns round, by half a stride's way.
+    assert 1.8 - 0.3 * STRIDE / 2 - 0.05 < length_walked(run, 1.0, 7.0) < 1.8
+    assert walking_speed(run, 2.0) == pytest.approx(0.3, abs=0.03)
