@@ -5,7 +5,6 @@ from __future__ import annotations
 from autograder.authoring import events as ev
 from autograder.authoring.action_client_checks import (
     heard_last,
-    require_cancel,
     require_exit,
     require_goal_answered,
     require_goal_finished,
@@ -14,15 +13,14 @@ from autograder.authoring.action_client_checks import (
 from autograder.authoring.checks import check, expect, program
 from autograder.authoring.missing import unseen
 from autograder.authoring.transcript import Transcript
-
-from .judging import (
+from autograder.authoring.walking.client import (
     ABORTED,
-    CANCELED,
     NO_SERVER,
     REJECTED,
     STATUS_HELP,
     WALK,
     GoalStatus,
+    require_canceled_by_ctrl_c,
     require_failure,
     require_feedback_lines,
     require_gives_up_in_silence,
@@ -157,31 +155,4 @@ def gives_up_in_silence(run: Transcript) -> None:
 @check(points=2, on=INTERRUPTED, needs=says_how_it_succeeded, see="07_cancel_and_preempt#m1-why")
 def ctrl_c_cancels_the_goal(run: Transcript) -> None:
     """Ctrl-C cancels the goal; it waits for its end and ends with status 4"""
-    goal = require_one_goal(run, WALK)
-    pressed = require_interrupted(run)
-    cancel = require_cancel(
-        run,
-        goal,
-        because="you pressed Ctrl-C",
-        help="rclpy shuts down at Ctrl-C, and then nothing can be sent: rclpy.init(signal_handler_options="
-        "SignalHandlerOptions.NO), catch the signal yourself, and call cancel_goal_async().",
-    )
-    expect(
-        cancel.received.t >= pressed,
-        expected="the goal to go on until Ctrl-C",
-        observed=f"a request to cancel {pressed - cancel.received.t:.1f} s before",
-        help="Cancel only when Ctrl-C is pressed, or when nothing has been heard for 5 s.",
-        at=cancel.received.t,
-    )
-    require_goal_finished(run, goal, GoalStatus.STATUS_CANCELED)
-    require_exit(
-        run, WITHIN, CANCELED, because="the goal was CANCELED by Ctrl-C", stream="stdout", help=STATUS_HELP
-    )
-
-
-def require_interrupted(run: Transcript) -> float:
-    """Require that Ctrl-C was pressed while the goal was under way, and return when (s)."""
-    signalled = run.first(ev.NodeSignalled)
-    if signalled is None:
-        raise unseen(run, "Ctrl-C was not pressed, because the goal never was under way")
-    return signalled.t
+    require_canceled_by_ctrl_c(run, WITHIN)

@@ -15,19 +15,7 @@ from autograder.authoring.action_client_checks import (
 from autograder.authoring.checks import check, expect, program
 from autograder.authoring.missing import unseen
 from autograder.authoring.transcript import Transcript
-
-from .checks import (
-    GIVING_UP,
-    WITHIN,
-    ctrl_c_cancels_the_goal,
-    gives_up_in_silence,
-    gives_up_without_a_server,
-    prints_the_feedback,
-    require_interrupted,
-    says_how_it_succeeded,
-    tells_an_abort,
-)
-from .judging import (
+from autograder.authoring.walking.client import (
     ABORTED,
     CANCELED,
     NO_SERVER,
@@ -40,7 +28,19 @@ from .judging import (
     require_feedback_lines,
     require_gives_up_in_silence,
     require_goal_at,
+    require_interrupted,
     require_success,
+)
+
+from .checks import (
+    GIVING_UP,
+    WITHIN,
+    ctrl_c_cancels_the_goal,
+    gives_up_in_silence,
+    gives_up_without_a_server,
+    prints_the_feedback,
+    says_how_it_succeeded,
+    tells_an_abort,
 )
 
 

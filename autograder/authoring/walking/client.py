@@ -1,4 +1,4 @@
-"""Judges a run of the walk client."""
+"""Judges a client of `walk_to`: the goal it sent, the feedback it printed, and how it ended."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import re
 
 from action_msgs.msg import GoalStatus
 
+from autograder.authoring import events as ev
 from autograder.authoring.action_client_checks import (
     has_number,
     require_cancel,
@@ -132,6 +133,38 @@ def require_gives_up_in_silence(run: Transcript, goal: ScriptedGoal, since: floa
         NO_SERVER,
         because="the server is silent",
         help="Give the waiting for the result a limit on silence, and return 1 when it is over.",
+    )
+
+
+def require_interrupted(run: Transcript) -> float:
+    """Require that Ctrl-C was pressed while the goal was under way, and return when (s)."""
+    signalled = run.first(ev.NodeSignalled)
+    if signalled is None:
+        raise unseen(run, "Ctrl-C was not pressed, because the goal never was under way")
+    return signalled.t
+
+
+def require_canceled_by_ctrl_c(run: Transcript, within: float) -> None:
+    """Require that Ctrl-C, and nothing before it, cancelled the goal, and that the program followed it to its end."""
+    goal = require_one_goal(run, WALK)
+    pressed = require_interrupted(run)
+    cancel = require_cancel(
+        run,
+        goal,
+        because="you pressed Ctrl-C",
+        help="rclpy shuts down at Ctrl-C, and then nothing can be sent: rclpy.init(signal_handler_options="
+        "SignalHandlerOptions.NO), catch the signal yourself, and call cancel_goal_async().",
+    )
+    expect(
+        cancel.received.t >= pressed,
+        expected="the goal to go on until Ctrl-C",
+        observed=f"a request to cancel {pressed - cancel.received.t:.1f} s before",
+        help="Cancel only when Ctrl-C is pressed, or when nothing has been heard for 5 s.",
+        at=cancel.received.t,
+    )
+    require_goal_finished(run, goal, GoalStatus.STATUS_CANCELED)
+    require_exit(
+        run, within, CANCELED, because="the goal was CANCELED by Ctrl-C", stream="stdout", help=STATUS_HELP
     )
 
 
