@@ -10,6 +10,7 @@ from action_msgs.msg import GoalStatus
 from autograder.authoring import events as ev
 from autograder.authoring.action_client_checks import (
     has_number,
+    heard_last,
     require_cancel,
     require_exit,
     require_goal_answered,
@@ -28,6 +29,7 @@ from autograder.authoring.transcript import Transcript
 WALK = "walk_to"
 SUCCEEDED, NO_SERVER, REJECTED, ABORTED, CANCELED = range(5)  # exit statuses
 PATIENCE = 5.0  # s
+USAGE = 2  # the exit status of argparse
 STATUS_HELP = (
     "Look at response.status first: 4 is SUCCEEDED, 5 CANCELED, 6 ABORTED (action_msgs/GoalStatus). "
     "Return the exit status from main() and end the file with sys.exit(main())."
@@ -134,6 +136,80 @@ def require_gives_up_in_silence(run: Transcript, goal: ScriptedGoal, since: floa
         because="the server is silent",
         help="Give the waiting for the result a limit on silence, and return 1 when it is over.",
     )
+
+
+def require_usage(run: Transcript, within: float) -> None:
+    """Require that wrong arguments ended the program with the usage, before there was a node."""
+    exited = require_exit(
+        run,
+        within,
+        USAGE,
+        because=f"it was started with {' '.join(run.params['arguments'])}",
+        stream="stderr",
+        help="Let argparse read rclpy.utilities.remove_ros_args(sys.argv)[1:] with type=float: it ends the program "
+        "with status 2 itself.",
+    )
+    expect(
+        "usage" in run.output("stderr").lower(),
+        expected="the usage on stderr",
+        observed=f"“{run.last_words}”",
+        help="argparse prints it: use parser.parse_args() or parser.error().",
+        at=exited.t,
+    )
+    expect(
+        run.first(ev.NodeReady) is None,
+        expected="no node: there is nothing to do",
+        observed="a node was started",
+        help="Read the arguments before rclpy.init().",
+        at=exited.t,
+    )
+
+
+def require_no_server(run: Transcript, within: float) -> None:
+    """Require that the program gave up because nobody offers the action."""
+    if run.first(ev.ActionOffered):
+        raise unseen(run, f"{WALK} was offered")
+    require_failure(
+        run,
+        within,
+        NO_SERVER,
+        because=f"nobody offers {WALK}",
+        help="wait_for_server(timeout_sec=5.0) returns False when there is none: print a line and return 1.",
+    )
+
+
+def require_rejection(run: Transcript, within: float) -> None:
+    """Require that the program told that its goal was rejected."""
+    require_goal_answered(run, require_one_goal(run, WALK), accepted=False)
+    require_failure(
+        run,
+        within,
+        REJECTED,
+        because="the goal was rejected",
+        help="Look at goal_handle.accepted before you ask for the result: a rejected goal has none.",
+    )
+
+
+def require_abort(run: Transcript, within: float) -> None:
+    """Require that the program told that its goal was aborted, with the server's reason if there is one."""
+    finished = require_goal_finished(run, require_one_goal(run, WALK), GoalStatus.STATUS_ABORTED)
+    require_failure(run, within, ABORTED, because="the goal was ABORTED", help=STATUS_HELP)
+    expect(
+        finished.result.error_msg in run.output("stderr"),
+        expected=f"the server's reason on stderr: {finished.result.error_msg}",
+        observed=f"“{run.last_words}”",
+        help="Print response.result.error_msg with file=sys.stderr.",
+        at=finished.t,
+    )
+
+
+def require_silence_noticed(run: Transcript) -> None:
+    """Require that the program cancelled a goal of which nothing was heard after the acceptance."""
+    goal = require_one_goal(run, WALK)
+    accepted = require_goal_answered(run, goal, accepted=True)
+    if goal.finished and not goal.cancels:
+        raise unseen(run, "the goal ended by itself")
+    require_gives_up_in_silence(run, goal, max(accepted, heard_last(run, goal)))
 
 
 def require_interrupted(run: Transcript) -> float:
