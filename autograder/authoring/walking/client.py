@@ -16,6 +16,7 @@ from autograder.authoring.action_client_checks import (
     require_goal_answered,
     require_goal_finished,
     require_no_cancel,
+    require_no_flood,
     require_numbers,
     require_one_goal,
     require_patience,
@@ -62,14 +63,15 @@ def require_goal_at(run: Transcript, x: float, y: float, yaw: float) -> Scripted
     return goal
 
 
-def require_success(run: Transcript, goal: ScriptedGoal, within: float) -> None:
-    """Require exit status 0 and one line on stdout with SUCCEEDED and the final pose."""
+def require_success(run: Transcript, goal: ScriptedGoal, within: float, *, canceled: bool = False) -> None:
+    """Require exit status 0 and one line on stdout with SUCCEEDED and the final pose, and, unless it was, no cancel."""
     require_goal_answered(run, goal, accepted=True)
     finished = require_goal_finished(run, goal, GoalStatus.STATUS_SUCCEEDED)
     exited = require_exit(
         run, within, SUCCEEDED, because="the goal SUCCEEDED", stream="stdout", help=STATUS_HELP
     )
-    require_no_cancel(goal, because="the robot arrives")
+    if not canceled:
+        require_no_cancel(goal, because="the robot arrives")
     pose = finished.result.final_pose.pose
     line = require_ending_line(run, "SUCCEEDED", exited.t)
     for name, value in (("x", pose.position.x), ("y", pose.position.y)):
@@ -104,6 +106,7 @@ def require_feedback_lines(run: Transcript, goal: ScriptedGoal) -> None:
     sent = [event for event in goal.feedback if event.t < goal.finished.t - 0.3]
     if len(sent) < 3:
         raise unseen(run, f"only {len(sent)} feedback messages were sent")
+    require_no_flood(run, 3 * len(goal.feedback) + 20, sent[0].t)
     require_numbers(
         run.output("stdout").splitlines(),
         [event.feedback.distance_remaining for event in sent],
