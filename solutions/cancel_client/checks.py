@@ -102,7 +102,7 @@ def goes_on_at_the_end_of_input(run: Transcript) -> None:
     require_walk_without_q(run, WITHIN)
 
 
-@check(points=1, on=NOBODY, needs=walks, see="03_clients_that_survive#fix-why")
+@check(points=1, on=NOBODY, see="03_clients_that_survive#fix-why")
 def gives_up_without_a_server(run: Transcript) -> None:
     """Without a server it ends with status 1 after 5 s, and says so on stderr"""
     require_no_server(run, GIVING_UP)

@@ -30,6 +30,7 @@ from autograder.authoring.transcript import Transcript
 WALK = "walk_to"
 SUCCEEDED, NO_SERVER, REJECTED, ABORTED, CANCELED = range(5)  # exit statuses
 PATIENCE = 5.0  # s
+FINDING = 2.0  # s from the node's appearance until the grader has seen it
 USAGE = 2  # the exit status of argparse
 STATUS_HELP = (
     "Look at response.status first: 4 is SUCCEEDED, 5 CANCELED, 6 ABORTED (action_msgs/GoalStatus). "
@@ -178,6 +179,16 @@ def require_no_server(run: Transcript, within: float) -> None:
         NO_SERVER,
         because=f"nobody offers {WALK}",
         help="wait_for_server(timeout_sec=5.0) returns False when there is none: print a line and return 1.",
+    )
+    started, exited = run.first(ev.NodeReady), run.first(ev.NodeExited)
+    if started is None or exited is None:
+        raise unseen(run, "no node appeared")
+    expect(
+        exited.t - started.t >= PATIENCE - FINDING,
+        expected=f"{PATIENCE:g} s of waiting: a server that has just been started takes a while to be found",
+        observed=f"it gave up after {exited.t - started.t:.1f} s",
+        help="Call wait_for_server(timeout_sec=5.0) before you send the goal.",
+        at=exited.t,
     )
 
 

@@ -73,7 +73,7 @@ class CancelClient(Node):
         print(f"{message.feedback.distance_remaining:.2f} m to go", flush=True)
 
     def _on_cancel_answer(self, future):
-        """Say what the server said to the cancel: only if it has put the goal on its list, the goal is being canceled."""
+        """Say what the server has answered to the cancel."""
         answer = future.result()
         if answer.goals_canceling:
             print("the goal is being cancelled", flush=True)
