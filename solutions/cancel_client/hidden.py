@@ -44,6 +44,7 @@ def _any_walk(generator: random.Random) -> dict:
     pose = [-round(generator.uniform(0.3, 2.0), 2), round(generator.uniform(-2.0, -0.3), 2)]
     pose += [round(generator.uniform(-3.0, 3.0), 2)]
     distances = sorted((round(generator.uniform(0.05, 2.5), 2) for _ in range(8)), reverse=True)
+    distances[4] = round(distances[3] + generator.uniform(0.1, 0.5), 2)  # a detour
     final = [round(value + generator.uniform(-0.08, 0.08), 2) for value in pose[:2]]
     return {"arguments": [str(value) for value in pose], "distances": distances, "final": [*final, pose[2]]}
 
@@ -68,7 +69,7 @@ def walks_anywhere(run: Transcript) -> None:
     require_success(run, require_goal_at(run, *map(float, run.params["arguments"])), WITHIN)
 
 
-@check(points=1, on=TOO_FEW, needs=walks)
+@check(points=1, on=TOO_FEW, needs=walks, see="03_clients_that_survive#fix-frame")
 def refuses_wrong_arguments(run: Transcript) -> None:
     """Wrong arguments end it with status 2 and the usage, before a node is started"""
     require_usage(run, WITHIN)
@@ -80,14 +81,19 @@ def tells_an_abort(run: Transcript) -> None:
     require_abort(run, WITHIN)
 
 
-@check(points=1, on=REJECTED_EARLY, needs=remembers_an_early_q)
+@check(points=1, on=REJECTED_EARLY, needs=remembers_an_early_q, see="07_cancel_and_preempt#analogy")
 def a_rejected_goal_needs_no_cancel(run: Transcript) -> None:
     """A goal that is rejected after a q ends it with status 2"""
     require_typed(run)
     require_rejection(run, WITHIN)
 
 
-@check(points=1, on=ABORTED_ANYWAY, needs=[believes_the_end, tells_an_abort])
+@check(
+    points=1,
+    on=ABORTED_ANYWAY,
+    needs=[believes_the_end, tells_an_abort],
+    see="07_cancel_and_preempt#fall-why",
+)
 def tells_an_abort_after_q(run: Transcript) -> None:
     """A goal that is ABORTED after the server had agreed to cancel it ends it with status 3"""
     require_agreed(run, GoalStatus.STATUS_ABORTED)
@@ -106,7 +112,7 @@ def reports_a_late_cancel(run: Transcript) -> None:
     require_success(run, goal, WITHIN, canceled=True)
 
 
-@check(points=2, on=DEAF, needs=q_cancels_the_goal)
+@check(points=2, on=DEAF, needs=q_cancels_the_goal, see="03_clients_that_survive#kill-why")
 def does_not_wait_for_the_answer(run: Transcript) -> None:
     """A cancel that gets no answer holds up nothing: the goal is followed to its end"""
     goal = require_one_goal(run, WALK)
@@ -117,7 +123,7 @@ def does_not_wait_for_the_answer(run: Transcript) -> None:
     require_success(run, goal, WITHIN, canceled=True)
 
 
-@check(points=1, on=TWICE, needs=q_cancels_the_goal)
+@check(points=1, on=TWICE, needs=q_cancels_the_goal, see="07_cancel_and_preempt#late-why")
 def cancels_once(run: Transcript) -> None:
     """However often q is typed, the goal is cancelled once"""
     if len(run.all(ev.NodeTyped)) < 2:
@@ -125,13 +131,13 @@ def cancels_once(run: Transcript) -> None:
     require_canceled_by_q(run, WITHIN)
 
 
-@check(points=1, on=OTHER_LINES, needs=q_cancels_the_goal)
+@check(points=1, on=OTHER_LINES, needs=q_cancels_the_goal, see="07_cancel_and_preempt#button-code")
 def other_lines_cancel_nothing(run: Transcript) -> None:
     """Only q cancels: an empty line or another word does not"""
     require_walk_without_q(run, WITHIN)
 
 
-@check(points=1, on=NO_INPUT, needs=goes_on_at_the_end_of_input)
+@check(points=1, on=NO_INPUT, needs=goes_on_at_the_end_of_input, see="07_cancel_and_preempt#button-code")
 def walks_without_an_input(run: Transcript) -> None:
     """Started where there is no input, it walks all the same"""
     require_walk_without_q(run, WITHIN)
