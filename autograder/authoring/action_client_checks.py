@@ -54,6 +54,15 @@ def require_goal_answered(run: Transcript, goal: ScriptedGoal, *, accepted: bool
 def require_goal_finished(run: Transcript, goal: ScriptedGoal, status: int) -> ev.GoalFinished:
     """Require that the goal came to its end with a status of action_msgs/GoalStatus while the client was there."""
     exited = run.first(ev.NodeExited)
+    crashed = exited is None or exited.returncode < 0 or "Traceback (most recent" in run.output("stderr")
+    left = exited is not None and (goal.finished is None or exited.t < goal.finished.t)
+    if exited and left and goal.is_accepted and not crashed:
+        raise Failure(
+            expected="a client that follows the goal to its end",
+            observed=f"it ended with status {exited.returncode} at {exited.t:.1f} s, while the goal was under way",
+            help=_why_it_left(goal),
+            at=exited.t,
+        )
     if goal.finished is None or goal.finished.status != status:
         gone = exited.t if exited else run.end
         raise Missing(
@@ -61,14 +70,18 @@ def require_goal_finished(run: Transcript, goal: ScriptedGoal, status: int) -> e
             expected="a client that follows the goal to its end",
             never=f"at {gone:.1f} s it was gone already",
         )
-    if exited and exited.t < goal.finished.t:
-        raise Failure(
-            expected="a client that follows the goal to its end",
-            observed=f"it ended {goal.finished.t - exited.t:.1f} s before the goal did",
-            help="After the acceptance, wait for the future of get_result_async() before you return.",
-            at=exited.t,
-        )
     return goal.finished
+
+
+def _why_it_left(goal: ScriptedGoal) -> str:
+    """Return what to do about a client that left its goal, by what it was told last."""
+    if goal.cancels and goal.cancels[0].reply:
+        return "The answer to a cancel says only that the server will try: wait for the result before you return."
+    if goal.cancels:
+        return "A cancel that has been sent is not an end: wait for the result before you return."
+    if goal.result_requested is None:
+        return "It never asked for the result: call goal_handle.get_result_async(), and wait for its future."
+    return "After the acceptance, wait for the future of get_result_async() before you return."
 
 
 def require_cancel(run: Transcript, goal: ScriptedGoal, *, because: str, help: str) -> ScriptedCancel:
