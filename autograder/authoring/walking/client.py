@@ -85,11 +85,10 @@ def require_success(run: Transcript, goal: ScriptedGoal, within: float, *, cance
         )
 
 
-def require_ending_line(run: Transcript, word: str, at: float) -> str:
-    """Require exactly one line on stdout that holds this status, and return it."""
-    lines = [
-        line for line in run.output("stdout").splitlines() if re.search(rf"\b{word}\b", line, re.IGNORECASE)
-    ]
+def require_ending_line(run: Transcript, word: str, at: float, since: float = 0.0) -> str:
+    """Require exactly one line on stdout from a time (s) on that holds this status, and return it."""
+    said = [event.text for event in run.all(ev.NodeOutput) if event.stream == "stdout" and event.t >= since]
+    lines = [line for line in said if re.search(rf"\b{word}\b", line, re.IGNORECASE)]
     expect(
         len(lines) == 1,
         expected=f"one line on stdout with the word {word}",
