@@ -140,7 +140,12 @@ def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
         )
 
 
-@check(points=1, on=EARLY, needs=prints_the_feedback, see="07_cancel_and_preempt#conventions")
+@check(
+    points=1,
+    on=EARLY,
+    needs=[prints_the_feedback, says_how_it_succeeded],
+    see="07_cancel_and_preempt#conventions",
+)
 def survives_early_feedback(run: Transcript) -> None:
     """Feedback that comes before the goal is accepted disturbs nothing"""
     goal = require_one_goal(run, WALK)
