@@ -8,7 +8,7 @@ import pytest
 from action_msgs.msg import GoalStatus
 
 from autograder.authoring import events as ev
-from autograder.authoring.checks import Failure
+from autograder.authoring.checks import CannotBeJudged, Failure
 from autograder.authoring.client_checks import require_end
 from autograder.authoring.transcript import Transcript
 from autograder.engine.exercise import load_exercise
@@ -215,3 +215,80 @@ def test_the_answer_to_the_cancel_is_not_the_end_of_the_goal() -> None:
     )
     assert failure.observed == "it ended with status 4 at 3.4 s, while the goal was under way"
     assert failure.help.startswith("The answer to a cancel says only")
+
+
+# -- what a sound cancel client leaves in the record passes, and what is missing there does not ---------------
+
+AGREED = [TYPED, *cancelled(replied(canceling=("goal 1",)))]
+CANCELED = [finished(GoalStatus.STATUS_CANCELED), *said("CANCELED at 0.97, 0.52"), ended(4)]
+ABORTED = [finished(GoalStatus.STATUS_ABORTED), *said("ABORTED (1): it fell", stream="stderr"), ended(3)]
+END_OF_INPUT = ev.NodeTyped(t=2.8, line=None)
+LATE = [TYPED, *cancelled(replied(code=3)), *said("refused: it has ended", t=3.3)]
+SOUND = {
+    "q_cancels_the_goal": [*FOLLOWED, *AGREED, *said("it will be canceled", t=3.3), *CANCELED],
+    "believes_the_end": [*FOLLOWED, *AGREED, *SUCCEEDED],
+    "remembers_an_early_q": [goal(), ev.NodeTyped(t=2.05, line="q"), answered(), *cancelled(), *CANCELED],
+    "reports_a_refusal": [*REFUSED, *said("cancel refused", t=3.3), *SUCCEEDED],
+    "goes_on_at_the_end_of_input": [*FOLLOWED, END_OF_INPUT, *SUCCEEDED],
+    "a_rejected_goal_needs_no_cancel": [
+        *(goal(), ev.NodeTyped(t=2.05, line="q"), answered(accepted=False)),
+        *(*said("rejected", stream="stderr"), ended(2)),
+    ],
+    "tells_an_abort": [*FOLLOWED, *ABORTED],
+    "tells_an_abort_after_q": [*FOLLOWED, *AGREED, *ABORTED],
+    "reports_a_late_cancel": [*FOLLOWED, *LATE, *SUCCEEDED],
+    "does_not_wait_for_the_answer": [*FOLLOWED, TYPED, *cancelled(), *SUCCEEDED],
+    "cancels_once": [*FOLLOWED, *AGREED, ev.NodeTyped(t=3.4, line="q"), *CANCELED],
+    "other_lines_cancel_nothing": [*FOLLOWED, ev.NodeTyped(t=2.8, line="stop"), *SUCCEEDED],
+    "walks_without_an_input": [*FOLLOWED, END_OF_INPUT, *SUCCEEDED],
+}
+
+
+@pytest.mark.parametrize("check", SOUND)
+def test_what_a_sound_cancel_client_does_passes(check: str) -> None:
+    CANCEL[check].run([run_of(*SOUND[check])])
+
+
+@pytest.mark.parametrize(
+    ("check", "missing"),
+    [
+        (check, kind)
+        for check, events in SOUND.items()
+        for kind in (ev.ActionOffered, ev.GoalReceived, ev.NodeTyped, ev.NodeExited)
+        if kind is ev.ActionOffered or any(isinstance(event, kind) for event in events)
+    ],
+)
+def test_what_is_not_in_the_record_passes_no_cancel_check(check: str, missing: type) -> None:
+    whole = run_of(*SOUND[check])
+    less = [event for event in whole.events if not isinstance(event, missing)]
+    with pytest.raises((Failure, CannotBeJudged)):
+        CANCEL[check].run([Transcript.from_events("any", ARGUMENTS, less)])
+
+
+@pytest.mark.parametrize(
+    ("check", "instead"),
+    [
+        (
+            "believes_the_end",
+            [*FOLLOWED, *AGREED, finished(GoalStatus.STATUS_SUCCEEDED), *said("CANCELED"), ended(4)],
+        ),
+        (
+            "tells_an_abort_after_q",
+            [*FOLLOWED, *AGREED, finished(GoalStatus.STATUS_ABORTED), *said("CANCELED"), ended(4)],
+        ),
+        ("reports_a_late_cancel", [*FOLLOWED, TYPED, *cancelled(replied(code=3)), *SUCCEEDED]),
+        ("reports_a_refusal", [*REFUSED, *said("cancel refused", t=3.3, stream="stderr"), ended(1, t=3.4)]),
+        ("goes_on_at_the_end_of_input", [*FOLLOWED, END_OF_INPUT, *cancelled(), *CANCELED]),
+        ("other_lines_cancel_nothing", [*FOLLOWED, ev.NodeTyped(t=2.8, line="w"), *cancelled(), *CANCELED]),
+        ("q_cancels_the_goal", [*FOLLOWED, *cancelled(t=2.5), TYPED, *CANCELED]),
+        ("remembers_an_early_q", [goal(), ev.NodeTyped(t=2.05, line="q"), answered(), *SUCCEEDED]),
+        (
+            "does_not_wait_for_the_answer",
+            [*FOLLOWED, TYPED, *cancelled(), finished(GoalStatus.STATUS_SUCCEEDED), *HUNG],
+        ),
+    ],
+)
+def test_what_a_faulty_cancel_client_does_fails(check: str, instead: list[Any]) -> None:
+    failure = failure_of(CANCEL[check], run_of(*instead))
+    assert failure.observed
+    assert failure.help
