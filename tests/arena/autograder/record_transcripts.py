@@ -32,6 +32,15 @@ SUBMISSIONS_OF = {
         *("correct/threads_and_events", "faulty/async_but_sleeps", "faulty/awaits_in_one_group"),
         *("faulty/looks_only_before", "faulty/never_forgets"),
     ],
+    "cancel_client": [
+        *(
+            "correct/one_loop",
+            "faulty/input_in_a_daemon",
+            "faulty/no_handle_yet",
+            "faulty/waits_for_the_answer",
+        ),
+        *("faulty/believes_the_answer", "faulty/the_end_of_input_cancels"),
+    ],
     "cancellable_walk": [
         *("correct/threads_and_sleep", "faulty/sleeps_on_one_thread", "faulty/pretends", "faulty/walks_on"),
         "faulty/feedback_for_ever",
@@ -54,6 +63,10 @@ SUBMISSIONS_OF = {
     "robot_controller": [
         *("correct/class_based", "faulty/asks_only_once", "faulty/both_at_once", "faulty/always_exit_0"),
         *("faulty/raises_before_the_node", "faulty/no_overall_deadline"),
+    ],
+    "walk_client": [
+        *("correct/one_loop", "faulty/reads_the_message_itself", "faulty/waits_for_the_result_for_ever"),
+        *("faulty/always_0", "faulty/ctrl_c_just_ends", "faulty/gives_up_soon"),
     ],
 }
 
