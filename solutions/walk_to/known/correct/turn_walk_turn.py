@@ -70,11 +70,11 @@ def make_server(node):
         yaw = yaw_of(here.orientation)
         return math.hypot(dx, dy), wrap(math.atan2(dy, dx) - yaw), wrap(yaw_of(goal.orientation) - yaw)
 
-    def drive(forward=0.0, turn=0.0):
+    def drive(forward=0.0, left=0.0, turn=0.0):
         if robot.state.mode == RobotState.FALLEN:
             raise Fell
         command = Twist()
-        command.linear.x, command.angular.z = forward, limit(turn, 0.4)
+        command.linear.x, command.linear.y, command.angular.z = forward, left, limit(turn, 0.4)
         cmd_vel.publish(command)
 
     def execute(goal_handle):
@@ -110,10 +110,13 @@ def make_server(node):
                     return
                 while way_to(goal)[0] > 0.05:
                     distance, direction, _ = way_to(goal)
-                    ahead = min(most, distance) if abs(direction) < 0.3 else 0.0
-                    if abs(direction) > 2.8 and distance < 0.3:  # a little behind: step back
-                        ahead, direction = -min(0.1, most, distance), wrap(direction + math.pi)
-                    drive(ahead, direction)
+                    if distance < 0.2:  # too near to turn: a small step, whichever way
+                        ahead = min(0.5 * distance, most)
+                        drive(ahead * math.cos(direction), ahead * math.sin(direction))
+                    elif abs(direction) < 0.3:
+                        drive(min(most, distance), turn=direction)
+                    else:
+                        drive(turn=direction)
                     rate.sleep()
                 while abs(turn := way_to(goal)[2]) > 0.06:
                     drive(turn=turn)
