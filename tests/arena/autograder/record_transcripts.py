@@ -47,6 +47,7 @@ SUBMISSIONS_OF = {
         *("correct/class_based", "faulty/asks_only_once", "faulty/both_at_once", "faulty/always_exit_0"),
         *("faulty/raises_before_the_node", "faulty/no_overall_deadline"),
     ],
+    "walk_to": ["correct/threads_and_sleep", "faulty/in_mid_stride", "faulty/before_odom"],
 }
 
 

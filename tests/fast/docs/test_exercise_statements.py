@@ -9,7 +9,8 @@ import pytest
 
 from autograder.engine.exercise import exercises_folder, load_exercise
 
-EXERCISES = ("battery_service", "cancellable_walk", "joint_query", "motor_services")
+EXERCISES = ("battery_service", "cancellable_walk", "joint_query", "motor_services", "walk_to")
+LADDERS = ("cancellable_walk", "walk_to")
 ON_NO_STEP = {"server_appears", "ends_cleanly"}  # the starter passes them
 
 
@@ -33,9 +34,11 @@ def test_hints_are_folded_and_a_stretch_task_comes_after_the_self_check(exercise
     assert "Not graded." in cells["stretch"]
 
 
-def test_the_ladder_of_the_walk_names_every_visible_check_once() -> None:
-    solution = cells_of("cancellable_walk")["solution"]
+@pytest.mark.parametrize("exercise", LADDERS)
+def test_the_ladder_of_a_walk_names_every_visible_check_once(exercise: str) -> None:
+    solution = cells_of(exercise)["solution"]
     ladder = solution[solution.index("# The ladder.") : solution.index("def __init__")]
-    named = [check for step in re.findall(r"\[([\w, ]+)\]", ladder) for check in step.split(", ")]
-    visible = {check.id for check in load_exercise("cancellable_walk", hidden=False).checks}
+    steps = re.findall(r"\[([\w, ]+)\]", re.sub(r"\n *# *", " ", ladder))
+    named = [check for step in steps for check in step.split(", ")]
+    visible = {check.id for check in load_exercise(exercise, hidden=False).checks}
     assert sorted(named) == sorted(visible - ON_NO_STEP)
