@@ -89,8 +89,7 @@ def rejects_before_the_first_odom(run: Transcript) -> None:
         run,
         "before odom",
         "after odom",
-        published="odom",
-        holds=lambda messages: messages == 0,
+        topic="odom",
         because="no odom has come, so nobody knows where the robot is",
         help="Keep None until the first odom arrives, and reject while it is None.",
     )
@@ -103,8 +102,7 @@ def rejects_without_power(run: Transcript) -> None:
         run,
         "without power",
         "with power",
-        published="robot_state",
-        holds=lambda messages: messages == 0,
+        topic="robot_state",
         because="robot_state.motors_enabled is false",
         help="Keep the last robot_state, and reject while its motors_enabled is false.",
     )

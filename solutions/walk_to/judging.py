@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from autograder.authoring.failure import expect
 from autograder.authoring.goal import Goal
 from autograder.authoring.goal_endings import why_rclpy_aborted
@@ -12,14 +10,7 @@ from autograder.authoring.transcript import Transcript
 
 
 def require_rejected_until(
-    run: Transcript,
-    refused: str,
-    accepted: str,
-    *,
-    published: str,
-    holds: Callable[[int], bool],
-    because: str,
-    help: str,
+    run: Transcript, refused: str, accepted: str, *, topic: str, because: str, help: str
 ) -> None:
     """Require that one goal is rejected, and another accepted as soon as the reason is gone.
 
@@ -27,17 +18,25 @@ def require_rejected_until(
         run: with a robot that the scenario plays.
         refused: name of the goal that must be rejected.
         accepted: name of the goal that comes when the reason is gone.
-        published: the topic that makes the difference.
-        holds: tells whether the goal had to be rejected after so many messages on it with which all is well.
+        topic: on which a message that lets goals be accepted was published between the two.
         because: why the goal has to be rejected.
         help: what to do if it was accepted.
     """
     goal, later = run.goal(refused), run.goal(accepted)
-    if not holds(_good_messages(run, published, goal)) or holds(_good_messages(run, published, later)):
-        raise unseen(run, f"{published} was not published as the scenario has it")
+    good = [event for event in run.published(topic) if getattr(event.message, "motors_enabled", True)]
+    between = [event for event in good if goal.sent.t < event.t < later.sent.t]
+    if not between or good[0] is not between[0]:
+        raise unseen(run, f"{topic} was not published as the scenario has it")
     goal.require_rejected(because=because, help=help)
+    expect(
+        between[-1].subscriptions > 0,
+        expected=f"a subscription to {topic}",
+        observed="the grader published it, and nobody was subscribed",
+        help=f'create_subscription(…, "{topic}", …), a relative name.',
+        at=between[-1].t,
+    )
     later.require_accepted(
-        f"Now nothing is wrong any more: look at the last {published} when the goal comes, not at the first."
+        f"Now nothing is wrong any more: look at the last {topic} when the goal comes, not at the first."
     )
 
 
@@ -62,12 +61,4 @@ def require_undisturbed(goal: Goal, *, what: str, at: float, help: str) -> None:
         observed=f"it ended at {result.t:.1f} s" if result else "",
         help=help,
         at=result.t if result else at,
-    )
-
-
-def _good_messages(run: Transcript, topic: str, goal: Goal) -> int:
-    """Count the messages on a topic before a goal that let it be accepted and reached somebody."""
-    return sum(
-        event.t < goal.sent.t and event.subscriptions > 0 and getattr(event.message, "motors_enabled", True)
-        for event in run.published(topic)
     )
