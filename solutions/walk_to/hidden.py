@@ -19,13 +19,13 @@ def _legs(random) -> dict:
     limited axis by axis is 1.4 times too fast.
     """
     side = random.choice((-1, 1))
-    yaw = side * random.uniform(2.9, 3.0)
+    yaw = side * random.uniform(3.0, 3.05)
     x, y = random.uniform(0.3, 0.4), random.uniform(-0.2, 0.2)
     ahead, left = random.uniform(0.36, 0.4), -side * random.uniform(0.36, 0.4)
     second = (
         x + math.cos(yaw) * ahead - math.sin(yaw) * left,
         y + math.sin(yaw) * ahead + math.cos(yaw) * left,
-        -side * random.uniform(2.9, 3.0),
+        -side * random.uniform(3.0, 3.05),
     )
     legs = ((x, y, yaw, random.uniform(0.2, 0.3)), (*second, random.uniform(0.07, 0.08)))
     return {"legs": [[round(value, 3) for value in leg] for leg in legs]}
