@@ -14,6 +14,7 @@ _ENDED = "node_output node_exited"
 _SERVED = f"{_ENDED} request_received reply_sent"
 _GOAL = "goal_sent goal_answered"
 _WALKED = f"{_GOAL} result_received"
+_PLAYED = f"{_GOAL} message_published"
 _CANCELED = f"{_WALKED} cancel_sent cancel_answered"
 _REPLIED = "action_offered goal_received goal_reply_sent"
 _FINISHED = "action_offered goal_received goal_finished"
@@ -200,6 +201,35 @@ NEEDED = {
         "works_in_any_namespace": _WALKED,
     },
     "patterns": dict.fromkeys(("answers_everything", *(f"situation_{n}" for n in range(1, 13))), _ENDED),
+    "walk_to": {
+        "server_appears": "",
+        "accepts_a_goal": _GOAL,
+        "rejects_a_wrong_frame": _GOAL,
+        "rejects_nan": _GOAL,
+        "rejects_what_is_no_rotation": _GOAL,
+        "rejects_a_senseless_velocity": _GOAL,
+        "rejects_before_the_first_odom": _PLAYED,
+        "rejects_without_power": _PLAYED,
+        "refuses_a_cancel": f"{_GOAL} cancel_sent cancel_answered",
+        "rejects_a_second_goal": _GOAL,
+        "walks_to_the_goal": _GOAL,
+        "obeys_max_velocity": _GOAL,
+        "chooses_its_own_velocity": "goal_sent cancel_sent",
+        "arrives": _WALKED,
+        "ends_with_a_zero_twist": f"{_WALKED} message_received",
+        "stands_when_it_succeeds": _WALKED,
+        "fills_the_result": _WALKED,
+        "feedback_keeps_its_rate": f"{_WALKED} feedback_received",
+        "feedback_is_true": f"{_WALKED} feedback_received",
+        "feedback_ends_with_the_goal": f"{_WALKED} feedback_received",
+        "aborts_when_the_robot_falls": f"{_WALKED} robot_commanded",
+        "ends_cleanly": _INTERRUPTED,
+        "arrives_anywhere": _WALKED,
+        "turns_the_shorter_way": _GOAL,
+        "obeys_any_max_velocity": _GOAL,
+        "rejects_any_other_frame": _GOAL,
+        "works_in_any_namespace": _WALKED,
+    },
     "robot_controller": {
         "enables_then_asks": "service_offered request_received reply_sent",
         "prints_the_status": _SERVED,

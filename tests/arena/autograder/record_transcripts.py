@@ -68,6 +68,7 @@ SUBMISSIONS_OF = {
         *("correct/one_loop", "faulty/reads_the_message_itself", "faulty/waits_for_the_result_for_ever"),
         *("faulty/always_0", "faulty/ctrl_c_just_ends", "faulty/gives_up_soon"),
     ],
+    "walk_to": ["correct/threads_and_sleep", "faulty/in_mid_stride", "faulty/before_odom"],
 }
 
 

@@ -9,7 +9,8 @@ import pytest
 
 from autograder.engine.exercise import exercises_folder, load_exercise
 
-EXERCISES = ("battery_service", "cancellable_walk", "joint_query", "motor_services", "navigate_to_pose")
+EXERCISES = ("battery_service", "cancellable_walk", "joint_query", "motor_services", "navigate_to_pose", "walk_to")
+LADDERS = ("cancellable_walk", "navigate_to_pose", "walk_to")
 ON_NO_STEP = {"server_appears", "ends_cleanly"}  # the starter passes them
 
 
@@ -33,11 +34,11 @@ def test_hints_are_folded_and_a_stretch_task_comes_after_the_self_check(exercise
     assert "Not graded." in cells["stretch"]
 
 
-@pytest.mark.parametrize("exercise", ["cancellable_walk", "navigate_to_pose"])
-def test_a_ladder_names_every_visible_check_once(exercise: str) -> None:
+@pytest.mark.parametrize("exercise", LADDERS)
+def test_the_ladder_of_a_walk_names_every_visible_check_once(exercise: str) -> None:
     solution = cells_of(exercise)["solution"]
-    ladder = solution[solution.index("# The ladder.") :]
-    ladder = re.sub(r"\n +# +", " ", ladder[: ladder.index("def __init__")])
-    named = [check for step in re.findall(r"\[([\w, ]+)\]", ladder) for check in step.split(", ")]
+    ladder = solution[solution.index("# The ladder.") : solution.index("def __init__")]
+    steps = re.findall(r"\[([\w, ]+)\]", re.sub(r"\n *# *", " ", ladder))
+    named = [check for step in steps for check in step.split(", ")]
     visible = {check.id for check in load_exercise(exercise, hidden=False).checks}
     assert sorted(named) == sorted(visible - ON_NO_STEP)

@@ -96,3 +96,11 @@ def test_cancellable_walk_on_the_live_robot(tmp_path):
     assert "goal 1 gives way" in seen["example-turns"]
     assert "goal 2 has arrived" in seen["example-turns"]
     assert "CANCELED" in seen["try-cancel"]
+
+
+def test_walk_to_on_the_live_robot(tmp_path):
+    seen = run("walk_to", tmp_path, until="self-check-intro")
+    assert "2.00 m forward, 0.00 m to the left" in seen["example-frames"]
+    assert "plain difference -6.00 rad, wrapped 0.28 rad" in seen["example-wrap"]
+    assert "SUCCEEDED" in seen["try-walk"]
+    assert "reject" in seen["try-nowhere"].lower()

@@ -1,0 +1,73 @@
+"""Whether a walk that SUCCEEDED ended in a stop: commanded, and over when the result came."""
+
+from __future__ import annotations
+
+from geometry_msgs.msg import Twist
+
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring.missing import unseen
+from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.truth import STOP_SPEED, require_accepted, require_upright
+
+STANDING = 1.2  # s after the result in which it must not move
+ZERO = 1e-6  # m/s, rad/s
+_STOP = (
+    "Publish Twist(), all zeros, on cmd_vel before you wait for the robot to stand, and no other after it."
+)
+
+
+def require_final_zero(run: Transcript, goal: Goal, topic: str = "cmd_vel") -> None:
+    """Require that the last velocity the server published is zero, and came before the result.
+
+    Args:
+        run: whose scenario listened to the topic.
+        goal: which succeeded.
+        topic: of the velocity.
+    """
+    result = require_accepted(goal).require_result(SUCCEEDED)
+    velocities = run.heard(topic)
+    if not velocities:
+        raise unseen(run, f"nobody heard anything on {topic}")
+    before = [each for each in velocities if each.t <= result.t]
+    if not before or not _is_zero(before[-1].message):
+        raise Failure(
+            expected=f"a zero Twist as the last on {topic} before the goal SUCCEEDED",
+            observed=_shown(before[-1].message) if before else "none",
+            help=f"The robot would walk on for 0.5 s after the last one. {_STOP}",
+            at=result.t,
+        )
+    moving = [each for each in velocities if each.t > result.t and not _is_zero(each.message)]
+    expect(
+        not moving,
+        expected=f"nothing but zeros on {topic} after the result",
+        observed=_shown(moving[0].message) if moving else "",
+        help=f"Somebody still steers: a timer or a thread that does not know that the goal is over. {_STOP}",
+        at=moving[0].t if moving else None,
+    )
+
+
+def require_standing_at_success(goal: Goal) -> None:
+    """Require that the robot stood still when the goal SUCCEEDED, and stayed so."""
+    result = require_accepted(goal).require_result(SUCCEEDED)
+    watched = goal.run.robot_between(result.t, result.t + STANDING)
+    fastest = max(watched, key=lambda robot: robot.speed)
+    expect(
+        fastest.speed < STOP_SPEED,
+        expected=f"the robot slower than {STOP_SPEED:.2f} m/s when the goal SUCCEEDED, and from then on",
+        observed=f"{fastest.speed:.2f} m/s {fastest.t - result.t:.1f} s after the result",
+        help="Stop, settle, measure, then succeed: a humanoid takes up to a second to finish its step after a zero "
+        "Twist. Wait until robot_state.mode has been STANDING for 0.5 s, and look at odom once more.",
+        at=fastest.t,
+    )
+    require_upright(watched)
+
+
+def _is_zero(velocity: Twist) -> bool:
+    linear, angular = velocity.linear, velocity.angular
+    return all(abs(value) <= ZERO for value in (linear.x, linear.y, angular.z))
+
+
+def _shown(velocity: Twist) -> str:
+    linear = velocity.linear
+    return f"x {linear.x:.2f} m/s, y {linear.y:.2f} m/s, turn {velocity.angular.z:.2f} rad/s"
