@@ -139,7 +139,12 @@ def compares_with_the_limit_exactly(
         )
 
 
-@check(points=1, on=BEFORE_ACCEPTANCE, needs=cancels_when_the_battery_drops)
+@check(
+    points=1,
+    on=BEFORE_ACCEPTANCE,
+    needs=cancels_when_the_battery_drops,
+    see="07_cancel_and_preempt#conventions",
+)
 def cancels_right_after_the_acceptance(run: Transcript) -> None:
     """A battery that drops before the goal is accepted cancels it right after the acceptance"""
     goal = require_one_goal(run, NAVIGATE)
@@ -186,7 +191,7 @@ def success_wins_the_race(in_vain: Transcript, too_late: Transcript) -> None:
         require_success(run, finished.t + WITHIN)
 
 
-@check(points=1, on=LATE_SERVER, needs=does_not_set_out_on_a_low_battery)
+@check(points=1, on=LATE_SERVER, needs=does_not_set_out_on_a_low_battery, see="02_services#planner-why")
 def looks_at_the_battery_until_it_sends(run: Transcript) -> None:
     """A battery that drops while it waits for the server keeps it from sending the goal"""
     drop = require_drop(run)
@@ -236,7 +241,12 @@ def waits_for_a_percentage(never: Transcript, at_last: Transcript) -> None:
     require_undisturbed_success(at_last)
 
 
-@check(points=1, on=[STANDS_FIRST, ON_THE_SPOT], needs=waits_until_the_robot_stands)
+@check(
+    points=1,
+    on=[STANDS_FIRST, ON_THE_SPOT],
+    needs=waits_until_the_robot_stands,
+    see="07_cancel_and_preempt#fix-read",
+)
 def takes_standing_and_canceled_in_any_order(stands_first: Transcript, on_the_spot: Transcript) -> None:
     """When the robot stands before the goal is CANCELED, or has not moved yet, CANCELED ends it"""
     for run in (stands_first, on_the_spot):
@@ -257,7 +267,12 @@ def takes_standing_and_canceled_in_any_order(stands_first: Transcript, on_the_sp
         )
 
 
-@check(points=1, on=[DEAF, NEVER_STANDS], needs=waits_until_the_robot_stands)
+@check(
+    points=1,
+    on=[DEAF, NEVER_STANDS],
+    needs=waits_until_the_robot_stands,
+    see="03_clients_that_survive#deadline-why",
+)
 def waits_no_longer_than_5_s(deaf: Transcript, never_stands: Transcript) -> None:
     """If CANCELED or STANDING does not come within 5 s, it ends all the same, with status 4"""
     goal = require_one_goal(deaf, NAVIGATE)
@@ -321,7 +336,12 @@ def gives_up_in_silence(unanswered: Transcript, silent: Transcript) -> None:
     )
 
 
-@check(points=1, on=BY_ANOTHER, needs=[says_how_it_failed, ctrl_c_cancels_the_goal])
+@check(
+    points=1,
+    on=BY_ANOTHER,
+    needs=[says_how_it_failed, ctrl_c_cancels_the_goal],
+    see="07_cancel_and_preempt#conventions",
+)
 def tells_a_cancel_by_another(run: Transcript) -> None:
     """A goal that somebody else cancels ends it with status 4, and a line on stdout says CANCELED"""
     require_goal_finished(run, require_one_goal(run, NAVIGATE), GoalStatus.STATUS_CANCELED)

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from action_msgs.msg import GoalStatus
 from sensor_msgs.msg import BatteryState
@@ -23,8 +22,7 @@ SOON = 15.0  # s for a goal, or a cancel, to come
 WALK = 2.4  # s
 
 
-@dataclass(frozen=True)
-class Played:
+class Played(NamedTuple):
     """What a scenario publishes on."""
 
     battery: ScriptedTopic
