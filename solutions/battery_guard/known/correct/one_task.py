@@ -19,10 +19,6 @@ from sensor_msgs.msg import BatteryState
 PATIENCE = 5.0  # s
 
 
-class Ended(Exception):
-    """Carries the exit status and the line out of the coroutine."""
-
-
 class Guard(Node):
     def __init__(self):
         super().__init__("battery_guard")
@@ -71,36 +67,37 @@ class Guard(Node):
         return done.result()
 
     async def go(self, goal):
+        """Return the exit status and the line that says how it ended."""
         if not await self.until(lambda: self.level is not None):
-            raise Ended(1, "battery_state says nothing useful")
+            return 1, "battery_state says nothing useful"
         if not await self.until(lambda: self.low() or self.client.server_is_ready()):
-            raise Ended(1, "there is no navigate_to_pose")
+            return 1, "there is no navigate_to_pose"
         if self.low():
-            raise Ended(4, "not sent: low battery")
+            return 4, "not sent: low battery"
         answer = self.client.send_goal_async(goal, feedback_callback=self.on_feedback)
         if not await self.until(answer.done):
-            raise Ended(1, "no answer to the goal")
+            return 1, "no answer to the goal"
         handle = answer.result()
         if not handle.accepted:
-            raise Ended(2, "rejected")
+            return 2, "rejected"
         end = handle.get_result_async()
         if not await self.until(lambda: end.done() or self.low() or self.interrupted, lively=True):
             handle.cancel_goal_async()
             await self.until(end.done, 0.5)
-            raise Ended(1, "silence")
+            return 1, "silence"
         if not end.done():
             handle.cancel_goal_async()
             if not await self.until(end.done):
-                raise Ended(4, "asked to cancel; no end in sight")
+                return 4, "asked to cancel; no end in sight"
             if end.result().status == GoalStatus.STATUS_CANCELED:
                 stands = await self.until(lambda: self.mode == RobotState.STANDING)
-                raise Ended(4, "CANCELED; " + ("standing" if stands else "not standing yet"))
+                return 4, "CANCELED; " + ("standing" if stands else "not standing yet")
         response = end.result()
         if response.status == GoalStatus.STATUS_SUCCEEDED:
-            raise Ended(0, "SUCCEEDED")
+            return 0, "SUCCEEDED"
         if response.status == GoalStatus.STATUS_CANCELED:
-            raise Ended(4, "CANCELED by somebody else")
-        raise Ended(3, f"ABORTED: {response.result.error_msg}")
+            return 4, "CANCELED by somebody else"
+        return 3, f"ABORTED: {response.result.error_msg}"
 
 
 def main(args=None):
@@ -121,7 +118,7 @@ def main(args=None):
     executor.add_node(node)
     task = executor.create_task(node.go, goal)
     executor.spin_until_future_complete(task)
-    status, line = task.exception().args
+    status, line = task.result()
     print(line, file=sys.stdout if status in (0, 4) else sys.stderr)
     node.destroy_node()
     rclpy.try_shutdown()
