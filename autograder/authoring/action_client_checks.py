@@ -12,7 +12,15 @@ from autograder.authoring.missing import Missing, unseen
 from autograder.authoring.scripted_goal import ScriptedCancel, ScriptedGoal
 from autograder.authoring.transcript import Transcript
 
+PROMPT_SLACK = 0.5  # s on the arena's clock: 0.1 s of real time at scale 5, on a busy machine
+MANY_NUMBERS = 20  # in one line
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?")
+
+_HELD_INPUT = "could not acquire lock for <_io.BufferedReader name='<stdin>'>"
+_NO_INPUT = (
+    "A daemon thread still stood in input() when the program ended, and Python aborts there: read with "
+    "`for line in sys.stdin` instead."
+)
 
 
 def require_one_goal(run: Transcript, action: str) -> ScriptedGoal:
@@ -46,6 +54,15 @@ def require_goal_answered(run: Transcript, goal: ScriptedGoal, *, accepted: bool
 def require_goal_finished(run: Transcript, goal: ScriptedGoal, status: int) -> ev.GoalFinished:
     """Require that the goal came to its end with a status of action_msgs/GoalStatus while the client was there."""
     exited = run.first(ev.NodeExited)
+    crashed = exited is None or exited.returncode < 0 or "Traceback (most recent" in run.output("stderr")
+    left = exited is not None and (goal.finished is None or exited.t < goal.finished.t)
+    if exited and left and goal.is_accepted and not crashed:
+        raise Failure(
+            expected="a client that follows the goal to its end",
+            observed=f"it ended with status {exited.returncode} at {exited.t:.1f} s, while the goal was under way",
+            help=_why_it_left(goal),
+            at=exited.t,
+        )
     if goal.finished is None or goal.finished.status != status:
         gone = exited.t if exited else run.end
         raise Missing(
@@ -53,14 +70,18 @@ def require_goal_finished(run: Transcript, goal: ScriptedGoal, status: int) -> e
             expected="a client that follows the goal to its end",
             never=f"at {gone:.1f} s it was gone already",
         )
-    if exited and exited.t < goal.finished.t:
-        raise Failure(
-            expected="a client that follows the goal to its end",
-            observed=f"it ended {goal.finished.t - exited.t:.1f} s before the goal did",
-            help="After the acceptance, wait for the future of get_result_async() before you return.",
-            at=exited.t,
-        )
     return goal.finished
+
+
+def _why_it_left(goal: ScriptedGoal) -> str:
+    """Return what to do about a client that left its goal, by what it was told last."""
+    if goal.cancels and goal.cancels[0].reply:
+        return "The answer to a cancel says only that the server will try: wait for the result before you return."
+    if goal.cancels:
+        return "A cancel that has been sent is not an end: wait for the result before you return."
+    if goal.result_requested is None:
+        return "It never asked for the result: call goal_handle.get_result_async(), and wait for its future."
+    return "After the acceptance, wait for the future of get_result_async() before you return."
 
 
 def require_cancel(run: Transcript, goal: ScriptedGoal, *, because: str, help: str) -> ScriptedCancel:
@@ -73,6 +94,49 @@ def require_cancel(run: Transcript, goal: ScriptedGoal, *, because: str, help: s
             at=run.end,
         )
     return goal.cancels[0]
+
+
+def require_single_cancel(run: Transcript, goal: ScriptedGoal, *, because: str, help: str) -> ScriptedCancel:
+    """Require that the client asked to cancel the goal, that one and once, and return the request."""
+    cancel = require_cancel(run, goal, because=because, help=help)
+    expect(
+        len(goal.cancels) == 1,
+        expected="one request to cancel the goal",
+        observed=f"{len(goal.cancels)}",
+        help="Remember that you have asked: the server works on the first request already.",
+        at=goal.cancels[-1].received.t,
+    )
+    expect(
+        cancel.received.goal == goal.name,
+        expected="a request to cancel this goal",
+        observed="one without an id, which cancels the goals of all clients",
+        help="Call cancel_goal_async() of the goal handle that you were given.",
+        at=cancel.received.t,
+    )
+    return cancel
+
+
+def require_refused_cancel(goal: ScriptedGoal, run: Transcript, return_code: int) -> ev.CancelReplySent:
+    """Require that the first request to cancel got a reply with this code and no goal, and return the reply."""
+    reply = goal.cancels[0].reply if goal.cancels else None
+    if reply is None or reply.canceling or reply.return_code != return_code:
+        raise unseen(run, "the cancel was not refused")
+    return reply
+
+
+def require_said(
+    run: Transcript, words: re.Pattern[str], since: float, until: float, *, expected: str, help: str
+) -> None:
+    """Require a line, on either stream, that holds one of these words and came between two times (s)."""
+    lines = [event.text for event in run.all(ev.NodeOutput) if since <= event.t <= until]
+    if not any(words.search(line) for line in lines):
+        others = [line for line in lines if not NUMBER.search(line)]
+        raise Failure(
+            expected=expected,
+            observed=" | ".join((others or lines)[:4]) or "nothing was printed meanwhile",
+            help=help,
+            at=until,
+        )
 
 
 def require_no_cancel(goal: ScriptedGoal, *, because: str) -> None:
@@ -91,11 +155,13 @@ def require_exit(
 ) -> ev.NodeExited:
     """Require that the program ended in time with a status and a line on a stream, and printed no traceback."""
     exited = require_end(run, within)
+    held_input = _HELD_INPUT in run.output("stderr")
     expect(
         exited.returncode == status,
         expected=f"exit status {status}: {because}",
-        observed=f"exit status {exited.returncode}; the last line on stderr: {run.last_words or 'none'}",
-        help=help,
+        observed=f"exit status {exited.returncode}; "
+        + ("Python aborted" if held_input else f"the last line on stderr: {run.last_words or 'none'}"),
+        help=_NO_INPUT if held_input else help,
         at=exited.t,
     )
     expect(
@@ -130,9 +196,39 @@ def require_numbers(
             )
 
 
+def require_prompt_numbers(
+    run: Transcript, sent: Sequence[tuple[float, float]], delay: float, *, help: str
+) -> None:
+    """Require that each number stands in a line on stdout at most `delay` s after its time; `sent`: (s, number)."""
+    lines = iter([event for event in run.all(ev.NodeOutput) if event.stream == "stdout"])
+    for at, number in sent:
+        line = next((line for line in lines if has_number(line.text, number)), None)
+        took = "it never came" if line is None else f"it came {line.t - at:.1f} s after it"
+        if line is None or line.t - at > delay + PROMPT_SLACK:
+            raise Failure(
+                expected=f"a line with {number:.2f} at most {delay:g} s after the feedback",
+                observed=took,
+                help=help,
+                at=at,
+            )
+
+
 def has_number(line: str, number: float) -> bool:
-    """Return whether a number, rounded to 0.01 or better, stands in a line."""
-    return any(abs(float(found) - number) <= 0.0101 for found in NUMBER.findall(line))
+    """Return whether a number, rounded to 0.01 or better, stands in a line that is not a whole table of them."""
+    numbers = NUMBER.findall(line)
+    return len(numbers) <= MANY_NUMBERS and any(abs(float(found) - number) <= 0.0101 for found in numbers)
+
+
+def require_no_flood(run: Transcript, most: int, at: float) -> None:
+    """Require at most so many lines on stdout with a number: some line of a flood always has the one looked for."""
+    lines = sum(bool(NUMBER.search(line)) for line in run.output("stdout").splitlines())
+    expect(
+        lines <= most,
+        expected=f"at most {most} lines with numbers on stdout",
+        observed=f"{lines}",
+        help="Print one line for each feedback, in the feedback callback and nowhere else.",
+        at=at,
+    )
 
 
 def heard_last(run: Transcript, goal: ScriptedGoal) -> float:

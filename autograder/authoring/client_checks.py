@@ -7,6 +7,7 @@ from autograder.authoring.call import Request
 from autograder.authoring.checks import Failure, expect
 from autograder.authoring.missing import Missing, ordinal, unseen
 from autograder.authoring.readiness import require_within_limits
+from autograder.authoring.scripted_goal import ScriptedGoal
 from autograder.authoring.standing import where_it_stood
 from autograder.authoring.transcript import Transcript
 
@@ -151,11 +152,12 @@ def _where_it_hung(run: Transcript) -> str:
     requests.sort(key=lambda request: request.received.t)
     place = where_it_stood(run, in_main=True)
     stood = f" It stood in {place}." if place else ""
+    goals = [goal for event in run.all(ev.ActionOffered) for goal in run.scripted_goals(event.action)]
+    if goals:
+        return _where_its_goal_stood(goals[-1]) + stood
     if not requests:
-        return (
-            "It hung before any request was sent: wait_for_service has no timeout_sec, or its loop has no end."
-            + stood
-        )
+        wait = "wait_for_server" if run.first(ev.ActionOffered) else "wait_for_service or wait_for_server"
+        return f"It hung before it sent anything: {wait} has no timeout_sec, or its loop has no end.{stood}"
     last = requests[-1]
     if last.reply is None:
         return (
@@ -166,3 +168,22 @@ def _where_it_hung(run: Transcript) -> str:
         f"It went on after the last answer, at {last.reply.t:.1f} s: do not spin after it, and end every thread of "
         f"your own.{stood}"
     )
+
+
+def _where_its_goal_stood(goal: ScriptedGoal) -> str:
+    """Return for what a client still waits, by how far its goal has come."""
+    if goal.reply is None:
+        return "It hung while its goal was not answered: give the wait for the answer a time limit."
+    if not goal.is_accepted:
+        return (
+            f"It went on after its goal was rejected, at {goal.reply.t:.1f} s: a rejected goal has no result."
+        )
+    if goal.result_sent:
+        return f"It went on after the result came, at {goal.result_sent.t:.1f} s: end every loop and thread."
+    if goal.finished and goal.result_requested is None:
+        return "It never asked for the result, so none came: call goal_handle.get_result_async()."
+    if goal.cancels and goal.cancels[0].reply is None:
+        return "It hung while its request to cancel was not answered: give that wait a time limit, too."
+    if goal.cancels:
+        return "It hung while the cancelled goal did not end: give the wait for the result a time limit after a cancel."
+    return "It hung while its goal did not end: give up when nothing has been heard of it for too long."

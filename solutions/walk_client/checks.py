@@ -2,32 +2,20 @@
 
 from __future__ import annotations
 
-from autograder.authoring import events as ev
-from autograder.authoring.action_client_checks import (
-    heard_last,
-    require_cancel,
-    require_exit,
-    require_goal_answered,
-    require_goal_finished,
-    require_one_goal,
-)
-from autograder.authoring.checks import check, expect, program
-from autograder.authoring.missing import unseen
+from autograder.authoring.action_client_checks import require_one_goal
+from autograder.authoring.checks import check, program
 from autograder.authoring.transcript import Transcript
-
-from .judging import (
-    ABORTED,
-    CANCELED,
-    NO_SERVER,
-    REJECTED,
-    STATUS_HELP,
+from autograder.authoring.walking.client import (
     WALK,
-    GoalStatus,
-    require_failure,
+    require_abort,
+    require_canceled_by_ctrl_c,
     require_feedback_lines,
-    require_gives_up_in_silence,
     require_goal_at,
+    require_no_server,
+    require_rejection,
+    require_silence_noticed,
     require_success,
+    require_usage,
 )
 
 GOOD = program(
@@ -48,7 +36,6 @@ INTERRUPTED = program("interrupted", {"ends_after": 1.5})
 
 WITHIN = 10.0  # s for a walk of a second or two
 GIVING_UP = 8.0  # s, of which 5 are waited
-USAGE = 2  # the exit status of argparse
 
 
 @check(points=2, on=GOOD, see="07_cancel_and_preempt#goal")
@@ -75,113 +62,34 @@ def says_how_it_succeeded(run: Transcript) -> None:
 def refuses_wrong_arguments(too_few: Transcript, no_number: Transcript) -> None:
     """Wrong arguments end it with status 2 and the usage, before a node is started"""
     for run in (too_few, no_number):
-        exited = require_exit(
-            run,
-            WITHIN,
-            USAGE,
-            because=f"it was started with {' '.join(run.params['arguments'])}",
-            stream="stderr",
-            help="Let argparse read rclpy.utilities.remove_ros_args(sys.argv)[1:] with type=float: it ends the program "
-            "with status 2 itself.",
-        )
-        expect(
-            "usage" in run.output("stderr").lower(),
-            expected="the usage on stderr",
-            observed=f"“{run.last_words}”",
-            help="argparse prints it: use parser.parse_args() or parser.error().",
-            at=exited.t,
-        )
-        ready = run.first(ev.NodeReady)
-        expect(
-            ready is None,
-            expected="no node: there is nothing to do",
-            observed="a node was started",
-            help="Read the arguments before rclpy.init().",
-            at=exited.t,
-        )
+        require_usage(run, WITHIN)
 
 
-@check(points=1, on=NOBODY, needs=says_how_it_succeeded, see="03_clients_that_survive#fix-why")
+@check(points=1, on=NOBODY, see="03_clients_that_survive#fix-why")
 def gives_up_without_a_server(run: Transcript) -> None:
     """Without a server it ends with status 1 after 5 s, and says so on stderr"""
-    if run.first(ev.ActionOffered):
-        raise unseen(run, f"{WALK} was offered")
-    require_failure(
-        run,
-        GIVING_UP,
-        NO_SERVER,
-        because=f"nobody offers {WALK}",
-        help="wait_for_server(timeout_sec=5.0) returns False when there is none: print a line and return 1.",
-    )
+    require_no_server(run, GIVING_UP)
 
 
 @check(points=1, on=REJECTING, needs=says_how_it_succeeded, see="07_cancel_and_preempt#analogy")
 def tells_a_rejection(run: Transcript) -> None:
     """A rejected goal ends it with status 2"""
-    goal = require_one_goal(run, WALK)
-    require_goal_answered(run, goal, accepted=False)
-    require_failure(
-        run,
-        WITHIN,
-        REJECTED,
-        because="the goal was rejected",
-        help="Look at goal_handle.accepted before you ask for the result: a rejected goal has none.",
-    )
+    require_rejection(run, WITHIN)
 
 
 @check(points=2, on=ABORTING, needs=says_how_it_succeeded, see="07_cancel_and_preempt#fall-why")
 def tells_an_abort(run: Transcript) -> None:
     """An aborted goal ends it with status 3, and error_msg stands on stderr"""
-    goal = require_one_goal(run, WALK)
-    finished = require_goal_finished(run, goal, GoalStatus.STATUS_ABORTED)
-    require_failure(run, WITHIN, ABORTED, because="the goal was ABORTED", help=STATUS_HELP)
-    expect(
-        run.params["error_msg"] in run.output("stderr"),
-        expected=f"the server's reason on stderr: {run.params['error_msg']}",
-        observed=f"“{run.last_words}”",
-        help="Print response.result.error_msg with file=sys.stderr.",
-        at=finished.t,
-    )
+    require_abort(run, WITHIN)
 
 
 @check(points=2, on=SILENT, needs=says_how_it_succeeded, see="03_clients_that_survive#fix-why")
 def gives_up_in_silence(run: Transcript) -> None:
     """After 5 s without feedback or result it cancels the goal and ends with status 1"""
-    goal = require_one_goal(run, WALK)
-    accepted = require_goal_answered(run, goal, accepted=True)
-    if goal.finished and not goal.cancels:
-        raise unseen(run, "the goal ended by itself")
-    require_gives_up_in_silence(run, goal, max(accepted, heard_last(run, goal)))
+    require_silence_noticed(run)
 
 
 @check(points=2, on=INTERRUPTED, needs=says_how_it_succeeded, see="07_cancel_and_preempt#m1-why")
 def ctrl_c_cancels_the_goal(run: Transcript) -> None:
     """Ctrl-C cancels the goal; it waits for its end and ends with status 4"""
-    goal = require_one_goal(run, WALK)
-    pressed = require_interrupted(run)
-    cancel = require_cancel(
-        run,
-        goal,
-        because="you pressed Ctrl-C",
-        help="rclpy shuts down at Ctrl-C, and then nothing can be sent: rclpy.init(signal_handler_options="
-        "SignalHandlerOptions.NO), catch the signal yourself, and call cancel_goal_async().",
-    )
-    expect(
-        cancel.received.t >= pressed,
-        expected="the goal to go on until Ctrl-C",
-        observed=f"a request to cancel {pressed - cancel.received.t:.1f} s before",
-        help="Cancel only when Ctrl-C is pressed, or when nothing has been heard for 5 s.",
-        at=cancel.received.t,
-    )
-    require_goal_finished(run, goal, GoalStatus.STATUS_CANCELED)
-    require_exit(
-        run, WITHIN, CANCELED, because="the goal was CANCELED by Ctrl-C", stream="stdout", help=STATUS_HELP
-    )
-
-
-def require_interrupted(run: Transcript) -> float:
-    """Require that Ctrl-C was pressed while the goal was under way, and return when (s)."""
-    signalled = run.first(ev.NodeSignalled)
-    if signalled is None:
-        raise unseen(run, "Ctrl-C was not pressed, because the goal never was under way")
-    return signalled.t
+    require_canceled_by_ctrl_c(run, WITHIN)

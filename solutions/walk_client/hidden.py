@@ -15,19 +15,7 @@ from autograder.authoring.action_client_checks import (
 from autograder.authoring.checks import check, expect, program
 from autograder.authoring.missing import unseen
 from autograder.authoring.transcript import Transcript
-
-from .checks import (
-    GIVING_UP,
-    WITHIN,
-    ctrl_c_cancels_the_goal,
-    gives_up_in_silence,
-    gives_up_without_a_server,
-    prints_the_feedback,
-    require_interrupted,
-    says_how_it_succeeded,
-    tells_an_abort,
-)
-from .judging import (
+from autograder.authoring.walking.client import (
     ABORTED,
     CANCELED,
     NO_SERVER,
@@ -40,7 +28,19 @@ from .judging import (
     require_feedback_lines,
     require_gives_up_in_silence,
     require_goal_at,
+    require_interrupted,
     require_success,
+)
+
+from .checks import (
+    GIVING_UP,
+    WITHIN,
+    ctrl_c_cancels_the_goal,
+    gives_up_in_silence,
+    gives_up_without_a_server,
+    prints_the_feedback,
+    says_how_it_succeeded,
+    tells_an_abort,
 )
 
 
@@ -49,6 +49,7 @@ def _any_walk(generator: random.Random, arguments: int = 3) -> dict:
     pose = [-round(generator.uniform(0.3, 2.0), 2), round(generator.uniform(-2.0, -0.3), 2)]
     pose += [round(generator.uniform(-3.0, 3.0), 2)]
     distances = sorted((round(generator.uniform(0.05, 2.5), 2) for _ in range(8)), reverse=True)
+    distances[4] = round(distances[3] + generator.uniform(0.1, 0.5), 2)  # a detour
     final = [round(value + generator.uniform(-0.08, 0.08), 2) for value in pose[:2]]
     return {
         "arguments": [str(value) for value in pose[:arguments]],
@@ -71,7 +72,7 @@ WITH_WORDS = program("succeeding_with_words", {"final": [0.97, 0.52, 0.31]})
 NEVER_CANCELED = program("interrupted", {"ends_after": None})
 
 
-@check(points=1, on=[ANY_WALK, WITHOUT_YAW], needs=says_how_it_succeeded)
+@check(points=1, on=[ANY_WALK, WITHOUT_YAW], needs=says_how_it_succeeded, see="01_robot_and_graph#names-why")
 def walks_anywhere(with_yaw: Transcript, without_yaw: Transcript) -> None:
     """Negative numbers, and a yaw that is left out, are sent as they are meant"""
     for run in (with_yaw, without_yaw):
@@ -104,14 +105,16 @@ def gives_up_without_an_answer(run: Transcript) -> None:
         require_patience(run, goal.received.t, exited.t, PATIENCE, what="the end")
 
 
-@check(points=2, on=SLOW, needs=gives_up_in_silence)
+@check(points=2, on=SLOW, needs=gives_up_in_silence, see="03_clients_that_survive#deadline-why")
 def walks_as_long_as_it_takes(run: Transcript) -> None:
     """A walk of 12 s with feedback each 3 s is followed to its end: only silence has a limit"""
     goal = require_one_goal(run, WALK)
     require_success(run, goal, run.params["every"] * run.params["times"] + WITHIN)
 
 
-@check(points=1, on=[FALLING_SILENT, DYING], needs=gives_up_in_silence)
+@check(
+    points=1, on=[FALLING_SILENT, DYING], needs=gives_up_in_silence, see="03_clients_that_survive#kill-why"
+)
 def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
     """A server that falls silent or dies on the way ends it with status 1, 5 s after the last feedback"""
     goal = require_one_goal(silent, WALK)
@@ -137,7 +140,7 @@ def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
         )
 
 
-@check(points=1, on=EARLY, needs=prints_the_feedback)
+@check(points=1, on=EARLY, needs=prints_the_feedback, see="07_cancel_and_preempt#conventions")
 def survives_early_feedback(run: Transcript) -> None:
     """Feedback that comes before the goal is accepted disturbs nothing"""
     goal = require_one_goal(run, WALK)
@@ -146,7 +149,7 @@ def survives_early_feedback(run: Transcript) -> None:
     require_success(run, goal, WITHIN)
 
 
-@check(points=1, on=BY_ANOTHER, needs=tells_an_abort)
+@check(points=1, on=BY_ANOTHER, needs=tells_an_abort, see="07_cancel_and_preempt#cancel-all")
 def tells_a_cancel_by_another(run: Transcript) -> None:
     """A goal that somebody else cancels ends it with status 4, and a line on stdout says CANCELED"""
     goal = require_one_goal(run, WALK)
@@ -166,7 +169,7 @@ def believes_the_status(aborted: Transcript, succeeded: Transcript) -> None:
     require_success(succeeded, require_one_goal(succeeded, WALK), WITHIN)
 
 
-@check(points=1, on=NEVER_CANCELED, needs=ctrl_c_cancels_the_goal)
+@check(points=1, on=NEVER_CANCELED, needs=ctrl_c_cancels_the_goal, see="07_cancel_and_preempt#m1-why")
 def ctrl_c_ends_it_in_any_case(run: Transcript) -> None:
     """When the goal does not end within 5 s of Ctrl-C, it ends all the same, with status 4"""
     goal = require_one_goal(run, WALK)
@@ -191,7 +194,7 @@ def ctrl_c_ends_it_in_any_case(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=ANY_WALK, needs=prints_the_feedback)
+@check(points=1, on=ANY_WALK, needs=prints_the_feedback, see="07_cancel_and_preempt#conventions")
 def prints_any_feedback(run: Transcript) -> None:
     """Whatever the distances are, they are printed as they came"""
     require_feedback_lines(run, require_one_goal(run, WALK))

@@ -14,6 +14,10 @@ _SERVED = f"{_ENDED} request_received reply_sent"
 _GOAL = "goal_sent goal_answered"
 _WALKED = f"{_GOAL} result_received"
 _CANCELED = f"{_WALKED} cancel_sent cancel_answered"
+_REPLIED = "action_offered goal_received goal_reply_sent"
+_FINISHED = "action_offered goal_received goal_finished"
+_FOLLOWED = f"{_ENDED} {_REPLIED} goal_finished"
+_CANCELED_GOAL = f"{_FOLLOWED} cancel_received"
 
 NEEDED = {
     "battery_service": {
@@ -26,6 +30,28 @@ NEEDED = {
         "keeps_the_last_message": f"{_ASKED} battery_published robot_commanded",
         "answers_every_request": _ASKED,
         "works_in_any_namespace": f"{_ASKED} battery_published",
+    },
+    "cancel_client": {
+        "walks": _FOLLOWED,
+        "prints_feedback_at_once": f"{_FOLLOWED} feedback_sent",
+        "q_cancels_the_goal": f"{_CANCELED_GOAL} node_typed",
+        "believes_the_end": f"{_CANCELED_GOAL} node_typed cancel_reply_sent",
+        "remembers_an_early_q": f"{_CANCELED_GOAL} node_typed",
+        "reports_a_refusal": f"{_CANCELED_GOAL} node_typed cancel_reply_sent",
+        "goes_on_at_the_end_of_input": f"{_FOLLOWED} node_typed",
+        "gives_up_without_a_server": _ENDED,
+        "gives_up_in_silence": f"{_ENDED} {_REPLIED} cancel_received",
+        "ctrl_c_cancels_the_goal": f"{_CANCELED_GOAL} node_signalled",
+        "walks_anywhere": _FOLLOWED,
+        "refuses_wrong_arguments": _ENDED,
+        "tells_an_abort": _FOLLOWED,
+        "a_rejected_goal_needs_no_cancel": f"{_ENDED} {_REPLIED} node_typed",
+        "tells_an_abort_after_q": f"{_CANCELED_GOAL} node_typed cancel_reply_sent",
+        "reports_a_late_cancel": f"{_CANCELED_GOAL} node_typed cancel_reply_sent",
+        "does_not_wait_for_the_answer": f"{_CANCELED_GOAL} node_typed",
+        "cancels_once": f"{_CANCELED_GOAL} node_typed",
+        "other_lines_cancel_nothing": f"{_FOLLOWED} node_typed",
+        "walks_without_an_input": f"{_FOLLOWED} node_typed",
     },
     "cancellable_walk": {
         "server_appears": "",
@@ -127,5 +153,26 @@ NEEDED = {
         "finds_a_restarted_server": f"{_SERVED} service_withdrawn",
         "copes_with_two_servers": f"{_SERVED} service_offered",
         "reports_a_refusal": _SERVED,
+    },
+    "walk_client": {
+        "sends_the_goal": "action_offered goal_received",
+        "prints_the_feedback": f"node_output {_FINISHED} feedback_sent",
+        "says_how_it_succeeded": _FOLLOWED,
+        "refuses_wrong_arguments": _ENDED,
+        "gives_up_without_a_server": _ENDED,
+        "tells_a_rejection": f"{_ENDED} {_REPLIED}",
+        "tells_an_abort": f"{_ENDED} {_FINISHED}",
+        "gives_up_in_silence": f"{_ENDED} {_REPLIED} cancel_received",
+        "ctrl_c_cancels_the_goal": f"{_ENDED} {_FINISHED} cancel_received node_signalled",
+        "walks_anywhere": _FOLLOWED,
+        "works_in_any_namespace": _FOLLOWED,
+        "gives_up_without_an_answer": f"{_ENDED} action_offered goal_received",
+        "walks_as_long_as_it_takes": _FOLLOWED,
+        "notices_silence_on_the_way": f"{_ENDED} action_offered goal_received feedback_sent cancel_received",
+        "survives_early_feedback": f"{_FOLLOWED} feedback_sent",
+        "tells_a_cancel_by_another": f"{_ENDED} {_FINISHED}",
+        "believes_the_status": f"{_ENDED} {_FINISHED}",
+        "ctrl_c_ends_it_in_any_case": f"{_ENDED} {_REPLIED} cancel_received node_signalled",
+        "prints_any_feedback": f"node_output {_FINISHED} feedback_sent",
     },
 }

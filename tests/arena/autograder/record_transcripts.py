@@ -28,6 +28,15 @@ SUBMISSIONS_OF = {
         *("correct/class_based", "faulty/answers_from_a_cache", "faulty/no_test_for_none"),
         *("faulty/forgets_after_a_second", "faulty/waits_for_the_first_message"),
     ],
+    "cancel_client": [
+        *(
+            "correct/one_loop",
+            "faulty/input_in_a_daemon",
+            "faulty/no_handle_yet",
+            "faulty/waits_for_the_answer",
+        ),
+        *("faulty/believes_the_answer", "faulty/the_end_of_input_cancels"),
+    ],
     "cancellable_walk": [
         *("correct/threads_and_sleep", "faulty/sleeps_on_one_thread", "faulty/pretends", "faulty/walks_on"),
         "faulty/feedback_for_ever",
@@ -46,6 +55,10 @@ SUBMISSIONS_OF = {
     "robot_controller": [
         *("correct/class_based", "faulty/asks_only_once", "faulty/both_at_once", "faulty/always_exit_0"),
         *("faulty/raises_before_the_node", "faulty/no_overall_deadline"),
+    ],
+    "walk_client": [
+        *("correct/one_loop", "faulty/reads_the_message_itself", "faulty/waits_for_the_result_for_ever"),
+        *("faulty/always_0", "faulty/ctrl_c_just_ends", "faulty/gives_up_soon"),
     ],
 }
 

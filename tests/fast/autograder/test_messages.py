@@ -225,7 +225,7 @@ def reply(number: int, t: float = 2.2) -> Any:
 @pytest.mark.parametrize(
     ("events", "next_step"),
     [
-        ([], "It hung before any request was sent: wait_for_service has no timeout_sec"),
+        ([], "It hung before it sent anything: wait_for_service or wait_for_server has no timeout_sec"),
         ([request(1), reply(1), request(2, t=3.0)], "It hung after request 2 (to get_status) was sent"),
         ([request(1), reply(1)], "It went on after the last answer, at 2.2 s: do not spin after it"),
     ],

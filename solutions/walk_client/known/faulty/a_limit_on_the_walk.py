@@ -1,5 +1,6 @@
 """Fault: a limit on the whole walk instead of on silence
 Caught by: walks_as_long_as_it_takes
+Also fails: notices_silence_on_the_way
 """
 
 import argparse

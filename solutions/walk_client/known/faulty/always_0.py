@@ -1,6 +1,6 @@
 """Fault: main() returns no status
 Caught by: tells_an_abort
-Also fails: gives_up_without_a_server, tells_a_rejection, gives_up_in_silence
+Also fails: gives_up_without_a_server, tells_a_rejection, gives_up_in_silence, ctrl_c_cancels_the_goal
 """
 
 import argparse

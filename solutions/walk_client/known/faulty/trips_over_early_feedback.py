@@ -1,4 +1,4 @@
-"""Fault: feedback before the acceptance is an error
+"""Fault: takes feedback long before the acceptance for that of another goal, and gives up
 Caught by: survives_early_feedback
 """
 
@@ -34,6 +34,7 @@ class WalkClient(Node):
         super().__init__("walk_client")
         self._walk_to = ActionClient(self, WalkTo, "walk_to")
         self._handle = None
+        self._first_heard = None
         self._interrupted = interrupted  # a threading.Event that Ctrl-C sets
         self._last_heard = time.monotonic()
 
@@ -62,9 +63,8 @@ class WalkClient(Node):
         return ending(response)
 
     def _on_feedback(self, message):
-        if self._handle is None:
-            raise RuntimeError("feedback without a goal")
         self._last_heard = time.monotonic()
+        self._first_heard = self._first_heard or self._last_heard
         print(f"{message.feedback.distance_remaining:.2f} m to go", flush=True)
 
     def _wait(self, future, patience=PATIENCE, until=lambda: False):
@@ -73,6 +73,8 @@ class WalkClient(Node):
         while not future.done():
             if until() or time.monotonic() - self._last_heard > patience:
                 return None
+            if self._handle is None and self._first_heard and time.monotonic() > self._first_heard + 0.5:
+                raise Failure(NO_SERVER, "somebody else has a goal there")
             rclpy.spin_once(self, timeout_sec=TICK)
         return future.result()
 

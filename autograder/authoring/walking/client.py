@@ -1,4 +1,4 @@
-"""Judges a run of the walk client."""
+"""Judges a client of `walk_to`: the goal it sent, the feedback it printed, and how it ended."""
 
 from __future__ import annotations
 
@@ -7,13 +7,16 @@ import re
 
 from action_msgs.msg import GoalStatus
 
+from autograder.authoring import events as ev
 from autograder.authoring.action_client_checks import (
     has_number,
+    heard_last,
     require_cancel,
     require_exit,
     require_goal_answered,
     require_goal_finished,
     require_no_cancel,
+    require_no_flood,
     require_numbers,
     require_one_goal,
     require_patience,
@@ -27,6 +30,8 @@ from autograder.authoring.transcript import Transcript
 WALK = "walk_to"
 SUCCEEDED, NO_SERVER, REJECTED, ABORTED, CANCELED = range(5)  # exit statuses
 PATIENCE = 5.0  # s
+FINDING = 2.0  # s from the node's appearance until the grader has seen it
+USAGE = 2  # the exit status of argparse
 STATUS_HELP = (
     "Look at response.status first: 4 is SUCCEEDED, 5 CANCELED, 6 ABORTED (action_msgs/GoalStatus). "
     "Return the exit status from main() and end the file with sys.exit(main())."
@@ -59,14 +64,15 @@ def require_goal_at(run: Transcript, x: float, y: float, yaw: float) -> Scripted
     return goal
 
 
-def require_success(run: Transcript, goal: ScriptedGoal, within: float) -> None:
-    """Require exit status 0 and one line on stdout with SUCCEEDED and the final pose."""
+def require_success(run: Transcript, goal: ScriptedGoal, within: float, *, canceled: bool = False) -> None:
+    """Require exit status 0 and one line on stdout with SUCCEEDED and the final pose, and, unless it was, no cancel."""
     require_goal_answered(run, goal, accepted=True)
     finished = require_goal_finished(run, goal, GoalStatus.STATUS_SUCCEEDED)
     exited = require_exit(
         run, within, SUCCEEDED, because="the goal SUCCEEDED", stream="stdout", help=STATUS_HELP
     )
-    require_no_cancel(goal, because="the robot arrives")
+    if not canceled:
+        require_no_cancel(goal, because="the robot arrives")
     pose = finished.result.final_pose.pose
     line = require_ending_line(run, "SUCCEEDED", exited.t)
     for name, value in (("x", pose.position.x), ("y", pose.position.y)):
@@ -101,6 +107,7 @@ def require_feedback_lines(run: Transcript, goal: ScriptedGoal) -> None:
     sent = [event for event in goal.feedback if event.t < goal.finished.t - 0.3]
     if len(sent) < 3:
         raise unseen(run, f"only {len(sent)} feedback messages were sent")
+    require_no_flood(run, 3 * len(goal.feedback) + 20, sent[0].t)
     require_numbers(
         run.output("stdout").splitlines(),
         [event.feedback.distance_remaining for event in sent],
@@ -132,6 +139,122 @@ def require_gives_up_in_silence(run: Transcript, goal: ScriptedGoal, since: floa
         NO_SERVER,
         because="the server is silent",
         help="Give the waiting for the result a limit on silence, and return 1 when it is over.",
+    )
+
+
+def require_usage(run: Transcript, within: float) -> None:
+    """Require that wrong arguments ended the program with the usage, before there was a node."""
+    exited = require_exit(
+        run,
+        within,
+        USAGE,
+        because=f"it was started with {' '.join(run.params['arguments'])}",
+        stream="stderr",
+        help="Let argparse read rclpy.utilities.remove_ros_args(sys.argv)[1:] with type=float: it ends the program "
+        "with status 2 itself.",
+    )
+    expect(
+        "usage" in run.output("stderr").lower(),
+        expected="the usage on stderr",
+        observed=f"“{run.last_words}”",
+        help="argparse prints it: use parser.parse_args() or parser.error().",
+        at=exited.t,
+    )
+    expect(
+        run.first(ev.NodeReady) is None,
+        expected="no node: there is nothing to do",
+        observed="a node was started",
+        help="Read the arguments before rclpy.init().",
+        at=exited.t,
+    )
+
+
+def require_no_server(run: Transcript, within: float) -> None:
+    """Require that the program gave up because nobody offers the action."""
+    if run.first(ev.ActionOffered):
+        raise unseen(run, f"{WALK} was offered")
+    require_failure(
+        run,
+        within,
+        NO_SERVER,
+        because=f"nobody offers {WALK}",
+        help="wait_for_server(timeout_sec=5.0) returns False when there is none: print a line and return 1.",
+    )
+    started, exited = run.first(ev.NodeReady), run.first(ev.NodeExited)
+    if started is None or exited is None:
+        raise unseen(run, "no node appeared")
+    expect(
+        exited.t - started.t >= PATIENCE - FINDING,
+        expected=f"{PATIENCE:g} s of waiting: a server that has just been started takes a while to be found",
+        observed=f"it gave up after {exited.t - started.t:.1f} s",
+        help="Call wait_for_server(timeout_sec=5.0) before you send the goal.",
+        at=exited.t,
+    )
+
+
+def require_rejection(run: Transcript, within: float) -> None:
+    """Require that the program told that its goal was rejected."""
+    require_goal_answered(run, require_one_goal(run, WALK), accepted=False)
+    require_failure(
+        run,
+        within,
+        REJECTED,
+        because="the goal was rejected",
+        help="Look at goal_handle.accepted before you ask for the result: a rejected goal has none.",
+    )
+
+
+def require_abort(run: Transcript, within: float) -> None:
+    """Require that the program told that its goal was aborted, with the server's reason if there is one."""
+    finished = require_goal_finished(run, require_one_goal(run, WALK), GoalStatus.STATUS_ABORTED)
+    require_failure(run, within, ABORTED, because="the goal was ABORTED", help=STATUS_HELP)
+    expect(
+        finished.result.error_msg in run.output("stderr"),
+        expected=f"the server's reason on stderr: {finished.result.error_msg}",
+        observed=f"“{run.last_words}”",
+        help="Print response.result.error_msg with file=sys.stderr.",
+        at=finished.t,
+    )
+
+
+def require_silence_noticed(run: Transcript) -> None:
+    """Require that the program cancelled a goal of which nothing was heard after the acceptance."""
+    goal = require_one_goal(run, WALK)
+    accepted = require_goal_answered(run, goal, accepted=True)
+    if goal.finished and not goal.cancels:
+        raise unseen(run, "the goal ended by itself")
+    require_gives_up_in_silence(run, goal, max(accepted, heard_last(run, goal)))
+
+
+def require_interrupted(run: Transcript) -> float:
+    """Require that Ctrl-C was pressed while the goal was under way, and return when (s)."""
+    signalled = run.first(ev.NodeSignalled)
+    if signalled is None:
+        raise unseen(run, "Ctrl-C was not pressed, because the goal never was under way")
+    return signalled.t
+
+
+def require_canceled_by_ctrl_c(run: Transcript, within: float) -> None:
+    """Require that Ctrl-C, and nothing before it, cancelled the goal, and that the program followed it to its end."""
+    goal = require_one_goal(run, WALK)
+    pressed = require_interrupted(run)
+    cancel = require_cancel(
+        run,
+        goal,
+        because="you pressed Ctrl-C",
+        help="rclpy shuts down at Ctrl-C, and then nothing can be sent: rclpy.init(signal_handler_options="
+        "SignalHandlerOptions.NO), catch the signal yourself, and call cancel_goal_async().",
+    )
+    expect(
+        cancel.received.t >= pressed,
+        expected="the goal to go on until Ctrl-C",
+        observed=f"a request to cancel {pressed - cancel.received.t:.1f} s before",
+        help="Cancel only when Ctrl-C is pressed, or when nothing has been heard for 5 s.",
+        at=cancel.received.t,
+    )
+    require_goal_finished(run, goal, GoalStatus.STATUS_CANCELED)
+    require_exit(
+        run, within, CANCELED, because="the goal was CANCELED by Ctrl-C", stream="stdout", help=STATUS_HELP
     )
 
 

@@ -1,0 +1,56 @@
+"""A scripted `walk_to`, with feedback and results of a robot that might be on its way."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from geometry_msgs.msg import PoseStamped
+
+from autograder.arena.client_stage import ClientStage
+from autograder.arena.scripted_action import GoalScript, ScriptedAction
+from humanoid_interfaces.action import WalkTo
+
+ARGUMENTS = ("1.0", "0.5", "0.3")  # x m, y m, yaw rad
+UNDER_WAY = 3  # feedback messages
+SOON = 15.0  # s for a goal to come
+
+
+def offer(stage: ClientStage, **script: object) -> ScriptedAction:
+    """Offer `walk_to`; `script` are the fields of a GoalScript, by which every goal is treated."""
+    return stage.offer_action("walk_to", WalkTo, GoalScript(**script))  # type: ignore[arg-type]
+
+
+def run(stage: ClientStage, arguments: Sequence[str] = ARGUMENTS) -> None:
+    """Run the student's program to its end."""
+    stage.start_program(arguments)
+    stage.wait_for_end()
+
+
+def is_under_way(stage: ClientStage, walk_to: ScriptedAction) -> bool:
+    """Wait until there was some feedback, and return whether there was."""
+    stage.wait_until(lambda: walk_to.feedbacks >= UNDER_WAY or stage.has_ended(), SOON)
+    return walk_to.feedbacks >= UNDER_WAY
+
+
+def way(messages: int) -> list[WalkTo.Feedback]:
+    """Return the feedback of a robot that comes nearer and never arrives."""
+    return [feedback(1.1 * 0.9**number) for number in range(messages)]
+
+
+def feedback(distance: float) -> WalkTo.Feedback:
+    """Return the feedback of a robot so far (m) from its goal."""
+    message = WalkTo.Feedback(distance_remaining=distance)
+    message.current_pose.header.frame_id = "odom"
+    message.current_pose.pose.orientation.w = 1.0
+    return message
+
+
+def result_at(final: Sequence[float]) -> WalkTo.Result:
+    """Return the result of a walk that ended at a pose (m, m, rad)."""
+    x, y, yaw = final
+    pose = PoseStamped()
+    pose.header.frame_id = "odom"
+    pose.pose.position.x, pose.pose.position.y = x, y
+    pose.pose.orientation.z, pose.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+    return WalkTo.Result(final_pose=pose, total_steps=9)

@@ -1,0 +1,217 @@
+"""What a client of walk_to is told about its failure: what the record knows of it, and one thing to do."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from action_msgs.msg import GoalStatus
+
+from autograder.authoring import events as ev
+from autograder.authoring.checks import Failure
+from autograder.authoring.client_checks import require_end
+from autograder.authoring.transcript import Transcript
+from autograder.engine.exercise import load_exercise
+from humanoid_interfaces.action import WalkTo
+
+WALK = {check.id: check for check in load_exercise("walk_client", hidden=True).checks}
+CANCEL = {check.id: check for check in load_exercise("cancel_client", hidden=True).checks}
+ARGUMENTS = {"arguments": ["1.0", "0.5", "0.3"]}
+DISTANCES = (1.0, 0.8, 0.6, 0.4)
+END = 26.0  # s
+HUNG = [ev.Unanswered(t=END, what="end", id="program", waited=25.0)]
+OFFERED = [ev.ActionOffered(t=0.1, action="walk_to", server="server 1", type="WalkTo")]
+
+
+def goal(t: float = 2.0) -> Any:
+    message = WalkTo.Goal()
+    pose = message.target_pose
+    pose.header.frame_id = "odom"
+    pose.pose.position.x, pose.pose.position.y = 1.0, 0.5
+    pose.pose.orientation.z, pose.pose.orientation.w = 0.14944, 0.98877
+    return ev.GoalReceived(t=t, goal="goal 1", action="walk_to", server="server 1", message=message)
+
+
+def answered(accepted: bool = True, t: float = 2.1) -> Any:
+    return ev.GoalReplySent(t=t, goal="goal 1", accepted=accepted)
+
+
+def on_the_way() -> list[Any]:
+    return [
+        ev.FeedbackSent(
+            t=2.2 + 0.2 * number, goal="goal 1", feedback=WalkTo.Feedback(distance_remaining=metres)
+        )
+        for number, metres in enumerate(DISTANCES)
+    ]
+
+
+def finished(status: int, t: float = 4.0) -> Any:
+    result = WalkTo.Result()
+    result.final_pose.pose.position.x, result.final_pose.pose.position.y = 0.97, 0.52
+    return ev.GoalFinished(t=t, goal="goal 1", status=status, result=result)
+
+
+def cancelled(*replies: ev.CancelReplySent, t: float = 3.0, number: int = 1) -> list[Any]:
+    received = [
+        ev.CancelReceived(
+            t=t + 0.1 * index,
+            cancel=f"cancel {index + 1}",
+            action="walk_to",
+            server="server 1",
+            goal="goal 1",
+        )
+        for index in range(number)
+    ]
+    return [*received, *replies]
+
+
+def replied(code: int = 0, canceling: tuple[str, ...] = (), t: float = 3.2) -> ev.CancelReplySent:
+    return ev.CancelReplySent(t=t, cancel="cancel 1", return_code=code, canceling=list(canceling))
+
+
+def said(*lines: str, t: float = 4.1, stream: str = "stdout") -> list[Any]:
+    return [ev.NodeOutput(t=t, stream=stream, text=line) for line in lines]
+
+
+def printed(delay: float = 0.0) -> list[Any]:
+    return [
+        line
+        for number, metres in enumerate(DISTANCES)
+        for line in said(f"{metres:.2f} m to go", t=2.25 + 0.2 * number + delay)
+    ]
+
+
+def ended(status: int, t: float = 4.2) -> Any:
+    return ev.NodeExited(t=t, returncode=status)
+
+
+TYPED = ev.NodeTyped(t=2.8, line="q")
+SUCCEEDED = [finished(GoalStatus.STATUS_SUCCEEDED), *said("SUCCEEDED at 0.97, 0.52"), ended(0)]
+FOLLOWED = [goal(), answered(), *on_the_way(), *printed()]
+
+
+def run_of(*events: Any) -> Transcript:
+    start = [ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0), *OFFERED]
+    return Transcript.from_events("any", ARGUMENTS, [*start, *events, ev.ScenarioEnded(t=END)])
+
+
+def failure_of(check: Any, *runs: Transcript) -> Failure:
+    with pytest.raises(Failure) as caught:
+        check.run(runs)
+    return caught.value
+
+
+def test_a_walk_that_is_followed_to_its_end_passes() -> None:
+    run = run_of(*FOLLOWED, *SUCCEEDED)
+    for check in ("sends_the_goal", "prints_the_feedback", "says_how_it_succeeded"):
+        WALK[check].run([run])
+    for check in ("walks", "prints_feedback_at_once"):
+        CANCEL[check].run([run])
+
+
+@pytest.mark.parametrize(
+    ("events", "where"),
+    [
+        ([], "before it sent anything: wait_for_server has no timeout_sec"),
+        ([goal()], "while its goal was not answered"),
+        ([goal(), answered(accepted=False)], "after its goal was rejected, at 2.1 s"),
+        ([goal(), answered()], "give up when nothing has been heard of it"),
+        ([goal(), answered(), *cancelled()], "while its request to cancel was not answered"),
+        (
+            [goal(), answered(), *cancelled(replied(canceling=("goal 1",)))],
+            "while the cancelled goal did not end",
+        ),
+        ([goal(), answered(), finished(GoalStatus.STATUS_SUCCEEDED)], "It never asked for the result"),
+        (
+            [
+                *(goal(), answered(), ev.ResultRequested(t=2.2, goal="goal 1")),
+                *(finished(GoalStatus.STATUS_SUCCEEDED), ev.ResultSent(t=4.0, goal="goal 1")),
+            ],
+            "after the result came, at 4.0 s",
+        ),
+    ],
+)
+def test_a_client_that_hangs_is_told_how_far_its_goal_had_come(events: list[Any], where: str) -> None:
+    with pytest.raises(Failure) as caught:
+        require_end(run_of(*events, *HUNG), 10.0)
+    assert where in caught.value.help
+
+
+def test_a_flood_of_numbers_is_no_line_for_each_feedback() -> None:
+    flood = said(*(f"{number / 100:.2f}" for number in range(300)), t=2.5)
+    failure = failure_of(WALK["prints_the_feedback"], run_of(*FOLLOWED, *flood, *SUCCEEDED))
+    assert failure.observed == "305"
+    assert "one line for each feedback" in failure.help
+
+
+def test_a_table_of_numbers_is_no_line_for_each_feedback() -> None:
+    table = said(" ".join(f"{number / 100:.2f}" for number in range(300)), t=2.5)
+    events = [goal(), answered(), *on_the_way(), *table, *SUCCEEDED]
+    assert failure_of(WALK["prints_the_feedback"], run_of(*events)).expected.endswith("a line with 1.00")
+
+
+def test_a_client_that_gives_up_at_once_without_a_server_is_told_to_wait() -> None:
+    start = [ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0)]
+    end = [*said("no server", t=1.9, stream="stderr"), ended(1, t=2.0), ev.ScenarioEnded(t=END)]
+    failure = failure_of(
+        WALK["gives_up_without_a_server"], Transcript.from_events("any", ARGUMENTS, [*start, *end])
+    )
+    assert failure.observed == "it gave up after 1.0 s"
+
+
+def test_feedback_that_is_printed_late_points_to_the_reading_of_stdin() -> None:
+    late = [goal(), answered(), *on_the_way(), *printed(delay=1.5), *SUCCEEDED]
+    failure = failure_of(CANCEL["prints_feedback_at_once"], run_of(*late))
+    assert failure.observed == "it came 1.5 s after it"
+    assert "the reading of stdin" in failure.help
+
+
+def test_python_that_aborts_in_a_daemon_thread_is_explained() -> None:
+    abort = said(
+        "Fatal Python error: _enter_buffered_busy: could not acquire lock for <_io.BufferedReader name='<stdin>'> at "
+        "interpreter shutdown, possibly due to daemon threads",
+        stream="stderr",
+    )
+    events = [*FOLLOWED, finished(GoalStatus.STATUS_SUCCEEDED), *said("SUCCEEDED"), *abort, ended(-6)]
+    failure = failure_of(CANCEL["walks"], run_of(*events))
+    assert failure.observed == "exit status -6; Python aborted"
+    assert "for line in sys.stdin" in failure.help
+
+
+REFUSED = [*FOLLOWED, TYPED, *cancelled(replied())]
+
+
+@pytest.mark.parametrize(
+    "words", ["cancel refused", "the server rejected the cancel", "will not cancel", "Cancel was declined"]
+)
+def test_a_refusal_may_be_told_in_any_words(words: str) -> None:
+    CANCEL["reports_a_refusal"].run([run_of(*REFUSED, *said(words, t=3.3), *SUCCEEDED)])
+
+
+def test_a_refusal_that_is_taken_for_a_yes_points_to_the_list() -> None:
+    failure = failure_of(
+        CANCEL["reports_a_refusal"], run_of(*REFUSED, *said("it is being cancelled", t=3.3), *SUCCEEDED)
+    )
+    assert failure.observed.startswith("it is being cancelled")
+    assert "goals_canceling" in failure.help
+
+
+def test_a_second_request_to_cancel_is_counted() -> None:
+    twice = [
+        *FOLLOWED,
+        TYPED,
+        ev.NodeTyped(t=2.9, line="q"),
+        *cancelled(replied(canceling=("goal 1",)), number=2),
+    ]
+    canceled = [finished(GoalStatus.STATUS_CANCELED), *said("CANCELED"), ended(4)]
+    failure = failure_of(CANCEL["cancels_once"], run_of(*twice, *canceled))
+    assert (failure.expected, failure.observed) == ("one request to cancel the goal", "2")
+
+
+def test_the_answer_to_the_cancel_is_not_the_end_of_the_goal() -> None:
+    agreed = [*FOLLOWED, TYPED, *cancelled(replied(canceling=("goal 1",)))]
+    failure = failure_of(
+        CANCEL["q_cancels_the_goal"], run_of(*agreed, *said("CANCELED", t=3.3), ended(4, t=3.4))
+    )
+    assert failure.observed == "it ended with status 4 at 3.4 s, while the goal was under way"
+    assert failure.help.startswith("The answer to a cancel says only")
