@@ -6,7 +6,6 @@ import math
 
 from autograder.authoring import events as ev
 from autograder.authoring.action_client_checks import (
-    require_exit,
     require_goal_answered,
     require_goal_finished,
     require_no_cancel,
@@ -15,22 +14,26 @@ from autograder.authoring.action_client_checks import (
 from autograder.authoring.checks import Failure, check, expect, program
 from autograder.authoring.missing import unseen
 from autograder.authoring.transcript import Transcript
-
-from .judging import (
+from autograder.authoring.walking.client import (
     ABORTED,
-    BATTERY,
-    GIVING_UP,
-    NAVIGATE,
     NO_SERVER,
     REJECTED,
     STATUS_HELP,
+    require_ending_line,
+    require_failure,
+    require_interrupted,
+    require_usage,
+)
+
+from .judging import (
+    BATTERY,
+    GIVING_UP,
+    NAVIGATE,
     WITHIN,
     GoalStatus,
     require_canceled,
     require_drop,
     require_end_after,
-    require_ending_line,
-    require_failure,
     require_goal_at,
     require_level,
     require_no_goal,
@@ -56,7 +59,7 @@ NO_PERCENTAGE = program(
 )
 INTERRUPTED = program("interrupted")
 
-USAGE = 2  # the exit status of argparse
+
 AT_ONCE = 1.0  # s
 LOOKS_AWAY = (
     "Look at the battery while you wait for the result: spin in short pieces, and after each compare the last "
@@ -83,29 +86,7 @@ def says_how_it_succeeded(run: Transcript) -> None:
 def refuses_wrong_arguments(too_few: Transcript, no_number: Transcript) -> None:
     """Wrong arguments end it with status 2 and the usage, before a node is started"""
     for run in (too_few, no_number):
-        exited = require_exit(
-            run,
-            WITHIN,
-            USAGE,
-            because=f"it was started with {' '.join(run.params['arguments'])}",
-            stream="stderr",
-            help="Let argparse read rclpy.utilities.remove_ros_args(sys.argv)[1:] with type=float: it ends the program "
-            "with status 2 itself.",
-        )
-        expect(
-            "usage" in run.output("stderr").lower(),
-            expected="the usage on stderr",
-            observed=f"“{run.last_words}”",
-            help="argparse prints it: use parser.parse_args() or parser.error().",
-            at=exited.t,
-        )
-        expect(
-            run.first(ev.NodeReady) is None,
-            expected="no node: there is nothing to do",
-            observed="a node was started",
-            help="Read the arguments before rclpy.init().",
-            at=exited.t,
-        )
+        require_usage(run, WITHIN)
 
 
 @check(points=1, on=NOBODY, needs=says_how_it_succeeded, see="03_clients_that_survive#fix-why")
@@ -120,6 +101,12 @@ def gives_up_without_a_server(run: Transcript) -> None:
         NO_SERVER,
         because=f"nobody offers {NAVIGATE}",
         help="Look at server_is_ready() for at most 5 s, then print a line and return 1.",
+    )
+    ready = run.first(ev.NodeReady)
+    if ready is None:
+        raise unseen(run, "the program's node never appeared")
+    require_patience(
+        run, ready.t, what="a server that takes a while to be found", help="Wait for the server up to 5 s."
     )
 
 
@@ -255,16 +242,14 @@ def ignores_what_is_no_percentage(run: Transcript) -> None:
 def ctrl_c_cancels_the_goal(run: Transcript) -> None:
     """Ctrl-C cancels the goal; it waits for its end and ends with status 4"""
     goal = require_one_goal(run, NAVIGATE)
-    pressed = run.first(ev.NodeSignalled)
-    if pressed is None:
-        raise unseen(run, "Ctrl-C was not pressed, because the goal never was under way")
+    pressed = require_interrupted(run)
     require_one_cancel(
         run,
-        pressed.t,
+        pressed,
         AT_ONCE,
         because="you pressed Ctrl-C",
         help="rclpy shuts down at Ctrl-C, and then nothing can be sent: rclpy.init(signal_handler_options="
         "SignalHandlerOptions.NO), catch the signal yourself, and call cancel_goal_async().",
     )
     require_goal_finished(run, goal, GoalStatus.STATUS_CANCELED)
-    require_canceled(run, pressed.t + WITHIN, "the goal was CANCELED by Ctrl-C")
+    require_canceled(run, pressed + WITHIN, "the goal was CANCELED by Ctrl-C")

@@ -14,6 +14,13 @@ from autograder.authoring.action_client_checks import (
 from autograder.authoring.checks import check, expect, program
 from autograder.authoring.missing import unseen
 from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.client import (
+    NO_SERVER,
+    PATIENCE,
+    STATUS_HELP,
+    require_ending_line,
+    require_failure,
+)
 
 from .checks import (
     AT_ONCE,
@@ -32,16 +39,11 @@ from .judging import (
     BATTERY,
     GIVING_UP,
     NAVIGATE,
-    NO_SERVER,
-    PATIENCE,
-    STATUS_HELP,
     WITHIN,
     GoalStatus,
     require_canceled,
     require_drop,
     require_end_after,
-    require_ending_line,
-    require_failure,
     require_goal_at,
     require_level,
     require_no_goal,

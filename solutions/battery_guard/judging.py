@@ -13,6 +13,7 @@ from autograder.authoring.action_client_checks import (
     require_goal_answered,
     require_goal_finished,
     require_one_goal,
+    require_single_cancel,
 )
 from autograder.authoring.client_checks import SLACK
 from autograder.authoring.failure import Failure, expect
@@ -20,20 +21,22 @@ from autograder.authoring.fields import expect_field, shown
 from autograder.authoring.missing import unseen
 from autograder.authoring.scripted_goal import ScriptedCancel, ScriptedGoal
 from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.client import (
+    CANCELED,
+    FINDING,
+    PATIENCE,
+    STATUS_HELP,
+    SUCCEEDED,
+    require_ending_line,
+)
 from humanoid_interfaces.msg import RobotState
 
 NAVIGATE = "navigate_to_pose"
 BATTERY = "battery_state"
 ROBOT = "robot_state"
-SUCCEEDED, NO_SERVER, REJECTED, ABORTED, CANCELED = range(5)  # exit statuses
 LOW = 0.20
-PATIENCE = 5.0  # s
 WITHIN = 10.0  # s for a walk of a second or two
 GIVING_UP = 8.0  # s, of which 5 are waited
-STATUS_HELP = (
-    "Look at response.status first: 4 is SUCCEEDED, 5 CANCELED, 6 ABORTED (action_msgs/GoalStatus). "
-    "Return the exit status from main() and end the file with sys.exit(main())."
-)
 
 
 # -- what was played --------------------------------------------------------------------------------------------------
@@ -161,24 +164,12 @@ def require_one_cancel(
         help="Look at the battery each time that it is published, or at least ten times a second.",
         at=cancel.received.t,
     )
-    expect(
-        len(goal.cancels) == 1,
-        expected="one request to cancel",
-        observed=f"{len(goal.cancels)}",
-        help="Remember that you have asked: battery_state stays low, and each of its messages comes to your callback.",
-        at=goal.cancels[-1].received.t,
-    )
-    return cancel
+    return require_single_cancel(run, goal, because=because, help=help)
 
 
 def require_canceled(run: Transcript, within: float, because: str) -> ev.NodeExited:
     """Require exit status 4, in time, with a line on stdout."""
     return require_exit(run, within, CANCELED, because=because, stream="stdout", help=STATUS_HELP)
-
-
-def require_failure(run: Transcript, within: float, status: int, *, because: str, help: str) -> ev.NodeExited:
-    """Require an exit status other than 0, in time, with a line on stderr."""
-    return require_exit(run, within, status, because=because, stream="stderr", help=help)
 
 
 def require_no_goal(run: Transcript, because: str, help: str) -> None:
@@ -212,18 +203,6 @@ def require_end_after(run: Transcript, since: float, within: float, *, what: str
     )
 
 
-def require_ending_line(run: Transcript, word: str, at: float) -> None:
-    """Require exactly one line on stdout that holds this word."""
-    lines = _lines_with(run, "stdout", rf"\b{word}\b")
-    expect(
-        len(lines) == 1,
-        expected=f"one line on stdout with the word {word}",
-        observed=f"{len(lines)}" + (": " + " | ".join(lines[:3]) if lines else ""),
-        help=f"print a line with {word} once, when you know how it ended.",
-        at=at,
-    )
-
-
 def require_one_warning(run: Transcript) -> None:
     """Require exactly one line on stderr that warns of what is ignored."""
     lines = _lines_with(run, "stderr", r"warn|ignor")
@@ -241,7 +220,7 @@ def require_patience(run: Transcript, since: float, *, what: str, help: str) -> 
     exited = run.first(ev.NodeExited)
     if exited is not None:
         expect(
-            exited.t - since >= PATIENCE - 1.0,
+            exited.t - since >= PATIENCE - FINDING,
             expected=f"{PATIENCE:g} s of patience with {what}",
             observed=f"it ended after {exited.t - since:.1f} s",
             help=help,
