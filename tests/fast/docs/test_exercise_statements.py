@@ -9,7 +9,7 @@ import pytest
 
 from autograder.engine.exercise import exercises_folder, load_exercise
 
-EXERCISES = ("battery_service", "cancellable_walk", "joint_query", "motor_services")
+EXERCISES = ("battery_guard", "battery_service", "cancellable_walk", "joint_query", "motor_services")
 ON_NO_STEP = {"server_appears", "ends_cleanly"}  # the starter passes them
 
 
