@@ -124,8 +124,8 @@ def says_how_it_failed(rejected: Transcript, aborted: Transcript) -> None:
     finished = require_goal_finished(aborted, require_one_goal(aborted, NAVIGATE), GoalStatus.STATUS_ABORTED)
     require_failure(aborted, WITHIN, ABORTED, because="the goal was ABORTED", help=STATUS_HELP)
     expect(
-        aborted.params["error_msg"] in aborted.output("stderr"),
-        expected=f"the server's reason on stderr: {aborted.params['error_msg']}",
+        finished.result.error_msg in aborted.output("stderr"),
+        expected=f"the server's reason on stderr: {finished.result.error_msg}",
         observed=f"“{aborted.last_words}”",
         help="Print response.result.error_msg with file=sys.stderr.",
         at=finished.t,

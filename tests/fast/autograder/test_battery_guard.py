@@ -52,7 +52,7 @@ def cancel(t):
 
 
 def finished(t, status):
-    result = NavigateToPose.Result()
+    result = NavigateToPose.Result(error_msg="late" if status == GoalStatus.STATUS_ABORTED else "")
     return [
         ev.GoalFinished(t=t, goal="goal 1", status=status, result=result),
         ev.ResultSent(t=t, goal="goal 1"),
@@ -207,3 +207,88 @@ def test_the_limit_as_a_float32_is_not_low(limit):
 def test_without_its_stimulus_nothing_passes(check, record):
     with pytest.raises((CannotBeJudged, Failure)):
         judge(check, record)
+
+
+NO_NODE = [ev.NodeStarted(t=0.0), *OFFERED, *OVER]
+USAGE = ended(0.4, 2, errors=["usage: battery_guard.py"])
+ALONE = [*STARTED, *STANDS, *level(0.3, 0.8), *OVER]
+REJECTED = [*READY, *goal(2.0)[:1], ev.GoalReplySent(t=2.1, goal="goal 1", accepted=False)]
+ABORTED = [*UNDER_WAY, *finished(5.0, GoalStatus.STATUS_ABORTED)]
+UNANSWERED = [*READY, *goal(2.0)[:1], *ended(7.2, 1, errors=["no answer"])]
+SILENT = [*READY, *goal(2.0), *cancel(7.2), *ended(7.8, 1, errors=["silence"])]
+INTERRUPTED = [*UNDER_WAY, ev.NodeSignalled(t=3.0, signal="SIGINT"), *cancel(3.1), *finished(4.1, CANCELED)]
+NONSENSE_ALONE = [*STARTED, *OFFERED, *level(0.3, 20.0), *level(0.4, math.nan), *OVER]
+AT_LAST = [*NONSENSE_ALONE, *level(3.0, 0.64), *goal(3.2), *finished(5.0, SUCCEEDED)]
+STOOD_FIRST = [*DROPPED, *cancel(3.1), *mode(3.6, RobotState.STANDING), *finished(5.6, CANCELED)]
+ON_THE_SPOT = [*READY, *goal(2.0), *level(3.0, 0.1), *cancel(3.1), *finished(3.6, CANCELED)]
+DEAF = [*DROPPED, *cancel(3.1)]
+NEVER_STANDS = [*DROPPED, *cancel(3.1), *finished(3.6, CANCELED)]
+
+
+def canceled(t):
+    return ended(t, 4, "CANCELED")
+
+
+@pytest.mark.parametrize(
+    ("check", "sound", "faulty"),
+    [
+        (
+            "refuses_wrong_arguments",
+            [[*NO_NODE, *USAGE]] * 2,
+            [[*NO_NODE, *USAGE], [*READY, *ended(1.0, 2, errors=["usage"])]],
+        ),
+        (
+            "gives_up_without_a_server",
+            [[*ALONE, *ended(5.7, 1, errors=["nobody"])]],
+            [[*ALONE, *ended(1.2, 1, errors=["nobody"])]],
+        ),
+        (
+            "says_how_it_failed",
+            [[*REJECTED, *ended(2.3, 2, errors=["rejected"])], [*ABORTED, *ended(5.2, 3, errors=["late"])]],
+            [
+                [*REJECTED, *ended(2.3, 2, errors=["rejected"])],
+                [*ABORTED, *ended(5.2, 3, errors=["ABORTED"])],
+            ],
+        ),
+        ("ctrl_c_cancels_the_goal", [[*INTERRUPTED, *canceled(4.3)]], [[*INTERRUPTED, *ended(4.3, 130)]]),
+        (
+            "looks_at_the_battery_until_it_sends",
+            [[*ALONE, *level(2.0, 0.1), *canceled(2.2)]],
+            [[*ALONE, *level(2.0, 0.1), *goal(3.2), *cancel(3.4), *canceled(4.0)]],
+        ),
+        (
+            "waits_for_a_percentage",
+            [[*NONSENSE_ALONE, *ended(5.7, 1, errors=["none"])], [*AT_LAST, *ended(5.2, 0, "SUCCEEDED")]],
+            [[*NONSENSE_ALONE, *goal(1.0), *ended(5.7, 1)], [*AT_LAST, *ended(5.2, 0, "SUCCEEDED")]],
+        ),
+        (
+            "takes_standing_and_canceled_in_any_order",
+            [[*STOOD_FIRST, *canceled(5.8)], [*ON_THE_SPOT, *canceled(3.8)]],
+            [[*STOOD_FIRST, *canceled(5.8)], [*ON_THE_SPOT, *canceled(8.7)]],
+        ),
+        (
+            "takes_standing_and_canceled_in_any_order",
+            [[*STOOD_FIRST, *canceled(5.8)], [*ON_THE_SPOT, *canceled(3.8)]],
+            [[*STOOD_FIRST, *canceled(3.8)], [*ON_THE_SPOT, *canceled(3.8)]],
+        ),
+        (
+            "waits_no_longer_than_5_s",
+            [[*DEAF, *canceled(8.2)], [*NEVER_STANDS, *canceled(8.8)]],
+            [[*DEAF, *canceled(8.2)], [*NEVER_STANDS, *canceled(16.0)]],
+        ),
+        (
+            "waits_no_longer_than_5_s",
+            [[*DEAF, *canceled(8.2)], [*NEVER_STANDS, *canceled(8.8)]],
+            [[*DEAF], [*NEVER_STANDS, *canceled(8.8)]],
+        ),
+        ("gives_up_in_silence", [UNANSWERED, SILENT], [UNANSWERED, [*READY, *goal(2.0), *ended(7.8, 1)]]),
+        (
+            "tells_a_cancel_by_another",
+            [[*UNDER_WAY, *finished(3.6, CANCELED), *canceled(3.8)]],
+            [[*UNDER_WAY, *finished(3.6, CANCELED), *ended(3.8, 3, errors=["ABORTED"])]],
+        ),
+    ],
+)
+def test_a_check_tells_a_sound_run_from_a_faulty_one(check, sound, faulty):
+    judge(check, *sound)
+    failure(check, *faulty)
