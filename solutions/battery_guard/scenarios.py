@@ -20,6 +20,7 @@ UNDER_WAY = 3  # feedback messages
 BETWEEN = 0.3  # s between two levels of the battery
 SOON = 15.0  # s for a goal, or a cancel, to come
 WALK = 2.4  # s
+LATE = 1.2  # s; with the 3 s that finding a client may take, it is within the 5 s that a client waits
 
 
 class Played(NamedTuple):
@@ -75,13 +76,13 @@ def without_battery(stage: ClientStage) -> None:
 
 
 def no_percentage_first(stage: ClientStage, levels: Sequence[float], then: float | None) -> None:
-    """These levels come at first; 2.5 s later comes this one, or nothing."""
+    """These levels come at first; 1.2 s later comes this one, or nothing."""
     _offer(stage, feedback=_way(8), ends_after=WALK)
     played = _start(stage, level=levels[0])
     for level in levels[1:]:
         played.level(level)
     if then is not None:
-        stage.wait_until(stage.has_ended, 2.5)
+        stage.wait_until(stage.has_ended, LATE)
         played.level(then)
     stage.wait_for_end()
 
@@ -95,9 +96,9 @@ def nobody(stage: ClientStage) -> None:
 def late_server(stage: ClientStage, level: float) -> None:
     """The battery falls to this level while the server is still missing; then the server appears."""
     played = _start(stage)
-    stage.wait(1.0)
+    stage.wait(LATE / 2)
     played.level(level)
-    stage.wait(1.0)
+    stage.wait(LATE / 2)
     _offer(stage, feedback=_way(8), ends_after=WALK)
     stage.wait_for_end()
 
@@ -156,8 +157,8 @@ def dropping(
 ) -> None:
     """The robot walks, and the battery runs down through these levels.
 
-    The goal is CANCELED `ends_after` s after the request to cancel, and the robot stands `stands_after` s after it;
-    None: never. The cancel is not even answered if `agreed` is None.
+    The goal is CANCELED `ends_after` s after the request to cancel; None: never. When that request has come and the
+    last level is out, the robot stands `stands_after` s later; None: never. `agreed` None: there is no answer.
     """
     cancel = CancelScript(agreed=agreed, ends_after=ends_after)
     navigation = _offer(stage, feedback=_way(500), ends_after=None, cancel=cancel)
