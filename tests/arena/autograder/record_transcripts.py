@@ -25,7 +25,12 @@ from autograder.engine.submission_arenas import SubmissionArenas
 # a node that ends.
 SUBMISSIONS_OF = {
     "battery_guard": [
-        *("correct/one_loop", "faulty/volatile_battery", "faulty/looks_away", "faulty/leaves_after_the_cancel"),
+        *(
+            "correct/one_loop",
+            "faulty/volatile_battery",
+            "faulty/looks_away",
+            "faulty/leaves_after_the_cancel",
+        ),
         *("faulty/counts_to_100", "faulty/waits_for_a_battery_for_ever"),
     ],
     "battery_service": [
