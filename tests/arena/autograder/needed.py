@@ -21,7 +21,33 @@ _FINISHED = "action_offered goal_received goal_finished"
 _FOLLOWED = f"{_ENDED} {_REPLIED} goal_finished"
 _CANCELED_GOAL = f"{_FOLLOWED} cancel_received"
 
+_DROPPED = f"{_REPLIED} message_published cancel_received"
+_GUARDED = f"{_FOLLOWED} message_published"
+
 NEEDED = {
+    "battery_guard": {
+        "sends_the_goal": "action_offered goal_received message_published",
+        "says_how_it_succeeded": _FOLLOWED,
+        "refuses_wrong_arguments": _ENDED,
+        "gives_up_without_a_server": f"{_ENDED} message_published",
+        "says_how_it_failed": _FOLLOWED,
+        "does_not_set_out_on_a_low_battery": f"{_ENDED} message_published",
+        "does_not_set_out_without_a_battery_state": _ENDED,
+        "cancels_when_the_battery_drops": _DROPPED,
+        "waits_until_the_robot_stands": f"{_ENDED} {_FINISHED} message_published",
+        "ignores_what_is_no_percentage": _GUARDED,
+        "ctrl_c_cancels_the_goal": f"{_CANCELED_GOAL} node_signalled",
+        "goes_anywhere": _GUARDED,
+        "compares_with_the_limit_exactly": f"{_CANCELED_GOAL} message_published",
+        "cancels_right_after_the_acceptance": _DROPPED,
+        "success_wins_the_race": _GUARDED,
+        "looks_at_the_battery_until_it_sends": f"{_ENDED} message_published",
+        "waits_for_a_percentage": _GUARDED,
+        "takes_standing_and_canceled_in_any_order": f"{_CANCELED_GOAL} message_published",
+        "waits_no_longer_than_5_s": f"{_CANCELED_GOAL} message_published",
+        "gives_up_in_silence": f"{_ENDED} {_REPLIED} cancel_received",
+        "tells_a_cancel_by_another": f"{_ENDED} {_FINISHED}",
+    },
     "battery_service": {
         "server_appears": "",
         "answers_with_the_last_message": f"{_ASKED} battery_published",

@@ -24,6 +24,15 @@ from autograder.engine.submission_arenas import SubmissionArenas
 # One that passes everything, and a few that go wrong in different ways: an answer that is wrong, one that never comes,
 # a node that ends.
 SUBMISSIONS_OF = {
+    "battery_guard": [
+        *(
+            "correct/one_loop",
+            "faulty/volatile_battery",
+            "faulty/looks_away",
+            "faulty/leaves_after_the_cancel",
+        ),
+        *("faulty/counts_to_100", "faulty/waits_for_a_battery_for_ever"),
+    ],
     "battery_service": [
         *("correct/class_based", "faulty/answers_from_a_cache", "faulty/no_test_for_none"),
         *("faulty/forgets_after_a_second", "faulty/waits_for_the_first_message"),

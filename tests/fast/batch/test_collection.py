@@ -94,7 +94,7 @@ def test_what_is_no_submission_is_left_aside_with_the_reason(tmp_path):
     put(tmp_path / "grades.csv")
     put(tmp_path / ".DS_Store")
     ignored = "\n".join(collect(tmp_path).ignored)
-    assert "bert handed in none of battery_service" in ignored
+    assert "bert handed in none of battery_guard, battery_service" in ignored
     assert "grades.csv" in ignored
     assert "DS_Store" not in ignored
 

@@ -9,7 +9,15 @@ import pytest
 
 from autograder.engine.exercise import exercises_folder, load_exercise
 
-EXERCISES = ("battery_service", "cancellable_walk", "joint_query", "motor_services", "navigate_to_pose", "walk_to")
+EXERCISES = (
+    "battery_guard",
+    "battery_service",
+    "cancellable_walk",
+    "joint_query",
+    "motor_services",
+    "navigate_to_pose",
+    "walk_to",
+)
 LADDERS = ("cancellable_walk", "navigate_to_pose", "walk_to")
 ON_NO_STEP = {"server_appears", "ends_cleanly"}  # the starter passes them
 

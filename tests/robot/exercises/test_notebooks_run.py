@@ -82,6 +82,16 @@ def test_robot_controller_without_servers_with_good_ones_and_with_silent_ones(tm
     assert seen["try-silent"].count("enable_motors: True") == 2
 
 
+def test_battery_guard_with_four_batteries(tmp_path):
+    seen = run("battery_guard", tmp_path, until="self-check-intro")
+    assert "sent 0.2, arrived 0.200000003: low False, a percentage True" in seen["example"]
+    lasts, drops, low, to_100 = re.findall(r"from [\d.]+: .*?(?=\nfrom|$)", seen["try"], re.DOTALL)
+    assert "SUCCEEDED" in lasts
+    assert "CANCELED: the battery is at 0.18" in drops
+    assert "not sent: the battery is at 0.1" in low
+    assert "no percentage on battery_state" in to_100
+
+
 def test_interfaces_from_the_task_to_the_verdicts(tmp_path):
     seen = run("interfaces", tmp_path)
     assert "ReachPoint" in seen["example-run"]
