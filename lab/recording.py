@@ -91,9 +91,9 @@ class Recording:
     def values(self, quantity: str) -> tuple[np.ndarray, np.ndarray]:
         """The times of a quantity, in s since the beginning, and its values.
 
-        There are "speed" (m/s, forwards, in base_link), "turn rate" (rad/s, left is positive), "height" (m, of the
-        pelvis above the floor), "heading" (rad, in frame odom), "tilt" (rad, of the pelvis from upright) and
-        "power" (W, out of the battery).
+        There are "x" and "y" (m, of the pelvis in frame odom), "speed" (m/s, forwards, in base_link), "turn rate"
+        (rad/s, left is positive), "height" (m, of the pelvis above the floor), "heading" (rad, in frame odom), "tilt"
+        (rad, of the pelvis from upright) and "power" (W, out of the battery).
 
         Raises LabError when there is no such quantity, or nothing of it was recorded.
         """
