@@ -62,7 +62,7 @@ def rejects_what_cannot_work() -> str:
 
 
 def measures_after_settling() -> str:
-    """Walk a robot of paper half a metre; somebody pushes it back when it stops."""
+    """Walk a toy robot half a metre; somebody pushes it back when it stops."""
     (seen,) = _trial("settles")
     returned, ended = seen["returned"], seen["ended"]
     if "had not arrived" in returned:

@@ -173,8 +173,8 @@ PREDICTIONS = (
             ),
             Choice(
                 "Several centimetres short of it.",
-                "A sensible guess if you think of the sway: a pelvis swings back, too. But it moves forward at "
-                "0.3 m/s, and nobody has told it to stop.",
+                "A sensible guess: the pelvis sways, and a swing can also go back. But it moves forward at 0.3 m/s, "
+                "and nobody has told it to stop.",
             ),
         ),
     ),
@@ -188,7 +188,7 @@ PREDICTIONS = (
             ),
             Choice(
                 "An AttributeError ends the client, and the robot stops.",
-                "A sensible guess for the first half: the error does leave the spin. But the server doesn't notice "
+                "A sensible guess: the error does leave the spin, and ends the client. But the server doesn't notice "
                 "that its client is gone.",
             ),
             Choice(
@@ -200,16 +200,16 @@ PREDICTIONS = (
         ),
     ),
     Question(
-        "The server publishes 50 feedback messages at once, and the client's callback takes 0.2 s. The topic is "
-        "reliable. How many does the client see?",
+        "The server publishes 50 feedback messages at once and works on for 6 s. The client's callback takes 0.2 s, "
+        "and the topic is reliable. How many does the client see?",
         (
             Choice(
-                "All 50, after ten seconds.",
-                "A sensible guess: that's what reliable sounds like. But each end keeps only the last ten messages. "
-                "Reliable means that those are sent again if the network loses them.",
+                "About thirty: as many as fit into 6 s.",
+                "A sensible guess: reliable sounds as if all of them wait for the callback. But each end keeps only "
+                "the last ten. Reliable means that those are sent again if the network loses them.",
             ),
             Choice(
-                "About ten or fifteen.",
+                "Between ten and twenty.",
                 "The queues keep the last ten messages, and the callback takes one or a few more in the meantime.",
                 right=True,
             ),
@@ -225,7 +225,7 @@ PREDICTIONS = (
         (
             Choice(
                 "Status 4, and the steps: a result is kept until somebody fetches it.",
-                "A sensible guess: that's how a parcel shop works, for a while. The server threw the result away "
+                "A sensible guess: a parcel shop works like that, for a while. But the server threw the result away "
                 "after two seconds, whether or not anybody had read it.",
             ),
             Choice(

@@ -70,10 +70,10 @@ def goals() -> None:
 
 
 def settles() -> None:
-    """Let execute walk a robot of paper, which is pushed back when it stops for the first time."""
+    """Let execute walk a toy robot, which is pushed back when it stops for the first time."""
     node = import_module("settled_walk").SettledWalker()
-    robot = PaperRobot(node)
-    handle = PaperHandle(robot)
+    robot = ToyRobot(node)
+    handle = ToyHandle(robot)
     returned = _called(lambda: node.execute(handle))
     tell(returned=returned, ended=handle.ended, final=handle.final(node.pose), feedback=handle.feedback)
 
@@ -89,7 +89,7 @@ def _called(function: Any) -> str:
     return getattr(returned, "name", None) or repr(returned)
 
 
-class PaperRobot:
+class ToyRobot:
     """Moves a node's pose as its commands say; takes the place of its publisher of cmd_vel."""
 
     def __init__(self, node: Any) -> None:
@@ -123,10 +123,10 @@ class PaperRobot:
             self._stops += 1
 
 
-class PaperHandle:
+class ToyHandle:
     """The goal handle, which notes how and where the goal was ended."""
 
-    def __init__(self, robot: PaperRobot) -> None:
+    def __init__(self, robot: ToyRobot) -> None:
         self.request = ahead(GOAL)
         self.is_cancel_requested = False
         self.is_active = True
