@@ -65,9 +65,9 @@ def measures_after_settling() -> str:
     """Walk a toy robot half a metre; somebody pushes it back when it stops."""
     (seen,) = _trial("settles")
     returned, ended = seen["returned"], seen["ended"]
-    if "had not arrived" in returned:
+    if "had not ended" in returned:
         raise not_yet(
-            "the robot went to and fro and never ended the goal",
+            "the loop goes round and round and never ends the goal",
             "SUCCEEDED as soon as it stands within TOLERANCE",
             "compare the absolute value: abs(self.distance_left(goal_handle, start)) <= TOLERANCE",
         )

@@ -20,7 +20,9 @@ from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
 
 PUSHED_BACK = 0.3  # m, when it stops for the first time
+SLIDES = 0.06  # m ahead, each time it stops later
 MOST_COMMANDS = 150
+MOST_LOOKS = 1000  # at the distance
 PERIOD = 0.2  # s that a command lasts
 GOAL = 0.5  # m ahead
 
@@ -97,7 +99,9 @@ class ToyRobot:
         self._commands = 0
         self._stops = 0
         self._zeros = 0
-        node.cmd_vel = self
+        self._looks = 0
+        self._distance_left = node.distance_left
+        node.cmd_vel, node.distance_left = self, self._look
         node.pose, node.state = at(0.0), standing()
 
     @property
@@ -105,11 +109,17 @@ class ToyRobot:
         """Whether it has come to rest."""
         return bool(self._node.state.mode == RobotState.STANDING)
 
+    def _look(self, goal_handle: Any, start: Any) -> Any:
+        self._looks += 1
+        if self._looks > MOST_LOOKS:
+            raise RuntimeError(f"the goal had not ended after {MOST_LOOKS} looks at the distance")
+        return self._distance_left(goal_handle, start)
+
     def publish(self, command: Any) -> None:
         """Move for PERIOD, or come to rest after the second command to stop."""
         self._commands += 1
         if self._commands > MOST_COMMANDS:
-            raise RuntimeError("the robot had not arrived after 150 commands")
+            raise RuntimeError("the goal had not ended after 150 commands")
         x = self._node.pose.pose.position.x
         if command.linear.x:
             self._zeros = 0
@@ -118,7 +128,7 @@ class ToyRobot:
             return
         self._zeros += 1
         if self._zeros == 2 and not self.stands:
-            self._node.pose = at(x - (PUSHED_BACK if self._stops == 0 else 0.0))
+            self._node.pose = at(x - (PUSHED_BACK if self._stops == 0 else -SLIDES))
             self._node.state = standing()
             self._stops += 1
 

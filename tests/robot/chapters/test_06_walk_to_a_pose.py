@@ -151,7 +151,7 @@ RANGE = f"if not 0.0 < goal.target_pose.pose.position.x <= FARTHEST:\n    {REJEC
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        (STANDS + FRAME + RANGE + ACCEPT, "reject while self.state is None"),
+        (STANDS + FRAME + RANGE + ACCEPT, "reject while self.pose is None"),
         (DATA + FRAME + RANGE + ACCEPT, "a goal while the robot walks: ACCEPT"),
         (DATA + STANDS + RANGE + ACCEPT, "1 m in frame odom: ACCEPT"),
         (
@@ -212,7 +212,7 @@ END = "    result = self.result(start)\n    goal_handle.succeed()\n    return re
         ),
         (
             f"self.stand_still()\nif self.distance_left(goal_handle, start) == 0.0:\n{END}",
-            "never ended the goal",
+            "never ends the goal",
         ),
     ],
 )
