@@ -120,7 +120,7 @@ def test_one_level_too_few_ends_the_client_and_not_the_walk(chapter: Executed) -
 
 def seen(printed: str) -> list[int]:
     """The numbers of the feedback messages that the slow client saw."""
-    found = re.search(r"\d+ seen: ([\d ]+)", printed)
+    found = re.search(r"\d+ seen:([\d ]*)", printed)
     assert found
     return [int(number) for number in found[1].split()]
 
@@ -129,7 +129,7 @@ def test_a_slow_client_sees_the_newest_feedback_and_none_after_the_result(chapte
     while_it_works, after_the_result = seen(chapter.text("slow-run")), seen(chapter.text("slow-end"))
     assert 10 <= len(while_it_works) <= 20
     assert while_it_works[-10:] == list(range(41, 51))
-    assert 1 <= len(after_the_result) < 10
+    assert len(after_the_result) < 10
 
 
 def test_a_result_expires(chapter: Executed) -> None:
