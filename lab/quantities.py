@@ -37,6 +37,8 @@ def _heading(odometry: Any) -> float:
 
 
 QUANTITIES = {
+    "x": Quantity("odom", "m", 0.1, lambda odometry: odometry.pose.pose.position.x),
+    "y": Quantity("odom", "m", 0.1, lambda odometry: odometry.pose.pose.position.y),
     "speed": Quantity("odom", "m/s", 0.2, lambda odometry: odometry.twist.twist.linear.x),
     "turn rate": Quantity("odom", "rad/s", 0.2, lambda odometry: odometry.twist.twist.angular.z),
     "x": Quantity("odom", "m", 0.2, lambda odometry: odometry.pose.pose.position.x),

@@ -1,0 +1,188 @@
+"""Calls the callbacks of a student's walk server, without a robot: `walk_callbacks.py goals`, or `settles`.
+
+It prints a line of JSON for each goal that it tried.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import sys
+from importlib import import_module
+from typing import Any
+
+import rclpy
+from geometry_msgs.msg import PoseStamped
+from rclpy.utilities import remove_ros_args
+
+from humanoid_interfaces.action import WalkTo
+from humanoid_interfaces.msg import RobotState
+
+PUSHED_BACK = 0.3  # m, when it stops for the first time
+SLIDES = 0.06  # m ahead, each time it stops later
+MOST_COMMANDS = 150
+MOST_LOOKS = 1000  # at the distance
+PERIOD = 0.2  # s that a command lasts
+GOAL = 0.5  # m ahead
+
+
+def ahead(distance: float, frame: str = "base_link") -> Any:
+    """Return a goal so many metres ahead."""
+    goal = WalkTo.Goal()
+    goal.target_pose.header.frame_id = frame
+    goal.target_pose.pose.position.x = distance
+    return goal
+
+
+def standing(mode: int = RobotState.STANDING) -> Any:
+    """Return a state of the robot."""
+    return RobotState(mode=mode, motors_enabled=mode != RobotState.OFF)
+
+
+def at(x: float) -> Any:
+    """Return the pose of a robot so far along x."""
+    pose = PoseStamped()
+    pose.header.frame_id = "odom"
+    pose.pose.position.x = x
+    pose.pose.orientation.w = 1.0
+    return pose
+
+
+def goals() -> None:
+    """Ask the goal callback about goals and states."""
+    node = import_module("rejecting_walk").RejectingWalker()
+    cases = {
+        "1 m in base_link, while the robot stands": (at(0.0), standing(), ahead(1.0)),
+        "3 m in base_link, while the robot stands": (at(0.0), standing(), ahead(3.0)),
+        "a goal before the first odom": (None, standing(), ahead(1.0)),
+        "a goal before the first robot_state": (at(0.0), None, ahead(1.0)),
+        "a goal while the robot walks": (at(0.0), standing(RobotState.WALKING), ahead(1.0)),
+        "a goal while the robot lies on the floor": (at(0.0), standing(RobotState.FALLEN), ahead(1.0)),
+        "a goal while the motors are off": (at(0.0), standing(RobotState.OFF), ahead(1.0)),
+        "1 m in frame odom": (at(0.0), standing(), ahead(1.0, "odom")),
+        "1 m without a frame": (at(0.0), standing(), ahead(1.0, "")),
+        "-1 m": (at(0.0), standing(), ahead(-1.0)),
+        "0 m": (at(0.0), standing(), ahead(0.0)),
+        "3.5 m": (at(0.0), standing(), ahead(3.5)),
+        "NaN m": (at(0.0), standing(), ahead(math.nan)),
+    }
+    for case, (node.pose, node.state, goal) in cases.items():
+        tell(case=case, said=_called(lambda goal=goal: node.on_goal(goal)))
+
+
+def settles() -> None:
+    """Let execute walk a toy robot, which is pushed back when it stops for the first time."""
+    node = import_module("settled_walk").SettledWalker()
+    robot = ToyRobot(node)
+    handle = ToyHandle(robot)
+    returned = _called(lambda: node.execute(handle))
+    tell(returned=returned, ended=handle.ended, final=handle.final(node.pose), feedback=handle.feedback)
+
+
+def _called(function: Any) -> str:
+    """What a call returned, in words, or what it raised."""
+    try:
+        returned = function()
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
+    if isinstance(returned, WalkTo.Result):
+        return f"a result with final_pose {returned.final_pose.pose.position.x:.2f}"
+    return getattr(returned, "name", None) or repr(returned)
+
+
+class ToyRobot:
+    """Moves a node's pose as its commands say; takes the place of its publisher of cmd_vel."""
+
+    def __init__(self, node: Any) -> None:
+        self._node = node
+        self._commands = 0
+        self._stops = 0
+        self._zeros = 0
+        self._looks = 0
+        self._distance_left = node.distance_left
+        node.cmd_vel, node.distance_left = self, self._look
+        node.pose, node.state = at(0.0), standing()
+
+    @property
+    def stands(self) -> bool:
+        """Whether it has come to rest."""
+        return bool(self._node.state.mode == RobotState.STANDING)
+
+    def _look(self, goal_handle: Any, start: Any) -> Any:
+        self._looks += 1
+        if self._looks > MOST_LOOKS:
+            raise RuntimeError(f"the goal had not ended after {MOST_LOOKS} looks at the distance")
+        return self._distance_left(goal_handle, start)
+
+    def publish(self, command: Any) -> None:
+        """Move for PERIOD, or come to rest after the second command to stop."""
+        self._commands += 1
+        if self._commands > MOST_COMMANDS:
+            raise RuntimeError("the goal had not ended after 150 commands")
+        x = self._node.pose.pose.position.x
+        if command.linear.x:
+            self._zeros = 0
+            self._node.pose = at(x + PERIOD * command.linear.x)
+            self._node.state = standing(RobotState.WALKING)
+            return
+        self._zeros += 1
+        if self._zeros == 2 and not self.stands:
+            self._node.pose = at(x - (PUSHED_BACK if self._stops == 0 else -SLIDES))
+            self._node.state = standing()
+            self._stops += 1
+
+
+class ToyHandle:
+    """The goal handle, which notes how and where the goal was ended."""
+
+    def __init__(self, robot: ToyRobot) -> None:
+        self.request = ahead(GOAL)
+        self.is_cancel_requested = False
+        self.is_active = True
+        self.feedback = 0
+        self.ended: list[str] = []
+        self._robot = robot
+
+    def publish_feedback(self, _: Any) -> None:
+        """Count it."""
+        self.feedback += 1
+
+    def succeed(self) -> None:
+        """Note a success."""
+        self._end("succeed")
+
+    def abort(self) -> None:
+        """Note an abort."""
+        self._end("abort")
+
+    def canceled(self) -> None:
+        """Refuse: nobody asked for a cancel."""
+        raise RuntimeError("canceled() without a cancel request")
+
+    def final(self, pose: Any) -> float:
+        """Where the robot is, in m."""
+        return float(pose.pose.position.x)
+
+    def _end(self, how: str) -> None:
+        if self.ended:
+            raise RuntimeError(f"{how}() after {self.ended[0]}")
+        self.is_active = False
+        self.ended.extend([how, "standing" if self._robot.stands else "walking"])
+
+
+def tell(**what: Any) -> None:
+    """Print a line for the check."""
+    print(json.dumps(what), flush=True)
+
+
+def main() -> None:
+    """Run one trial."""
+    sys.path.insert(0, os.getcwd())
+    rclpy.init()
+    {"goals": goals, "settles": settles}[remove_ros_args()[1]]()
+    rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,290 @@
+"""Chapter 6 shows what it says."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+import pytest
+from execution import Executed, in_order
+from gap_trials import GapTrials
+
+CHAPTER = "06_walk_to_a_pose"
+
+
+@pytest.fixture
+def chapter(executed: Callable[[str], Executed]) -> Executed:
+    return executed(CHAPTER)
+
+
+def test_the_type_has_goal_result_and_feedback(chapter: Executed) -> None:
+    assert in_order(
+        chapter.text("show"), "PoseStamped target_pose", "---", "error_code", "---", "distance_remaining"
+    )
+
+
+def test_a_rejection_carries_no_reason(chapter: Executed) -> None:
+    assert chapter.text("reject-fields") == "{'accepted': 'boolean', 'stamp': 'builtin_interfaces/Time'}\n"
+    printed = chapter.text("reject-run")
+    assert printed.count("accepted False") == 3
+    assert "1.0 m in base_link: ABORTED (error_code 0, error_msg 'this server cannot walk yet'" in printed
+    assert in_order(
+        chapter.text("reject-cli"),
+        "/robot/go_ahead [humanoid_interfaces/action/WalkTo]",
+        "Action servers: 1",
+        "/robot/walker",
+        "Goal was rejected.",
+    )
+
+
+def test_a_goal_without_a_terminal_call_is_aborted(chapter: Executed) -> None:
+    printed = chapter.text("move-run")
+    steps = re.search(r"ABORTED \(error_code 0, error_msg '', .*total_steps (\d+)\)", printed)
+    assert steps
+    assert int(steps[1]) > 2
+    assert "Goal state not set, assuming aborted" in printed
+
+
+def claimed_and_stands(printed: str) -> tuple[float, float]:
+    """What a walk's result says and where the robot stands, m ahead."""
+    found = re.search(r"the result says ([\d.]+) m; the robot stands at ([\d.]+) m: STANDING", printed)
+    assert found
+    return float(found[1]), float(found[2])
+
+
+def test_a_success_in_mid_step_is_false_and_one_after_settling_is_true(chapter: Executed) -> None:
+    touched = chapter.text("touch-run")
+    assert "SUCCEEDED, and the robot is WALKING" in touched
+    claimed, stands = claimed_and_stands(touched)
+    assert claimed == pytest.approx(1.03, abs=0.05)
+    assert stands - claimed > 0.04
+    settled = chapter.text("settle-run")
+    assert "SUCCEEDED, and the robot is STANDING" in settled
+    claimed, stands = claimed_and_stands(settled)
+    assert stands == pytest.approx(claimed, abs=0.025)
+    assert stands == pytest.approx(1.0, abs=0.13)
+
+
+def test_the_sway_is_plotted_with_the_end_of_the_goal(chapter: Executed) -> None:
+    for cell in ("touch-plot", "settle-plot"):
+        html = chapter.html(cell)
+        assert all(part in html for part in ("x, m", "y, m", "speed, m/s", "the goal", "result: SUCCEEDED"))
+    assert in_order(_words(chapter.html("touch-plot")), "result: SUCCEEDED", "WALKING → STANDING")
+    assert in_order(_words(chapter.html("settle-plot")), "WALKING → STANDING", "result: SUCCEEDED")
+
+
+def test_the_button_walks_and_feedback_ends_before_the_arrival(chapter: Executed) -> None:
+    printed = chapter.text("feedback-code")
+    found = re.search(r"SUCCEEDED after (\d+) feedback messages; the last said ([\d.]+) m", printed)
+    assert found
+    assert 15 <= int(found[1]) <= 60
+    assert float(found[2]) > 0.0
+    assert in_order(
+        chapter.text("feedback-cli"), "Goal accepted", "distance_remaining: 0.", "total_steps", "SUCCEEDED"
+    )
+
+
+def test_a_fall_is_seen_by_nobody_until_the_loop_looks(chapter: Executed) -> None:
+    assert re.match(r"FALLEN \| EXECUTING \| ([\d.]+ m) \1 \1\n", chapter.text("fall-break"))
+    assert "ABORTED (error_code 1, error_msg 'the robot fell on the way'" in chapter.text("whole-run")
+    assert in_order(chapter.html("whole-draw"), "get_result", "feedback", "ABORTED")
+
+
+def test_the_client_without_a_status_takes_a_fall_for_an_arrival(chapter: Executed) -> None:
+    assert in_order(
+        chapter.text("hopeful-well"),
+        "<hopeful.py: exit status 0",
+        "m left",
+        "arrived, with",
+        "<hopeful.py: exit status 2",
+        "go_ahead rejects the goal",
+    )
+    printed = chapter.text("hopeful-run")
+    assert in_order(printed, "<hopeful.py: exit status 0", "arrived, with", "robot: FALLEN")
+    assert in_order(
+        chapter.text("follow-run"), "<follow.py: exit status 3", "status 6: the robot fell on the way"
+    )
+
+
+def test_one_level_too_few_ends_the_client_and_not_the_walk(chapter: Executed) -> None:
+    printed = chapter.text("field-run")
+    assert in_order(
+        printed,
+        "<one_level.py: exit status 1",
+        "AttributeError: 'WalkTo_FeedbackMessage' object has no attribute 'distance_remaining'",
+        "robot: WALKING",
+        "robot: STANDING after",
+        "for nobody",
+    )
+
+
+def seen(printed: str) -> list[int]:
+    """The numbers of the feedback messages that the slow client saw."""
+    found = re.search(r"\d+ seen:([\d ]*)", printed)
+    assert found
+    return [int(number) for number in found[1].split()]
+
+
+def test_a_slow_client_sees_the_newest_feedback_and_none_after_the_result(chapter: Executed) -> None:
+    while_it_works, after_the_result = seen(chapter.text("slow-run")), seen(chapter.text("slow-end"))
+    assert 10 <= len(while_it_works) <= 20
+    assert while_it_works[-10:] == list(range(41, 51))
+    assert len(after_the_result) < 10
+
+
+def test_a_result_expires(chapter: Executed) -> None:
+    printed = chapter.text("late-run")
+    assert re.search(
+        r"after 0\.5 s: .*\n    status topic: 4\n    result: status 4, [1-9]\d* steps\n", printed
+    )
+    assert re.search(r"after 4\.0 s: .*\n    status topic: 4\n    result: status 0, 0 steps\n", printed)
+
+
+ACCEPT = "return GoalResponse.ACCEPT"
+REJECT = "return GoalResponse.REJECT"
+DATA = f"if self.pose is None or self.state is None:\n    {REJECT}\n"
+STANDS = f"if self.state.mode != RobotState.STANDING:\n    {REJECT}\n"
+FRAME = f"if goal.target_pose.header.frame_id != 'base_link':\n    {REJECT}\n"
+RANGE = f"if not 0.0 < goal.target_pose.pose.position.x <= FARTHEST:\n    {REJECT}\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (STANDS + FRAME + RANGE + ACCEPT, "reject while self.pose is None"),
+        (DATA + FRAME + RANGE + ACCEPT, "a goal while the robot walks: ACCEPT"),
+        (DATA + STANDS + RANGE + ACCEPT, "1 m in frame odom: ACCEPT"),
+        (
+            DATA
+            + STANDS
+            + f"if goal.target_pose.header.frame_id == 'odom':\n    {REJECT}\n"
+            + RANGE
+            + ACCEPT,
+            "an empty frame is not",
+        ),
+        (
+            DATA
+            + STANDS
+            + FRAME
+            + f"x = goal.target_pose.pose.position.x\nif x <= 0.0 or x > FARTHEST:\n    {REJECT}\n{ACCEPT}",
+            "NaN m: ACCEPT",
+        ),
+        (
+            DATA + STANDS + FRAME + RANGE.replace("<= FARTHEST", "< FARTHEST") + ACCEPT,
+            "FARTHEST itself is still allowed",
+        ),
+        (DATA + STANDS + FRAME + RANGE, "the callback returned nothing"),
+        (DATA + STANDS + FRAME + RANGE + "return True", "the callback returned True"),
+        (DATA + STANDS + "if goal.frame_id != 'base_link':\n    " + REJECT, "AttributeError"),
+    ],
+)
+def test_the_gap_of_the_goal_callback_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("rejecting_walk.py", lines)
+
+
+LEFT = "abs(self.distance_left(goal_handle, start)) <= TOLERANCE"
+END = "    result = self.result(start)\n    goal_handle.succeed()\n    return result"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (f"if {LEFT}:\n{END}", "SUCCEEDED while the robot was in mid-step"),
+        (f"near = {LEFT}\nself.stand_still()\nif near:\n{END}", "SUCCEEDED where the robot stands, 0."),
+        (
+            "self.stand_still()\nresult = self.result(start)\ngoal_handle.succeed()\nreturn result",
+            "more than 0.10 m",
+        ),
+        (f"self.stand_still()\nif {LEFT}:\n    return self.result(start)", "without a terminal call"),
+        (
+            f"self.stand_still()\nif {LEFT}:\n    goal_handle.succeed()",
+            "return the result right after the terminal call",
+        ),
+        (
+            f"self.stand_still()\nif {LEFT}:\n    goal_handle.succeed()\n    return",
+            "end with `return result`",
+        ),
+        (f"self.stand_still()\nif {LEFT}:\n{END}\ngoal_handle.abort()\nreturn", "the goal was aborted"),
+        (
+            f"result = self.result(start)\nself.stand_still()\nif {LEFT}:\n"
+            "    goal_handle.succeed()\n    return result",
+            "call self.result(start) after stand_still()",
+        ),
+        (
+            f"self.stand_still()\nif self.distance_left(goal_handle, start) == 0.0:\n{END}",
+            "never ends the goal",
+        ),
+    ],
+)
+def test_the_gap_of_settling_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("settled_walk.py", lines)
+
+
+FAILED = "print(response.result.error_msg, file=sys.stderr)\n"
+STEPS = "print(response.result.total_steps)\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (STEPS + "return 0", "ABORTED, and the client ended with exit status 0"),
+        (
+            STEPS + f"if response.status != GoalStatus.STATUS_SUCCEEDED:\n    {FAILED}    return 3\nreturn 0",
+            "look at the status before you print",
+        ),
+        (
+            f"if response.status != GoalStatus.STATUS_SUCCEEDED:\n    return 3\n{STEPS}return 0",
+            "a line on stderr with the server's error_msg",
+        ),
+        (
+            f"if response.status != GoalStatus.STATUS_SUCCEEDED:\n    {FAILED}    return 1\n{STEPS}return 0",
+            "exit status 1",
+        ),
+        (f"if response.result.error_code:\n    {FAILED}    return 3\nreturn 0", "a line with the result's"),
+        (f"if response.error_code:\n    {FAILED}    return 3\n{STEPS}return 0", "AttributeError"),
+        (
+            f"if response.status == GoalStatus.STATUS_SUCCEEDED:\n    {FAILED}    return 3\n{STEPS}return 0",
+            "ABORTED, and the client ended with exit status 0",
+        ),
+    ],
+)
+def test_the_gap_of_the_status_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("follow.py", lines)
+
+
+@pytest.mark.parametrize(
+    ("file", "lines"),
+    [
+        (
+            "rejecting_walk.py",
+            "import math\nx = goal.target_pose.pose.position.x\n"
+            "if None in (self.pose, self.state) or self.state.mode in (0, 2, 3):\n    return GoalResponse(1)\n"
+            "if goal.target_pose.header.frame_id != 'base_link' or not math.isfinite(x) or x <= 0 or x > FARTHEST:\n"
+            f"    {REJECT}\n{ACCEPT}",
+        ),
+        (
+            "settled_walk.py",
+            "while self.state.mode == 2:\n    self.walk(0.0)\n    time.sleep(0.1)\n"
+            "if -TOLERANCE <= self.distance_left(goal_handle, start) <= TOLERANCE:\n"
+            "    goal_handle.succeed()\n    return self.result(start)",
+        ),
+        (
+            "settled_walk.py",
+            f"self.stand_still()\ntime.sleep(0.5)\nif not {LEFT}:\n    continue\n{END.replace('    ', '')}",
+        ),
+        (
+            "follow.py",
+            "result = response.result\nif response.status == 4:\n    print('steps:', result.total_steps)\n"
+            "    return 0\nsys.stderr.write(f'aborted: {result.error_msg}\\n')\nreturn 3",
+        ),
+    ],
+)
+def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+    assert f"✓ {file}" in gaps.accept(file, lines)
+
+
+def _words(html: str) -> str:
+    """The description of a picture, in words."""
+    found = re.search(r"<desc>(.*?)</desc>", html, re.DOTALL)
+    assert found
+    return found[1]
