@@ -25,7 +25,8 @@ NO_THREAD = "awaiting, on no thread"
 COLOURS = (BLUE, VERMILION, "#007A5E", "#8A4F7D", GREY)
 TIME = "s since the first line (system clock)"
 _LINE = re.compile(
-    r"^(?P<time>\d+\.\d+) (?P<thread>\S+) (?P<callback>\S+) (?P<verb>begins|awaits|resumes|ends)$", re.MULTILINE
+    r"^(?P<time>\d+\.\d+) (?P<thread>\S+) (?P<callback>\S+) (?P<verb>begins|awaits|resumes|ends)$",
+    re.MULTILINE,
 )
 
 
@@ -119,7 +120,9 @@ def spans_of(steps: Iterable[Step], until: float) -> list[Span]:
             running[key] = step.time
     spans += [Span(thread, name, begin, until, is_over=False) for (thread, name), begin in running.items()]
     spans += [
-        Span(NO_THREAD, name, begin, until, is_over=False) for name, begins in awaiting.items() for begin in begins
+        Span(NO_THREAD, name, begin, until, is_over=False)
+        for name, begins in awaiting.items()
+        for begin in begins
     ]
     return sorted(spans, key=lambda span: span.begin)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -159,10 +160,12 @@ def _where_am_i() -> Iterator[None]:
 
 
 def _complaint(node: StudentNode) -> str:
-    """Return the last line of the log of a node that has ended, to put behind what was seen."""
+    """Return the last error in the log of a node that has ended, to put behind what was seen."""
     if node.is_running:
         return ""
-    return f"; the node has ended: {(node.log().strip().splitlines() or ['it printed nothing'])[-1]}"
+    lines = node.log().strip().splitlines() or ["it printed nothing"]
+    errors = [line for line in lines if re.match(r"[\w.]*(Error|Exception)\b", line)]
+    return f"; the node has ended: {(errors or lines)[-1]}"
 
 
 GAPS = (

@@ -14,7 +14,10 @@ from lab.thread_plot import NO_THREAD, Span, draw_threads, read_steps, spans_of
 
 def node(log: str, ended: float | None = 20.0) -> Any:
     return SimpleNamespace(
-        file=Path("scout.py"), log=lambda: log, life=lambda: SimpleNamespace(ended=ended), is_running=ended is None
+        file=Path("scout.py"),
+        log=lambda: log,
+        life=lambda: SimpleNamespace(ended=ended),
+        is_running=ended is None,
     )
 
 
@@ -44,7 +47,9 @@ def test_what_never_ends_lasts_until_the_end(verb: str, lane: str) -> None:
 
 
 def test_the_picture_is_told_in_words() -> None:
-    beats = "".join(f"{10 + n}.0 MainThread beat begins\n{10 + n}.001 MainThread beat ends\n" for n in (0, 1, 5))
+    beats = "".join(
+        f"{10 + n}.0 MainThread beat begins\n{10 + n}.001 MainThread beat ends\n" for n in (0, 1, 5)
+    )
     drawn = draw_threads(node(beats + "12.0 MainThread look begins\n"), title="One thread").data
     assert "<svg" in drawn or "<img" in drawn
     for told in (

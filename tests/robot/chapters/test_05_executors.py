@@ -54,7 +54,9 @@ def test_the_drawn_threads_are_those_of_the_run(chapter: Executed) -> None:
     assert re.search(r"ThreadPoolExecutor-\d_\d: (beat.*; )?look_around from", groups)
     assert re.search(r"Longest time from one beat to the next: 0\.[12]\d s", groups)
     awaited = chapter.html("await-run")
-    assert in_order(awaited, "MainThread: beat", "look_around from", "awaiting, on no thread: look_around from")
+    assert in_order(
+        awaited, "MainThread: beat", "look_around from", "awaiting, on no thread: look_around from"
+    )
 
 
 def test_the_command_line_measures_the_same_gap(chapter: Executed) -> None:
@@ -65,7 +67,10 @@ def test_the_command_line_measures_the_same_gap(chapter: Executed) -> None:
 
 def test_asyncio_has_no_event_loop_here(chapter: Executed) -> None:
     assert in_order(
-        chapter.text("m3-asyncio"), "no answer", "ended with exit status 1", "RuntimeError: no running event loop"
+        chapter.text("m3-asyncio"),
+        "no answer",
+        "ended with exit status 1",
+        "RuntimeError: no running event loop",
     )
 
 
@@ -99,7 +104,10 @@ def test_the_clock_itself_waits_for_a_coroutine_in_the_default_group(chapter: Ex
     assert in_order(
         chapter.text("m18-fix"),
         *("awaiting.py, paused: no answer", "awaiting.py, six seconds later: look_around has ended: False"),
-        *("on_sim_time.py, paused: no answer", "on_sim_time.py, six seconds later: look_around has ended: True"),
+        *(
+            "on_sim_time.py, paused: no answer",
+            "on_sim_time.py, six seconds later: look_around has ended: True",
+        ),
     )
     moved = re.findall(r"moved by ([\d.]+) rad", chapter.text("m18-fix"))
     assert all(float(angle) > 0.4 for angle in moved)
