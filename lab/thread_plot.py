@@ -84,6 +84,7 @@ def draw_threads(node: StudentNode, *, title: str = "Which callback ran on which
         axis.set_yticks([row + 0.5 for row in range(len(lanes))], lanes)
         axis.tick_params(axis="y", length=0)
         axis.grid(axis="y", visible=False)
+        axis.set_axisbelow(True)
         axis.set_xlabel(TIME)
         for span in spans:
             _draw(axis, span, lanes.index(span.lane), zero, colours[span.callback])

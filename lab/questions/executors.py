@@ -63,7 +63,7 @@ PREDICTIONS = (
             ),
             Choice(
                 "There are no heartbeats at all: rclpy refuses async callbacks.",
-                "A sensible guess, if you know libraries that do. But rclpy takes coroutines as callbacks. It runs "
+                "A sensible guess: some libraries do. But rclpy takes coroutines as callbacks. It runs "
                 "them until they await, and this one never does.",
             ),
         ),
@@ -84,7 +84,7 @@ PREDICTIONS = (
             ),
             Choice(
                 "An exception: rclpy sees the deadlock.",
-                "A sensible wish. But rclpy can't know that you wait for a response that is kept out by your own "
+                "A sensible guess: it would help a lot. But rclpy can't know that you wait for a response that is kept out by your own "
                 "callback. Nothing is printed.",
             ),
         ),
