@@ -84,8 +84,8 @@ PREDICTIONS = (
             ),
             Choice(
                 "An exception: rclpy sees the deadlock.",
-                "A sensible guess: it would help a lot. But rclpy can't know that you wait for a response that is kept out by your own "
-                "callback. Nothing is printed.",
+                "A sensible guess: it would help a lot. But rclpy can't know that you wait for a response that "
+                "is kept out by your own callback. Nothing is printed.",
             ),
         ),
     ),
