@@ -46,6 +46,7 @@ from lab.robot import restart_robot, start_robot, stop_robot
 from lab.services import call, service_is_ready
 from lab.session import stop_everything
 from lab.student_nodes import StudentNode, run_node, stop_nodes
+from lab.thread_plot import draw_threads
 from lab.timeline import draw_timeline
 from lab.topics import Pose, battery, mode, odometry, pose, robot_state
 from lab.waiting import wait_until
@@ -75,6 +76,7 @@ __all__ = [
     "describe",
     "draw_graph",
     "draw_sequence",
+    "draw_threads",
     "draw_timeline",
     "export_package",
     "film_robot",

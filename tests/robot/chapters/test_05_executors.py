@@ -1,0 +1,208 @@
+"""Chapter 5 shows what it says."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+import pytest
+from execution import Executed, in_order
+from gap_trials import GapTrials
+
+CHAPTER = "05_executors"
+LONG, SHORT = 2.8, 1.0  # s: a heartbeat that waits for look_around, and one that doesn't
+
+
+@pytest.fixture
+def chapter(executed: Callable[[str], Executed]) -> Executed:
+    return executed(CHAPTER)
+
+
+def gap_in(text: str) -> float:
+    found = re.search(r"longest gap between two heartbeats ([\d.]+) s", text)
+    assert found, text
+    return float(found[1])
+
+
+@pytest.mark.parametrize("cell", ["one-run", "threads-run", "m3-run"])
+def test_a_sleep_stops_the_heartbeat_on_one_thread_in_one_group_and_in_a_coroutine(
+    chapter: Executed, cell: str
+) -> None:
+    assert "looked left and right" in chapter.text(cell)
+    assert gap_in(chapter.text(cell)) > LONG
+
+
+@pytest.mark.parametrize("cell", ["groups-run", "await-run"])
+def test_groups_or_an_await_keep_it_punctual(chapter: Executed, cell: str) -> None:
+    assert "looked left and right" in chapter.text(cell)
+    assert gap_in(chapter.text(cell)) < SHORT
+
+
+def test_the_robot_stops_while_the_only_thread_sleeps_and_walks_on_with_two_groups(chapter: Executed) -> None:
+    for cell, starts in (("one-run", 2), ("groups-run", 1)):
+        words = re.search(r'alt="([^"]+)"', chapter.html(cell))
+        assert words
+        assert words[1].count("→ WALKING") == starts, words[1]
+
+
+def test_the_drawn_threads_are_those_of_the_run(chapter: Executed) -> None:
+    one = chapter.html("one-draw")
+    assert re.search(r"MainThread: beat \d+ times; look_around from [\d.]+ s to [\d.]+ s\.", one)
+    assert "ThreadPoolExecutor" not in one
+    assert re.search(r"Longest time from one beat to the next: 3\.\d\d s", one)
+    assert re.search(r"Longest time from one beat to the next: 3\.\d\d s", chapter.html("threads-run"))
+    groups = chapter.html("groups-draw")
+    assert re.search(r"ThreadPoolExecutor-\d_\d: (beat.*; )?look_around from", groups)
+    assert re.search(r"Longest time from one beat to the next: 0\.\d\d s", groups)
+    awaited = chapter.html("await-run")
+    assert in_order(
+        awaited, "MainThread: beat", "look_around from", "awaiting, on no thread: look_around from"
+    )
+
+
+def test_the_command_line_measures_the_same_gap(chapter: Executed) -> None:
+    printed = chapter.text("one-hz")
+    assert max(float(longest) for longest in re.findall(r"max: ([\d.]+)s", printed)) > LONG
+    assert "looked left and right" in printed
+
+
+def test_asyncio_has_no_event_loop_here(chapter: Executed) -> None:
+    assert in_order(
+        chapter.text("m3-asyncio"),
+        "no answer",
+        "ended with exit status 1",
+        "RuntimeError: no running event loop",
+    )
+
+
+def test_a_call_in_a_callback_deadlocks_on_one_thread_and_on_four(chapter: Executed) -> None:
+    assert in_order(chapter.text("m4-run"), "1 thread(s): no answer", "4 thread(s): no answer")
+    assert re.search(r"on_request from [\d.]+ s on, without an end", chapter.html("m4-run"))
+
+
+def test_the_report_survives_its_partner(chapter: Executed) -> None:
+    assert in_order(
+        chapter.text("report-run"),
+        *("alone:", "success=False", "together:", "success=True, message='I am at x"),
+        *("killed:", "success=False", "restarted:"),
+    )
+
+
+def test_a_rate_that_nobody_spins_beats_once(chapter: Executed) -> None:
+    unspun, spun = re.findall(r"spun: (\d+) beats", chapter.text("m5-run"))
+    assert int(unspun) == 1
+    assert 20 <= int(spun) <= 50
+
+
+def test_under_a_paused_simulation_a_sleep_lies_and_a_timer_waits(chapter: Executed) -> None:
+    assert in_order(
+        chapter.text("m18-run"),
+        *("Boolean value is: True", "paused", "looked left and right", "moved by 0.00 rad", "running"),
+    )
+
+
+def test_the_clock_itself_waits_for_a_coroutine_in_the_default_group(chapter: Executed) -> None:
+    assert in_order(
+        chapter.text("m18-fix"),
+        *("awaiting.py, paused: no answer", "awaiting.py, six seconds later: look_around has ended: False"),
+        *(
+            "on_sim_time.py, paused: no answer",
+            "on_sim_time.py, six seconds later: look_around has ended: True",
+        ),
+    )
+    moved = re.findall(r"moved by ([\d.]+) rad", chapter.text("m18-fix"))
+    assert all(float(angle) > 0.4 for angle in moved)
+    assert len(moved) == 2
+
+
+def test_spinning_by_hand_beside_a_task_that_awaits_serves_nothing(chapter: Executed) -> None:
+    before, shrinks, constant = (
+        int(count) for count in re.findall(r": (\d+) messages", chapter.text("spin-run"))
+    )
+    assert before > 40
+    assert shrinks == 0
+    assert constant > 40
+
+
+GROUPS = "group = {}\nother = {}\nsuper().__init__(beat_group={}, look_group={})"
+EXCLUSIVE = "MutuallyExclusiveCallbackGroup()"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ("super().__init__()", "a gap of 3.0 s between two heartbeats"),
+        (GROUPS.format(EXCLUSIVE, EXCLUSIVE, "group", "group"), "one exclusive group for both"),
+        ("self.group = " + EXCLUSIVE, "ended at once with exit status 1"),
+        ("super().__init__(" + EXCLUSIVE + ")\nself.groups = 1 / 0", "ZeroDivisionError"),
+    ],
+)
+def test_the_gap_of_the_groups_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("two_groups.py", lines)
+
+
+WAIT = "future = Future()\ntimer = self.create_timer(seconds, {}{})\n{}\nself.destroy_timer(timer)"
+OWN, DONE = ", callback_group=self.waiting", "lambda: future.set_result(None)"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ("import time\ntime.sleep(seconds)", "what blocks keeps the only thread"),
+        ("import asyncio\nawait asyncio.sleep(seconds)", "asyncio's event loop doesn't run here"),
+        (WAIT.format(DONE, "", "await future"), "give the timer callback_group=self.waiting"),
+        (WAIT.format(DONE, OWN, "pass"), "await the future before you return"),
+        (WAIT.format("future.set_result", OWN, "await future"), "TypeError"),
+        ("await Future()", "let a timer complete the future"),
+    ],
+)
+def test_the_gap_of_the_wait_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("awaiting.py", lines)
+
+
+ASK = (
+    "future = self.client.call_async(Trigger.Request())\nlimit = self.create_timer(seconds, {}{})\n"
+    "position = {}\nself.destroy_timer(limit)\n{}"
+)
+ASKING, CANCEL, RETURN = ", callback_group=self.asking", "future.cancel", "return position"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ("return await self.client.call_async(Trigger.Request())", "let a timer call future.cancel"),
+        (ASK.format(CANCEL, "", "await future", RETURN), "give the timer callback_group=self.asking"),
+        ("return self.client.call(Trigger.Request())", "no report within 3 s"),
+        (ASK.format(CANCEL, ASKING, "await future", "return None"), "let ask() return what `await future`"),
+        (ASK.format(CANCEL, ASKING, "future.result()", RETURN), "let ask() return what `await future`"),
+        (ASK.format("self.client.cancel", ASKING, "await future", RETURN), "AttributeError"),
+    ],
+)
+def test_the_gap_of_the_question_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("report_fixed.py", lines)
+
+
+@pytest.mark.parametrize(
+    ("file", "lines"),
+    [
+        ("two_groups.py", "super().__init__(beat_group=MutuallyExclusiveCallbackGroup())"),
+        (
+            "two_groups.py",
+            "from rclpy.callback_groups import ReentrantCallbackGroup\n"
+            "both = ReentrantCallbackGroup()\nsuper().__init__(both, both)",
+        ),
+        (
+            "awaiting.py",
+            "done = Future()\n\n\ndef finish():\n    timer.cancel()\n    done.set_result(True)\n\n\n"
+            "timer = self.create_timer(seconds, finish, self.waiting)\nawait done",
+        ),
+        (
+            "report_fixed.py",
+            "future = self.client.call_async(Trigger.Request())\n"
+            "limit = self.create_timer(seconds, lambda: future.cancel(), callback_group=self.asking)\n"
+            "try:\n    return await future\nfinally:\n    limit.destroy()",
+        ),
+    ],
+)
+def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+    assert f"✓ {file}" in gaps.accept(file, lines)
