@@ -26,7 +26,17 @@ def markdown(name: str) -> str:
 
 
 def test_there_are_chapters() -> None:
-    assert [name.partition("_")[0] for name in NAMES] == ["01", "02", "03", "03b", "04", "05", "06", "07", "08"]
+    assert [name.partition("_")[0] for name in NAMES] == [
+        "01",
+        "02",
+        "03",
+        "03b",
+        "04",
+        "05",
+        "06",
+        "07",
+        "08",
+    ]
 
 
 @pytest.mark.parametrize("name", NAMES)
