@@ -31,8 +31,11 @@ def rows() -> list[list[str]]:
 
 
 @cache
-def cell_ids(chapter: str) -> set[str]:
-    return {cell.id for cell in nbformat.read(ROOT / f"chapters/{chapter}.ipynb", as_version=4).cells}
+def cell_ids(notebook: str) -> set[str]:
+    """The cells of a chapter, or of an exercise's notebook."""
+    chapter = ROOT / f"chapters/{notebook}.ipynb"
+    path = chapter if chapter.exists() else ROOT / f"exercises/{notebook}/{notebook}.ipynb"
+    return {cell.id for cell in nbformat.read(path, as_version=4).cells}
 
 
 @cache
@@ -41,13 +44,14 @@ def check_ids(exercise: str) -> set[str]:
 
 
 def require_proof(proof: str) -> None:
-    """A proof is CHAPTER#cell, exercise: check, test_file::test, or exercise/kind/submission."""
+    """A proof is CHAPTER#cell or exercise#cell, exercise: check, test_file::test, or exercise/kind/submission."""
     if "#" in proof:
-        chapter, cell = proof.split("#")
-        assert cell in cell_ids(chapter), proof
+        notebook, cell = proof.split("#")
+        assert cell in cell_ids(notebook), proof
     elif "::" in proof:
         file, test = proof.split("::")
-        assert f"def {test}(" in (ROOT / f"tests/robot/chapters/{file}.py").read_text(), proof
+        (path,) = ROOT.glob(f"tests/robot/*/{file}.py")
+        assert f"def {test}(" in path.read_text(), proof
     elif ": " in proof:
         exercise, check = proof.split(": ")
         assert check in check_ids(exercise), proof
