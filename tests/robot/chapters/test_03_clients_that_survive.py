@@ -171,3 +171,9 @@ def test_the_gap_of_the_deadline_asks_for_the_one_before_it(gaps: GapTrials) -> 
 def test_other_sound_lines_fill_the_gaps(gaps: GapTrials, file: str, lines: str) -> None:
     gaps.run(f"%%writefile ask_once.py\n{ONE_TRY}")
     assert f"✓ {file}" in gaps.accept(file, lines)
+
+
+def test_a_retry_is_drawn_on_a_time_line(chapter: Executed) -> None:
+    drawn = chapter.html("fix-draw")
+    assert "A retry" in drawn
+    assert in_order(drawn, "where_am_i.py", "ask.py")
