@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from html import escape
-
-from lab.question import Question
+from lab.question import Question, in_html
 
 
 def prediction(number: int, question: Question) -> str:
     """Return a prediction's question and choices, as HTML."""
     rows = "".join(
-        f"<li><b>{letter}</b> {escape(choice.text)}</li>" for letter, choice in question.by_letter().items()
+        f"<li><b>{letter}</b> {in_html(choice.text)}</li>" for letter, choice in question.by_letter().items()
     )
     return _box(f"Prediction {number}", f"{_words(question)}<ul>{rows}</ul>")
 
@@ -26,13 +24,13 @@ def quiz(number: int, question: Question) -> str:
 
 
 def _words(question: Question) -> str:
-    return f"<p>{escape(question.text)}</p>"
+    return f"<p>{in_html(question.text)}</p>"
 
 
 def _folded(question: Question, wrong: str) -> str:
     return "".join(
-        f"<details><summary><b>{letter}</b> {escape(choice.text)}</summary>"
-        f"<p>{'Right.' if choice.right else wrong} {escape(choice.why)}</p></details>"
+        f"<details><summary><b>{letter}</b> {in_html(choice.text)}</summary>"
+        f"<p>{'Right.' if choice.right else wrong} {in_html(choice.why)}</p></details>"
         for letter, choice in question.by_letter().items()
     )
 

@@ -17,6 +17,7 @@ from rclpy.signals import SignalHandlerOptions
 from lab.interaction_log import conversation
 from lab.network import join_ros_domain
 from lab.waiting import comes_true
+from ros_runtime.notebook_domains import expect_node, forget_node
 from ros_runtime.recorded_client.service_client import ServiceClient
 
 NAMESPACE = "/robot"
@@ -72,6 +73,7 @@ class Connection:
         self.node = Node(
             "notebook", namespace=NAMESPACE, context=self._context, start_parameter_services=False
         )
+        expect_node(self.node.get_fully_qualified_name())
         self._cache: dict[Hashable, Any] = {}
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
@@ -119,6 +121,7 @@ class Connection:
 
     def close(self) -> None:
         """Stop spinning and destroy the node."""
+        forget_node(self.node.get_fully_qualified_name())
         self._context.try_shutdown()
         self._executor.shutdown(timeout_sec=2.0)
         self._thread.join(2.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from html import escape
 from importlib import import_module
@@ -56,10 +57,10 @@ class Question:
     def text_under(self, title: str) -> HTML:
         """Show the question and its choices."""
         rows = "".join(
-            f"<li><b>{letter}</b> {escape(choice.text)}</li>" for letter, choice in self.by_letter().items()
+            f"<li><b>{letter}</b> {in_html(choice.text)}</li>" for letter, choice in self.by_letter().items()
         )
         return HTML(
-            f"<p><b>{escape(title)}.</b> {escape(self.text)}</p><ul style='list-style: none'>{rows}</ul>"
+            f"<p><b>{escape(title)}.</b> {in_html(self.text)}</p><ul style='list-style: none'>{rows}</ul>"
         )
 
     def buttons(self) -> ipywidgets.ToggleButtons:
@@ -70,6 +71,11 @@ class Question:
             value=None,
             style={"button_width": "3em"},
         )
+
+
+def in_html(text: str) -> str:
+    """Return a text as HTML, with what stands between backticks as code."""
+    return re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(text))
 
 
 def read_question(chapter: str, kind: str, number: int) -> Question:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from html import escape
-
 import ipywidgets
 from IPython.display import display
 
 from lab.kept_choices import keep_letter, kept_letter
-from lab.question import Question, read_question
+from lab.question import Question, in_html, read_question
 
 
 def quiz(chapter: str, number: int) -> Quiz:
@@ -54,7 +52,7 @@ class Quiz:
 
         def mark(change: dict) -> None:
             if change["new"]:
-                verdict.value = escape(self.mark(change["new"]))
+                verdict.value = in_html(self.mark(change["new"]))
                 keep_letter("questions", self.question, change["new"])
 
         buttons = self.question.buttons()

@@ -7,8 +7,10 @@ from lab.connection import NAMESPACE, connection
 from lab.errors import NoRobotError
 from lab.processes import Process
 from lab.waiting import comes_true
+from ros_runtime.notebook_domains import expect_node, forget_node
 
 START_TIMEOUT = 30.0  # s
+NODE = f"{NAMESPACE}/humanoid"
 
 _robot: Process | None = None
 
@@ -35,6 +37,7 @@ def start_robot(scene: str = "flat") -> None:
         raise NoRobotError(
             f"the robot ended with exit status {robot.exit_status}; it printed:\n{robot.output()}"
         )
+    expect_node(NODE)
     print(f"The robot is up in namespace {NAMESPACE}, ROS_DOMAIN_ID {domain_id}.")
 
 
@@ -57,6 +60,7 @@ def restart_robot(scene: str = "flat") -> None:
 def stop_robot() -> None:
     """End the robot's process."""
     global _robot
+    forget_node(NODE)
     if _robot is not None:
         _robot.stop()
         _robot = None

@@ -12,6 +12,7 @@ from lab.interaction_log import log
 from lab.life import Life
 from lab.processes import Process
 from lab.waiting import comes_true
+from ros_runtime.notebook_domains import expect_node, forget_node
 from ros_runtime.reachability import wait_until_reachable
 
 START_TIMEOUT = 10.0  # s
@@ -45,6 +46,8 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
                 wait_until_reachable(
                     connection().node, name, lambda: not node.is_running or time.monotonic() > deadline
                 )
+                node.names.append(name)
+                expect_node(name)
     if not node.is_running and node.exit_status != 0:
         raise NodeEndedError(
             f"{path.name} ended at once with exit status {node.exit_status}; it printed:\n{node.log()}"
@@ -91,11 +94,13 @@ class StudentNode:
 
     Attributes:
         file: its path.
+        names: the full names of its nodes.
         was_stopped: `stop()` or `kill()` was called.
     """
 
     def __init__(self, file: Path, process: Process) -> None:
         self.file = file
+        self.names: list[str] = []
         self.was_stopped = False
         self._process = process
 
@@ -119,6 +124,7 @@ class StudentNode:
 
     def stop(self) -> None:
         """Press Ctrl-C. If the node does not end within 3 s, kill it and say so."""
+        self._expect_no_more()
         if self.is_running:
             self.was_stopped = True
             if not self._process.stop():
@@ -127,7 +133,12 @@ class StudentNode:
     def kill(self) -> None:
         """End it as a crash or a power cut would: it cannot clean up or tell other nodes."""
         self.was_stopped = True
+        self._expect_no_more()
         self._process.kill()
+
+    def _expect_no_more(self) -> None:
+        for name in self.names:
+            forget_node(name)
 
     def __repr__(self) -> str:
         state = "running" if self.is_running else f"ended with exit status {self.exit_status}"

@@ -18,6 +18,7 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 
+from ros_runtime.notebook_domains import expected_nodes
 from ros_runtime.reachability import wait_until_reachable
 
 SPIN_TIME = 0.5  # s, as in ros2cli
@@ -54,6 +55,8 @@ class CommandNode:
 
     def __enter__(self) -> CommandNode:
         self._thread.start()
+        expected = set(expected_nodes())  # those of the notebook in whose cell the command was called
+        self.find(lambda: expected <= {*self.node_names(hidden=True)})
         return self
 
     def __exit__(self, *_: object) -> None:

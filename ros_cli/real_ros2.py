@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+from contextlib import suppress
 from pathlib import Path
 
 from ros_runtime.environment import uses_wheels
@@ -20,5 +21,12 @@ def real_ros2() -> str | None:
 
 
 def path_with_ros2(path: str) -> str:
-    """Return a PATH on which `ros2` is ours, which hands over to the real one in the lab's domain."""
+    """Return a PATH on which `ros2` is ours, which hands over to the real one in the lab's domain.
+
+    It is made executable where an archive has been unpacked by a tool that forgets that.
+    """
+    command = OURS / "ros2"
+    if not os.access(command, os.X_OK):
+        with suppress(OSError):  # not ours to change
+            command.chmod(0o755)
     return os.pathsep.join([str(OURS), *filter(None, path.split(os.pathsep))])

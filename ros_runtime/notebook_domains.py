@@ -13,6 +13,7 @@ from pathlib import Path
 from ros_runtime.ros_domain import is_reserved
 
 VARIABLE = "COURSE_NOTEBOOK_DOMAINS"
+EXPECTED = "COURSE_NOTEBOOK_NODES"  # in the environment of a notebook's cells: full names of nodes that run
 
 
 def lab_variables() -> dict[str, str]:
@@ -36,3 +37,18 @@ def latest() -> int | None:
     except (KeyError, FileNotFoundError):
         return None
     return next((int(domain) for domain in reversed(told) if is_reserved(int(domain))), None)
+
+
+def expect_node(name: str) -> None:
+    """Tell the ros2 commands in this notebook's cells that a node runs: they wait until they see it."""
+    os.environ[EXPECTED] = " ".join(sorted({*expected_nodes(), name}))
+
+
+def forget_node(name: str) -> None:
+    """Tell them that it runs no more."""
+    os.environ[EXPECTED] = " ".join(sorted({*expected_nodes()} - {name}))
+
+
+def expected_nodes() -> list[str]:
+    """Return the full names of the nodes that the calling notebook says are running."""
+    return os.environ.get(EXPECTED, "").split()

@@ -50,7 +50,7 @@ def _what_is_deaf(run: Record, topic: str) -> Remedy | None:
         return Remedy(
             f"You subscribe to {topic}, but the robot's messages do not match: compare the type, and ask for no more "
             "than the robot's QoS offers (qos_profile_sensor_data for its sensors).",
-            "01_robot_and_graph#senses-fix-intro",
+            "01_robot_and_graph#qos-fix-intro",
         )
     others = ", ".join(map(_shown, topics.subscribes))
     return Remedy(

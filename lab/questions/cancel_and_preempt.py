@@ -114,6 +114,28 @@ QUESTIONS = (
             ),
         ),
     ),
+    Question(
+        "Where does an action server say that the robot has 0.4 m left, and where that it ended at x = 0.97 m?",
+        (
+            Choice(
+                "Both in the feedback, which goes on after the end.",
+                "Feedback is for the way. A client that connects late never sees it, and after the end none comes.",
+            ),
+            Choice(
+                "0.4 m in the feedback while the goal is executing, 0.97 m in the result.",
+                "Feedback says how it goes, again and again. The result comes once, with the status, when it is over.",
+                right=True,
+            ),
+            Choice(
+                "Both in the result, which the client asks for again and again.",
+                "A request for the result is answered once, at the end. Until then only feedback speaks.",
+            ),
+            Choice(
+                "0.4 m in the goal's answer, 0.97 m in the feedback.",
+                "The answer to a goal holds `accepted` and a time stamp. There is no room for anything else.",
+            ),
+        ),
+    ),
 )
 
 PREDICTIONS = (

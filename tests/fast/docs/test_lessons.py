@@ -12,6 +12,7 @@ from autograder.authoring.checks import Failure, Scenario, check
 from autograder.authoring.transcript import Transcript
 from autograder.engine.exercise import exercise_names, exercises_folder, load_exercise
 from autograder.engine.judging import judge
+from ros_runtime.project import PROJECT
 
 WHOLE = [ev.NodeStarted(t=0.0), ev.NodeReady(t=0.1, waited=0.1), ev.ScenarioEnded(t=3.0)]
 
@@ -27,6 +28,13 @@ def lessons_of(exercise: str) -> list[str]:
 def test_every_lesson_that_an_exercise_points_to_is_there(exercise: str) -> None:
     assert lessons_of(exercise)
     assert [see for see in lessons_of(exercise) if not lesson.is_there(see)] == []
+
+
+def test_every_lesson_that_the_engine_itself_points_to_is_there() -> None:
+    modules = (PROJECT / "autograder").rglob("*.py")
+    named = {see for module in modules for see in re.findall(r'"(\d\d\w?_\w+#[\w-]+)"', module.read_text())}
+    assert len(named) > 5
+    assert [see for see in sorted(named) if not lesson.is_there(see)] == []
 
 
 @pytest.mark.parametrize("see", ["02_services#no-such-cell", "99_nothing#title", "02_services"])

@@ -59,6 +59,11 @@ def test_an_answer_is_kept_whether_written_or_clicked() -> None:
     assert Quiz("Question 1", EXAMPLE)._buttons().children[0].value == "a"
 
 
+def test_code_in_a_question_is_shown_as_code() -> None:
+    question = Question("What does `a < b` do?", EXAMPLE.choices)
+    assert "<code>a &lt; b</code>" in question.text_under("Question 1").data
+
+
 def test_a_question_has_one_right_choice() -> None:
     with pytest.raises(ValueError, match="exactly one right choice"):
         Question("?", (Choice("a", "why"), Choice("b", "why")))

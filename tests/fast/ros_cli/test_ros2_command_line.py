@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -124,3 +125,12 @@ def test_without_a_real_ros2_ours_is_used(monkeypatch: pytest.MonkeyPatch, tmp_p
     monkeypatch.setenv("PATH", real_ros2.path_with_ros2(str(tmp_path)))
     monkeypatch.setattr(real_ros2, "uses_wheels", lambda: False)
     assert real_ros2.real_ros2() is None
+
+
+def test_the_command_is_executable_after_an_archive_has_lost_that(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "ros2").write_text("#!/bin/sh\n")
+    monkeypatch.setattr(real_ros2, "OURS", tmp_path)
+    assert real_ros2.path_with_ros2("/usr/bin") == f"{tmp_path}{os.pathsep}/usr/bin"
+    assert os.access(tmp_path / "ros2", os.X_OK)

