@@ -45,7 +45,7 @@ def test_hints_are_folded_and_a_stretch_task_comes_after_the_self_check(exercise
 @pytest.mark.parametrize("exercise", LADDERS)
 def test_the_ladder_of_a_walk_names_every_visible_check_once(exercise: str) -> None:
     solution = cells_of(exercise)["solution"]
-    ladder = solution[solution.index("# The ladder.") : solution.index("def __init__")]
+    ladder = solution[solution.index("# The ladder.") :].partition("def __init__")[0]
     steps = re.findall(r"\[([\w, ]+)\]", re.sub(r"\n *# *", " ", ladder))
     named = [check for step in steps for check in step.split(", ")]
     visible = {check.id for check in load_exercise(exercise, hidden=False).checks}
