@@ -21,6 +21,7 @@ from autograder.arena.scripted_events import (
     MessagePublished,
     ReplySent,
     RequestReceived,
+    ResultForgotten,
     ResultRequested,
     ResultSent,
     ServiceOffered,
@@ -236,7 +237,7 @@ _EVENTS: list[type[Event]] = [
         CancelReceived,
         CancelReplySent,
     ),
-    *(GoalFinished, ResultRequested, ResultSent),
+    *(GoalFinished, ResultRequested, ResultSent, ResultForgotten),
     *(WokenLate, Starved, Mark, PhaseEnded, ScenarioEnded, ScenarioFailed),
     *(RecordDropped, GraphFlooded, CommandSent),
 ]

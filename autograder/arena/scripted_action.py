@@ -61,6 +61,8 @@ class GoalScript:
         status: how it ends, of action_msgs/GoalStatus.
         result: the action's Result; None: an empty one.
         result_after: from the goal's end to the answer to a request for its result; None: there is no answer.
+        kept_for: from the goal's end until the server forgets it with its result (rclpy's result_timeout): whoever asks
+            later is told the status UNKNOWN. None: it never forgets.
         cancel: what a request to cancel it brings about.
     """
 
@@ -73,6 +75,7 @@ class GoalScript:
     status: int = GoalStatus.STATUS_SUCCEEDED
     result: Any = None
     result_after: float | None = 0.0
+    kept_for: float | None = None
     cancel: CancelScript = field(default_factory=CancelScript)
 
 
@@ -178,10 +181,13 @@ class ScriptedAction:
         return response
 
     async def _on_result_request(self, request: Any, response: Any) -> Any:
-        goal = self._goals.get(bytes(request.goal_id.uuid))
-        if goal is None or not self._log.admits(ev.ResultRequested.kind, goal.name):
+        goal_id = bytes(request.goal_id.uuid)
+        name, goal = self._names.get(goal_id), self._goals.get(goal_id)
+        if name is None or not self._log.admits(ev.ResultRequested.kind, name):
             return response  # its status is UNKNOWN, as rclpy answers
-        self._log.append(ev.ResultRequested(goal=goal.name))
+        self._log.append(ev.ResultRequested(goal=name))
+        if goal is None:
+            return response
         await goal.finished
         delay = goal.script.result_after
         if delay is None:
@@ -258,6 +264,15 @@ class ScriptedAction:
         self._log.append(ev.GoalFinished(goal=goal.name, status=status, result=goal.result))
         self._publish_statuses()
         goal.finished.set_result(None)
+        if goal.script.kept_for is not None:
+            self._do(self._forget, goal)
+
+    async def _forget(self, goal: _Goal) -> None:
+        await pause(self._node, goal.script.kept_for or 0.0)
+        if not self._withdrawn:
+            del self._goals[bytes(goal.info.goal_id.uuid)]
+            self._log.append(ev.ResultForgotten(goal=goal.name))
+            self._publish_statuses()
 
     def _do(self, task: Callable[[_Goal], Any], goal: _Goal) -> None:
         executor = self._node.executor

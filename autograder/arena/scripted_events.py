@@ -138,3 +138,10 @@ class ResultSent(Event):
     """A scripted action answered a request for a result."""
 
     goal: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class ResultForgotten(Event):
+    """A scripted action kept a result long enough, and has it no more."""
+
+    goal: str

@@ -85,6 +85,8 @@ def _arrow(event: object) -> Arrow | None:
             return Arrow(t, SERVER, SERVER, f"“{goal}” ends {name_of(GoalStatus, status)}")
         case ev.ResultSent(t=t, goal=goal):
             return Arrow(t, SERVER, CLIENT, f"result “{goal}”", "answer")
+        case ev.ResultForgotten(t=t, goal=goal):
+            return Arrow(t, SERVER, SERVER, f"forgets the result of “{goal}”")
         case ev.ServiceWithdrawn(t=t, service=name) | ev.ActionWithdrawn(t=t, action=name):
             return Arrow(t, SERVER, SERVER, f"the server of {name} dies")
         case ev.MessagePublished(t=t, topic=topic):

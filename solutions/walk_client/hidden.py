@@ -69,6 +69,7 @@ EARLY = program("early_feedback", lambda generator: {"distance": round(generator
 BY_ANOTHER = program("canceled_by_another")
 NO_CODE = program("aborting", {"error_code": 0, "error_msg": ""})
 WITH_WORDS = program("succeeding_with_words", {"final": [0.97, 0.52, 0.31]})
+FORGETFUL = program("forgetful", {"kept_for": 1.0, "final": [0.97, 0.52, 0.31]})
 NEVER_CANCELED = program("interrupted", {"ends_after": None})
 
 
@@ -172,6 +173,24 @@ def believes_the_status(aborted: Transcript, succeeded: Transcript) -> None:
     require_goal_finished(aborted, goal, GoalStatus.STATUS_ABORTED)
     require_failure(aborted, WITHIN, ABORTED, because="the status is ABORTED", help=STATUS_HELP)
     require_success(succeeded, require_one_goal(succeeded, WALK), WITHIN)
+
+
+@check(points=1, on=FORGETFUL, needs=says_how_it_succeeded, see="06_walk_to_a_pose#late-why")
+def asks_for_the_result_in_time(run: Transcript) -> None:
+    """A server that keeps a result for 1 s is asked for it before"""
+    goal = require_one_goal(run, WALK)
+    forgotten = run.first(ev.ResultForgotten)
+    if forgotten is None:
+        raise unseen(run, "the server did not forget the result")
+    asked = goal.result_requested
+    expect(
+        asked is not None and asked.t < forgotten.t,
+        expected=f"a request for the result before the server forgets it, {forgotten.t:.1f} s into the run",
+        observed=f"the first at {asked.t:.1f} s" if asked else "none",
+        help="Call get_result_async() right after the acceptance; its future is done when the goal ends.",
+        at=forgotten.t,
+    )
+    require_success(run, goal, WITHIN)
 
 
 @check(points=1, on=NEVER_CANCELED, needs=ctrl_c_cancels_the_goal, see="07_cancel_and_preempt#m1-why")

@@ -71,6 +71,12 @@ def canceled_by_another(stage: ClientStage) -> None:
     run(stage)
 
 
+def forgetful(stage: ClientStage, kept_for: float, final: Sequence[float]) -> None:
+    """The goal succeeds, and the server keeps its result only so long (s)."""
+    offer(stage, feedback=way(5), ends_after=1.0, kept_for=kept_for, result=result_at(final))
+    run(stage)
+
+
 def silent(stage: ClientStage) -> None:
     """The goal is accepted, and then nothing is heard any more."""
     offer(stage, ends_after=None)

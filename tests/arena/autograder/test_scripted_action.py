@@ -45,6 +45,12 @@ def good(stage):
     run(stage)
 
 
+def forgetful(stage):
+    offer(stage, GoalScript(feedback=[NEAR], kept_for=0.5))
+    stage.start_program(["ask late"])
+    stage.wait_for_end()
+
+
 def rejecting(stage):
     offer(stage, GoalScript(accepted=False))
     run(stage)
@@ -131,6 +137,8 @@ def walk(node, what):
     print("accepted", sent.result().accepted)
     if not sent.result().accepted:
         return
+    if what == "ask late":
+        time.sleep(1.5)
     ended = sent.result().get_result_async()
     if what == "cancel after the end":
         rclpy.spin_until_future_complete(node, ended, timeout_sec=PATIENCE)
@@ -196,6 +204,17 @@ def test_a_goal_is_rejected(exercise: Exercise, arenas: SubmissionArenas) -> Non
     assert printed == ["found True", "accepted False"]
     (goal,) = transcript.scripted_goals("walk_to")
     assert not goal.is_accepted
+
+
+def test_a_result_is_forgotten(exercise: Exercise, arenas: SubmissionArenas) -> None:
+    transcript, printed = run(exercise, arenas, "forgetful")
+    assert f"result ({GoalStatus.STATUS_UNKNOWN}, 0)" in printed
+    (goal,) = transcript.scripted_goals("walk_to")
+    forgotten = transcript.first(ev.ResultForgotten)
+    assert goal.result_requested
+    assert forgotten
+    assert goal.result_requested.t > forgotten.t
+    assert goal.result_sent is None
 
 
 @pytest.mark.parametrize(
