@@ -124,6 +124,11 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
             f"{signal.Signals(-exited.returncode).name} ended the program, a crash below Python: use no node "
             "or publisher after destroy_node(), and none of them in two threads at once."
         )
+    if exited.returncode > 0 and _gave_up(run):
+        return Remedy(
+            f"The program itself decided to end so, though the grader offered {_offered(run)}: use relative names "
+            "and the task's types, so that it finds them."
+        )
     if exited.returncode and run.first(ev.NodeReady) is None:
         return _with_place(Remedy("The exception came before your node could serve."), run)
     if exited.returncode:
@@ -177,6 +182,18 @@ def _being_answered(run: Record) -> str:
     answered = {answer.call for answer in run.all(ev.ServiceAnswered)}
     waiting = [asked.service for asked in run.all(ev.ServiceCalled) if asked.call not in answered]
     return f" of {waiting[0]}" if waiting else ""
+
+
+def _gave_up(run: Record) -> bool:
+    """Return whether a client ended without an exception, though something was offered to it."""
+    return bool(_offered(run)) and not _is_a_server(run) and "Traceback (most recent" not in run.output("stderr")
+
+
+def _offered(run: Record) -> str:
+    """Return the names of the services and actions that the grader offered: 'get_status and walk_to'."""
+    names = [event.service for event in run.all(ev.ServiceOffered)]
+    names += [event.action for event in run.all(ev.ActionOffered)]
+    return " and ".join(dict.fromkeys(names))
 
 
 def _is_a_server(run: Record) -> bool:

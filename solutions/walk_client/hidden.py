@@ -40,6 +40,7 @@ from .checks import (
     gives_up_without_a_server,
     prints_the_feedback,
     says_how_it_succeeded,
+    sends_the_goal,
     tells_an_abort,
 )
 
@@ -88,7 +89,12 @@ def works_in_any_namespace(run: Transcript) -> None:
     require_success(run, require_one_goal(run, WALK), WITHIN)
 
 
-@check(points=1, on=UNANSWERED, needs=gives_up_without_a_server, see="03_clients_that_survive#fix-why")
+@check(
+    points=1,
+    on=UNANSWERED,
+    needs=[sends_the_goal, gives_up_without_a_server],
+    see="03_clients_that_survive#fix-why",
+)
 def gives_up_without_an_answer(run: Transcript) -> None:
     """A goal that is never answered ends it with status 1 after 5 s"""
     goal = require_one_goal(run, WALK)

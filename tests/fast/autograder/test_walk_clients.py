@@ -109,6 +109,13 @@ def test_a_walk_that_is_followed_to_its_end_passes() -> None:
         CANCEL[check].run([run])
 
 
+def test_a_client_that_finds_nobody_though_somebody_is_there_hears_of_names() -> None:
+    run = run_of(*said("nobody offers walk_to", t=5.4, stream="stderr"), ev.NodeExited(t=5.5, returncode=1))
+    failure = failure_of(WALK["sends_the_goal"], run)
+    assert "with status 1: nobody offers walk_to" in failure.observed
+    assert "though the grader offered walk_to: use relative names" in failure.help
+
+
 @pytest.mark.parametrize(
     ("events", "where"),
     [
