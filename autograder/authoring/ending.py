@@ -186,7 +186,9 @@ def _being_answered(run: Record) -> str:
 
 def _gave_up(run: Record) -> bool:
     """Return whether a client ended without an exception, though something was offered to it."""
-    return bool(_offered(run)) and not _is_a_server(run) and "Traceback (most recent" not in run.output("stderr")
+    return (
+        bool(_offered(run)) and not _is_a_server(run) and "Traceback (most recent" not in run.output("stderr")
+    )
 
 
 def _offered(run: Record) -> str:

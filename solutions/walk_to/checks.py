@@ -5,20 +5,18 @@ from __future__ import annotations
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario, check, expect
 from autograder.authoring.feedback import require_good_feedback_rate
-from autograder.authoring.goal import ABORTED
 from autograder.authoring.missing import unseen
 from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.aborts import require_aborted_by_a_fall
 from autograder.authoring.walking.halt import require_final_zero, require_standing_at_success
 from autograder.authoring.walking.motion import require_limited_velocity, require_reached
 from autograder.authoring.walking.reports import (
-    require_error_code,
     require_filled_result,
     require_true_feedback,
 )
 from autograder.authoring.walking.truth import (
     require_accepted,
     require_arrival,
-    require_fall,
     require_walking,
 )
 
@@ -209,20 +207,7 @@ feedback_ends_with_the_goal = standard.feedback_ends_with_the_goal(
 @check(points=1, on=FALL, needs=walks_to_the_goal, see="07_cancel_and_preempt#fall-why")
 def aborts_when_the_robot_falls(run: Transcript) -> None:
     """When the robot falls the goal is ABORTED with FELL"""
-    goal = require_accepted(run.goal("walk"))
-    fallen = require_fall(run)
-    result = goal.require_result(
-        ABORTED,
-        help=f"The robot fell at {fallen.t:.1f} s and execute went on. Look at robot_state.mode in every round.",
-    )
-    expect(
-        result.t >= fallen.t - 1.0,
-        expected="the goal to go on until the robot falls",
-        observed=f"it ended {fallen.t - result.t:.1f} s before the robot fell",
-        help="A push alone is no reason to give up: abort when robot_state.mode is FALLEN.",
-        at=result.t,
-    )
-    require_error_code(goal, "FELL", because="the robot has fallen")
+    require_aborted_by_a_fall(run.goal("walk"))
 
 
 ends_cleanly = standard.ends_cleanly(

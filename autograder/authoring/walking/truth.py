@@ -8,6 +8,7 @@ from autograder.authoring import events as ev
 from autograder.authoring.connections import why_nothing_is_heard
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring.robot_record import RobotRecord
 from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.planar import error
 from humanoid_interfaces.msg import RobotState
@@ -63,7 +64,7 @@ def _advice_on_arrival(goal: Goal, distance: float, turn: float, within: float) 
     )
 
 
-def require_walking(run: Transcript, at: float) -> None:
+def require_walking(run: RobotRecord, at: float) -> None:
     """Require that the robot walked shortly before a moment (s) of the scenario; otherwise nothing has to stop."""
     expect(
         any(robot.mode == RobotState.WALKING for robot in run.robot_between(at - SHORTLY, at)),
@@ -90,7 +91,7 @@ def require_stopped(run: Transcript, since: float) -> None:
     require_upright(watched)
 
 
-def require_fall(run: Transcript) -> ev.RobotTruth:
+def require_fall(run: RobotRecord) -> ev.RobotTruth:
     """Return the robot when it had fallen after it was pushed while it walked."""
     push = run.told("push")
     require_walking(run, push.t)
