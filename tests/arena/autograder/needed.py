@@ -21,6 +21,7 @@ _FINISHED = "action_offered goal_received goal_finished"
 _FOLLOWED = f"{_ENDED} {_REPLIED} goal_finished"
 _CANCELED_GOAL = f"{_FOLLOWED} cancel_received"
 
+_SILENT = f"{_ENDED} action_offered goal_received cancel_received"
 _DROPPED = f"{_REPLIED} message_published cancel_received"
 _GUARDED = f"{_FOLLOWED} message_published"
 
@@ -88,23 +89,23 @@ NEEDED = {
     },
     "cancel_client": {
         "walks": _FOLLOWED,
-        "prints_feedback_at_once": f"{_FOLLOWED} feedback_sent",
-        "q_cancels_the_goal": f"{_CANCELED_GOAL} node_typed",
+        "prints_feedback_at_once": f"{_FINISHED} feedback_sent node_output",
+        "q_cancels_the_goal": f"{_FINISHED} cancel_received node_exited node_output node_typed",
         "believes_the_end": f"{_CANCELED_GOAL} node_typed cancel_reply_sent",
-        "remembers_an_early_q": f"{_CANCELED_GOAL} node_typed",
+        "remembers_an_early_q": f"{_FINISHED} cancel_received node_exited node_output node_typed",
         "reports_a_refusal": f"{_CANCELED_GOAL} node_typed cancel_reply_sent",
         "goes_on_at_the_end_of_input": f"{_FOLLOWED} node_typed",
-        "gives_up_without_a_server": _ENDED,
+        "gives_up_without_a_server": f"{_ENDED} node_ready",
         "gives_up_in_silence": f"{_ENDED} {_REPLIED} cancel_received",
-        "ctrl_c_cancels_the_goal": f"{_CANCELED_GOAL} node_signalled",
+        "ctrl_c_cancels_the_goal": f"{_FINISHED} cancel_received node_exited node_output node_signalled",
         "walks_anywhere": _FOLLOWED,
         "refuses_wrong_arguments": _ENDED,
-        "tells_an_abort": _FOLLOWED,
+        "tells_an_abort": f"{_FINISHED} node_exited node_output",
         "a_rejected_goal_needs_no_cancel": f"{_ENDED} {_REPLIED} node_typed",
-        "tells_an_abort_after_q": f"{_CANCELED_GOAL} node_typed cancel_reply_sent",
+        "tells_an_abort_after_q": f"{_FINISHED} cancel_received cancel_reply_sent node_exited node_output node_typed",
         "reports_a_late_cancel": f"{_CANCELED_GOAL} node_typed cancel_reply_sent",
         "does_not_wait_for_the_answer": f"{_CANCELED_GOAL} node_typed",
-        "cancels_once": f"{_CANCELED_GOAL} node_typed",
+        "cancels_once": f"{_FINISHED} cancel_received node_exited node_output node_typed",
         "other_lines_cancel_nothing": f"{_FOLLOWED} node_typed",
         "walks_without_an_input": f"{_FOLLOWED} node_typed",
     },
@@ -279,7 +280,7 @@ NEEDED = {
         "prints_the_feedback": f"node_output {_FINISHED} feedback_sent",
         "says_how_it_succeeded": _FOLLOWED,
         "refuses_wrong_arguments": _ENDED,
-        "gives_up_without_a_server": _ENDED,
+        "gives_up_without_a_server": f"{_ENDED} node_ready",
         "tells_a_rejection": f"{_ENDED} {_REPLIED}",
         "tells_an_abort": f"{_ENDED} {_FINISHED}",
         "gives_up_in_silence": f"{_ENDED} {_REPLIED} cancel_received",
@@ -288,11 +289,12 @@ NEEDED = {
         "works_in_any_namespace": _FOLLOWED,
         "gives_up_without_an_answer": f"{_ENDED} action_offered goal_received",
         "walks_as_long_as_it_takes": _FOLLOWED,
-        "notices_silence_on_the_way": f"{_ENDED} action_offered goal_received feedback_sent cancel_received",
+        "notices_silence_on_the_way": f"{_SILENT} action_withdrawn feedback_sent",
         "survives_early_feedback": f"{_FOLLOWED} feedback_sent",
         "tells_a_cancel_by_another": f"{_ENDED} {_FINISHED}",
-        "believes_the_status": f"{_ENDED} {_FINISHED}",
+        "believes_the_status": _FOLLOWED,
         "ctrl_c_ends_it_in_any_case": f"{_ENDED} {_REPLIED} cancel_received node_signalled",
         "prints_any_feedback": f"node_output {_FINISHED} feedback_sent",
+        "asks_for_the_result_in_time": f"{_FOLLOWED} result_requested",
     },
 }
