@@ -41,7 +41,7 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
         Remedy(
             "Your execute callback returned nothing, or something else than a Result. Its last line must be "
             "`return result`, in every branch.",
-            "07_cancel_and_preempt#m13-why",
+            "06_walk_to_a_pose#settle-intro",
         ),
     ),
     (
@@ -87,7 +87,7 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
         Remedy(
             "rclpy's executor is no asyncio event loop, so asyncio.sleep() fails in a callback. Await a future of "
             "rclpy, or do not wait.",
-            "02_services#m4-why",
+            "05_executors#m3-why",
         ),
     ),
     (

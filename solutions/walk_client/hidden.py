@@ -74,7 +74,9 @@ FORGETFUL = program("forgetful", {"kept_for": 1.0, "final": [0.97, 0.52, 0.31]})
 NEVER_CANCELED = program("interrupted", {"ends_after": None})
 
 
-@check(points=1, on=[ANY_WALK, WITHOUT_YAW], needs=says_how_it_succeeded, see="01_robot_and_graph#names-why")
+@check(
+    points=1, on=[ANY_WALK, WITHOUT_YAW], needs=says_how_it_succeeded, see="03_clients_that_survive#fix-frame"
+)
 def walks_anywhere(with_yaw: Transcript, without_yaw: Transcript) -> None:
     """Negative numbers, and a yaw that is left out, are sent as they are meant"""
     for run in (with_yaw, without_yaw):
@@ -151,7 +153,7 @@ def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
     points=1,
     on=EARLY,
     needs=[prints_the_feedback, says_how_it_succeeded],
-    see="07_cancel_and_preempt#conventions",
+    see="06_walk_to_a_pose#slow-end-why",
 )
 def survives_early_feedback(run: Transcript) -> None:
     """Feedback that comes before the goal is accepted disturbs nothing"""
@@ -172,7 +174,7 @@ def tells_a_cancel_by_another(run: Transcript) -> None:
     require_ending_line(run, "CANCELED", exited.t)
 
 
-@check(points=2, on=[NO_CODE, WITH_WORDS], needs=tells_an_abort, see="07_cancel_and_preempt#fall-why")
+@check(points=2, on=[NO_CODE, WITH_WORDS], needs=tells_an_abort, see="06_walk_to_a_pose#hopeful-why")
 def believes_the_status(aborted: Transcript, succeeded: Transcript) -> None:
     """The status decides: ABORTED with error_code NONE is 3, SUCCEEDED with an error_msg is 0"""
     goal = require_one_goal(aborted, WALK)
@@ -222,7 +224,7 @@ def ctrl_c_ends_it_in_any_case(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=ANY_WALK, needs=prints_the_feedback, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=ANY_WALK, needs=prints_the_feedback, see="06_walk_to_a_pose#slow-end-why")
 def prints_any_feedback(run: Transcript) -> None:
     """Whatever the distances are, they are printed as they came"""
     require_feedback_lines(run, require_one_goal(run, WALK))
