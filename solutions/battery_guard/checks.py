@@ -67,14 +67,14 @@ LOOKS_AWAY = (
 )
 
 
-@check(points=2, on=GOOD, see="07_cancel_and_preempt#goal")
+@check(points=2, on=GOOD, see="06_walk_to_a_pose#client-intro")
 def sends_the_goal(run: Transcript) -> None:
     """With the battery at 0.80 it sends one goal, at x, y and yaw in frame odom"""
     require_level(run, low=False)
     require_goal_at(run, 1.5, -0.5, 0.4)
 
 
-@check(points=2, on=GOOD, needs=sends_the_goal, see="07_cancel_and_preempt#conventions")
+@check(points=2, on=GOOD, needs=sends_the_goal, see="06_walk_to_a_pose#follow-task")
 def says_how_it_succeeded(run: Transcript) -> None:
     """A goal that SUCCEEDED while the battery lasts is not cancelled, and ends it with status 0"""
     require_no_cancel(require_success(run), because="the battery never falls below 0.32")
@@ -110,7 +110,7 @@ def gives_up_without_a_server(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=[REJECTING, ABORTING], needs=says_how_it_succeeded, see="07_cancel_and_preempt#fall-why")
+@check(points=1, on=[REJECTING, ABORTING], needs=says_how_it_succeeded, see="06_walk_to_a_pose#hopeful-why")
 def says_how_it_failed(rejected: Transcript, aborted: Transcript) -> None:
     """A rejected goal ends it with status 2, an aborted one with 3 and error_msg on stderr"""
     require_goal_answered(rejected, require_one_goal(rejected, NAVIGATE), accepted=False)
@@ -132,7 +132,7 @@ def says_how_it_failed(rejected: Transcript, aborted: Transcript) -> None:
     )
 
 
-@check(points=2, on=LOW_BEFORE, needs=says_how_it_succeeded, see="02_services#battery-rules")
+@check(points=2, on=LOW_BEFORE, needs=says_how_it_succeeded, see="08_navigation#guard-intro")
 def does_not_set_out_on_a_low_battery(run: Transcript) -> None:
     """With a latched battery_state of 0.12 it sends no goal, says so on stdout, and ends with status 4"""
     low = [event for event in run.published(BATTERY) if event.message.percentage < 0.2]
@@ -162,7 +162,7 @@ def does_not_set_out_on_a_low_battery(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=WITHOUT_BATTERY, needs=says_how_it_succeeded, see="02_services#m9-why")
+@check(points=1, on=WITHOUT_BATTERY, needs=says_how_it_succeeded, see="08_navigation#guard-intro")
 def does_not_set_out_without_a_battery_state(run: Transcript) -> None:
     """Without any battery_state in 5 s it sends no goal and ends with status 1"""
     if run.published(BATTERY):
@@ -190,7 +190,7 @@ def does_not_set_out_without_a_battery_state(run: Transcript) -> None:
     )
 
 
-@check(points=2, on=DROP, needs=says_how_it_succeeded, see="07_cancel_and_preempt#m1-why")
+@check(points=2, on=DROP, needs=says_how_it_succeeded, see="08_navigation#watch-run")
 def cancels_when_the_battery_drops(run: Transcript) -> None:
     """When the percentage falls below 0.20 on the way, it cancels the goal within 1 s, once"""
     goal = require_one_goal(run, NAVIGATE)
@@ -201,7 +201,7 @@ def cancels_when_the_battery_drops(run: Transcript) -> None:
     )
 
 
-@check(points=2, on=DROP, needs=cancels_when_the_battery_drops, see="07_cancel_and_preempt#fix-read")
+@check(points=2, on=DROP, needs=cancels_when_the_battery_drops, see="08_navigation#standing-why")
 def waits_until_the_robot_stands(run: Transcript) -> None:
     """After the cancel it waits for CANCELED and for robot_state STANDING, then ends with status 4"""
     goal = require_one_goal(run, NAVIGATE)
@@ -229,7 +229,7 @@ def waits_until_the_robot_stands(run: Transcript) -> None:
     require_ending_line(run, "CANCELED", exited.t)
 
 
-@check(points=2, on=NO_PERCENTAGE, needs=says_how_it_succeeded, see="02_services#battery-rules")
+@check(points=2, on=NO_PERCENTAGE, needs=says_how_it_succeeded, see="08_navigation#guard-traps-why")
 def ignores_what_is_no_percentage(run: Transcript) -> None:
     """NaN, 20.0, 15.0 and -0.3 on the way are ignored, with one warning line on stderr"""
     goal = require_one_goal(run, NAVIGATE)
@@ -244,7 +244,7 @@ def ignores_what_is_no_percentage(run: Transcript) -> None:
     require_one_warning(run)
 
 
-@check(points=1, on=INTERRUPTED, needs=says_how_it_succeeded, see="07_cancel_and_preempt#m1-why")
+@check(points=1, on=INTERRUPTED, needs=says_how_it_succeeded, see="06_walk_to_a_pose#field-why")
 def ctrl_c_cancels_the_goal(run: Transcript) -> None:
     """Ctrl-C cancels the goal; it waits for its end and ends with status 4"""
     goal = require_one_goal(run, NAVIGATE)

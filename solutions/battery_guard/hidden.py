@@ -108,7 +108,7 @@ def goes_anywhere(with_yaw: Transcript, without_yaw: Transcript) -> None:
     points=2,
     on=[AT_THE_LIMIT, DOWN_TO_THE_LIMIT, JUST_BELOW, EMPTY],
     needs=cancels_when_the_battery_drops,
-    see="02_services#battery-rules",
+    see="08_navigation#float-why",
 )
 def compares_with_the_limit_exactly(
     at_the_limit: Transcript, down_to_it: Transcript, just_below: Transcript, empty: Transcript
@@ -145,7 +145,7 @@ def compares_with_the_limit_exactly(
     points=1,
     on=BEFORE_ACCEPTANCE,
     needs=cancels_when_the_battery_drops,
-    see="07_cancel_and_preempt#conventions",
+    see="08_navigation#client-intro",
 )
 def cancels_right_after_the_acceptance(run: Transcript) -> None:
     """A battery that drops before the goal is accepted cancels it right after the acceptance"""
@@ -193,7 +193,7 @@ def success_wins_the_race(in_vain: Transcript, too_late: Transcript) -> None:
         require_success(run, finished.t + WITHIN)
 
 
-@check(points=1, on=LATE_SERVER, needs=does_not_set_out_on_a_low_battery, see="02_services#planner-why")
+@check(points=1, on=LATE_SERVER, needs=does_not_set_out_on_a_low_battery, see="08_navigation#guard-intro")
 def looks_at_the_battery_until_it_sends(run: Transcript) -> None:
     """A battery that drops while it waits for the server keeps it from sending the goal"""
     drop = require_drop(run)
@@ -213,7 +213,7 @@ def looks_at_the_battery_until_it_sends(run: Transcript) -> None:
     points=1,
     on=[NEVER_A_PERCENTAGE, A_PERCENTAGE_AT_LAST],
     needs=[ignores_what_is_no_percentage, does_not_set_out_without_a_battery_state],
-    see="02_services#nan",
+    see="08_navigation#guard-traps-why",
 )
 def waits_for_a_percentage(never: Transcript, at_last: Transcript) -> None:
     """While battery_state holds no percentage it waits, at most 5 s, and then ends with status 1"""
@@ -247,7 +247,7 @@ def waits_for_a_percentage(never: Transcript, at_last: Transcript) -> None:
     points=1,
     on=[STANDS_FIRST, ON_THE_SPOT],
     needs=waits_until_the_robot_stands,
-    see="07_cancel_and_preempt#fix-read",
+    see="08_navigation#standing-why",
 )
 def takes_standing_and_canceled_in_any_order(stands_first: Transcript, on_the_spot: Transcript) -> None:
     """When the robot stands before the goal is CANCELED, or has not moved yet, CANCELED ends it"""
@@ -273,7 +273,7 @@ def takes_standing_and_canceled_in_any_order(stands_first: Transcript, on_the_sp
     points=1,
     on=[DEAF, NEVER_STANDS],
     needs=waits_until_the_robot_stands,
-    see="03_clients_that_survive#deadline-why",
+    see="08_navigation#standing-why",
 )
 def waits_no_longer_than_5_s(deaf: Transcript, never_stands: Transcript) -> None:
     """If CANCELED or STANDING does not come within 5 s, it ends all the same, with status 4"""
@@ -342,7 +342,7 @@ def gives_up_in_silence(unanswered: Transcript, silent: Transcript) -> None:
     points=1,
     on=BY_ANOTHER,
     needs=[says_how_it_failed, ctrl_c_cancels_the_goal],
-    see="07_cancel_and_preempt#conventions",
+    see="08_navigation#stop-why",
 )
 def tells_a_cancel_by_another(run: Transcript) -> None:
     """A goal that somebody else cancels ends it with status 4, and a line on stdout says CANCELED"""

@@ -253,4 +253,4 @@ def _about_level(level: float) -> str:
 
 
 def _lesson_about(level: float) -> str:
-    return "02_services#nan" if math.isnan(level) else "02_services#battery-rules"
+    return "08_navigation#float-why" if 0.0 <= level <= 1.0 else "08_navigation#guard-traps-why"

@@ -47,20 +47,20 @@ WITHIN = 15.0  # s for a walk of a few seconds
 GIVING_UP = 8.0  # s, of which 5 are waited
 
 
-@check(points=1, on=GOOD, see="07_cancel_and_preempt#goal")
+@check(points=1, on=GOOD, see="06_walk_to_a_pose#follow-task")
 def walks(run: Transcript) -> None:
     """It sends one goal, and says SUCCEEDED with the final pose and status 0"""
     require_success(run, require_goal_at(run, 1.0, 0.5, 0.3), WITHIN)
 
 
-@check(points=2, on=GOOD, needs=walks, see="07_cancel_and_preempt#endpoints")
+@check(points=2, on=GOOD, needs=walks, see="05_executors#one-why")
 def prints_feedback_at_once(run: Transcript) -> None:
     """It prints each feedback within 0.5 s, also while nobody types"""
     require_feedback_lines(run, require_one_goal(run, WALK))
     require_prompt_feedback(run)
 
 
-@check(points=3, on=CANCELED_BY_Q, needs=walks, see="07_cancel_and_preempt#button-code")
+@check(points=3, on=CANCELED_BY_Q, needs=walks, see="07_cancel_and_preempt#fix-read")
 def q_cancels_the_goal(run: Transcript) -> None:
     """A q and Enter cancel the goal; it waits for its end and ends with status 4"""
     require_canceled_by_q(run, WITHIN)
@@ -73,7 +73,7 @@ def believes_the_end(run: Transcript) -> None:
     require_success(run, goal, WITHIN, canceled=True)
 
 
-@check(points=2, on=EARLY, needs=q_cancels_the_goal, see="07_cancel_and_preempt#late-why")
+@check(points=2, on=EARLY, needs=q_cancels_the_goal, see="06_walk_to_a_pose#diagram")
 def remembers_an_early_q(run: Transcript) -> None:
     """A q that is typed before the goal is accepted cancels it when it is"""
     require_canceled_by_q(
@@ -114,7 +114,7 @@ def gives_up_in_silence(run: Transcript) -> None:
     require_silence_noticed(run)
 
 
-@check(points=1, on=INTERRUPTED, needs=walks, see="07_cancel_and_preempt#m1-why")
+@check(points=1, on=INTERRUPTED, needs=walks, see="06_walk_to_a_pose#field-why")
 def ctrl_c_cancels_the_goal(run: Transcript) -> None:
     """Ctrl-C cancels the goal; it waits for its end and ends with status 4"""
     require_canceled_by_ctrl_c(run, WITHIN)

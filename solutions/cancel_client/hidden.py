@@ -75,13 +75,13 @@ def refuses_wrong_arguments(run: Transcript) -> None:
     require_usage(run, WITHIN)
 
 
-@check(points=1, on=ABORTING, needs=walks, see="07_cancel_and_preempt#fall-why")
+@check(points=1, on=ABORTING, needs=walks, see="06_walk_to_a_pose#hopeful-why")
 def tells_an_abort(run: Transcript) -> None:
     """An aborted goal ends it with status 3, and error_msg stands on stderr"""
     require_abort(run, WITHIN)
 
 
-@check(points=1, on=REJECTED_EARLY, needs=remembers_an_early_q, see="07_cancel_and_preempt#analogy")
+@check(points=1, on=REJECTED_EARLY, needs=remembers_an_early_q, see="06_walk_to_a_pose#reject-task")
 def a_rejected_goal_needs_no_cancel(run: Transcript) -> None:
     """A goal that is rejected after a q ends it with status 2"""
     require_typed(run)
@@ -92,7 +92,7 @@ def a_rejected_goal_needs_no_cancel(run: Transcript) -> None:
     points=1,
     on=ABORTED_ANYWAY,
     needs=[believes_the_end, tells_an_abort],
-    see="07_cancel_and_preempt#fall-why",
+    see="07_cancel_and_preempt#late-why",
 )
 def tells_an_abort_after_q(run: Transcript) -> None:
     """A goal that is ABORTED after the server had agreed to cancel it ends it with status 3"""

@@ -47,36 +47,36 @@ STAYED = 0.10  # m the pelvis may move while the robot only stands
 EARLY, LATE = 1.5, 4.0  # s a TIMEOUT may come too early, and too late: the robot has to stand first
 
 server_appears = standard.server_appears(
-    "the action navigate_to_pose", points=1, on=INTERRUPT, see="07_cancel_and_preempt#fix-file"
+    "the action navigate_to_pose", points=1, on=INTERRUPT, see="06_walk_to_a_pose#small-intro"
 )
 
 
-@check(points=1, on=GO, needs=server_appears, see="07_cancel_and_preempt#m2-why")
+@check(points=1, on=GO, needs=server_appears, see="06_walk_to_a_pose#reject-task")
 def accepts_a_goal(run: Transcript) -> None:
     """It accepts a pose in frame odom"""
     require_accepted(run.goal("go"))
 
 
-@check(points=2, on=GO, needs=accepts_a_goal, see="07_cancel_and_preempt#fix-intro")
+@check(points=2, on=GO, needs=accepts_a_goal, see="06_walk_to_a_pose#settle-why")
 def arrives(run: Transcript) -> None:
     """It SUCCEEDS, and the robot is then within 0.10 m and 0.15 rad of the goal (tolerance 0)"""
     require_arrival(run.goal("go"))
     require_error_code(run.goal("go"), "NONE", because="the robot has arrived")
 
 
-@check(points=1, on=GO, needs=arrives, see="01_robot_and_graph#frames-intro")
+@check(points=1, on=GO, needs=arrives, see="08_navigation#why")
 def faces_its_way(run: Transcript) -> None:
     """It turns toward the goal, then walks straight ahead"""
     require_facing(run.goal("go"))
 
 
-@check(points=1, on=GO, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=GO, needs=accepts_a_goal, see="06_walk_to_a_pose#settle-intro")
 def feedback_keeps_its_rate(run: Transcript) -> None:
     """Feedback comes at 5 Hz without a gap over 1 s"""
     require_good_feedback_rate(run.goal("go"))
 
 
-@check(points=1, on=GO, needs=feedback_keeps_its_rate, see="07_cancel_and_preempt#turner-intro")
+@check(points=1, on=GO, needs=feedback_keeps_its_rate, see="08_navigation#action-intro")
 def feedback_is_true(run: Transcript) -> None:
     """Pose and distance in the feedback are the robot's"""
     require_true_places(run.goal("go"))
@@ -86,39 +86,39 @@ def feedback_is_true(run: Transcript) -> None:
     points=1,
     on=GO,
     needs=[arrives, faces_its_way, feedback_keeps_its_rate],
-    see="07_cancel_and_preempt#turner-intro",
+    see="08_navigation#route-intro",
 )
 def names_its_phases(run: Transcript) -> None:
     """Status names the phase: turn, walk, turn to the heading"""
     require_named_phases(run.goal("go"))
 
 
-@check(points=1, on=GO, needs=feedback_keeps_its_rate, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=GO, needs=feedback_keeps_its_rate, see="08_navigation#conventions")
 def tells_its_time(run: Transcript) -> None:
     """navigation_time is the time since acceptance"""
     require_true_navigation_time(run.goal("go"))
 
 
-@check(points=1, on=GO, needs=[arrives, feedback_keeps_its_rate], see="07_cancel_and_preempt#conventions")
+@check(points=1, on=GO, needs=[arrives, feedback_keeps_its_rate], see="08_navigation#eta-why")
 def estimates_the_time(run: Transcript) -> None:
     """estimated_time_remaining is positive under way, and right within a factor of 2 half way"""
     require_good_estimate(run.goal("go"))
 
 
-@check(points=1, on=GO, needs=[arrives, feedback_keeps_its_rate], see="07_cancel_and_preempt#conventions")
+@check(points=1, on=GO, needs=[arrives, feedback_keeps_its_rate], see="08_navigation#zero-why")
 def progress_rises_to_100(run: Transcript) -> None:
     """progress_percentage rises, is about half where half of the distance is left, and ends at 100"""
     require_rising_progress(run.goal("go"))
     require_half_done_half_way(run.goal("go"))
 
 
-@check(points=2, on=GO, needs=arrives, see="07_cancel_and_preempt#why")
+@check(points=2, on=GO, needs=arrives, see="08_navigation#sway-why")
 def measures_its_path(run: Transcript) -> None:
     """distance_traveled is the path walked, within 15 %, though the pelvis sways"""
     require_measured_path(run.goal("go"), run.goal("go").require_result(SUCCEEDED))
 
 
-@check(points=1, on=GO, needs=feedback_keeps_its_rate, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=GO, needs=feedback_keeps_its_rate, see="08_navigation#recovery-why")
 def counts_no_detour_without_one(run: Transcript) -> None:
     """number_of_recoveries stays 0 while nothing disturbs the robot"""
     require_accepted(run.goal("go"))
@@ -130,7 +130,7 @@ feedback_ends_with_the_goal = standard.feedback_ends_with_the_goal(
 )
 
 
-@check(points=1, on=STAY, needs=arrives, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=STAY, needs=arrives, see="08_navigation#zero-why")
 def succeeds_at_once_where_it_stands(run: Transcript) -> None:
     """A goal equal to the present pose SUCCEEDS at once, with 100 % and without a walk"""
     goal = run.goal("stay")
@@ -155,7 +155,7 @@ def succeeds_at_once_where_it_stands(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="08_navigation#map-why")
 def rejects_a_wrong_pose(run: Transcript) -> None:
     """It rejects a pose in frame map, and one that holds NaN"""
     run.goal("wrong frame").require_rejected(
@@ -170,7 +170,7 @@ def rejects_a_wrong_pose(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="06_walk_to_a_pose#reject-task")
 def rejects_a_wrong_tolerance(run: Transcript) -> None:
     """It rejects a tolerance that is NaN, or below 0.05 m and not 0"""
     tolerances = [*run.params["tolerances"], float("nan")]
@@ -183,7 +183,7 @@ def rejects_a_wrong_tolerance(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=UNPOWERED, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=UNPOWERED, needs=accepts_a_goal, see="06_walk_to_a_pose#reject-task")
 def rejects_without_power(run: Transcript) -> None:
     """It rejects a goal while the motors are off"""
     sent = run.goal("unpowered").sent
@@ -202,7 +202,7 @@ def rejects_without_power(run: Transcript) -> None:
     )
 
 
-@check(points=2, on=ASTRAY, needs=arrives, see="07_cancel_and_preempt#why")
+@check(points=2, on=ASTRAY, needs=arrives, see="08_navigation#loops-why")
 def gets_back_on_its_way(run: Transcript) -> None:
     """Led back and turned by a remote control, it finds its way again, and arrives"""
     require_led_astray(run.goal("go"))
@@ -213,30 +213,28 @@ def gets_back_on_its_way(run: Transcript) -> None:
     points=1,
     on=ASTRAY,
     needs=[gets_back_on_its_way, feedback_keeps_its_rate],
-    see="07_cancel_and_preempt#why",
+    see="08_navigation#recovery-why",
 )
 def counts_the_recovery(run: Transcript) -> None:
     """number_of_recoveries counts it, once"""
     require_detour_counted(run.goal("go"))
 
 
-@check(
-    points=1, on=ASTRAY, needs=[gets_back_on_its_way, progress_rises_to_100], see="07_cancel_and_preempt#why"
-)
+@check(points=1, on=ASTRAY, needs=[gets_back_on_its_way, progress_rises_to_100], see="08_navigation#zero-why")
 def progress_never_falls(run: Transcript) -> None:
     """progress_percentage does not fall when the robot is led back"""
     require_led_astray(run.goal("go"))
     require_rising_progress(run.goal("go"))
 
 
-@check(points=1, on=ASTRAY, needs=[gets_back_on_its_way, measures_its_path], see="07_cancel_and_preempt#why")
+@check(points=1, on=ASTRAY, needs=[gets_back_on_its_way, measures_its_path], see="08_navigation#odometer-why")
 def measures_a_detour(run: Transcript) -> None:
     """distance_traveled includes the way back and forth"""
     require_led_astray(run.goal("go"))
     require_measured_path(run.goal("go"), run.goal("go").require_result(SUCCEEDED))
 
 
-@check(points=2, on=HELD, needs=arrives, see="07_cancel_and_preempt#conventions")
+@check(points=2, on=HELD, needs=arrives, see="08_navigation#late-why")
 def gives_up_in_time(run: Transcript) -> None:
     """Held up, it ends ABORTED with TIMEOUT after 30 s and 15 s per metre"""
     goal = require_accepted(run.goal("held"))
@@ -258,20 +256,20 @@ def gives_up_in_time(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=HELD, needs=gives_up_in_time, see="07_cancel_and_preempt#m12-robot-why")
+@check(points=1, on=HELD, needs=gives_up_in_time, see="06_walk_to_a_pose#touch-why")
 def stands_still_after_the_limit(run: Transcript) -> None:
     """After TIMEOUT the robot stands still, also when it is let go"""
     require_accepted(run.goal("held"))
     require_stopped(run, run.told("take_over", velocity=None).t)
 
 
-@check(points=1, on=HELD, needs=[gives_up_in_time, measures_its_path], see="07_cancel_and_preempt#why")
+@check(points=1, on=HELD, needs=[gives_up_in_time, measures_its_path], see="08_navigation#odometer-why")
 def measures_what_was_walked(run: Transcript) -> None:
     """distance_traveled is what was walked, not what was commanded"""
     require_measured_path(run.goal("held"), run.goal("held").require_result(ABORTED))
 
 
-@check(points=2, on=MID_STRIDE, needs=accepts_a_goal, see="07_cancel_and_preempt#m1-why")
+@check(points=2, on=MID_STRIDE, needs=accepts_a_goal, see="07_cancel_and_preempt#fix-intro")
 def cancels_in_mid_stride(run: Transcript) -> None:
     """A cancel while the robot walks ends CANCELED, and within 2 s the robot stands still and upright"""
     request = run.goal("after 1.5 s").require_canceled()
