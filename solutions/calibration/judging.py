@@ -29,6 +29,7 @@ JITTER = 0.06  # s of real time by which a message may be late on a busy machine
 MOST_JITTER = 1.0  # s; a callback that blocks costs 2 s at least
 SLOWEST, FASTEST = 7.5, 13.0  # Hz, heartbeats
 MOST_SAMPLES = 1000  # a greater number in the message is no count
+MOST_NUMBERS = 20  # in the message
 
 _NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
@@ -141,6 +142,13 @@ def require_bias_in_message(call: Call, bias: Sequence[float]) -> None:
     """Require the means of x, y and z, in this order, in the message."""
     message = call.response.message
     numbers = [float(number) for number in _NUMBER.findall(message)]
+    expect(
+        len(numbers) <= MOST_NUMBERS,
+        expected=f"a message with the three means and the count, at most {MOST_NUMBERS} numbers in all",
+        observed=f"{len(numbers)} numbers",
+        help="Say what you have measured, once: whoever reads the message must know which numbers are meant.",
+        at=call.answered.t,
+    )
     triples = list(zip(numbers, numbers[1:], numbers[2:], strict=False))
     if any(_is_near(triple, bias) for triple in triples):
         return
