@@ -89,7 +89,7 @@ def refuses_wrong_arguments(too_few: Transcript, no_number: Transcript) -> None:
         require_usage(run, WITHIN)
 
 
-@check(points=1, on=NOBODY, needs=says_how_it_succeeded, see="03_clients_that_survive#fix-why")
+@check(points=1, on=NOBODY, see="03_clients_that_survive#fix-why")
 def gives_up_without_a_server(run: Transcript) -> None:
     """Without a server it ends with status 1 after 5 s, and says so on stderr"""
     require_level(run, low=False)

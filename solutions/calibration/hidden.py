@@ -102,7 +102,7 @@ def recovers_when_status_answers(run: Transcript) -> None:
 @check(
     points=1,
     on=LATE_ANSWER,
-    needs=[calibrates, refuses_without_an_answer],
+    needs=[calibrates, refuses_without_an_answer, waits_for_a_slow_status],
     see="03b_clients_in_bad_company#late-fix-run",
 )
 def takes_no_answer_for_another(run: Transcript) -> None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
-from statistics import fmean
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call, Request
@@ -29,6 +29,7 @@ JITTER = 0.06  # s of real time by which a message may be late on a busy machine
 MOST_JITTER = 1.0  # s; a callback that blocks costs 2 s at least
 SLOWEST, FASTEST = 7.5, 13.0  # Hz, heartbeats
 MOST_SAMPLES = 1000  # a greater number in the message is no count
+GRAVITY = 9.81  # m/s²
 MOST_NUMBERS = 20  # in the message
 
 _NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
@@ -308,8 +309,7 @@ def require_heartbeat(run: Transcript, call: Call, meanwhile: str) -> None:
     limit = GAP + JITTER * run.scale + min(max(late, default=0.0), MOST_JITTER)
     ends = [*beats[1:], run.end]
     start, end = max(zip(beats, ends, strict=True), key=lambda pair: pair[1] - pair[0])
-    until = call.answer.t if call.answer else run.end
-    during = call.sent.t - GAP <= start <= until
+    during = any(since - GAP <= start <= until for since, until in _at_work(run))
     expect(
         end - start <= limit,
         expected=f"no gap of more than {GAP:g} s between two heartbeats",
@@ -324,6 +324,12 @@ def require_heartbeat(run: Transcript, call: Call, meanwhile: str) -> None:
         observed=f"{rate:.1f} a second",
         help="Make one timer with a period of 0.1 s that publishes one message each time.",
     )
+
+
+def _at_work(run: Transcript) -> list[tuple[float, float]]:
+    """Return from when to when (s) each request to the student's node waited for its answer."""
+    answered = {event.call: event.t for event in run.all(ev.ServiceAnswered)}
+    return [(event.t, answered.get(event.call, run.end)) for event in run.all(ev.ServiceCalled)]
 
 
 def _advice_on_the_gap(run: Transcript, during: bool) -> str:
@@ -367,9 +373,7 @@ def _advice_on_failing(call: Call, published: int) -> str:
 
 def _advice_on_vector(call: Call, triples: Sequence[Sequence[float]], bias: Sequence[float]) -> str | None:
     """Return what kind of mistake makes one of the triples of the bias, if it is known."""
-    samples = [sample.angular_velocity for sample in imu_between(call, 0.0, call.answered.t)]
     now = imu_between(call, call.sent.t, call.answered.t)
-    older = [fmean(values) for values in zip(*samples, strict=True)] if samples else bias
     earlier = [event.command["bias"] for event in call.run.all(ev.RobotCommanded) if "bias" in event.command]
     for triple in triples:
         if _is_near([value / max(len(now), 1) for value in triple], bias, TOLERANCE / 5):
@@ -380,9 +384,9 @@ def _advice_on_vector(call: Call, triples: Sequence[Sequence[float]], bias: Sequ
             return "The signs are the wrong way round: the bias is the mean itself."
         if _is_near(sorted(triple), sorted(bias)):
             return "The values are right, but not in the order x, y, z."
-        if abs(triple[2]) > 5.0:
+        if math.dist(triple, (0.0, 0.0, GRAVITY)) < 2.0:
             return "These are accelerations: take angular_velocity of each message."
-        if _is_near(triple, older) or any(_is_near(triple, other) for other in earlier[:-1]):
+        if any(_is_mixed(triple, bias, other) for other in earlier[:-1]):
             return "Samples of before are in it: begin with an empty list each time, when get_status has answered."
         if not any(triple):
             return "A mean of exactly 0 comes from no sample: average what on_imu has collected."
@@ -397,6 +401,21 @@ def _what_is_published(run: Transcript) -> str:
 
 def _is_near(found: Sequence[float], bias: Sequence[float], tolerance: float = TOLERANCE) -> bool:
     return all(abs(one - other) <= tolerance for one, other in zip(found, bias, strict=True))
+
+
+def _is_mixed(found: Sequence[float], bias: Sequence[float], other: Sequence[float]) -> bool:
+    """Return whether it is a mean of samples of two biases (rad/s), or of the other alone."""
+    way = [one - two for one, two in zip(bias, other, strict=True)]
+    if not any(way):
+        return False
+    share = _dot(way, [one - two for one, two in zip(found, other, strict=True)]) / _dot(way, way)
+    return 0.0 <= share <= 1.0 and _is_near(
+        found, [two + share * step for two, step in zip(other, way, strict=True)]
+    )
+
+
+def _dot(one: Sequence[float], two: Sequence[float]) -> float:
+    return sum(a * b for a, b in zip(one, two, strict=True))
 
 
 def _xyz(vector: object) -> tuple[float, float, float]:
