@@ -231,7 +231,7 @@ def progress_never_falls(run: Transcript) -> None:
 def measures_a_detour(run: Transcript) -> None:
     """distance_traveled includes the way back and forth"""
     require_led_astray(run.goal("go"))
-    require_measured_path(run.goal("go"), run.goal("go").require_result(SUCCEEDED))
+    require_measured_path(run.goal("go"), run.goal("go").require_result(SUCCEEDED), reversals=2)
 
 
 @check(points=2, on=HELD, needs=arrives, see="08_navigation#late-why")

@@ -21,6 +21,7 @@ from ros_runtime.angles import wrap
 FACING = 0.6  # rad between heading and goal while it walks
 IN_PLACE, WALKS = 0.10, 0.20  # m/s of the body as a whole
 TURNS = 0.15  # rad/s
+LOST = 0.15  # m where the robot turns back: half a leg before it and half a leg after it go uncounted
 SHARE, LEAST = 0.15, 0.25  # of the path, or m (more than a step), that distance_traveled may be off
 TIME_SLACK = 1.0  # s that a reported time may be off: feedback's period and delivery
 HALF_WAY = (25.0, 75.0)  # percent
@@ -134,8 +135,8 @@ def _statuses(goal: Goal, start: float, end: float, during) -> Counter[str]:
     )
 
 
-def require_measured_path(goal: Goal, end: ev.ResultReceived) -> None:
-    """Require that the result's distance_traveled is the length of the path that the robot walked."""
+def require_measured_path(goal: Goal, end: ev.ResultReceived, reversals: int = 0) -> None:
+    """Require that the result's distance_traveled is the length of the path, on which it turned back so many times."""
     walked = length_walked(goal.run, accepted_at(goal), end.t)
     claimed = float(end.result.distance_traveled)
     straight = math.dist(
@@ -152,7 +153,7 @@ def require_measured_path(goal: Goal, end: ev.ResultReceived) -> None:
         )
     else:
         help = "Count the path in every round of the loop, from acceptance to the end, also while the robot turns."
-    slack = max(SHARE * walked, LEAST)
+    slack = max(SHARE * walked, LEAST) + reversals * LOST
     expect(
         math.isfinite(claimed) and abs(claimed - walked) <= slack,
         expected=f"result.distance_traveled near {walked:.2f} m (within {slack:.2f} m), the path of the pelvis without "
