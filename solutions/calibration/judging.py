@@ -22,6 +22,7 @@ TOLERANCE = 0.001  # rad/s
 ASKING = 2.0  # s, at most, for get_status
 COLLECTING = 3.0  # s
 FEWEST_SAMPLES = 100
+AT_ONCE = 0.5  # s for a refusal without looking into anything
 EARLY = 0.1  # s less than COLLECTING that pass: clocks are read at either end
 LATE = 1.5  # s more than there is work for; the task says 1 s
 GAP = 0.3  # s without a heartbeat
@@ -352,6 +353,11 @@ def _advice_on_failing(call: Call, published: int) -> str:
         return deaf
     if deaf := why_nothing_is_heard(call.run, "robot_state"):
         return deaf
+    if call.latency < AT_ONCE:
+        return (
+            f"You refused at once ({said}), though the robot stood and nothing else was at work: look again at each "
+            "request, and forget a calibration when it ends."
+        )
     if status_request(call) is None and call.run.all(ev.ServiceOffered):
         return (
             f"The grader's get_status was never asked, and your answer was {said}: did the request get as far as "
@@ -363,6 +369,10 @@ def _advice_on_failing(call: Call, published: int) -> str:
             f"get_status had answered, but not to you ({said}): its answer could not be handled while the callback "
             "waited. Give client and service a ReentrantCallbackGroup, or groups of their own and a second thread."
         )
+    if any(
+        FEWEST_SAMPLES <= int(number) <= published for number in re.findall(r"\d+", call.response.message)
+    ):
+        return f"{FEWEST_SAMPLES} samples are enough, and you had more ({said}): some messages of a sensor are lost."
     if published >= FEWEST_SAMPLES and waited >= COLLECTING:
         return (
             f"{published} samples came while the callback waited, but they were not counted ({said}): on_imu gets no "

@@ -17,6 +17,10 @@ _ACCEPT = (
     "goal_callback must return GoalResponse.ACCEPT for a finite pose in frame odom while the motors are on (True is "
     "not GoalResponse.ACCEPT)."
 )
+_FREE_AGAIN = (
+    "A goal before it was accepted and had ended: remember that the robot is free again whenever execute ends, in a "
+    "finally block."
+)
 SHORTLY = 0.6  # s
 POSITION_TOLERANCE = 0.10  # m
 YAW_TOLERANCE = 0.15  # rad
@@ -25,10 +29,17 @@ STOP_SPEED = 0.05  # m/s
 WATCHED = 3.5  # s after the cancel
 
 
-def require_accepted(goal: Goal, help: str = _ACCEPT) -> Goal:
+def require_accepted(goal: Goal, help: str = "") -> Goal:
     """Require that the server accepted the goal; `help` is what to do if it got the robot's topics and rejected it."""
     deaf = (why_nothing_is_heard(goal.run, topic) for topic in ("odom", "robot_state"))
-    return goal.require_accepted(next(filter(None, deaf), help))
+    return goal.require_accepted(
+        next(filter(None, deaf), help or (_FREE_AGAIN if _is_later(goal) else _ACCEPT))
+    )
+
+
+def _is_later(goal: Goal) -> bool:
+    """Return whether a goal had ended when this one was sent."""
+    return any(result.t < goal.sent.t for result in goal.run.all(ev.ResultReceived))
 
 
 def require_arrival(goal: Goal, within: float = POSITION_TOLERANCE) -> None:

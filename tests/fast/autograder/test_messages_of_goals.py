@@ -26,8 +26,8 @@ def status(value: int, t: float = 2.2) -> Any:
     return ev.StatusSeen(t=t, goal="walk", status=value)
 
 
-def feedback(t: float) -> Any:
-    return ev.FeedbackReceived(t=t, goal="walk", feedback=WalkTo.Feedback(distance_remaining=0.31))
+def feedback(t: float, distance: float = 0.31) -> Any:
+    return ev.FeedbackReceived(t=t, goal="walk", feedback=WalkTo.Feedback(distance_remaining=distance))
 
 
 def result(value: int, t: float = 4.0) -> Any:
@@ -43,6 +43,10 @@ NO_RESULT = given_up("result", "walk", t=12.0)
         (
             [status(GoalStatus.EXECUTING), feedback(11.8)],
             "execute is still in its loop, 0.31 m from the goal. What ends it?",
+        ),
+        (
+            [status(GoalStatus.EXECUTING), feedback(2.3), feedback(11.8, distance=1.9)],
+            "1.90 m from the goal. It goes away from it: cmd_vel is in base_link's axes",
         ),
         (
             [status(GoalStatus.CANCELING), feedback(11.8)],
@@ -105,6 +109,18 @@ FORBIDDEN = said(
 def test_an_aborted_goal_is_told_who_aborted_it(lines: list[Any], next_step: str) -> None:
     failure = failure_of(goal_run(*lines, result(ABORTED)).require_result, SUCCEEDED)
     assert failure.help.startswith(next_step)
+
+
+def test_a_second_goal_that_is_rejected_is_told_that_the_first_has_ended() -> None:
+    run = run_of(
+        ev.GoalSent(t=2.0, goal="walk", action="walk_to", request=WalkTo.Goal()),
+        ev.GoalAnswered(t=2.1, goal="walk", accepted=True),
+        result(SUCCEEDED),
+        ev.GoalSent(t=6.0, goal="again", action="walk_to", request=WalkTo.Goal()),
+        ev.GoalAnswered(t=6.1, goal="again", accepted=False),
+    )
+    failure = failure_of(walking_truth.require_accepted, run.goal("again"))
+    assert "remember that the robot is free again" in failure.help
 
 
 def test_a_check_says_itself_what_a_goal_that_went_on_has_missed() -> None:
