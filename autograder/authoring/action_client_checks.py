@@ -13,6 +13,8 @@ from autograder.authoring.scripted_goal import ScriptedCancel, ScriptedGoal
 from autograder.authoring.transcript import Transcript
 
 PROMPT_SLACK = 0.5  # s on the arena's clock: 0.1 s of real time at scale 5, on a busy machine
+GAVE_UP = 1  # the exit status of a client that has heard nothing for too long
+LIVELY = 4.0  # s since the last feedback, in which a goal is not silent yet
 MANY_NUMBERS = 20  # in one line
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?")
 
@@ -60,7 +62,7 @@ def require_goal_finished(run: Transcript, goal: ScriptedGoal, status: int) -> e
         raise Failure(
             expected="a client that follows the goal to its end",
             observed=f"it ended with status {exited.returncode} at {exited.t:.1f} s, while the goal was under way",
-            help=_why_it_left(goal),
+            help=_why_it_left(goal, exited),
             at=exited.t,
         )
     if goal.finished is None or goal.finished.status != status:
@@ -73,8 +75,14 @@ def require_goal_finished(run: Transcript, goal: ScriptedGoal, status: int) -> e
     return goal.finished
 
 
-def _why_it_left(goal: ScriptedGoal) -> str:
+def _why_it_left(goal: ScriptedGoal, exited: ev.NodeExited) -> str:
     """Return what to do about a client that left its goal, by what it was told last."""
+    heard = [feedback.t for feedback in goal.feedback if feedback.t < exited.t]
+    if exited.returncode == GAVE_UP and heard and exited.t - heard[-1] < LIVELY:
+        return (
+            f"It gave up, though feedback came until {heard[-1]:.1f} s: a goal may take its time, only silence has a "
+            "limit, counted from the last feedback."
+        )
     if goal.cancels and goal.cancels[0].reply:
         return "The answer to a cancel says only that the server will try: wait for the result before you return."
     if goal.cancels:

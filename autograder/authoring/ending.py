@@ -65,6 +65,19 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
         ),
     ),
     (
+        r"^AttributeError: '\w+_FeedbackMessage' object has no attribute",
+        Remedy(
+            "A feedback callback gets the goal's id and the Feedback in one message: read message.feedback.field.",
+            "06_walk_to_a_pose#field-why",
+        ),
+    ),
+    (
+        r"error: (the following arguments are required|unrecognized arguments|argument \w+: )",
+        Remedy(
+            "argparse refused what the task allows: an argument that may be left out has nargs='?' and a default."
+        ),
+    ),
+    (
         r"^AttributeError: '\w+_(Request|Response|Goal|Result|Feedback)' object has no attribute",
         Remedy("The interface has no field of that name: compare it with `ros2 interface show`.", CRASHES),
     ),
@@ -126,8 +139,8 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
         )
     if exited.returncode > 0 and _gave_up(run):
         return Remedy(
-            f"The program itself decided to end so, though the grader offered {_offered(run)}: use relative names "
-            "and the task's types, so that it finds them."
+            f"Your program chose to end so. The grader offered {_offered(run)}: is the reason true, and are all names "
+            "relative and all types the task's?"
         )
     if exited.returncode and run.first(ev.NodeReady) is None:
         return _with_place(Remedy("The exception came before your node could serve."), run)
@@ -146,7 +159,8 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
 def end_in_words(run: Record, exited: ev.NodeExited) -> str:
     """Return how it ended: 'with status 1: TypeError', 'by itself with status 0 after 1 answer'."""
     if exited.returncode:
-        return f"with status {exited.returncode}" + (f": {run.last_words}" if run.last_words else "")
+        said = run.last_words or (run.output("stdout").strip().splitlines() or [""])[-1][:300]
+        return f"with status {exited.returncode}" + (f": {said}" if said else "")
     if not _is_a_server(run):
         return "with status 0"
     answers = len(run.all(ev.ServiceAnswered)) + len(run.all(ev.GoalAnswered))
@@ -195,7 +209,8 @@ def _offered(run: Record) -> str:
     """Return the names of the services and actions that the grader offered: 'get_status and walk_to'."""
     names = [event.service for event in run.all(ev.ServiceOffered)]
     names += [event.action for event in run.all(ev.ActionOffered)]
-    return " and ".join(dict.fromkeys(names))
+    names += [event.topic for event in run.all(ev.MessagePublished)]
+    return ", ".join(dict.fromkeys(names))
 
 
 def _is_a_server(run: Record) -> bool:
