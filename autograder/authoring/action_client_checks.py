@@ -18,6 +18,9 @@ LIVELY = 4.0  # s since the last feedback, in which a goal is not silent yet
 MANY_NUMBERS = 20  # in one line
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?")
 
+_LOST_STATUS = (
+    "It says why, but its status got lost: return it from main(), and end the file with sys.exit(main())."
+)
 _HELD_INPUT = "could not acquire lock for <_io.BufferedReader name='<stdin>'>"
 _NO_INPUT = (
     "A daemon thread still stood in input() when the program ended, and Python aborts there: read with "
@@ -164,12 +167,13 @@ def require_exit(
     """Require that the program ended in time with a status and a line on a stream, and printed no traceback."""
     exited = require_end(run, within)
     held_input = _HELD_INPUT in run.output("stderr")
+    lost = exited.returncode == 0 and bool(run.last_words)  # it failed and said so, but not with its status
     expect(
         exited.returncode == status,
         expected=f"exit status {status}: {because}",
         observed=f"exit status {exited.returncode}; "
         + ("Python aborted" if held_input else f"the last line on stderr: {run.last_words or 'none'}"),
-        help=_NO_INPUT if held_input else help,
+        help=_NO_INPUT if held_input else _LOST_STATUS if lost else help,
         at=exited.t,
     )
     expect(
