@@ -99,7 +99,7 @@ def forgets_the_sway() -> str:
     return f"{', '.join(f'{metres:.2f} m for {name}' for name, metres in found.items())}; {marched:.2f} m for marching"
 
 
-def cancels_once() -> str:
+def sends_a_single_cancel() -> str:
     """Hand in one charge after the other."""
     make = _program("battery_watch.py")["BatteryWatch"]
     for name, charge in NEW_CHARGES.items():
@@ -241,5 +241,5 @@ def _sway(t: float) -> float:
 GAPS = (
     Gap("route.py", decides_the_phase),
     Gap("odometer.py", forgets_the_sway),
-    Gap("battery_watch.py", cancels_once),
+    Gap("battery_watch.py", sends_a_single_cancel),
 )

@@ -56,7 +56,7 @@ def test_a_success_in_mid_step_is_false_and_one_after_settling_is_true(chapter: 
     touched = chapter.text("touch-run")
     assert "SUCCEEDED, and the robot is WALKING" in touched
     claimed, stands = claimed_and_stands(touched)
-    assert claimed == pytest.approx(1.03, abs=0.05)
+    assert 0.95 < claimed < 1.25  # a loop that comes late sees the goal late
     assert stands - claimed > 0.04
     settled = chapter.text("settle-run")
     assert "SUCCEEDED, and the robot is STANDING" in settled
@@ -67,8 +67,11 @@ def test_a_success_in_mid_step_is_false_and_one_after_settling_is_true(chapter: 
 
 def test_the_sway_is_plotted_with_the_end_of_the_goal(chapter: Executed) -> None:
     for cell in ("touch-plot", "settle-plot"):
-        html = chapter.html(cell)
-        assert all(part in html for part in ("x, m", "y, m", "speed, m/s", "the goal", "result: SUCCEEDED"))
+        words = _words(chapter.html(cell))
+        assert in_order(words, "x in m:", "y in m:", "speed in m/s:", "Dashed beside x: the goal.")
+        sway = re.search(r"y in m: .*?lowest ([-\d.]+) at [\d.]+ s, highest ([-\d.]+) at", words)
+        assert sway
+        assert float(sway[2]) - float(sway[1]) > 0.03
     assert in_order(_words(chapter.html("touch-plot")), "result: SUCCEEDED", "WALKING → STANDING")
     assert in_order(_words(chapter.html("settle-plot")), "WALKING → STANDING", "result: SUCCEEDED")
 
@@ -285,6 +288,6 @@ def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: st
 
 def _words(html: str) -> str:
     """The description of a picture, in words."""
-    found = re.search(r"<desc>(.*?)</desc>", html, re.DOTALL)
+    found = re.search(r'alt="([^"]+)"', html)
     assert found
     return found[1]
