@@ -299,6 +299,8 @@ def require_heartbeat(run: Transcript, call: Call, meanwhile: str) -> None:
     """Require heartbeats at 10 Hz without a gap, from the first to the end of the scenario; `call` falls into it."""
     beats = [event.t for event in run.heard("heartbeat")]
     require_alive(run)
+    if call.answer is None and not run.given_up("call", call.name):
+        raise unseen(run, f"calibrate_imu was not at work to the end of “{call.name}”")
     expect(
         len(beats) > 1 and beats[0] <= call.sent.t,
         expected="messages on heartbeat, ten a second, from the start on",

@@ -93,7 +93,7 @@ def names_its_phases(run: Transcript) -> None:
     require_named_phases(run.goal("go"))
 
 
-@check(points=1, on=GO, needs=feedback_keeps_its_rate, see="08_navigation#conventions")
+@check(points=1, on=GO, needs=[arrives, feedback_keeps_its_rate], see="08_navigation#conventions")
 def tells_its_time(run: Transcript) -> None:
     """navigation_time is the time since acceptance"""
     require_true_navigation_time(run.goal("go"))

@@ -237,10 +237,14 @@ def require_good_estimate(goal: Goal) -> None:
 
 
 def require_true_navigation_time(goal: Goal) -> None:
-    """Require that navigation_time is the time since acceptance."""
+    """Require that navigation_time is the time since acceptance, until the goal has succeeded."""
+    goal.require_accepted().require_result(SUCCEEDED)
     require_feedback(goal)
     start = accepted_at(goal)
-    for feedback in goal.feedback:
+    told = _told(goal)
+    if not told or told[-1].t - start < 2 * TIME_SLACK:
+        raise unseen(goal.run, f"there was feedback on “{goal.name}” for a moment only")
+    for feedback in told:
         claimed, true = seconds(feedback.feedback.navigation_time), feedback.t - start
         expect(
             abs(claimed - true) <= TIME_SLACK,
@@ -284,7 +288,7 @@ def require_detour_counted(goal: Goal) -> None:
     taken, given = require_led_astray(goal)
     require_feedback(goal)
     early = [f for f in goal.feedback if f.t < taken]
-    counts = [f.feedback.number_of_recoveries for f in goal.feedback]
+    counts = [f.feedback.number_of_recoveries for f in _told(goal)]
     expect(
         not early or early[-1].feedback.number_of_recoveries == 0,
         expected="number_of_recoveries 0 until something disturbs the robot",
@@ -292,6 +296,8 @@ def require_detour_counted(goal: Goal) -> None:
         help="The turn at the start is no recovery.",
         at=taken,
     )
+    if not counts:
+        raise unseen(goal.run, f"there was no feedback on “{goal.name}” before its result")
     expect(
         1 <= counts[-1] <= MOST_DETOURS,
         expected="number_of_recoveries 1 after the robot was led astray once",
@@ -309,6 +315,11 @@ def require_detour_counted(goal: Goal) -> None:
         help="Count for the whole goal.",
         at=given,
     )
+
+
+def _told(goal: Goal) -> list[ev.FeedbackReceived]:
+    """Return the feedback until the result; what comes later is another check's business."""
+    return [feedback for feedback in goal.feedback if goal.result is None or feedback.t <= goal.result.t]
 
 
 def _at(goal: Goal, t: float) -> ev.FeedbackReceived:
