@@ -109,6 +109,23 @@ def test_the_client_without_a_status_takes_a_fall_for_an_arrival(chapter: Execut
     )
 
 
+def test_each_line_of_the_client_stands_beside_its_arrow(chapter: Executed) -> None:
+    program = next(cell.source for cell in chapter.notebook.cells if cell.id == "hopeful-file")
+    assert in_order(
+        program,
+        *("def on_feedback(message):  # arrow 4", "feedback_callback=on_feedback)  # arrow 1"),
+        *(
+            "spin_until_future_complete(node, answer, timeout_sec=5.0)  # arrow 2",
+            "accepted:  # what arrow 2",
+        ),
+        *(
+            "get_result_async()  # arrow 3",
+            "(node, end, timeout_sec=60.0)  # arrows 4 and 6",
+            "what arrow 6 says",
+        ),
+    )
+
+
 def test_one_level_too_few_ends_the_client_and_not_the_walk(chapter: Executed) -> None:
     printed = chapter.text("field-run")
     assert in_order(
