@@ -47,7 +47,7 @@ def test_a_goal_without_a_terminal_call_is_aborted(chapter: Executed) -> None:
 
 def claimed_and_stands(printed: str) -> tuple[float, float]:
     """What a walk's result says and where the robot stands, m ahead."""
-    found = re.search(r"the result says ([\d.]+) m; the robot stands at ([\d.]+) m: STANDING", printed)
+    found = re.search(r"the result says ([\d.]+) m\nthe robot stands at ([\d.]+) m: STANDING", printed)
     assert found
     return float(found[1]), float(found[2])
 
