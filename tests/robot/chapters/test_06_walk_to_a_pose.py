@@ -47,7 +47,7 @@ def test_a_goal_without_a_terminal_call_is_aborted(chapter: Executed) -> None:
 
 def claimed_and_stands(printed: str) -> tuple[float, float]:
     """What a walk's result says and where the robot stands, m ahead."""
-    found = re.search(r"the result says ([\d.]+) m; the robot stands at ([\d.]+) m: STANDING", printed)
+    found = re.search(r"the result says ([\d.]+) m\nthe robot stands at ([\d.]+) m: STANDING", printed)
     assert found
     return float(found[1]), float(found[2])
 
@@ -106,6 +106,23 @@ def test_the_client_without_a_status_takes_a_fall_for_an_arrival(chapter: Execut
     assert in_order(printed, "<hopeful.py: exit status 0", "arrived, with", "robot: FALLEN")
     assert in_order(
         chapter.text("follow-run"), "<follow.py: exit status 3", "status 6: the robot fell on the way"
+    )
+
+
+def test_each_line_of_the_client_stands_beside_its_arrow(chapter: Executed) -> None:
+    program = next(cell.source for cell in chapter.notebook.cells if cell.id == "hopeful-file")
+    assert in_order(
+        program,
+        *("def on_feedback(message):  # arrow 4", "feedback_callback=on_feedback)  # arrow 1"),
+        *(
+            "spin_until_future_complete(node, answer, timeout_sec=5.0)  # arrow 2",
+            "accepted:  # what arrow 2",
+        ),
+        *(
+            "get_result_async()  # arrow 3",
+            "(node, end, timeout_sec=60.0)  # arrows 4 and 6",
+            "what arrow 6 says",
+        ),
     )
 
 
