@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from lab.gap import Gap, expect, not_yet
 
@@ -19,65 +19,59 @@ SWAY, PERIOD = 0.03, 0.88  # m to each side, s for two steps
 WITHIN = 0.15  # of the distance really walked
 MOST_SWAY = 0.25  # m that an odometer may count for a robot that marches on the spot
 MARCH = 30.0  # s
-NEW_CHARGES = {"a charge above the limit": 0.8, "a charge just above the limit": 0.21}
-NO_CHARGES = {"NaN": math.nan, "17.0, of a driver that counts to 100": 17.0, "a negative number": -0.05}
-
-
-class Way(NamedTuple):
-    """What is left to go: m, rad, rad."""
-
-    distance: float
-    bearing: float
-    turn: float
 
 
 def decides_the_phase() -> str:
     """Ask for the next phase in one situation after the other."""
     program = _program("route.py")
-    first, walk, last, arrived = (program[name] for name in ("FIRST", "WALK", "LAST", "ARRIVED"))
-    far = "is further than NEAR"
+    turn, walk, there = (program[name] for name in ("TURN", "WALK", "THERE"))
     situations = (
-        (walk, Way(1.5, 0.0, 2.0), walk, f"the goal {far}: the turn to the goal's heading has time"),
-        (walk, Way(1.5, 0.3, 0.0), walk, "the robot walks and the bearing is below ASTRAY: it steers while it walks"),
-        (walk, Way(1.5, 0.8, 0.0), first, "a bearing over ASTRAY ends the walking"),
-        (walk, Way(1.5, -0.8, 0.0), first, "a bearing to the right is negative: compare abs(way.bearing)"),
-        (first, Way(1.5, -0.3, 0.0), first, "a robot that turns goes on until the bearing is below ALIGNED"),
-        (first, Way(1.5, 0.1, 0.0), walk, "the bearing is below ALIGNED: walk"),
-        (walk, Way(0.1, 2.5, 0.5), last, "the goal is near: the bearing says nothing any more"),
-        (first, Way(0.02, 2.5, -0.5), last, "the turn is not below TURNED; a turn to the right is negative"),
-        (last, Way(0.15, 0.1, 0.01), last, "the distance is not below CLOSE: arrived needs both"),
-        (last, Way(0.03, -2.0, -0.03), arrived, "the distance is below CLOSE and the turn below TURNED"),
-        (last, Way(0.6, 1.5, 0.0), first, f"a push took the robot away: the goal {far}, and the bearing is large"),
-        (last, Way(0.6, 0.05, 0.0), walk, f"a push took the robot away: the goal {far}"),
-    )  # fmt: skip
-    for phase, way, wanted, reason in situations:
-        got = _asked(partial(program["next_phase"], phase, way), "route.py")
+        (walk, 1.5, 0.0, walk, "the distance is over REACH: go on walking"),
+        (walk, 1.5, 0.3, walk, "the robot walks and the bearing is below ASTRAY: it steers while it walks"),
+        (walk, 1.5, 0.8, turn, "a bearing over ASTRAY ends the walking"),
+        (walk, 1.5, -0.8, turn, "a bearing to the right is negative: compare abs(bearing)"),
+        (turn, 1.5, -0.3, turn, "a robot that turns goes on until the bearing is below ALIGNED"),
+        (turn, 1.5, 0.1, walk, "the bearing is below ALIGNED: walk"),
+        (
+            turn,
+            0.5,
+            1.2,
+            turn,
+            "near is not enough: the robot has to look at the point, so ask for the bearing first",
+        ),
+        (turn, 0.5, 0.05, there, "the distance is below REACH and the robot looks at the point"),
+        (walk, 0.55, 0.3, there, "it walked, and the bearing is below ASTRAY: it is there"),
+        (there, 0.7, 0.05, walk, "a push took the robot away: the distance is over REACH"),
+    )
+    for phase, distance, bearing, wanted, reason in situations:
+        got = _asked(partial(program["next_phase"], phase, distance, bearing), "route.py")
         expect(
             got == wanted,
-            seen=f"{got!r} for phase {phase!r} and {way}",
+            seen=f"{got!r} for phase {phase!r}, {distance} m and a bearing of {bearing} rad",
             expected=repr(wanted),
             next="end each path with `return` and a phase" if got is None else reason,
         )
-    return f"the right phase in {len(situations)} situations, two of them after a push"
+    return f"the right phase in {len(situations)} situations, one of them after a push"
 
 
 def forgets_the_sway() -> str:
     """Walk four paths, each with the sway of the pelvis, and compare the distances."""
-    make = _program("odometer.py")["Odometer"]
+    walked = _program("odometer.py")["walked"]
     paths = {
         "2 m straight": (2.0, _along([(0, 0), (2, 0)])),
         "2 m there and 2 m back": (4.0, _along([(0, 0), (2, 0), (0, 0)])),
         "1.5 m ahead and 1.5 m to the left": (3.0, _along([(0, 0), (1.5, 0), (1.5, 1.5)])),
     }
-    marched = _walked(make, _march())
-    found = {name: _walked(make, points) for name, (_, points) in paths.items()}
-    naive = _walked_naively(_march())
+    march = list(_march())
+    marched = _walked(walked, march)
+    found = {name: _walked(walked, points) for name, (_, points) in paths.items()}
+    naive = _walked_naively(march)
     expect(
         marched < naive / 2,
         seen=f"{marched:.2f} m for a robot that marches {MARCH:g} s on the spot; all pieces are {naive:.2f} m",
         expected=f"less than {MOST_SWAY} m",
-        next="do nothing as long as the piece from self.last to self.here is shorter than LONG_ENOUGH; move self.last "
-        "only when a piece counts",
+        next="do nothing as long as the piece from last to here is shorter than `shortest`; move last only when a "
+        "piece counts",
     )
     for name, (truth, _) in paths.items():
         metres = found[name]
@@ -86,98 +80,54 @@ def forgets_the_sway() -> str:
         if "back" in name and metres < 0.5:
             advice = "add up pieces; the distance from the start forgets the way back"
         elif metres < truth:
-            advice = "add each piece that is long enough to self.metres with +=, and set self.last = self.here then"
+            advice = "add each piece that is long enough to metres with +=, and set last = here then"
         else:
-            advice = "set self.last = self.here when a piece counts, or the same metres count again"
+            advice = "set last = here when a piece counts, or the same metres count again"
         raise not_yet(f"{metres:.2f} m for {name}", f"{truth:.2f} m, within {WITHIN:.0%}", advice)
     expect(
         marched <= MOST_SWAY,
         seen=f"{marched:.2f} m for a robot that marches {MARCH:g} s on the spot",
         expected=f"at most {MOST_SWAY} m",
-        next="compare with LONG_ENOUGH: a shorter piece may be sway",
+        next="compare with `shortest`: a shorter piece may be sway",
+    )
+    everything = float(_asked(partial(walked, march, 0.0), "odometer.py"))
+    expect(
+        everything > naive / 2,
+        seen=f"{everything:.2f} m for the march with shortest=0.0",
+        expected=f"{naive:.2f} m, the sum of all pieces",
+        next="compare with the argument `shortest`, not with a number of your own",
     )
     return f"{', '.join(f'{metres:.2f} m for {name}' for name, metres in found.items())}; {marched:.2f} m for marching"
 
 
-def sends_a_single_cancel() -> str:
-    """Hand in one charge after the other."""
-    make = _program("battery_watch.py")["BatteryWatch"]
-    for name, charge in NEW_CHARGES.items():
-        _decide(make, [charge], [False], f"{name} ({charge}): go on", "compare with `percentage < LIMIT`")
-    for name, value in NO_CHARGES.items():
-        _decide(
-            make,
-            [value],
-            [False],
-            f"{name} is no charge: ignore it",
-            "ask whether 0.0 <= percentage <= 1.0 before you compare with LIMIT; with NaN that is false",
+def knows_a_charge() -> str:
+    """Hand in one percentage after the other."""
+    program = _program("battery_watch.py")
+    ignore, cancel, go_on = (program[name] for name in ("IGNORE", "CANCEL", "GO_ON"))
+    percentages = (
+        (0.8, go_on, "a charge above LIMIT: go on"),
+        (0.21, go_on, "a charge just above LIMIT: do not round"),
+        (0.19, cancel, "a charge below LIMIT: cancel"),
+        (0.20000000298, go_on, "0.20 as it arrives: use < and do not round"),
+        (0.0, cancel, "0.0 is a charge, an empty battery: let it through with 0.0 <= percentage"),
+        (1.0, go_on, "1.0 is a charge, a full battery: let it through with percentage <= 1.0"),
+        (math.nan, ignore, "every comparison with NaN is false: ask `not 0.0 <= percentage <= 1.0`"),
+        (17.0, ignore, "17.0 is of a driver that counts to 100: ask `not 0.0 <= percentage <= 1.0`"),
+        (
+            -0.05,
+            ignore,
+            "a charge below 0 does not exist: ask whether it is one before you compare with LIMIT",
+        ),
+    )
+    for percentage, wanted, reason in percentages:
+        got = _asked(partial(program["decide"], percentage), "battery_watch.py")
+        expect(
+            got == wanted,
+            seen=f"{got!r} for {percentage:g}",
+            expected=repr(wanted),
+            next="end each path with `return` and IGNORE, CANCEL or GO_ON" if got is None else reason,
         )
-    _decide(
-        make,
-        [0.2000000030],
-        [False],
-        "0.20 as it arrives: not below LIMIT",
-        "use < and not <=, and do not round",
-    )
-    _decide(
-        make,
-        [0.5, 0.19],
-        [False, True],
-        "0.19 is below LIMIT",
-        "return True for the first charge below LIMIT",
-    )
-    _decide(make, [0.0], [True], "0.0 is a charge: an empty battery", "let 0.0 through: 0.0 <= percentage")
-    _decide(
-        make,
-        [0.19, 0.18, 0.17],
-        [True, False, False],
-        "True once",
-        "set self.has_cancelled, and return False when it is set",
-    )
-    _decide(
-        make,
-        [math.nan, 0.3, 0.1],
-        [False, False, True],
-        "a NaN does not end the watch",
-        "ignore the value only: the next message may be a charge again",
-    )
-    warnings = _decide(make, [math.nan, 17.0, math.nan], [False] * 3, "False for no charge", "return False")
-    expect(
-        len(warnings) == 1,
-        seen=f"{len(warnings)} warnings for three values that are no charge",
-        expected="one",
-        next="call self.warn when self.has_warned is not set yet, and then set it",
-    )
-    quiet = _decide(make, [0.9, 0.19], [False, True], "True for 0.19", "return True")
-    expect(
-        not quiet,
-        seen=f"a warning for sound charges: {quiet}",
-        expected="none",
-        next="warn of no charges only",
-    )
-    return "True once, with the first charge below 0.20; NaN and 17.0 ignored, with one warning"
-
-
-def _decide(
-    make: Callable[..., Any], values: list[float], wanted: list[bool], expected: str, advice: str
-) -> list[str]:
-    """Hand the values to a new watch, require these decisions, and return its warnings."""
-    warnings: list[str] = []
-
-    def decide() -> list[Any]:
-        watch = make(warnings.append)
-        return [watch.must_cancel(value) for value in values]
-
-    got = _asked(decide, "battery_watch.py")
-    if None in got:
-        advice = "end each path with `return` and True or False"
-    expect(
-        None not in got and [bool(each) for each in got] == wanted,
-        seen=f"{got} for {values}",
-        expected=f"{wanted}: {expected}",
-        next=advice,
-    )
-    return warnings
+    return f"the right answer for {len(percentages)} percentages, three of them no charge"
 
 
 def _program(file: str) -> dict[str, Any]:
@@ -197,14 +147,8 @@ def _asked(call: Callable[[], Any], file: str) -> Any:
         ) from None
 
 
-def _walked(make: Callable[[], Any], points: Iterable[tuple[float, float]]) -> float:
-    def walk() -> float:
-        odometer = make()
-        for x, y in points:
-            odometer.add(x, y)
-        return float(odometer.walked())
-
-    return float(_asked(walk, "odometer.py"))
+def _walked(walked: Callable[..., Any], points: Iterable[tuple[float, float]]) -> float:
+    return float(_asked(partial(walked, list(points)), "odometer.py"))
 
 
 def _walked_naively(points: Iterable[tuple[float, float]]) -> float:
@@ -241,5 +185,5 @@ def _sway(t: float) -> float:
 GAPS = (
     Gap("route.py", decides_the_phase),
     Gap("odometer.py", forgets_the_sway),
-    Gap("battery_watch.py", sends_a_single_cancel),
+    Gap("battery_watch.py", knows_a_charge),
 )

@@ -53,7 +53,7 @@ QUESTIONS = (
             ),
             Choice(
                 "The largest that the data sheet names, because people prefer short times.",
-                "People prefer times that come true. On a trip with two half turns this one was three times too small.",
+                "People prefer times that come true. This one forgets that the robot has to turn, and that it slips.",
             ),
         ),
     ),
@@ -144,7 +144,7 @@ PREDICTIONS = (
             ),
             Choice(
                 "SUCCEEDED, far beside the goal.",
-                "The loop ends after 1.5 m of walking, and succeed() follows whatever loop has ended.",
+                "The loop ends after 1.6 m of walking, and succeed() follows whatever loop has ended.",
                 right=True,
             ),
             Choice(
@@ -155,39 +155,39 @@ PREDICTIONS = (
         ),
     ),
     Question(
-        "The robot walks 1.5 m straight ahead and turns around. What is the sum of all pieces of odom?",
+        "The robot turns around and walks 1.4 m straight ahead. What is the sum of all pieces of odom?",
         (
             Choice(
-                "Between 1.45 and 1.55 m.",
-                "A sensible guess: 3 cm are little beside 1.5 m. But they come with every step, about 30 times, and "
+                "Between 1.3 and 1.5 m.",
+                "A sensible guess: 3 cm are little beside 1.4 m. But they come with every step, about 30 times, and "
                 "also while the robot turns.",
             ),
             Choice(
-                "More than 1.8 m.",
+                "More than 1.7 m.",
                 "Each step adds its sway, and the turn on the spot adds sway without any distance.",
                 right=True,
             ),
             Choice(
-                "Less than 1.4 m: odom comes only 20 times a second and cuts the corners.",
+                "Less than 1.3 m: odom comes only 20 times a second and cuts the corners.",
                 "A sensible guess: straight pieces are shorter than a curve. But the sway that they follow is longer "
                 "than the way.",
             ),
         ),
     ),
     Question(
-        "The robot turns by 90° where it stands. What does progress_percentage say on the way?",
+        "The point is 0.6 m to the left of the robot. What does progress_percentage say during the quarter turn?",
         (
             Choice(
                 "It rises from 0 to 100 %.",
                 "A sensible guess: that is what it is for. But the formula knows distances only, and there is none.",
             ),
             Choice(
-                "It is 100 % all the time: the robot is at the goal.",
-                "A sensible guess: the place does not change. But the pelvis sways by 3 cm, and the formula divides "
-                "that by the half millimetre of the start.",
+                "It is 100 % all the time: the robot is near enough.",
+                "A sensible guess: there is nothing to walk. But the pelvis sways by 3 cm, and the formula divides "
+                "that by less than a millimetre at the start.",
             ),
             Choice(
-                "It says minus some thousand percent.",
+                "It says thousands of percent, plus or minus.",
                 "3 cm of sway, divided by less than a millimetre at the start.",
                 right=True,
             ),

@@ -86,7 +86,7 @@ def feedback_is_true(run: Transcript) -> None:
     points=1,
     on=GO,
     needs=[arrives, faces_its_way, feedback_keeps_its_rate],
-    see="08_navigation#route-intro",
+    see="08_navigation#loops-intro",
 )
 def names_its_phases(run: Transcript) -> None:
     """Status names the phase: turn, walk, turn to the heading"""
@@ -220,7 +220,9 @@ def counts_the_recovery(run: Transcript) -> None:
     require_detour_counted(run.goal("go"))
 
 
-@check(points=1, on=ASTRAY, needs=[gets_back_on_its_way, progress_rises_to_100], see="08_navigation#zero-why")
+@check(
+    points=1, on=ASTRAY, needs=[gets_back_on_its_way, progress_rises_to_100], see="08_navigation#zero-fix-why"
+)
 def progress_never_falls(run: Transcript) -> None:
     """progress_percentage does not fall when the robot is led back"""
     require_led_astray(run.goal("go"))

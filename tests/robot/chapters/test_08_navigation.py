@@ -39,22 +39,15 @@ def test_three_loops_succeed_beside_the_goal(chapter: Executed) -> None:
     printed = chapter.text("loops-run")
     assert "end: SUCCEEDED" in printed
     assert number(r"stands (\d+) cm", printed) > 25
-
-
-def test_after_a_push_a_phase_that_is_decided_anew_leads_to_the_goal(chapter: Executed) -> None:
-    printed = chapter.text("push-run")
-    assert in_order(printed, "end: SUCCEEDED", "phases:", "walking", "turning to the heading", "arrived")
-    assert number(r"stands (\d+) cm", printed) <= 10
-    assert abs(number(r"heading (-?\d+)°", printed) - 90) < 9
-    assert "push" in chapter.html("push-plot")
+    assert in_order(printed, "phases:", "turning to the goal", "walking", "turning to the heading")
 
 
 def test_a_robot_that_is_turned_off_its_way_gets_back_and_counts_it(chapter: Executed) -> None:
     printed = chapter.text("recovery-run")
-    assert in_order(printed, "end: SUCCEEDED", "walking", "turning to the goal", "walking", "arrived")
-    assert number(r"arrived +[\d.]+ m left, (\d+) rec", printed) >= 1
-    assert number(r"stands (\d+) cm", printed) <= 10
-    assert "the joystick takes the robot" in chapter.html("recovery-plot")
+    assert in_order(printed, "end: SUCCEEDED", "walking", "turning to the goal", "walking", "there")
+    assert number(r"there +[\d.]+ m left, (\d+) rec", printed) >= 1
+    assert number(r"stands (\d+) cm", printed) <= 60
+    assert in_order(chapter.html("recovery-plot"), "push", "the joystick takes the robot")
 
 
 def test_the_trip_is_filmed(chapter: Executed) -> None:
@@ -64,35 +57,31 @@ def test_the_trip_is_filmed(chapter: Executed) -> None:
 def test_a_naive_sum_of_odom_overcounts_and_the_filtered_one_does_not(chapter: Executed) -> None:
     printed = chapter.text("sway-run")
     straight = number(r"start to end: ([\d.]+) m", printed)
-    assert abs(straight - 1.5) < 0.1
-    assert number(r"pieces of odom:  ([\d.]+) m", printed) > 1.8
-    filtered = number(r"filtered ([\d.]+) m", chapter.text("odometer-plot"))
-    assert abs(filtered - straight) < 0.15 * straight
-    assert in_order(chapter.html("odometer-plot"), "filtered:", "sum of all pieces:")
+    assert 1.3 < straight < 1.6
+    assert number(r"pieces of odom:  ([\d.]+) m", printed) > 1.7
+    filtered = chapter.text("odometer-plot")
+    assert abs(number(r"0\.20 m: ([\d.]+) m", filtered) - straight) < 0.15 * straight
+    assert number(r"0\.00 m: ([\d.]+) m", filtered) == number(r"pieces of odom:  ([\d.]+) m", printed)
+    assert in_order(chapter.html("odometer-plot"), "0.2 m:", "all pieces:")
 
 
-def test_the_estimate_counts_turns_and_is_within_a_factor_of_two(chapter: Executed) -> None:
-    assert number(r"SUCCEEDED: ([\d.]+) m", chapter.text("eta-run")) == pytest.approx(1.5, rel=0.15)
-    words = chapter.html("eta-run")
-    truth = number(r"truth: time left, s from ([\d.]+)", words)
-    assert truth / 2 < number(r"estimate: time left, s from ([\d.]+)", words) < truth * 2
-    assert number(r"top speed: time left, s from ([\d.]+)", words) < truth / 3
+def test_the_measured_speed_is_right_on_the_way_and_wrong_in_the_turn(chapter: Executed) -> None:
+    at_the_start, half_way = chapter.text("eta-run").splitlines()
+    guess = r"measured speed +([\d.]+) s"
+    assert number(guess, at_the_start) > 1.5 * number(r"truth +([\d.]+) s", at_the_start)
+    assert number(r"top speed +([\d.]+) s", at_the_start) < number(r"truth +([\d.]+) s", at_the_start) / 2
+    truth = number(r"truth +([\d.]+) s", half_way)
+    assert truth / 2 < number(guess, half_way) < truth * 2
 
 
-def test_progress_by_distance_is_nonsense_for_a_turn_on_the_spot(chapter: Executed) -> None:
+def test_progress_by_distance_is_nonsense_where_nothing_is_to_be_walked(chapter: Executed) -> None:
     printed = chapter.text("zero-run")
     assert "end: SUCCEEDED" in printed
-    assert min(numbers(r"(-?\d+) %", printed)) < -1000
+    assert max(abs(each) for each in numbers(r"(-?\d+) %", printed)) > 1000
 
 
-def test_progress_by_work_goes_from_0_to_100(chapter: Executed) -> None:
-    turn, nothing = chapter.text("zero-fix-run").split("nothing to do:")
-    assert "SUCCEEDED" in turn
-    rising = numbers(r"(-?\d+) %", turn)
-    assert rising[0] <= 10
-    assert all(0 <= each <= 100 for each in rising)
-    assert "SUCCEEDED" in nothing
-    assert set(numbers(r"(-?\d+) %", nothing)) == {100.0}
+def test_progress_that_knows_what_nothing_is_stays_at_100(chapter: Executed) -> None:
+    assert set(numbers(r"(-?\d+) %", chapter.text("zero-fix-run"))) == {100.0}
 
 
 def test_a_trip_that_takes_too_long_is_aborted_with_timeout(chapter: Executed) -> None:
@@ -102,22 +91,19 @@ def test_a_trip_that_takes_too_long_is_aborted_with_timeout(chapter: Executed) -
 def test_the_numbers_of_the_text_are_impossible_and_those_of_the_run_are_not(chapter: Executed) -> None:
     printed = chapter.text("book-check")
     assert in_order(printed, "1.15 m/s", "1.45 m/s", "12 %", "after 2 s")
-    run = chapter.text("book-run")
-    assert in_order(run, "<go.py: exit status 0", "walking", "SUCCEEDED")
-    assert number(r"SUCCEEDED, ([\d.]+) m walked", run) == pytest.approx(2.5, rel=0.15)
+    assert in_order(chapter.text("book-run"), "end: SUCCEEDED", "turning to the goal", "walking", "m left")
     checked = chapter.text("book-run-check")
     speeds = numbers(r"s: (-?[\d.]+) m/s", checked)
     assert len(speeds) >= 3
     assert all(0.1 < speed < 0.5 for speed in speeds)
-    assert number(r"stands (\d+) cm", checked) <= 10
+    assert number(r"stands (\d+) cm", checked) <= 60
 
 
 def test_a_key_the_command_line_and_a_button_cancel(chapter: Executed) -> None:
-    assert in_order(chapter.text("stop-q"), "q: asking for a cancel", "CANCELED")
+    assert in_order(chapter.text("stop-q"), "q: 1 goal to be canceled", "end: CANCELED")
     assert in_order(chapter.text("stop-ctrl-c"), "Canceling goal", "Goal canceled", "robot: STANDING")
     printed = chapter.text("stop-both")
-    assert in_order(printed, "button: return_code 0, 1 goal", "<go.py: exit status 0", "CANCELED")
-    assert "goals_canceling=[]" in printed
+    assert in_order(printed, "button: return_code 0, 1 goal", "end: CANCELED", "goals_canceling=[]")
 
 
 def test_a_second_cancel_of_the_same_goal_is_answered_with_3(chapter: Executed) -> None:
@@ -147,7 +133,7 @@ def test_every_comparison_with_nan_is_false_and_float32_is_not_the_number(chapte
 
 def test_the_guard_cancels_once_and_waits_for_both(chapter: Executed) -> None:
     printed = chapter.text("watch-run")
-    assert re.findall(r"cancel (True|False)", printed) == ["False", "False", "True", "False"]
+    assert in_order(printed, "0.30: go on", "0.22: go on", "0.19: cancel", "cancel: accepted")
     assert in_order(printed, "status: CANCELED", "robot:  STANDING")
 
 
@@ -155,71 +141,51 @@ def test_there_is_no_map(chapter: Executed) -> None:
     assert in_order(chapter.text("map"), "no tf, no map", "frame_id: odom", "child_frame_id: base_link")
 
 
-ROUTE = "if way.distance > NEAR:\n    {}\nreturn {}"
-THERE = "ARRIVED if way.distance < CLOSE and abs(way.turn) < TURNED else LAST"
-LIMIT = "limit = ASTRAY if phase == WALK else ALIGNED"
+LIMIT = "limit = ASTRAY if phase == WALK else ALIGNED\n"
+END = "return WALK if distance > REACH else THERE"
 
 
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
+        (f"{LIMIT}if bearing > limit:\n    return TURN\n{END}", "a bearing to the right is negative"),
+        (f"if abs(bearing) > ALIGNED:\n    return TURN\n{END}", "it steers while it walks"),
+        (f"if abs(bearing) > ASTRAY:\n    return TURN\n{END}", "goes on until the bearing"),
+        (END, "a bearing over ASTRAY ends the walking"),
         (
-            ROUTE.format(f"{LIMIT}\n    return FIRST if way.bearing > limit else WALK", THERE),
-            "a bearing to the right is negative",
+            f"{LIMIT}if distance < REACH:\n    return THERE\nreturn TURN if abs(bearing) > limit else WALK",
+            "near is not enough",
         ),
         (
-            ROUTE.format("return FIRST if abs(way.bearing) > ALIGNED else WALK", THERE),
-            "it steers while it walks",
-        ),
-        (
-            ROUTE.format("return FIRST if abs(way.bearing) > ASTRAY else WALK", THERE),
-            "goes on until the bearing",
-        ),
-        (ROUTE.format("return WALK", THERE), "a bearing over ASTRAY ends the walking"),
-        (
-            ROUTE.format(
-                f"{LIMIT}\n    return FIRST if abs(way.bearing) > limit else WALK",
-                "ARRIVED if way.distance < CLOSE else LAST",
-            ),
-            "the turn is not below TURNED",
-        ),
-        (
-            f"if phase == LAST:\n    return {THERE}\n{LIMIT}\nif way.distance < NEAR:\n    return LAST\n"
-            "return FIRST if abs(way.bearing) > limit else WALK",
+            f"if phase == THERE:\n    return THERE\n{LIMIT}if abs(bearing) > limit:\n    return TURN\n{END}",
             "a push took the robot away",
         ),
-        ("if way.distance > NEAR:\n    return FIRST if abs(way.bearing) > ALIGNED else WALK", "it steers"),
-        (f"return {THERE} if way.distance < NEAR else None", "end each path with `return`"),
-        ("return FIRST if way.angle > ASTRAY else WALK", "AttributeError"),
+        (f"{LIMIT}if abs(bearing) > limit:\n    return TURN", "end each path with `return`"),
+        (f"{LIMIT}if abs(angle) > limit:\n    return TURN\n{END}", "NameError"),
     ],
 )
 def test_the_gap_of_the_phases_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
     assert said in gaps.reply("route.py", lines)
 
 
+PIECE = "for here in path:\n    piece = math.dist(last, here)\n"
+
+
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
+        (f"{PIECE}    metres += piece\n    last = here", "do nothing as long as the piece"),
+        ("pass", "add up pieces"),
+        (f"{PIECE}    if piece >= shortest:\n        metres += piece", "set last = here when a piece counts"),
         (
-            "if self.last:\n    self.metres += math.dist(self.last, self.here)\nself.last = self.here",
-            "do nothing as long as the piece",
-        ),
-        ("if self.last is None:\n    self.last = self.here", "add up pieces"),
-        (
-            "self.last = self.last or self.here\npiece = math.dist(self.last, self.here)\n"
-            "if piece >= LONG_ENOUGH:\n    self.metres += piece",
-            "set self.last = self.here when a piece counts",
-        ),
-        (
-            "self.last = self.last or self.here\npiece = math.dist(self.last, self.here)\n"
-            "if piece >= LONG_ENOUGH:\n    self.metres = piece\n    self.last = self.here",
+            f"{PIECE}    if piece >= shortest:\n        metres = piece\n        last = here",
             "with +=",
         ),
         (
-            "piece = math.dist(self.last, self.here)\nif piece > LONG_ENOUGH:\n    self.metres += piece",
-            "TypeError",
+            f"{PIECE}    if piece >= 0.2:\n        metres += piece\n        last = here",
+            "not with a number of your own",
         ),
-        ("self.metres += 1", "not yet"),
+        ("for x, y in path:\n    if math.dist(last, x) >= shortest:\n        last = x", "TypeError"),
     ],
 )
 def test_the_gap_of_the_distance_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
@@ -229,29 +195,27 @@ def test_the_gap_of_the_distance_says_what_is_wrong(gaps: GapTrials, lines: str,
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        ("return percentage < LIMIT", "-0.05"),
+        ("return CANCEL if percentage < LIMIT else GO_ON", "every comparison with NaN is false"),
+        ("return GO_ON if percentage >= LIMIT else CANCEL", "every comparison with NaN is false"),
         (
-            "if not percentage >= LIMIT and not self.has_cancelled:\n    self.has_cancelled = True\n    return True\n"
-            "return False",
-            "nan",
-        ),
-        ("return 0.0 <= percentage <= 1.0 and percentage < LIMIT", "set self.has_cancelled"),
-        (
-            "if 0.0 <= percentage < LIMIT and not self.has_cancelled:\n    self.has_cancelled = True\n    return True\n"
-            "return False",
-            "0 warnings",
+            "if percentage < 0.0 or percentage > 1.0:\n    return IGNORE\n"
+            "return CANCEL if percentage < LIMIT else GO_ON",
+            "every comparison with NaN is false",
         ),
         (
-            "if not 0.0 <= percentage <= 1.0:\n    self.warn('no charge')\n    return False\n"
-            "fires = percentage < LIMIT and not self.has_cancelled\nself.has_cancelled |= fires\nreturn fires",
-            "3 warnings",
+            "if not percentage <= 1.0:\n    return IGNORE\nreturn CANCEL if percentage < LIMIT else GO_ON",
+            "a charge below 0 does not exist",
         ),
         (
-            "if not 0.0 < percentage <= 1.0:\n    return False\n"
-            "fires = percentage < LIMIT and not self.has_cancelled\nself.has_cancelled |= fires\nreturn fires",
+            "if not 0.0 < percentage <= 1.0:\n    return IGNORE\nreturn CANCEL if percentage < LIMIT else GO_ON",
             "an empty battery",
         ),
-        ("if percentage < LIMIT:\n    return True", "end each path with `return`"),
+        (
+            "if not 0.0 <= percentage <= 1.0:\n    return IGNORE\n"
+            "return CANCEL if round(percentage, 1) <= LIMIT else GO_ON",
+            "do not round",
+        ),
+        ("if percentage < LIMIT:\n    return CANCEL", "end each path with `return`"),
     ],
 )
 def test_the_gap_of_the_battery_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
@@ -263,22 +227,18 @@ def test_the_gap_of_the_battery_says_what_is_wrong(gaps: GapTrials, lines: str, 
     [
         (
             "route.py",
-            f"if way.distance <= NEAR:\n    return {THERE}\nif phase == WALK and abs(way.bearing) < ASTRAY:\n"
-            "    return WALK\nif abs(way.bearing) < ALIGNED:\n    return WALK\nreturn FIRST",
+            "if phase == WALK and abs(bearing) <= ASTRAY or abs(bearing) <= ALIGNED:\n"
+            "    return THERE if distance <= REACH else WALK\nreturn TURN",
         ),
         (
             "odometer.py",
-            "self.lately = [*getattr(self, 'lately', []), self.here][-18:]\n"
-            "mean = tuple(sum(values) / len(self.lately) for values in zip(*self.lately))\n"
-            "if len(self.lately) == 18 and getattr(self, 'mean', None):\n"
-            "    self.metres += math.dist(self.mean, mean)\nself.mean = mean",
+            "for x, y in path[1:]:\n    if math.hypot(x - last[0], y - last[1]) < shortest:\n        continue\n"
+            "    metres = metres + math.hypot(x - last[0], y - last[1])\n    last = (x, y)",
         ),
         (
             "battery_watch.py",
-            "import math\nif math.isnan(percentage) or percentage < 0 or percentage > 1:\n"
-            "    if not self.has_warned:\n        self.has_warned = True\n        self.warn('no charge')\n"
-            "elif percentage < LIMIT and not self.has_cancelled:\n    self.has_cancelled = True\n    return True\n"
-            "return False",
+            "if percentage != percentage or percentage < 0 or percentage > 1:\n    return IGNORE\n"
+            "if percentage < LIMIT:\n    return CANCEL\nreturn GO_ON",
         ),
     ],
 )

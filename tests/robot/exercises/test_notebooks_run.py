@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
 
 import nbformat
 from nbclient import NotebookClient
+
+from ros_cli.real_ros2 import path_with_ros2
 
 SOLUTIONS = Path(__file__).resolve().parents[3] / "solutions"
 CELL_TIMEOUT = 300  # s, for a self-check on a busy machine
@@ -17,7 +20,8 @@ def run(exercise, folder, until=None):
     notebook = nbformat.read(SOLUTIONS / exercise / f"{exercise}.ipynb", as_version=4)
     ids = [cell.id for cell in notebook.cells]
     notebook.cells = notebook.cells[: ids.index(until) if until else None]
-    NotebookClient(notebook, timeout=CELL_TIMEOUT, resources={"metadata": {"path": str(folder)}}).execute()
+    client = NotebookClient(notebook, timeout=CELL_TIMEOUT, resources={"metadata": {"path": str(folder)}})
+    client.execute(env={**os.environ, "PATH": path_with_ros2(os.environ["PATH"])})  # as in `course lab`
     return {cell.id: _text(cell.outputs) for cell in notebook.cells if cell.cell_type == "code"}
 
 
@@ -114,3 +118,41 @@ def test_walk_to_on_the_live_robot(tmp_path):
     assert "plain difference -6.00 rad, wrapped 0.28 rad" in seen["example-wrap"]
     assert "SUCCEEDED" in seen["try-walk"]
     assert "reject" in seen["try-nowhere"].lower()
+
+
+BIAS = ((r"(?s).*bias x (-?[\d.]+)", "try"), (r"\bx: (-?[\d.e-]+)", "try-bias"))
+
+
+def test_calibration_on_a_standing_and_on_a_walking_robot(tmp_path):
+    seen = run("calibration", tmp_path, until="self-check-intro")
+    assert re.search(r"\d+ messages in a second", seen["example-run"])
+    assert seen["try"].count("success=True") == 1
+    found, latched = (float(re.search(pattern, seen[cell])[1]) for pattern, cell in BIAS)
+    assert abs(found - latched) < 1e-4
+    assert 8 < float(re.search(r"average rate: ([\d.]+)", seen["try-bias"])[1]) < 12
+    assert "success=False" in seen["try-walking"]
+
+
+def test_walk_client_alone_and_with_a_server(tmp_path):
+    seen = run("walk_client", tmp_path, until="self-check-intro")
+    assert "nobody offers walk_to" in seen["example-run"]
+    alone, with_a_server = seen["try"].split("with a server:")
+    assert "exit status 1" in alone
+    assert re.search(r"exit status 0.*0\.8.*0\.2.*SUCCEEDED", with_a_server, re.DOTALL)
+    assert "exit status 2" in seen["try-arguments"]
+    assert "usage" in seen["try-arguments"]
+
+
+def test_cancel_client_with_a_q_and_without(tmp_path):
+    seen = run("cancel_client", tmp_path, until="self-check-intro")
+    assert "2 ['q\\n', 'end of input']" in seen["example-run"]
+    assert re.search(r"CANCELED.*exit status 4", seen["try"], re.DOTALL)
+    assert re.search(r"exit status 0.*SUCCEEDED", seen["try-nobody-types"], re.DOTALL)
+
+
+def test_navigate_to_pose_on_the_live_robot(tmp_path):
+    seen = run("navigate_to_pose", tmp_path, until="self-check-intro")
+    assert "in legs 2.0" in seen["example-path"]
+    assert "the walk takes 6.7 s, the turns 9.0 s, together 15.7 s" in seen["example-time"]
+    assert "SUCCEEDED" in seen["try-result"]
+    assert 1.1 < float(re.search(r"distance_traveled ([\d.]+)", seen["try-result"])[1]) < 1.7
