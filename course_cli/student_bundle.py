@@ -90,13 +90,10 @@ def require_no_leak(files: Mapping[str, Path]) -> None:
 
 
 def hidden_check_ids() -> list[str]:
-    """Return the ids of all hidden checks."""
-    return [
-        check.id
-        for name in exercise_names()
-        for check in load_exercise(name, hidden=True).checks
-        if check.hidden
-    ]
+    """Return the ids of the hidden checks, without those that another exercise has as a visible one."""
+    checks = [check for name in exercise_names() for check in load_exercise(name, hidden=True).checks]
+    shown = {check.id for check in checks if not check.hidden}
+    return [check.id for check in checks if check.hidden and check.id not in shown]
 
 
 def _visible_checks() -> Iterator[tuple[str, Path]]:

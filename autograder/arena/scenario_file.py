@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import sys
 from functools import cache
 from types import ModuleType
 
@@ -16,5 +17,6 @@ def scenarios_in(path: str) -> ModuleType:
     assert spec
     assert spec.loader
     module = importlib.util.module_from_spec(spec)
+    sys.modules[NAME] = module  # a dataclass looks its module up there
     spec.loader.exec_module(module)
     return module

@@ -13,9 +13,14 @@ from autograder.authoring.scripted_goal import ScriptedCancel, ScriptedGoal
 from autograder.authoring.transcript import Transcript
 
 PROMPT_SLACK = 0.5  # s on the arena's clock: 0.1 s of real time at scale 5, on a busy machine
+GAVE_UP = 1  # the exit status of a client that has heard nothing for too long
+LIVELY = 4.0  # s since the last feedback, in which a goal is not silent yet
 MANY_NUMBERS = 20  # in one line
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?")
 
+_LOST_STATUS = (
+    "It says why, but its status got lost: return it from main(), and end the file with sys.exit(main())."
+)
 _HELD_INPUT = "could not acquire lock for <_io.BufferedReader name='<stdin>'>"
 _NO_INPUT = (
     "A daemon thread still stood in input() when the program ended, and Python aborts there: read with "
@@ -60,7 +65,7 @@ def require_goal_finished(run: Transcript, goal: ScriptedGoal, status: int) -> e
         raise Failure(
             expected="a client that follows the goal to its end",
             observed=f"it ended with status {exited.returncode} at {exited.t:.1f} s, while the goal was under way",
-            help=_why_it_left(goal),
+            help=_why_it_left(goal, exited),
             at=exited.t,
         )
     if goal.finished is None or goal.finished.status != status:
@@ -73,8 +78,14 @@ def require_goal_finished(run: Transcript, goal: ScriptedGoal, status: int) -> e
     return goal.finished
 
 
-def _why_it_left(goal: ScriptedGoal) -> str:
+def _why_it_left(goal: ScriptedGoal, exited: ev.NodeExited) -> str:
     """Return what to do about a client that left its goal, by what it was told last."""
+    heard = [feedback.t for feedback in goal.feedback if feedback.t < exited.t]
+    if exited.returncode == GAVE_UP and heard and exited.t - heard[-1] < LIVELY:
+        return (
+            f"It gave up, though feedback came until {heard[-1]:.1f} s: a goal may take its time, only silence has a "
+            "limit, counted from the last feedback."
+        )
     if goal.cancels and goal.cancels[0].reply:
         return "The answer to a cancel says only that the server will try: wait for the result before you return."
     if goal.cancels:
@@ -156,12 +167,13 @@ def require_exit(
     """Require that the program ended in time with a status and a line on a stream, and printed no traceback."""
     exited = require_end(run, within)
     held_input = _HELD_INPUT in run.output("stderr")
+    lost = exited.returncode == 0 and bool(run.last_words)  # it failed and said so, but not with its status
     expect(
         exited.returncode == status,
         expected=f"exit status {status}: {because}",
         observed=f"exit status {exited.returncode}; "
         + ("Python aborted" if held_input else f"the last line on stderr: {run.last_words or 'none'}"),
-        help=_NO_INPUT if held_input else help,
+        help=_NO_INPUT if held_input else _LOST_STATUS if lost else help,
         at=exited.t,
     )
     expect(

@@ -23,7 +23,7 @@ def require_end(run: Transcript, within: float) -> ev.NodeExited:
     exited = run.first(ev.NodeExited)
     if exited is None:
         raise Failure(
-            expected=f"the program to end by itself within {within:g} s",
+            expected=f"the program to end by itself within {within:.3g} s",
             observed=f"it still ran after {run.end - started.t:.0f} s",
             help=_where_it_hung(run),
             at=run.end,
@@ -31,7 +31,7 @@ def require_end(run: Transcript, within: float) -> ev.NodeExited:
         )
     expect(
         exited.t - started.t <= within + SLACK,
-        expected=f"the program to end within {within:g} s",
+        expected=f"the program to end within {within:.3g} s",
         observed=f"it took {exited.t - started.t:.1f} s",
         help="Keep one deadline for the whole run, and wait for nothing longer than what is left until then.",
         at=exited.t,

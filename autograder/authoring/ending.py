@@ -41,7 +41,7 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
         Remedy(
             "Your execute callback returned nothing, or something else than a Result. Its last line must be "
             "`return result`, in every branch.",
-            "07_cancel_and_preempt#m13-why",
+            "06_walk_to_a_pose#settle-intro",
         ),
     ),
     (
@@ -62,6 +62,19 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
             "A field got a value of the wrong type: give it the type that the interface names, such as 1.0 for a "
             "float and True for a bool.",
             WRONG_TYPE,
+        ),
+    ),
+    (
+        r"^AttributeError: '\w+_FeedbackMessage' object has no attribute",
+        Remedy(
+            "A feedback callback gets the goal's id and the Feedback in one message: read message.feedback.field.",
+            "06_walk_to_a_pose#field-why",
+        ),
+    ),
+    (
+        r"error: (the following arguments are required|unrecognized arguments|argument \w+: )",
+        Remedy(
+            "argparse refused what the task allows: an argument that may be left out has nargs='?' and a default."
         ),
     ),
     (
@@ -87,7 +100,7 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
         Remedy(
             "rclpy's executor is no asyncio event loop, so asyncio.sleep() fails in a callback. Await a future of "
             "rclpy, or do not wait.",
-            "02_services#m4-why",
+            "05_executors#m3-why",
         ),
     ),
     (
@@ -124,6 +137,11 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
             f"{signal.Signals(-exited.returncode).name} ended the program, a crash below Python: use no node "
             "or publisher after destroy_node(), and none of them in two threads at once."
         )
+    if exited.returncode > 0 and _gave_up(run):
+        return Remedy(
+            f"Your program chose to end so. The grader offered {_offered(run)}: is the reason true, and are all names "
+            "relative and all types the task's?"
+        )
     if exited.returncode and run.first(ev.NodeReady) is None:
         return _with_place(Remedy("The exception came before your node could serve."), run)
     if exited.returncode:
@@ -141,7 +159,8 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
 def end_in_words(run: Record, exited: ev.NodeExited) -> str:
     """Return how it ended: 'with status 1: TypeError', 'by itself with status 0 after 1 answer'."""
     if exited.returncode:
-        return f"with status {exited.returncode}" + (f": {run.last_words}" if run.last_words else "")
+        said = run.last_words or (run.output("stdout").strip().splitlines() or [""])[-1][:300]
+        return f"with status {exited.returncode}" + (f": {said}" if said else "")
     if not _is_a_server(run):
         return "with status 0"
     answers = len(run.all(ev.ServiceAnswered)) + len(run.all(ev.GoalAnswered))
@@ -177,6 +196,21 @@ def _being_answered(run: Record) -> str:
     answered = {answer.call for answer in run.all(ev.ServiceAnswered)}
     waiting = [asked.service for asked in run.all(ev.ServiceCalled) if asked.call not in answered]
     return f" of {waiting[0]}" if waiting else ""
+
+
+def _gave_up(run: Record) -> bool:
+    """Return whether a client ended without an exception, though something was offered to it."""
+    return (
+        bool(_offered(run)) and not _is_a_server(run) and "Traceback (most recent" not in run.output("stderr")
+    )
+
+
+def _offered(run: Record) -> str:
+    """Return the names of the services and actions that the grader offered: 'get_status and walk_to'."""
+    names = [event.service for event in run.all(ev.ServiceOffered)]
+    names += [event.action for event in run.all(ev.ActionOffered)]
+    names += [event.topic for event in run.all(ev.MessagePublished)]
+    return ", ".join(dict.fromkeys(names))
 
 
 def _is_a_server(run: Record) -> bool:

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 STILL_COMING = 1.5  # s; a goal whose last feedback is not older is still in its loop
 FROZEN = 10  # feedback messages; so many alike are no coincidence while the robot moves
 MOVED = 0.05  # m
-BLIND = "07_cancel_and_preempt#m2-why"
+AWAY = 0.5  # m farther from the goal than at first
+BLIND = "05_executors#one-why"
 IN_THE_LOG = 0.5  # s that a line of the log may come after the result it explains
 _CALLS: dict[int, str] = {
     GoalStatus.SUCCEEDED: "succeed",
@@ -30,7 +31,7 @@ _CANCELED_INSTEAD: dict[int, str] = {
     GoalStatus.ABORTED: "Once is_cancel_requested is seen, stop the robot, call goal_handle.canceled() and return.",
 }
 _FORBIDDEN = re.compile(r"invalid transition from state (\w+) with event (\w+)")
-ABORTED_BY_RCLPY = "07_cancel_and_preempt#m13-why"
+ABORTED_BY_RCLPY = "06_walk_to_a_pose#move-why"
 _ABORT = "Call goal_handle.abort(), with the reason in result.error_code, when the goal cannot be reached any more."
 
 
@@ -143,6 +144,11 @@ def why_no_result(goal: Goal) -> tuple[str, str]:
         where = "" if left is None else f", {left:.2f} m from the goal"
         if status == GoalStatus.CANCELING:
             ends = "The cancel was accepted: look at goal_handle.is_cancel_requested in every round."
+        elif left is not None and left > goal.feedback[0].feedback.distance_remaining + AWAY:
+            ends = (
+                "It goes away from it: cmd_vel is in base_link's axes, so turn the difference in x and y by minus the "
+                "heading."
+            )
         else:
             ends = "What ends it?"
         return f"{seen}, and feedback still came", f"execute is still in its loop{where}. {ends}"

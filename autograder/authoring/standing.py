@@ -36,6 +36,8 @@ def where_it_stood(run: Record, *, in_main: bool = False) -> Place | None:
     if stack is None:
         return None
     threads = "\n".join(stack.lines).split("(most recent call first):")[1:]
+    if in_main:
+        threads.reverse()  # Python lists the main thread last
     for place in filter(None, map(_innermost, threads)):
         if in_main or place.function not in _SPINNING:
             return place

@@ -16,7 +16,9 @@ from autograder.authoring.missing import unseen
 from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.client import (
     ABORTED,
+    FINDING,
     NO_SERVER,
+    PATIENCE,
     REJECTED,
     STATUS_HELP,
     require_ending_line,
@@ -89,7 +91,7 @@ def refuses_wrong_arguments(too_few: Transcript, no_number: Transcript) -> None:
         require_usage(run, WITHIN)
 
 
-@check(points=1, on=NOBODY, needs=says_how_it_succeeded, see="03_clients_that_survive#fix-why")
+@check(points=1, on=NOBODY, see="03_clients_that_survive#fix-why")
 def gives_up_without_a_server(run: Transcript) -> None:
     """Without a server it ends with status 1 after 5 s, and says so on stderr"""
     require_level(run, low=False)
@@ -143,8 +145,8 @@ def does_not_set_out_on_a_low_battery(run: Transcript) -> None:
         "the battery is at 0.12",
         "Look at the last percentage before you send the goal: below 0.20, print a line and return 4.",
     )
-    exited = run.first(ev.NodeExited)
-    if exited and exited.returncode == NO_SERVER:
+    exited, ready = run.first(ev.NodeExited), run.first(ev.NodeReady)
+    if exited and ready and exited.returncode == NO_SERVER and exited.t - ready.t > PATIENCE - FINDING:
         raise Failure(
             expected="exit status 4: the battery is at 0.12",
             observed=f"exit status 1; the last line on stderr: {run.last_words or 'none'}",

@@ -38,7 +38,9 @@ TWO_CALLERS = Scenario("calibrate_from_two_clients", {"apart": 1.0, "status_afte
 SILENT_STATUS = Scenario("calibrate_without_an_answer", robot=RESTING)
 NO_IMU = Scenario("lose_the_imu", {"begin": 0.0}, robot=RESTING)
 
-WAITS = "02_services#m4-why"
+WAITS = "05_executors#await-why"
+GROUPS = "05_executors#groups-why"
+ASKS = "05_executors#report-why"
 REFUSES = "02_services#set-refuse-why"
 KNOWS_NOTHING = "02_services#m9-fix-why"
 PUBLISHES = "01_robot_and_graph#late-why"
@@ -46,7 +48,7 @@ PUBLISHES = "01_robot_and_graph#late-why"
 server_appears = standard.server_appears("calibrate_imu", points=1, on=INTERRUPT)
 
 
-@check(points=2, on=TWICE, needs=server_appears, see=WAITS)
+@check(points=2, on=TWICE, needs=server_appears, see=GROUPS)
 def keeps_its_heartbeat(run: Transcript) -> None:
     """The heartbeat goes on at 10 Hz while it calibrates"""
     require_heartbeat(run, run.call("first"), "while calibrate_imu was at work")
@@ -81,7 +83,7 @@ def refuses_while_walking(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=TWICE, needs=server_appears, see=WAITS)
+@check(points=1, on=TWICE, needs=server_appears, see=ASKS)
 def asks_get_status(run: Transcript) -> None:
     """It asks get_status from inside its callback"""
     require_status_asked(run.call("first"))
@@ -93,7 +95,7 @@ def calibrates(run: Transcript) -> None:
     require_calibrated(run.call("first"))
 
 
-@check(points=2, on=SILENT_STATUS, needs=asks_get_status, see="03_clients_that_survive#half-why")
+@check(points=2, on=SILENT_STATUS, needs=asks_get_status, see=ASKS)
 def refuses_without_an_answer(run: Transcript) -> None:
     """When get_status gives no answer in 2 s, it refuses and says so"""
     call = run.call("silent status")
@@ -113,13 +115,13 @@ def refuses_without_an_answer(run: Transcript) -> None:
     )
 
 
-@check(points=2, on=SILENT_STATUS, needs=asks_get_status, see=WAITS)
+@check(points=2, on=SILENT_STATUS, needs=asks_get_status, see=GROUPS)
 def lives_while_it_waits(run: Transcript) -> None:
     """The heartbeat goes on while get_status is silent"""
     require_heartbeat(run, run.call("silent status"), "while get_status was silent")
 
 
-@check(points=2, on=TWO_CALLERS, needs=calibrates, see=WAITS)
+@check(points=2, on=TWO_CALLERS, needs=calibrates, see=GROUPS)
 def refuses_a_second_caller(run: Transcript) -> None:
     """While a calibration runs, a second caller is refused at once, and the first one gets its answer"""
     first, second = run.call("first caller"), run.call("second caller")
@@ -127,7 +129,7 @@ def refuses_a_second_caller(run: Transcript) -> None:
     require_calibrated(first)
 
 
-@check(points=2, on=WALK_BEGINS, needs=calibrates, see=REFUSES)
+@check(points=2, on=WALK_BEGINS, needs=calibrates, see="05_executors#why")
 def fails_when_it_begins_to_walk(run: Transcript) -> None:
     """When the robot begins to walk meanwhile, the calibration fails"""
     call = run.call("it begins to walk")

@@ -12,9 +12,10 @@ from autograder.authoring.robot_topic import DELIVERY
 from autograder.authoring.transcript import Transcript
 
 from .checks import (
+    ASKS,
     BIASES,
+    GROUPS,
     KNOWS_NOTHING,
-    REFUSES,
     SILENT_ROBOT,
     SILENT_STATUS,
     WAITS,
@@ -82,7 +83,7 @@ def calibrates_afresh(run: Transcript) -> None:
     require_bias_published(second)
 
 
-@check(points=1, on=SLOW_STATUS, needs=calibrates, see=WAITS)
+@check(points=1, on=SLOW_STATUS, needs=calibrates, see=ASKS)
 def waits_for_a_slow_status(run: Transcript) -> None:
     """When get_status takes more than a second, it still waits, and then collects for 3 s"""
     call = run.call("slow status")
@@ -92,7 +93,7 @@ def waits_for_a_slow_status(run: Transcript) -> None:
     require_calibrated(call)
 
 
-@check(points=1, on=SILENT_STATUS, needs=[calibrates, refuses_without_an_answer], see=WAITS)
+@check(points=1, on=SILENT_STATUS, needs=[calibrates, refuses_without_an_answer], see=ASKS)
 def recovers_when_status_answers(run: Transcript) -> None:
     """After a refusal it can calibrate again"""
     require_calibrated(run.call("status is back"))
@@ -101,7 +102,7 @@ def recovers_when_status_answers(run: Transcript) -> None:
 @check(
     points=1,
     on=LATE_ANSWER,
-    needs=[calibrates, refuses_without_an_answer],
+    needs=[calibrates, refuses_without_an_answer, waits_for_a_slow_status],
     see="03b_clients_in_bad_company#late-fix-run",
 )
 def takes_no_answer_for_another(run: Transcript) -> None:
@@ -119,7 +120,7 @@ def takes_no_answer_for_another(run: Transcript) -> None:
         raise unseen(run, "the late answer did not come during the second calibration")
 
 
-@check(points=1, on=NO_STATUS, needs=refuses_without_an_answer, see="03_clients_that_survive#kill-why")
+@check(points=1, on=NO_STATUS, needs=refuses_without_an_answer, see=ASKS)
 def refuses_without_a_server(run: Transcript) -> None:
     """When nobody offers get_status, it refuses within 2 s, and heartbeat goes on"""
     if run.all(ev.ServiceOffered):
@@ -134,7 +135,7 @@ def refuses_without_a_server(run: Transcript) -> None:
     require_heartbeat(run, call, "while it looked for get_status")
 
 
-@check(points=1, on=TWO_WHILE_ASKING, needs=[refuses_a_second_caller, waits_for_a_slow_status], see=WAITS)
+@check(points=1, on=TWO_WHILE_ASKING, needs=[refuses_a_second_caller, waits_for_a_slow_status], see=GROUPS)
 def is_busy_while_it_asks(run: Transcript) -> None:
     """A calibration has begun as soon as it is asked for, also while it waits for get_status"""
     first, second = run.call("first caller"), run.call("second caller")
@@ -145,7 +146,7 @@ def is_busy_while_it_asks(run: Transcript) -> None:
     require_calibrated(first)
 
 
-@check(points=1, on=A_FEW_STEPS, needs=fails_when_it_begins_to_walk, see=REFUSES)
+@check(points=1, on=A_FEW_STEPS, needs=fails_when_it_begins_to_walk, see="05_executors#why")
 def fails_after_a_few_steps(run: Transcript) -> None:
     """A robot that walked for a moment, and stands again at the end, has walked"""
     call = run.call("it begins to walk")

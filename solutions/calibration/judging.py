@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
-from statistics import fmean
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call, Request
@@ -22,6 +22,7 @@ TOLERANCE = 0.001  # rad/s
 ASKING = 2.0  # s, at most, for get_status
 COLLECTING = 3.0  # s
 FEWEST_SAMPLES = 100
+AT_ONCE = 0.5  # s for a refusal without looking into anything
 EARLY = 0.1  # s less than COLLECTING that pass: clocks are read at either end
 LATE = 1.5  # s more than there is work for; the task says 1 s
 GAP = 0.3  # s without a heartbeat
@@ -29,6 +30,8 @@ JITTER = 0.06  # s of real time by which a message may be late on a busy machine
 MOST_JITTER = 1.0  # s; a callback that blocks costs 2 s at least
 SLOWEST, FASTEST = 7.5, 13.0  # Hz, heartbeats
 MOST_SAMPLES = 1000  # a greater number in the message is no count
+GRAVITY = 9.81  # m/s²
+MOST_NUMBERS = 20  # in the message
 
 _NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
@@ -141,6 +144,13 @@ def require_bias_in_message(call: Call, bias: Sequence[float]) -> None:
     """Require the means of x, y and z, in this order, in the message."""
     message = call.response.message
     numbers = [float(number) for number in _NUMBER.findall(message)]
+    expect(
+        len(numbers) <= MOST_NUMBERS,
+        expected=f"a message with the three means and the count, at most {MOST_NUMBERS} numbers in all",
+        observed=f"{len(numbers)} numbers",
+        help="Say what you have measured, once: whoever reads the message must know which numbers are meant.",
+        at=call.answered.t,
+    )
     triples = list(zip(numbers, numbers[1:], numbers[2:], strict=False))
     if any(_is_near(triple, bias) for triple in triples):
         return
@@ -289,6 +299,8 @@ def require_heartbeat(run: Transcript, call: Call, meanwhile: str) -> None:
     """Require heartbeats at 10 Hz without a gap, from the first to the end of the scenario; `call` falls into it."""
     beats = [event.t for event in run.heard("heartbeat")]
     require_alive(run)
+    if call.answer is None and not run.given_up("call", call.name):
+        raise unseen(run, f"calibrate_imu was not at work to the end of “{call.name}”")
     expect(
         len(beats) > 1 and beats[0] <= call.sent.t,
         expected="messages on heartbeat, ten a second, from the start on",
@@ -300,8 +312,7 @@ def require_heartbeat(run: Transcript, call: Call, meanwhile: str) -> None:
     limit = GAP + JITTER * run.scale + min(max(late, default=0.0), MOST_JITTER)
     ends = [*beats[1:], run.end]
     start, end = max(zip(beats, ends, strict=True), key=lambda pair: pair[1] - pair[0])
-    until = call.answer.t if call.answer else run.end
-    during = call.sent.t - GAP <= start <= until
+    during = any(since - GAP <= start <= until for since, until in _at_work(run))
     expect(
         end - start <= limit,
         expected=f"no gap of more than {GAP:g} s between two heartbeats",
@@ -316,6 +327,12 @@ def require_heartbeat(run: Transcript, call: Call, meanwhile: str) -> None:
         observed=f"{rate:.1f} a second",
         help="Make one timer with a period of 0.1 s that publishes one message each time.",
     )
+
+
+def _at_work(run: Transcript) -> list[tuple[float, float]]:
+    """Return from when to when (s) each request to the student's node waited for its answer."""
+    answered = {event.call: event.t for event in run.all(ev.ServiceAnswered)}
+    return [(event.t, answered.get(event.call, run.end)) for event in run.all(ev.ServiceCalled)]
 
 
 def _advice_on_the_gap(run: Transcript, during: bool) -> str:
@@ -338,6 +355,11 @@ def _advice_on_failing(call: Call, published: int) -> str:
         return deaf
     if deaf := why_nothing_is_heard(call.run, "robot_state"):
         return deaf
+    if call.latency < AT_ONCE:
+        return (
+            f"You refused at once ({said}), though the robot stood and nothing else was at work: look again at each "
+            "request, and forget a calibration when it ends."
+        )
     if status_request(call) is None and call.run.all(ev.ServiceOffered):
         return (
             f"The grader's get_status was never asked, and your answer was {said}: did the request get as far as "
@@ -349,6 +371,10 @@ def _advice_on_failing(call: Call, published: int) -> str:
             f"get_status had answered, but not to you ({said}): its answer could not be handled while the callback "
             "waited. Give client and service a ReentrantCallbackGroup, or groups of their own and a second thread."
         )
+    if any(
+        FEWEST_SAMPLES <= int(number) <= published for number in re.findall(r"\d+", call.response.message)
+    ):
+        return f"{FEWEST_SAMPLES} samples are enough, and you had more ({said}): some messages of a sensor are lost."
     if published >= FEWEST_SAMPLES and waited >= COLLECTING:
         return (
             f"{published} samples came while the callback waited, but they were not counted ({said}): on_imu gets no "
@@ -359,9 +385,7 @@ def _advice_on_failing(call: Call, published: int) -> str:
 
 def _advice_on_vector(call: Call, triples: Sequence[Sequence[float]], bias: Sequence[float]) -> str | None:
     """Return what kind of mistake makes one of the triples of the bias, if it is known."""
-    samples = [sample.angular_velocity for sample in imu_between(call, 0.0, call.answered.t)]
     now = imu_between(call, call.sent.t, call.answered.t)
-    older = [fmean(values) for values in zip(*samples, strict=True)] if samples else bias
     earlier = [event.command["bias"] for event in call.run.all(ev.RobotCommanded) if "bias" in event.command]
     for triple in triples:
         if _is_near([value / max(len(now), 1) for value in triple], bias, TOLERANCE / 5):
@@ -372,9 +396,9 @@ def _advice_on_vector(call: Call, triples: Sequence[Sequence[float]], bias: Sequ
             return "The signs are the wrong way round: the bias is the mean itself."
         if _is_near(sorted(triple), sorted(bias)):
             return "The values are right, but not in the order x, y, z."
-        if abs(triple[2]) > 5.0:
+        if math.dist(triple, (0.0, 0.0, GRAVITY)) < 2.0:
             return "These are accelerations: take angular_velocity of each message."
-        if _is_near(triple, older) or any(_is_near(triple, other) for other in earlier[:-1]):
+        if any(_is_mixed(triple, bias, other) for other in earlier[:-1]):
             return "Samples of before are in it: begin with an empty list each time, when get_status has answered."
         if not any(triple):
             return "A mean of exactly 0 comes from no sample: average what on_imu has collected."
@@ -389,6 +413,21 @@ def _what_is_published(run: Transcript) -> str:
 
 def _is_near(found: Sequence[float], bias: Sequence[float], tolerance: float = TOLERANCE) -> bool:
     return all(abs(one - other) <= tolerance for one, other in zip(found, bias, strict=True))
+
+
+def _is_mixed(found: Sequence[float], bias: Sequence[float], other: Sequence[float]) -> bool:
+    """Return whether it is a mean of samples of two biases (rad/s), or of the other alone."""
+    way = [one - two for one, two in zip(bias, other, strict=True)]
+    if not any(way):
+        return False
+    share = _dot(way, [one - two for one, two in zip(found, other, strict=True)]) / _dot(way, way)
+    return 0.0 <= share <= 1.0 and _is_near(
+        found, [two + share * step for two, step in zip(other, way, strict=True)]
+    )
+
+
+def _dot(one: Sequence[float], two: Sequence[float]) -> float:
+    return sum(a * b for a, b in zip(one, two, strict=True))
 
 
 def _xyz(vector: object) -> tuple[float, float, float]:

@@ -7,11 +7,11 @@ from autograder.authoring.checks import RESTING, Scenario, check, expect
 from autograder.authoring.feedback import require_good_feedback_rate
 from autograder.authoring.goal import ABORTED, SUCCEEDED
 from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.aborts import require_aborted_by_a_fall, require_preempted
 from autograder.authoring.walking.reports import require_error_code, require_true_places
 from autograder.authoring.walking.truth import (
     require_accepted,
     require_arrival,
-    require_fall,
     require_stopped,
     require_walking,
 )
@@ -93,7 +93,7 @@ def names_its_phases(run: Transcript) -> None:
     require_named_phases(run.goal("go"))
 
 
-@check(points=1, on=GO, needs=feedback_keeps_its_rate, see="08_navigation#conventions")
+@check(points=1, on=GO, needs=[arrives, feedback_keeps_its_rate], see="08_navigation#conventions")
 def tells_its_time(run: Transcript) -> None:
     """navigation_time is the time since acceptance"""
     require_true_navigation_time(run.goal("go"))
@@ -233,7 +233,7 @@ def progress_never_falls(run: Transcript) -> None:
 def measures_a_detour(run: Transcript) -> None:
     """distance_traveled includes the way back and forth"""
     require_led_astray(run.goal("go"))
-    require_measured_path(run.goal("go"), run.goal("go").require_result(SUCCEEDED))
+    require_measured_path(run.goal("go"), run.goal("go").require_result(SUCCEEDED), reversals=2)
 
 
 @check(points=2, on=HELD, needs=arrives, see="08_navigation#late-why")
@@ -282,45 +282,13 @@ def cancels_in_mid_stride(run: Transcript) -> None:
 @check(points=2, on=PREEMPT, needs=arrives, see="07_cancel_and_preempt#preempt-why")
 def new_goal_preempts_the_old(run: Transcript) -> None:
     """A new goal aborts the old one with PREEMPTED and is walked to"""
-    old = require_accepted(run.goal("old"))
-    new = require_accepted(
-        run.goal("new"),
-        help="The new goal was rejected because another was active: accept it, and let the older one give way.",
-    )
-    require_walking(run, new.sent.t)
-    end = old.require_result(
-        ABORTED,
-        help="The old goal went on after the new one was accepted. How does its loop learn that it is no longer the "
-        "newest? (handle_accepted_callback)",
-    )
-    require_error_code(old, "PREEMPTED", because="a new goal has taken its place")
-    expect(
-        end.t >= new.sent.t,
-        expected="the old goal to go on until the new one comes",
-        observed=f"it ended {new.sent.t - end.t:.1f} s before",
-        help="Abort with PREEMPTED only when another goal has been accepted.",
-        at=end.t,
-    )
-    require_arrival(new)
+    require_preempted(run.goal("old"), run.goal("new"))
 
 
 @check(points=1, on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why")
 def aborts_when_the_robot_falls(run: Transcript) -> None:
     """When the robot falls the goal is ABORTED with FELL"""
-    goal = require_accepted(run.goal("walk"))
-    fallen = require_fall(run)
-    result = goal.require_result(
-        ABORTED,
-        help=f"The robot fell at {fallen.t:.1f} s and execute went on. Look at robot_state.mode in every round.",
-    )
-    expect(
-        result.t >= fallen.t - 1.0,
-        expected="the goal to go on until the robot falls",
-        observed=f"it ended {fallen.t - result.t:.1f} s before the robot fell",
-        help="A push alone is no reason to give up: abort when robot_state.mode is FALLEN.",
-        at=result.t,
-    )
-    require_error_code(goal, "FELL", because="the robot has fallen")
+    require_aborted_by_a_fall(run.goal("walk"))
 
 
 ends_cleanly = standard.ends_cleanly(

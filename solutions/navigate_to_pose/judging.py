@@ -21,6 +21,7 @@ from ros_runtime.angles import wrap
 FACING = 0.6  # rad between heading and goal while it walks
 IN_PLACE, WALKS = 0.10, 0.20  # m/s of the body as a whole
 TURNS = 0.15  # rad/s
+LOST = 0.15  # m where the robot turns back: half a leg before it and half a leg after it go uncounted
 SHARE, LEAST = 0.15, 0.25  # of the path, or m (more than a step), that distance_traveled may be off
 TIME_SLACK = 1.0  # s that a reported time may be off: feedback's period and delivery
 HALF_WAY = (25.0, 75.0)  # percent
@@ -134,8 +135,8 @@ def _statuses(goal: Goal, start: float, end: float, during) -> Counter[str]:
     )
 
 
-def require_measured_path(goal: Goal, end: ev.ResultReceived) -> None:
-    """Require that the result's distance_traveled is the length of the path that the robot walked."""
+def require_measured_path(goal: Goal, end: ev.ResultReceived, reversals: int = 0) -> None:
+    """Require that the result's distance_traveled is the length of the path, on which it turned back so many times."""
     walked = length_walked(goal.run, accepted_at(goal), end.t)
     claimed = float(end.result.distance_traveled)
     straight = math.dist(
@@ -152,7 +153,7 @@ def require_measured_path(goal: Goal, end: ev.ResultReceived) -> None:
         )
     else:
         help = "Count the path in every round of the loop, from acceptance to the end, also while the robot turns."
-    slack = max(SHARE * walked, LEAST)
+    slack = max(SHARE * walked, LEAST) + reversals * LOST
     expect(
         math.isfinite(claimed) and abs(claimed - walked) <= slack,
         expected=f"result.distance_traveled near {walked:.2f} m (within {slack:.2f} m), the path of the pelvis without "
@@ -236,10 +237,14 @@ def require_good_estimate(goal: Goal) -> None:
 
 
 def require_true_navigation_time(goal: Goal) -> None:
-    """Require that navigation_time is the time since acceptance."""
+    """Require that navigation_time is the time since acceptance, until the goal has succeeded."""
+    goal.require_accepted().require_result(SUCCEEDED)
     require_feedback(goal)
     start = accepted_at(goal)
-    for feedback in goal.feedback:
+    told = _told(goal)
+    if not told or told[-1].t - start < 2 * TIME_SLACK:
+        raise unseen(goal.run, f"there was feedback on “{goal.name}” for a moment only")
+    for feedback in told:
         claimed, true = seconds(feedback.feedback.navigation_time), feedback.t - start
         expect(
             abs(claimed - true) <= TIME_SLACK,
@@ -283,7 +288,7 @@ def require_detour_counted(goal: Goal) -> None:
     taken, given = require_led_astray(goal)
     require_feedback(goal)
     early = [f for f in goal.feedback if f.t < taken]
-    counts = [f.feedback.number_of_recoveries for f in goal.feedback]
+    counts = [f.feedback.number_of_recoveries for f in _told(goal)]
     expect(
         not early or early[-1].feedback.number_of_recoveries == 0,
         expected="number_of_recoveries 0 until something disturbs the robot",
@@ -291,6 +296,8 @@ def require_detour_counted(goal: Goal) -> None:
         help="The turn at the start is no recovery.",
         at=taken,
     )
+    if not counts:
+        raise unseen(goal.run, f"there was no feedback on “{goal.name}” before its result")
     expect(
         1 <= counts[-1] <= MOST_DETOURS,
         expected="number_of_recoveries 1 after the robot was led astray once",
@@ -308,6 +315,11 @@ def require_detour_counted(goal: Goal) -> None:
         help="Count for the whole goal.",
         at=given,
     )
+
+
+def _told(goal: Goal) -> list[ev.FeedbackReceived]:
+    """Return the feedback until the result; what comes later is another check's business."""
+    return [feedback for feedback in goal.feedback if goal.result is None or feedback.t <= goal.result.t]
 
 
 def _at(goal: Goal, t: float) -> ev.FeedbackReceived:

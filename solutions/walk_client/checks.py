@@ -38,19 +38,19 @@ WITHIN = 10.0  # s for a walk of a second or two
 GIVING_UP = 8.0  # s, of which 5 are waited
 
 
-@check(points=2, on=GOOD, see="07_cancel_and_preempt#goal")
+@check(points=2, on=GOOD, see="06_walk_to_a_pose#client-intro")
 def sends_the_goal(run: Transcript) -> None:
     """It sends one goal, at x, y and yaw in frame odom"""
     require_goal_at(run, 1.0, 0.5, 0.3)
 
 
-@check(points=2, on=GOOD, needs=sends_the_goal, see="07_cancel_and_preempt#endpoints")
+@check(points=2, on=GOOD, needs=sends_the_goal, see="06_walk_to_a_pose#field-why")
 def prints_the_feedback(run: Transcript) -> None:
     """It prints a line for each feedback, with distance_remaining"""
     require_feedback_lines(run, require_one_goal(run, WALK))
 
 
-@check(points=2, on=GOOD, needs=sends_the_goal, see="07_cancel_and_preempt#conventions")
+@check(points=2, on=GOOD, needs=sends_the_goal, see="06_walk_to_a_pose#follow-task")
 def says_how_it_succeeded(run: Transcript) -> None:
     """When the goal SUCCEEDED it prints so with the final pose, and ends with status 0"""
     require_success(run, require_one_goal(run, WALK), WITHIN)
@@ -71,13 +71,13 @@ def gives_up_without_a_server(run: Transcript) -> None:
     require_no_server(run, GIVING_UP)
 
 
-@check(points=1, on=REJECTING, needs=says_how_it_succeeded, see="07_cancel_and_preempt#analogy")
+@check(points=1, on=REJECTING, needs=says_how_it_succeeded, see="06_walk_to_a_pose#client-intro")
 def tells_a_rejection(run: Transcript) -> None:
     """A rejected goal ends it with status 2"""
     require_rejection(run, WITHIN)
 
 
-@check(points=2, on=ABORTING, needs=says_how_it_succeeded, see="07_cancel_and_preempt#fall-why")
+@check(points=2, on=ABORTING, needs=says_how_it_succeeded, see="06_walk_to_a_pose#hopeful-why")
 def tells_an_abort(run: Transcript) -> None:
     """An aborted goal ends it with status 3, and error_msg stands on stderr"""
     require_abort(run, WITHIN)
@@ -89,7 +89,7 @@ def gives_up_in_silence(run: Transcript) -> None:
     require_silence_noticed(run)
 
 
-@check(points=2, on=INTERRUPTED, needs=says_how_it_succeeded, see="07_cancel_and_preempt#m1-why")
+@check(points=2, on=INTERRUPTED, needs=says_how_it_succeeded, see="06_walk_to_a_pose#field-why")
 def ctrl_c_cancels_the_goal(run: Transcript) -> None:
     """Ctrl-C cancels the goal; it waits for its end and ends with status 4"""
     require_canceled_by_ctrl_c(run, WITHIN)

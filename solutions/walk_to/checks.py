@@ -5,20 +5,18 @@ from __future__ import annotations
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario, check, expect
 from autograder.authoring.feedback import require_good_feedback_rate
-from autograder.authoring.goal import ABORTED
 from autograder.authoring.missing import unseen
 from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.aborts import require_aborted_by_a_fall
 from autograder.authoring.walking.halt import require_final_zero, require_standing_at_success
 from autograder.authoring.walking.motion import require_limited_velocity, require_reached
 from autograder.authoring.walking.reports import (
-    require_error_code,
     require_filled_result,
     require_true_feedback,
 )
 from autograder.authoring.walking.truth import (
     require_accepted,
     require_arrival,
-    require_fall,
     require_walking,
 )
 
@@ -33,17 +31,17 @@ FALL = Scenario("fall", {"impulse": [0.0, 60.0, 0.0], "max_velocity": 0.3})
 INTERRUPT = Scenario("interrupt", robot=RESTING)
 
 server_appears = standard.server_appears(
-    "the action walk_to", points=1, on=INTERRUPT, see="07_cancel_and_preempt#turner-intro"
+    "the action walk_to", points=1, on=INTERRUPT, see="06_walk_to_a_pose#small-intro"
 )
 
 
-@check(points=1, on=WALK, needs=server_appears, see="07_cancel_and_preempt#turner-intro")
+@check(points=1, on=WALK, needs=server_appears, see="06_walk_to_a_pose#reject-task")
 def accepts_a_goal(run: Transcript) -> None:
     """It accepts a pose in frame odom"""
     require_accepted(run.goal("walk"))
 
 
-@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="06_walk_to_a_pose#reject-task")
 def rejects_a_wrong_frame(run: Transcript) -> None:
     """It rejects a pose in frame map"""
     run.goal("wrong frame").require_rejected(
@@ -52,7 +50,7 @@ def rejects_a_wrong_frame(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="06_walk_to_a_pose#reject-task")
 def rejects_nan(run: Transcript) -> None:
     """It rejects a pose that holds NaN"""
     for name in ("NaN position", "NaN orientation"):
@@ -63,7 +61,7 @@ def rejects_nan(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="06_walk_to_a_pose#reject-task")
 def rejects_what_is_no_rotation(run: Transcript) -> None:
     """It rejects an orientation of four zeros"""
     run.goal("zero quaternion").require_rejected(
@@ -72,7 +70,7 @@ def rejects_what_is_no_rotation(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="06_walk_to_a_pose#reject-task")
 def rejects_a_senseless_velocity(run: Transcript) -> None:
     """It rejects a max_velocity that is negative or NaN"""
     for name, value in (("negative velocity", "below 0"), ("NaN velocity", "NaN")):
@@ -82,7 +80,7 @@ def rejects_a_senseless_velocity(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=BEFORE_ODOM, needs=accepts_a_goal, see="02_services#m9-why")
+@check(points=1, on=BEFORE_ODOM, needs=accepts_a_goal, see="06_walk_to_a_pose#reject-task")
 def rejects_before_the_first_odom(run: Transcript) -> None:
     """It rejects goals before the first odom, and accepts them after it"""
     require_rejected_until(
@@ -95,7 +93,7 @@ def rejects_before_the_first_odom(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=UNPOWERED, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=UNPOWERED, needs=accepts_a_goal, see="06_walk_to_a_pose#reject-task")
 def rejects_without_power(run: Transcript) -> None:
     """It rejects a goal while the motors are off, and accepts it when they are on"""
     require_rejected_until(
@@ -165,66 +163,53 @@ def chooses_its_own_velocity(run: Transcript) -> None:
     require_walking(run, goal.requests_to_cancel[0].sent.t)
 
 
-@check(points=2, on=WALK, needs=walks_to_the_goal, see="07_cancel_and_preempt#m13-why")
+@check(points=2, on=WALK, needs=walks_to_the_goal, see="06_walk_to_a_pose#settle-why")
 def arrives(run: Transcript) -> None:
     """It SUCCEEDS, and the robot is then within 0.10 m and 0.15 rad of the goal"""
     require_arrival(run.goal("walk"))
 
 
-@check(points=1, on=WALK, needs=arrives, see="07_cancel_and_preempt#m12-robot-why")
+@check(points=1, on=WALK, needs=arrives, see="06_walk_to_a_pose#touch-why")
 def ends_with_a_zero_twist(run: Transcript) -> None:
     """The last Twist before it SUCCEEDS is zero, and no other follows"""
     require_final_zero(run, run.goal("walk"))
 
 
-@check(points=1, on=WALK, needs=arrives, see="07_cancel_and_preempt#why")
+@check(points=1, on=WALK, needs=arrives, see="06_walk_to_a_pose#touch-why")
 def stands_when_it_succeeds(run: Transcript) -> None:
     """When it SUCCEEDS the robot stands still, and stays so"""
     require_standing_at_success(run.goal("walk"))
 
 
-@check(points=1, on=WALK, needs=arrives, see="07_cancel_and_preempt#m13-why")
+@check(points=1, on=WALK, needs=arrives, see="06_walk_to_a_pose#settle-why")
 def fills_the_result(run: Transcript) -> None:
     """The result holds the final pose, the steps and error_code NONE"""
     require_filled_result(run.goal("walk"))
 
 
-@check(points=1, on=WALK, needs=walks_to_the_goal, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=WALK, needs=walks_to_the_goal, see="06_walk_to_a_pose#conventions")
 def feedback_keeps_its_rate(run: Transcript) -> None:
     """Feedback comes at 5 Hz without a gap over 1 s"""
     require_good_feedback_rate(run.goal("walk"))
 
 
-@check(points=1, on=WALK, needs=feedback_keeps_its_rate, see="07_cancel_and_preempt#turner-intro")
+@check(points=1, on=WALK, needs=feedback_keeps_its_rate, see="06_walk_to_a_pose#settle-intro")
 def feedback_is_true(run: Transcript) -> None:
     """Pose, distance and steps in the feedback are the robot's"""
     require_true_feedback(run.goal("walk"))
 
 
 feedback_ends_with_the_goal = standard.feedback_ends_with_the_goal(
-    "walk", points=1, on=WALK, needs=[arrives, feedback_keeps_its_rate]
+    "walk", points=1, on=WALK, needs=[arrives, feedback_keeps_its_rate], see="06_walk_to_a_pose#settle-intro"
 )
 
 
-@check(points=1, on=FALL, needs=walks_to_the_goal, see="07_cancel_and_preempt#fall-why")
+@check(points=1, on=FALL, needs=walks_to_the_goal, see="06_walk_to_a_pose#fall-why")
 def aborts_when_the_robot_falls(run: Transcript) -> None:
     """When the robot falls the goal is ABORTED with FELL"""
-    goal = require_accepted(run.goal("walk"))
-    fallen = require_fall(run)
-    result = goal.require_result(
-        ABORTED,
-        help=f"The robot fell at {fallen.t:.1f} s and execute went on. Look at robot_state.mode in every round.",
-    )
-    expect(
-        result.t >= fallen.t - 1.0,
-        expected="the goal to go on until the robot falls",
-        observed=f"it ended {fallen.t - result.t:.1f} s before the robot fell",
-        help="A push alone is no reason to give up: abort when robot_state.mode is FALLEN.",
-        at=result.t,
-    )
-    require_error_code(goal, "FELL", because="the robot has fallen")
+    require_aborted_by_a_fall(run.goal("walk"))
 
 
 ends_cleanly = standard.ends_cleanly(
-    points=1, on=INTERRUPT, needs=server_appears, see="07_cancel_and_preempt#conventions"
+    points=1, on=INTERRUPT, needs=server_appears, see="01_robot_and_graph#listen-intro"
 )

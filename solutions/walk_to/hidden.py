@@ -67,7 +67,7 @@ def obeys_any_max_velocity(run: Transcript) -> None:
         require_limited_velocity(run.goal(f"leg {number}"))
 
 
-@check(points=1, on=OTHER_FRAME, needs=rejects_a_wrong_frame, see="07_cancel_and_preempt#conventions")
+@check(points=1, on=OTHER_FRAME, needs=rejects_a_wrong_frame, see="06_walk_to_a_pose#reject-task")
 def rejects_any_other_frame(run: Transcript) -> None:
     """It rejects a pose in any other frame than odom"""
     frame = run.params["frame"]

@@ -8,6 +8,7 @@ from autograder.authoring import events as ev
 from autograder.authoring.connections import why_nothing_is_heard
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring.robot_record import RobotRecord
 from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.planar import error
 from humanoid_interfaces.msg import RobotState
@@ -15,6 +16,10 @@ from humanoid_interfaces.msg import RobotState
 _ACCEPT = (
     "goal_callback must return GoalResponse.ACCEPT for a finite pose in frame odom while the motors are on (True is "
     "not GoalResponse.ACCEPT)."
+)
+_FREE_AGAIN = (
+    "A goal before it was accepted and had ended: remember that the robot is free again whenever execute ends, in a "
+    "finally block."
 )
 SHORTLY = 0.6  # s
 POSITION_TOLERANCE = 0.10  # m
@@ -24,10 +29,17 @@ STOP_SPEED = 0.05  # m/s
 WATCHED = 3.5  # s after the cancel
 
 
-def require_accepted(goal: Goal, help: str = _ACCEPT) -> Goal:
+def require_accepted(goal: Goal, help: str = "") -> Goal:
     """Require that the server accepted the goal; `help` is what to do if it got the robot's topics and rejected it."""
     deaf = (why_nothing_is_heard(goal.run, topic) for topic in ("odom", "robot_state"))
-    return goal.require_accepted(next(filter(None, deaf), help))
+    return goal.require_accepted(
+        next(filter(None, deaf), help or (_FREE_AGAIN if _is_later(goal) else _ACCEPT))
+    )
+
+
+def _is_later(goal: Goal) -> bool:
+    """Return whether a goal had ended when this one was sent."""
+    return any(result.t < goal.sent.t for result in goal.run.all(ev.ResultReceived))
 
 
 def require_arrival(goal: Goal, within: float = POSITION_TOLERANCE) -> None:
@@ -63,7 +75,7 @@ def _advice_on_arrival(goal: Goal, distance: float, turn: float, within: float) 
     )
 
 
-def require_walking(run: Transcript, at: float) -> None:
+def require_walking(run: RobotRecord, at: float) -> None:
     """Require that the robot walked shortly before a moment (s) of the scenario; otherwise nothing has to stop."""
     expect(
         any(robot.mode == RobotState.WALKING for robot in run.robot_between(at - SHORTLY, at)),
@@ -90,7 +102,7 @@ def require_stopped(run: Transcript, since: float) -> None:
     require_upright(watched)
 
 
-def require_fall(run: Transcript) -> ev.RobotTruth:
+def require_fall(run: RobotRecord) -> ev.RobotTruth:
     """Return the robot when it had fallen after it was pushed while it walked."""
     push = run.told("push")
     require_walking(run, push.t)

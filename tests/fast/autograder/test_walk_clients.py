@@ -109,6 +109,35 @@ def test_a_walk_that_is_followed_to_its_end_passes() -> None:
         CANCEL[check].run([run])
 
 
+def test_a_client_that_finds_nobody_though_somebody_is_there_hears_of_names() -> None:
+    run = run_of(*said("nobody offers walk_to", t=5.4, stream="stderr"), ev.NodeExited(t=5.5, returncode=1))
+    failure = failure_of(WALK["sends_the_goal"], run)
+    assert "with status 1: nobody offers walk_to" in failure.observed
+    assert "The grader offered walk_to: is the reason true, and are all names relative" in failure.help
+
+
+@pytest.mark.parametrize(
+    ("line", "next_step"),
+    [
+        (
+            "AttributeError: 'WalkTo_FeedbackMessage' object has no attribute 'distance_remaining'",
+            "read message.feedback.field",
+        ),
+        ("walk_client.py: error: the following arguments are required: yaw", "has nargs='?' and a default"),
+    ],
+)
+def test_a_client_that_ends_early_is_told_what_its_last_words_mean(line: str, next_step: str) -> None:
+    traceback = ["Traceback (most recent call last):"] if line.startswith("AttributeError") else []
+    run = run_of(*said(*traceback, line, t=0.4, stream="stderr"), ev.NodeExited(t=0.5, returncode=1))
+    assert next_step in failure_of(WALK["sends_the_goal"], run).help
+
+
+def test_a_client_that_gives_up_on_a_lively_goal_is_told_when_feedback_came_last() -> None:
+    run = run_of(goal(), answered(), *on_the_way(), *cancelled(replied()), ended(1, t=3.4))
+    failure = failure_of(WALK["says_how_it_succeeded"], run)
+    assert "though feedback came until 2.8 s: a goal may take its time" in failure.help
+
+
 @pytest.mark.parametrize(
     ("events", "where"),
     [

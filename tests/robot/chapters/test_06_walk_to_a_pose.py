@@ -47,7 +47,7 @@ def test_a_goal_without_a_terminal_call_is_aborted(chapter: Executed) -> None:
 
 def claimed_and_stands(printed: str) -> tuple[float, float]:
     """What a walk's result says and where the robot stands, m ahead."""
-    found = re.search(r"the result says ([\d.]+) m; the robot stands at ([\d.]+) m: STANDING", printed)
+    found = re.search(r"the result says ([\d.]+) m\nthe robot stands at ([\d.]+) m: STANDING", printed)
     assert found
     return float(found[1]), float(found[2])
 
@@ -56,7 +56,7 @@ def test_a_success_in_mid_step_is_false_and_one_after_settling_is_true(chapter: 
     touched = chapter.text("touch-run")
     assert "SUCCEEDED, and the robot is WALKING" in touched
     claimed, stands = claimed_and_stands(touched)
-    assert claimed == pytest.approx(1.03, abs=0.05)
+    assert 0.95 < claimed < 1.25  # a loop that comes late sees the goal late
     assert stands - claimed > 0.04
     settled = chapter.text("settle-run")
     assert "SUCCEEDED, and the robot is STANDING" in settled
@@ -67,8 +67,11 @@ def test_a_success_in_mid_step_is_false_and_one_after_settling_is_true(chapter: 
 
 def test_the_sway_is_plotted_with_the_end_of_the_goal(chapter: Executed) -> None:
     for cell in ("touch-plot", "settle-plot"):
-        html = chapter.html(cell)
-        assert all(part in html for part in ("x, m", "y, m", "speed, m/s", "the goal", "result: SUCCEEDED"))
+        words = _words(chapter.html(cell))
+        assert in_order(words, "x in m:", "y in m:", "speed in m/s:", "Dashed beside x: the goal.")
+        sway = re.search(r"y in m: .*?lowest ([-\d.]+) at [\d.]+ s, highest ([-\d.]+) at", words)
+        assert sway
+        assert float(sway[2]) - float(sway[1]) > 0.03
     assert in_order(_words(chapter.html("touch-plot")), "result: SUCCEEDED", "WALKING → STANDING")
     assert in_order(_words(chapter.html("settle-plot")), "WALKING → STANDING", "result: SUCCEEDED")
 
@@ -103,6 +106,23 @@ def test_the_client_without_a_status_takes_a_fall_for_an_arrival(chapter: Execut
     assert in_order(printed, "<hopeful.py: exit status 0", "arrived, with", "robot: FALLEN")
     assert in_order(
         chapter.text("follow-run"), "<follow.py: exit status 3", "status 6: the robot fell on the way"
+    )
+
+
+def test_each_line_of_the_client_stands_beside_its_arrow(chapter: Executed) -> None:
+    program = next(cell.source for cell in chapter.notebook.cells if cell.id == "hopeful-file")
+    assert in_order(
+        program,
+        *("def on_feedback(message):  # arrow 4", "feedback_callback=on_feedback)  # arrow 1"),
+        *(
+            "spin_until_future_complete(node, answer, timeout_sec=5.0)  # arrow 2",
+            "accepted:  # what arrow 2",
+        ),
+        *(
+            "get_result_async()  # arrow 3",
+            "(node, end, timeout_sec=60.0)  # arrows 4 and 6",
+            "what arrow 6 says",
+        ),
     )
 
 
@@ -285,6 +305,6 @@ def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: st
 
 def _words(html: str) -> str:
     """The description of a picture, in words."""
-    found = re.search(r"<desc>(.*?)</desc>", html, re.DOTALL)
+    found = re.search(r'alt="([^"]+)"', html)
     assert found
     return found[1]

@@ -17,7 +17,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 Result = NavigateToPose.Result
-SWAY = 0.2  # m
+SWAY = 0.15  # m
 
 
 class Phase(Enum):

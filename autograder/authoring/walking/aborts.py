@@ -1,0 +1,56 @@
+"""What must abort a walk: a fall, and where the newest goal has the robot, a newer goal."""
+
+from __future__ import annotations
+
+from autograder.authoring.failure import expect
+from autograder.authoring.goal import ABORTED, Goal
+from autograder.authoring.walking.reports import require_error_code
+from autograder.authoring.walking.truth import (
+    require_accepted,
+    require_arrival,
+    require_fall,
+    require_walking,
+)
+
+REACTION = 1.0  # s before the simulator calls it a fall, in which a server may already see one
+
+
+def require_aborted_by_a_fall(goal: Goal) -> None:
+    """Require that the goal went on until the robot fell, and was then ABORTED with FELL."""
+    fallen = require_fall(require_accepted(goal).run)
+    result = goal.require_result(
+        ABORTED,
+        help=f"The robot fell at {fallen.t:.1f} s and execute went on. Look at robot_state.mode in every round.",
+    )
+    expect(
+        result.t >= fallen.t - REACTION,
+        expected="the goal to go on until the robot falls",
+        observed=f"it ended {fallen.t - result.t:.1f} s before the robot fell",
+        help="A push alone is no reason to give up: abort when robot_state.mode is FALLEN.",
+        at=result.t,
+    )
+    require_error_code(goal, "FELL", because="the robot has fallen")
+
+
+def require_preempted(old: Goal, new: Goal) -> None:
+    """Require that a goal sent while the robot walked ABORTED the older one with PREEMPTED, and was reached."""
+    require_accepted(old)
+    require_accepted(
+        new,
+        help="The new goal was rejected because another was active: accept it, and let the older one give way.",
+    )
+    require_walking(new.run, new.sent.t)
+    end = old.require_result(
+        ABORTED,
+        help="The old goal went on after the new one was accepted. How does its loop learn that it is no longer the "
+        "newest? (handle_accepted_callback)",
+    )
+    require_error_code(old, "PREEMPTED", because="a new goal has taken its place")
+    expect(
+        end.t >= new.sent.t,
+        expected="the old goal to go on until the new one comes",
+        observed=f"it ended {new.sent.t - end.t:.1f} s before",
+        help="Abort with PREEMPTED only when another goal has been accepted.",
+        at=end.t,
+    )
+    require_arrival(new)

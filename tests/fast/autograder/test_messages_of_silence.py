@@ -1,0 +1,108 @@
+"""A program that does not answer, or offers another name, is told where it stands."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from records import PEERS, SPINNING, asked, failure_of, given_up, run_of, stack
+from std_srvs.srv import Trigger
+
+from autograder.authoring import events as ev
+from autograder.authoring.client_checks import require_end, require_requests
+from autograder.authoring.readiness import require_ready
+
+
+@pytest.mark.parametrize(
+    ("frames", "next_step"),
+    [
+        (
+            ('"/tmp/work/status.py", line 29 in on_request', '"/x/rclpy/executors.py", line 9 in spin_once'),
+            "It stood in line 29 of status.py, in on_request().",
+        ),
+        (
+            ('"/x/rclpy/client.py", line 5 in call', '"/tmp/work/status.py", line 30 in on_request'),
+            "It stood in line 30 of status.py, in on_request(), in a call of call().",
+        ),
+        (
+            ('"/tmp/work/status.py", line 44 in main', '"/tmp/work/status.py", line 60 in <module>'),
+            "it stood in line 44 of status.py, in main(), and not in rclpy.spin(node).",
+        ),
+        (SPINNING, "a callback awaits what never comes"),
+    ],
+)
+def test_a_server_that_gives_no_answer_is_told_where_it_stood(
+    frames: tuple[str, ...], next_step: str
+) -> None:
+    run = run_of(asked(), given_up("call", "first"), stack(*frames))
+    failure = failure_of(lambda: run.call("first").response)
+    assert failure.observed == "none within 5 s"
+    assert next_step in failure.help
+    assert failure.see == (
+        "02_services#first-intro" if "not in rclpy.spin" in next_step else "02_services#m4-why"
+    )
+
+
+def offered(service: str) -> Any:
+    return ev.ServiceOffered(t=0.0, service=service, server="server 1", type="std_srvs/srv/Trigger")
+
+
+def request(number: int, t: float = 2.0) -> Any:
+    return ev.RequestReceived(
+        t=t, request=f"request {number}", service="get_status", server="server 1", message=Trigger.Request()
+    )
+
+
+def reply(number: int, t: float = 2.2) -> Any:
+    return ev.ReplySent(t=t, request=f"request {number}", response=Trigger.Response())
+
+
+@pytest.mark.parametrize(
+    ("events", "next_step"),
+    [
+        ([], "It hung before it sent anything: wait_for_service or wait_for_server has no timeout_sec"),
+        ([request(1), reply(1), request(2, t=3.0)], "It hung after request 2 (to get_status) was sent"),
+        ([request(1), reply(1)], "It went on after the last answer, at 2.2 s: do not spin after it"),
+    ],
+)
+def test_a_client_that_never_ends_is_told_at_which_of_three_places(events: list[Any], next_step: str) -> None:
+    failure = failure_of(require_end, run_of(offered("get_status"), *events), 10.0)
+    assert failure.help.startswith(next_step)
+
+
+@pytest.mark.parametrize(
+    ("sent", "wanted", "next_step"),
+    [
+        (0, 2, "Your program never asked get_status"),
+        (1, 2, "Only one request, then it gave up. Where is the second try?"),
+        (7, 2, "7 requests: one retry is allowed."),
+        (2, 1, "2 requests: 1 would do."),
+    ],
+)
+def test_the_number_of_requests_says_whether_a_try_is_missing(sent: int, wanted: int, next_step: str) -> None:
+    run = run_of(offered("get_status"), *(request(number, t=number) for number in range(1, sent + 1)))
+    assert failure_of(require_requests, run, "get_status", wanted).help.startswith(next_step)
+
+
+@pytest.mark.parametrize(
+    ("offers", "next_step"),
+    [
+        ([], "Your node offers no service: create the server in the node's constructor"),
+        (
+            ["/get_status [std_srvs/srv/Trigger]"],
+            "You offer /get_status, outside the namespace: remove the slash.",
+        ),
+        (["/robot/motors/get_status [std_srvs/srv/Trigger]"], "give the name 'get_status' alone"),
+        (["/robot/get_state [std_srvs/srv/Trigger]"], "You offer get_state; the task's name is get_status"),
+        (
+            ["/robot/get_status [std_srvs/srv/SetBool]"],
+            "You offer get_status as std_srvs/srv/SetBool: give the",
+        ),
+        (["/robot/enable_motors [std_srvs/srv/SetBool]"], "You offer enable_motors, but not get_status"),
+    ],
+)
+def test_an_endpoint_that_is_missing_is_explained_by_the_nearest_one(
+    offers: list[str], next_step: str
+) -> None:
+    absent = ev.NodeNotReady(t=5.0, missing=["get_status"], offered=offers, waited=5.0)
+    assert next_step in failure_of(require_ready, run_of(PEERS, absent, ready=False)).help
