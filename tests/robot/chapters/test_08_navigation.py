@@ -45,7 +45,7 @@ def test_three_loops_succeed_beside_the_goal(chapter: Executed) -> None:
 def test_a_robot_that_is_turned_off_its_way_gets_back_and_counts_it(chapter: Executed) -> None:
     printed = chapter.text("recovery-run")
     assert in_order(printed, "end: SUCCEEDED", "walking", "turning to the goal", "walking", "there")
-    assert number(r"there +[\d.]+ m left, (\d+) rec", printed) >= 1
+    assert number(r"there +[\d.]+ m left, recoveries: (\d+)", printed) >= 1
     assert number(r"stands (\d+) cm", printed) <= 60
     assert in_order(chapter.html("recovery-plot"), "push", "the joystick takes the robot")
 
