@@ -8,6 +8,7 @@ from autograder.authoring.checks import MAY_REST, RESTING, Scenario, check, expe
 from autograder.authoring.missing import unseen
 from autograder.authoring.transcript import Transcript
 
+from .heartbeat import require_heartbeat
 from .judging import (
     ASKING,
     COLLECTING,
@@ -15,7 +16,6 @@ from .judging import (
     require_bias_message,
     require_bias_published,
     require_calibrated,
-    require_heartbeat,
     require_imu_lost,
     require_refused,
     require_refused_meanwhile,

@@ -27,13 +27,13 @@ from .checks import (
     refuses_before_the_first_state,
     refuses_without_an_answer,
 )
+from .heartbeat import require_heartbeat
 from .judging import (
     ASKING,
     COLLECTING,
     LATE,
     require_bias_published,
     require_calibrated,
-    require_heartbeat,
     require_imu_lost,
     require_refused,
     require_refused_meanwhile,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Sequence
 
@@ -12,25 +11,19 @@ from autograder.authoring.connections import lesson_on_hearing, why_nothing_is_h
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.fields import shown, shown_fields
 from autograder.authoring.missing import unseen
-from autograder.authoring.readiness import require_alive
 from autograder.authoring.robot_topic import DELIVERY
-from autograder.authoring.standing import where_it_stood
 from autograder.authoring.transcript import Transcript
 from ros_runtime.message_constants import RobotMode, name_of
 
-TOLERANCE = 0.001  # rad/s
+from .bias import TOLERANCE, advice_on_vector, imu_between, is_near, shown_vector, xyz
+
 ASKING = 2.0  # s, at most, for get_status
 COLLECTING = 3.0  # s
 FEWEST_SAMPLES = 100
 AT_ONCE = 0.5  # s for a refusal without looking into anything
 EARLY = 0.1  # s less than COLLECTING that pass: clocks are read at either end
 LATE = 1.5  # s more than there is work for; the task says 1 s
-GAP = 0.3  # s without a heartbeat
-JITTER = 0.06  # s of real time by which a message may be late on a busy machine
-MOST_JITTER = 1.0  # s; a callback that blocks costs 2 s at least
-SLOWEST, FASTEST = 7.5, 13.0  # Hz, heartbeats
 MOST_SAMPLES = 1000  # a greater number in the message is no count
-GRAVITY = 9.81  # m/s²
 MOST_NUMBERS = 20  # in the message
 
 _NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
@@ -112,11 +105,6 @@ def true_bias(call: Call) -> Sequence[float]:
     return told.command["bias"]
 
 
-def imu_between(call: Call, start: float, end: float) -> list[ev.ImuPublished]:
-    """Return what the robot published on imu between two times (s)."""
-    return [sample for sample in call.run.all(ev.ImuPublished) if start <= sample.t <= end]
-
-
 def _require_three_seconds(call: Call) -> None:
     answered, since = call.answered, collecting_from(call)
     took = answered.t - since
@@ -152,12 +140,12 @@ def require_bias_in_message(call: Call, bias: Sequence[float]) -> None:
         at=call.answered.t,
     )
     triples = list(zip(numbers, numbers[1:], numbers[2:], strict=False))
-    if any(_is_near(triple, bias) for triple in triples):
+    if any(is_near(triple, bias) for triple in triples):
         return
     raise Failure(
-        expected=f"a message with the mean angular velocity {_shown_vector(bias)} rad/s, within {TOLERANCE:g}",
+        expected=f"a message with the mean angular velocity {shown_vector(bias)} rad/s, within {TOLERANCE:g}",
         observed=f"message: {shown(message)}",
-        help=_advice_on_vector(call, triples, bias)
+        help=advice_on_vector(call, triples, bias)
         or "Put the three means into the message, x, y and z, as plain numbers in rad/s with at least four decimals.",
         at=call.answered.t,
     )
@@ -207,10 +195,10 @@ def require_bias_message(call: Call, event: ev.MessageReceived, bias: Sequence[f
     )
     found = (vector.x, vector.y, vector.z)
     expect(
-        _is_near(found, bias),
-        expected=f"imu_bias {_shown_vector(bias)} rad/s, within {TOLERANCE:g}",
-        observed=_shown_vector(found),
-        help=_advice_on_vector(call, [found], bias)
+        is_near(found, bias),
+        expected=f"imu_bias {shown_vector(bias)} rad/s, within {TOLERANCE:g}",
+        observed=shown_vector(found),
+        help=advice_on_vector(call, [found], bias)
         or "Publish the mean of the angular velocities of this calibration, in rad/s.",
         at=event.t,
     )
@@ -259,7 +247,7 @@ def require_nothing_published(call: Call) -> None:
     expect(
         not published,
         expected="nothing on imu_bias, as there was no calibration",
-        observed=f"{_shown_vector(_xyz(published[0].message.vector))} was published" if published else "",
+        observed=f"{shown_vector(xyz(published[0].message.vector))} was published" if published else "",
         help="Publish on imu_bias only when all is known to be well, just before you answer success: true.",
         at=published[0].t if published else None,
     )
@@ -290,60 +278,6 @@ def require_imu_lost(call: Call, *, fewest: int, most: int) -> None:
     count = len(imu_between(call, collecting_from(call), collecting_from(call) + COLLECTING))
     if not fewest <= count <= most:
         raise unseen(call.run, f"the robot published imu {count} times, not {fewest} to {most} times")
-
-
-# -- heartbeat --------------------------------------------------------------------------------------------------------
-
-
-def require_heartbeat(run: Transcript, call: Call, meanwhile: str) -> None:
-    """Require heartbeats at 10 Hz without a gap, from the first to the end of the scenario; `call` falls into it."""
-    beats = [event.t for event in run.heard("heartbeat")]
-    require_alive(run)
-    if call.answer is None and not run.given_up("call", call.name):
-        raise unseen(run, f"calibrate_imu was not at work to the end of “{call.name}”")
-    expect(
-        len(beats) > 1 and beats[0] <= call.sent.t,
-        expected="messages on heartbeat, ten a second, from the start on",
-        observed=f"{len(beats)} messages" if len(beats) < 2 else f"the first one at {beats[0]:.1f} s",
-        help="Make a publisher (std_msgs/Empty) and a timer of 0.1 s in the constructor, with relative names.",
-    )
-    late = [woken.late for woken in run.all(ev.WokenLate)] + [robot.lag for robot in run.ground_truth]
-    late += [starved.seconds for starved in run.all(ev.Starved)]
-    limit = GAP + JITTER * run.scale + min(max(late, default=0.0), MOST_JITTER)
-    ends = [*beats[1:], run.end]
-    start, end = max(zip(beats, ends, strict=True), key=lambda pair: pair[1] - pair[0])
-    during = any(since - GAP <= start <= until for since, until in _at_work(run))
-    expect(
-        end - start <= limit,
-        expected=f"no gap of more than {GAP:g} s between two heartbeats",
-        observed=f"{end - start:.1f} s without one, from {start:.1f} s on{f', {meanwhile}' if during else ''}",
-        help=_advice_on_the_gap(run, during),
-        at=start,
-    )
-    rate = (len(beats) - 1) / (beats[-1] - beats[0])
-    expect(
-        SLOWEST <= rate <= FASTEST,
-        expected="10 heartbeats a second",
-        observed=f"{rate:.1f} a second",
-        help="Make one timer with a period of 0.1 s that publishes one message each time.",
-    )
-
-
-def _at_work(run: Transcript) -> list[tuple[float, float]]:
-    """Return from when to when (s) each request to the student's node waited for its answer."""
-    answered = {event.call: event.t for event in run.all(ev.ServiceAnswered)}
-    return [(event.t, answered.get(event.call, run.end)) for event in run.all(ev.ServiceCalled)]
-
-
-def _advice_on_the_gap(run: Transcript, during: bool) -> str:
-    if not during:
-        return "The timer of the heartbeat must go on as long as the node runs: make it in the constructor."
-    if place := where_it_stood(run):
-        return f"The timer got no turn: a callback stood in {place}, and held its thread or its group. Await there."
-    return (
-        "The timer gets no turn while the callback of calibrate_imu waits. Either await in it (async def, and futures "
-        "that an answer or a timer completes), or give the timer a callback group and a thread of its own."
-    )
 
 
 # -- advice -----------------------------------------------------------------------------------------------------------
@@ -383,56 +317,7 @@ def _advice_on_failing(call: Call, published: int) -> str:
     return f"Your answer was {said}: refuse only for a reason that the task names."
 
 
-def _advice_on_vector(call: Call, triples: Sequence[Sequence[float]], bias: Sequence[float]) -> str | None:
-    """Return what kind of mistake makes one of the triples of the bias, if it is known."""
-    now = imu_between(call, call.sent.t, call.answered.t)
-    earlier = [event.command["bias"] for event in call.run.all(ev.RobotCommanded) if "bias" in event.command]
-    for triple in triples:
-        if _is_near([value / max(len(now), 1) for value in triple], bias, TOLERANCE / 5):
-            return "These are the sums: divide them by the number of samples."
-        if _is_near([value / 57.29578 for value in triple], bias, TOLERANCE / 5):
-            return "These are degrees: imu tells rad/s, and so do you."
-        if _is_near([-value for value in triple], bias):
-            return "The signs are the wrong way round: the bias is the mean itself."
-        if _is_near(sorted(triple), sorted(bias)):
-            return "The values are right, but not in the order x, y, z."
-        if math.dist(triple, (0.0, 0.0, GRAVITY)) < 2.0:
-            return "These are accelerations: take angular_velocity of each message."
-        if any(_is_mixed(triple, bias, other) for other in earlier[:-1]):
-            return "Samples of before are in it: begin with an empty list each time, when get_status has answered."
-        if not any(triple):
-            return "A mean of exactly 0 comes from no sample: average what on_imu has collected."
-    return None
-
-
 def _what_is_published(run: Transcript) -> str:
     others = [name for topics in run.all(ev.NodeTopics) for name in topics.publishes]
     names = sorted({name for name in others if not name.endswith(("/rosout", "/parameter_events"))})
     return "none" + (f"; your node publishes {', '.join(names)}" if names else "")
-
-
-def _is_near(found: Sequence[float], bias: Sequence[float], tolerance: float = TOLERANCE) -> bool:
-    return all(abs(one - other) <= tolerance for one, other in zip(found, bias, strict=True))
-
-
-def _is_mixed(found: Sequence[float], bias: Sequence[float], other: Sequence[float]) -> bool:
-    """Return whether it is a mean of samples of two biases (rad/s), or of the other alone."""
-    way = [one - two for one, two in zip(bias, other, strict=True)]
-    if not any(way):
-        return False
-    share = _dot(way, [one - two for one, two in zip(found, other, strict=True)]) / _dot(way, way)
-    return 0.0 <= share <= 1.0 and _is_near(
-        found, [two + share * step for two, step in zip(other, way, strict=True)]
-    )
-
-
-def _dot(one: Sequence[float], two: Sequence[float]) -> float:
-    return sum(a * b for a, b in zip(one, two, strict=True))
-
-
-def _xyz(vector: object) -> tuple[float, float, float]:
-    return vector.x, vector.y, vector.z  # type: ignore[attr-defined]
-
-
-def _shown_vector(vector: Sequence[float]) -> str:
-    return "(" + ", ".join(f"{value:.4f}" for value in vector) + ")"

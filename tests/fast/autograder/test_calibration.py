@@ -14,6 +14,7 @@ from autograder.authoring.transcript import Transcript
 from autograder.engine.exercise import exercise_module
 
 JUDGING = exercise_module("calibration", "judging")
+HEARTBEAT = exercise_module("calibration", "heartbeat")
 BEFORE, BIAS = (-0.012, 0.008, -0.005), (0.010, -0.008, 0.012)  # rad/s
 SENT, ANSWERED, END = 8.0, 12.0, 14.0  # s
 
@@ -75,5 +76,5 @@ def test_a_gap_is_explained_by_the_request_that_was_at_work(
 ) -> None:
     first = [asked("first", "calibrate_imu", t=1.5), answered("first", t=2.0)]
     run = calibration("", *first, *beats(silence))
-    failure = failure_of(JUDGING.require_heartbeat, run, run.call("first"), "while it was at work")
+    failure = failure_of(HEARTBEAT.require_heartbeat, run, run.call("first"), "while it was at work")
     assert next_step in failure.help
