@@ -22,8 +22,11 @@ from autograder.engine.exercise import exercise_names, load_exercise
 from autograder.engine.judging import judge
 
 EXERCISES = exercise_names()
-# Of a row of these the ends are enough.
-RUNS_OF = ("joints_published", "feedback_received", "battery_published", "robot_peers", "woken_late")
+# These come all the time: of a row of them the ends are enough.
+RUNS_OF = (
+    *("joints_published", "imu_published", "battery_published", "robot_peers", "woken_late"),
+    *("feedback_received", "message_received", "feedback_sent"),
+)
 ANSWERS = (
     *("service_answered", "goal_answered", "cancel_answered", "result_received", "reply_sent"),
     "arm_reported",
@@ -55,15 +58,24 @@ def changed(case, change) -> Iterator[tuple[str, object]]:
 
 
 def places(transcript) -> list[int]:
-    """Return the indices of its events, of a long row of one kind only the first and the last."""
-    events = transcript.events
+    """Return the indices of its events; of a row of those that come all the time, the ends of each kind."""
+    kinds = [event.kind for event in transcript.events]
     return [
         index
-        for index, event in enumerate(events)
-        if event.kind not in RUNS_OF
-        or index in (0, len(events) - 1)
-        or not events[index - 1].kind == event.kind == events[index + 1].kind
+        for index, kind in enumerate(kinds)
+        if kind not in RUNS_OF
+        or not (goes_on(kind, reversed(kinds[:index])) and goes_on(kind, kinds[index + 1 :]))
     ]
+
+
+def goes_on(kind, others) -> bool:
+    """Return whether an event of this kind is the next one, apart from others that come all the time."""
+    for other in others:
+        if other == kind:
+            return True
+        if other not in RUNS_OF:
+            return False
+    return False
 
 
 def prefixes(transcript):

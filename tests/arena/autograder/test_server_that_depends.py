@@ -35,23 +35,24 @@ SERVER = """
 import rclpy
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.task import Future
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 rclpy.init()
 node = rclpy.create_node("server")
-words = []
-node.create_subscription(String, "words", words.append, LATCHED)
+word = Future()
 told = node.create_publisher(String, "told", 10)
 node.create_publisher(String, "kept", LATCHED).publish(String(data="from the beginning"))
 group = ReentrantCallbackGroup()
+node.create_subscription(String, "words", word.set_result, LATCHED, callback_group=group)
 client = node.create_client(Trigger, "get_status", callback_group=group)
 
 
 async def on_tell(request, response):
     status = await client.call_async(Trigger.Request())
-    told.publish(String(data=f"{words[0].data}, {status.message}"))
+    told.publish(String(data=f"{(await word).data}, {status.message}"))
     response.success = True
     return response
 
