@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
-from geometry_msgs.msg import PoseStamped
-
 from autograder.arena.client_stage import ClientStage
+from autograder.arena.poses import pose_at
 from autograder.arena.scripted_action import GoalScript, ScriptedAction
 from humanoid_interfaces.action import WalkTo
 
@@ -49,8 +47,4 @@ def feedback(distance: float) -> WalkTo.Feedback:
 def result_at(final: Sequence[float]) -> WalkTo.Result:
     """Return the result of a walk that ended at a pose (m, m, rad)."""
     x, y, yaw = final
-    pose = PoseStamped()
-    pose.header.frame_id = "odom"
-    pose.pose.position.x, pose.pose.position.y = x, y
-    pose.pose.orientation.z, pose.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-    return WalkTo.Result(final_pose=pose, total_steps=9)
+    return WalkTo.Result(final_pose=pose_at(x, y, yaw), total_steps=9)

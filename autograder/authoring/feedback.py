@@ -29,8 +29,7 @@ def require_feedback(goal: Goal) -> None:
 
 def require_good_feedback_rate(goal: Goal) -> None:
     """Require feedback at 3-10 Hz on average without a gap over 1 s, from the answer to the result."""
-    goal.require_accepted()
-    start = goal.answer.t if goal.answer else goal.sent.t
+    start = goal.accepted_at
     times = [feedback.t for feedback in goal.feedback if goal.result is None or feedback.t <= goal.result.t]
     expect(
         len(times) >= 3,

@@ -114,6 +114,13 @@ class Goal:
         """The requests to cancel it, of which there must be at least one."""
         return require_cancels(self.run, self.cancels, f"the goal “{self.name}”")
 
+    @property
+    def accepted_at(self) -> float:
+        """When (s) the client knew that it was accepted, which is required."""
+        self.require_accepted()
+        assert self.answer
+        return self.answer.t
+
     def require_accepted(self, help: str = _ACCEPT) -> Goal:
         """Require that the server accepted it."""
         if self.answer is None:

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 
 from action_msgs.srv import CancelGoal
-from geometry_msgs.msg import PoseStamped
 
+from autograder.arena.poses import pose_at
 from autograder.arena.stage import STRANGER, ActionClient, Goal, Stage
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
@@ -157,11 +157,7 @@ def _open(stage: Stage) -> ActionClient:
 
 
 def _pose(x: float, y: float, yaw: float, frame: str = "odom") -> WalkTo.Goal:
-    target = PoseStamped()
-    target.header.frame_id = frame
-    target.pose.position.x, target.pose.position.y = x, y
-    target.pose.orientation.z, target.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-    return WalkTo.Goal(target_pose=target, max_velocity=0.0)
+    return WalkTo.Goal(target_pose=pose_at(x, y, yaw, frame), max_velocity=0.0)
 
 
 def _ahead(stage: Stage, distance: float) -> WalkTo.Goal:

@@ -17,7 +17,6 @@ from autograder.authoring.walking.truth import (
 )
 
 from .judging import (
-    accepted_at,
     require_detour_counted,
     require_facing,
     require_good_estimate,
@@ -135,7 +134,7 @@ def succeeds_at_once_where_it_stands(run: Transcript) -> None:
     """A goal equal to the present pose SUCCEEDS at once, with 100 % and without a walk"""
     goal = run.goal("stay")
     end = require_accepted(goal).require_result(SUCCEEDED)
-    took = end.t - accepted_at(goal)
+    took = end.t - goal.accepted_at
     expect(
         took <= AT_ONCE,
         expected=f"success within {AT_ONCE:.0f} s: the robot is there already",
@@ -244,11 +243,11 @@ def gives_up_in_time(run: Transcript) -> None:
     limit = 30.0 + 15.0 * run.params["x"]
     end = goal.require_result(
         ABORTED,
-        help=f"The robot was held {taken.t - accepted_at(goal):.0f} s after acceptance. Compare the time since "
+        help=f"The robot was held {taken.t - goal.accepted_at:.0f} s after acceptance. Compare the time since "
         "acceptance with the limit in every round.",
     )
     require_error_code(goal, "TIMEOUT", because="the time is over")
-    took = end.t - accepted_at(goal)
+    took = end.t - goal.accepted_at
     expect(
         limit - EARLY <= took <= limit + LATE,
         expected=f"TIMEOUT {limit:.0f} s after acceptance, 30 s and 15 s for the metre that was to go then",

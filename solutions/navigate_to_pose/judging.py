@@ -44,18 +44,12 @@ class Leg:
     def of(goal: Goal) -> Leg:
         """Return the walk to a goal, which must have succeeded."""
         end = goal.require_accepted().require_result(SUCCEEDED).t
-        start = accepted_at(goal)
+        start = goal.accepted_at
         whole, _turn = error(goal.run.robot_at(start), goal)
         for robot in goal.run.robot_between(start, end):
             if error(robot, goal)[0] <= whole / 2:
                 return Leg(goal, start, robot.t, end)
         raise unseen(goal.run, f"the robot was never half way to “{goal.name}”")
-
-
-def accepted_at(goal: Goal) -> float:
-    """Return when (s) the client knew that the goal is accepted."""
-    goal.require_accepted()
-    return goal.answer.t if goal.answer else goal.sent.t
 
 
 def seconds(duration: Duration) -> float:
@@ -137,10 +131,10 @@ def _statuses(goal: Goal, start: float, end: float, during) -> Counter[str]:
 
 def require_measured_path(goal: Goal, end: ev.ResultReceived, reversals: int = 0) -> None:
     """Require that the result's distance_traveled is the length of the path, on which it turned back so many times."""
-    walked = length_walked(goal.run, accepted_at(goal), end.t)
+    walked = length_walked(goal.run, goal.accepted_at, end.t)
     claimed = float(end.result.distance_traveled)
     straight = math.dist(
-        *((r.x, r.y) for r in (goal.run.robot_at(accepted_at(goal)), goal.run.robot_at(end.t)))
+        *((r.x, r.y) for r in (goal.run.robot_at(goal.accepted_at), goal.run.robot_at(end.t)))
     )
     if claimed > walked:
         help = (
@@ -241,7 +235,7 @@ def require_true_navigation_time(goal: Goal) -> None:
     """Require that navigation_time is the time since acceptance, until the goal has succeeded."""
     goal.require_accepted().require_result(SUCCEEDED)
     require_feedback(goal)
-    start = accepted_at(goal)
+    start = goal.accepted_at
     told = _told(goal)
     if not told or told[-1].t - start < 2 * TIME_SLACK:
         raise unseen(goal.run, f"there was feedback on “{goal.name}” for a moment only")

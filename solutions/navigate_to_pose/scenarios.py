@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from geometry_msgs.msg import PoseStamped
-
+from autograder.arena.poses import pose_at
 from autograder.arena.stage import ActionClient, Stage
 from humanoid_interfaces.action import NavigateToPose
 from humanoid_interfaces.msg import RobotState
@@ -137,11 +136,7 @@ def _open(stage: Stage) -> ActionClient:
 
 
 def _pose(x: float, y: float, yaw: float, tolerance: float = 0.0, frame: str = "odom") -> NavigateToPose.Goal:
-    pose = PoseStamped()
-    pose.header.frame_id = frame
-    pose.pose.position.x, pose.pose.position.y = x, y
-    pose.pose.orientation.z, pose.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-    return NavigateToPose.Goal(pose=pose, tolerance=tolerance)
+    return NavigateToPose.Goal(pose=pose_at(x, y, yaw, frame), tolerance=tolerance)
 
 
 def _let_it_move(stage: Stage, duration: float) -> None:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from geometry_msgs.msg import PoseStamped, Quaternion, Twist
+from geometry_msgs.msg import Quaternion, Twist
 from nav_msgs.msg import Odometry
 from rclpy.clock import Clock
 
+from autograder.arena.poses import pose_at
 from autograder.arena.stage import ActionClient, Stage
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
@@ -108,11 +109,7 @@ def _open(stage: Stage) -> ActionClient:
 
 
 def _goal(x: float, y: float, yaw: float, max_velocity: float = 0.0, frame: str = "odom") -> WalkTo.Goal:
-    target = PoseStamped()
-    target.header.frame_id = frame
-    target.pose.position.x, target.pose.position.y = x, y
-    target.pose.orientation.z, target.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-    return WalkTo.Goal(target_pose=target, max_velocity=max_velocity)
+    return WalkTo.Goal(target_pose=pose_at(x, y, yaw, frame), max_velocity=max_velocity)
 
 
 def _let_it_walk(stage: Stage, duration: float) -> None:

@@ -62,7 +62,7 @@ def require_limited_velocity(goal: Goal) -> None:
     What is measured is the straight way, so that neither a turn on the spot nor the sway of the pelvis counts.
     """
     limit = goal.request.max_velocity
-    start = goal.run.robot_at(_accepted_at(goal))
+    start = goal.run.robot_at(require_accepted(goal).accepted_at)
     arrival = next((each for each in _on_its_way(goal) if error(each, goal)[0] <= POSITION_TOLERANCE), None)
     if arrival is None:
         raise unseen(goal.run, f"the robot did not come near the goal “{goal.name}”")
@@ -99,10 +99,4 @@ def _on_its_way(goal: Goal) -> list[ev.RobotTruth]:
     """Return the robot from the goal's acceptance to its result, or as long as the scenario waited for that."""
     given_up = goal.run.given_up("result", goal.name)
     end = goal.result.t if goal.result else given_up.t if given_up else goal.run.end
-    return list(goal.run.robot_between(_accepted_at(goal), end))
-
-
-def _accepted_at(goal: Goal) -> float:
-    answer = require_accepted(goal).answer
-    assert answer
-    return answer.t
+    return list(goal.run.robot_between(require_accepted(goal).accepted_at, end))
