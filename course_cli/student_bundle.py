@@ -8,7 +8,7 @@ import zipfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from autograder.engine.exercise import exercise_names, exercises_folder, file_names, load_exercise
+from autograder.engine.exercise import all_names, exercise_names, exercises_folder, file_names, load_exercise
 from autograder.nbgrader_bridge.release import generate_release
 
 TOP = "humanoid-course"  # the folder the archive unpacks to
@@ -46,7 +46,7 @@ KEPT_BACK = (
     "course_cli/student_bundle.py",
     *(
         f"course_cli/commands/{name}.py"
-        for name in ("audit", "bench", "book", "demo", "grade", "new", "release", "test")
+        for name in ("audit", "bench", "book", "demo", "grade", "new", "rehearse", "release", "test")
     ),
 )
 _DATED = (2026, 1, 1, 0, 0, 0)  # a fixed date makes the archive reproducible
@@ -97,8 +97,8 @@ def hidden_check_ids() -> list[str]:
 
 
 def _visible_checks() -> Iterator[tuple[str, Path]]:
-    """The modules with visible checks, by the path at which a student's copy of the engine looks for them."""
-    for exercise in exercise_names():
+    """The modules with visible checks or a rubric, by the path at which a student's engine looks for them."""
+    for exercise in all_names():
         for path in sorted((exercises_folder() / exercise).glob("*.py")):
             if path.name != "hidden.py" and path.name not in file_names(exercise):
                 yield f"checks/{exercise}/{path.name}", path

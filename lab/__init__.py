@@ -16,6 +16,7 @@ os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
 from lab.commands import publish, walking
 from lab.connection import node
 from lab.curves_plot import plot_curves
+from lab.design import check_design, draw_design
 from lab.diagram import draw_sequence
 from lab.errors import (
     LabError,
@@ -72,8 +73,10 @@ __all__ = [
     "battery",
     "build_interfaces",
     "call",
+    "check_design",
     "choose_pattern",
     "describe",
+    "draw_design",
     "draw_graph",
     "draw_sequence",
     "draw_threads",

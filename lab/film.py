@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import io
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import Any
 
 import mujoco
 import numpy as np
+from geometry_msgs.msg import PoseStamped
 from IPython.display import HTML
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 
 from lab import topics
-from lab.picture import HEIGHT, WIDTH, figure, take_posture
+from lab.picture import HEIGHT, WIDTH, as_mujoco, figure, take_present_posture
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.film import Reel
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
@@ -42,17 +43,19 @@ def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: 
         began = time.monotonic()
         for frame in range(_frames(seconds)):
             time.sleep(max(0.0, began + frame / RATE - time.monotonic()))
-            take_posture(body, topics.odometry(), topics.latest("joint_states"))
+            take_present_posture(body)
             yield
 
-    return _film(postures, words, lambda: f"{words}, to {topics.pose()}", camera, file)
+    return _film(postures, words, lambda: f"{words}, to {topics.pose()}", camera, file, topics.scene())
 
 
 def film_of_messages(
     odometry: Sequence[tuple[float, Odometry]],
     joints: Sequence[tuple[float, JointState]],
+    objects: Mapping[str, Sequence[tuple[float, PoseStamped]]],
     seconds: float,
     *,
+    scene: str,
     slow_motion: float,
     camera: str,
     file: str | Path | None,
@@ -62,21 +65,28 @@ def film_of_messages(
     Raises ValueError when the film would last longer than 60 s, or there is no such camera.
     """
     count = _frames(seconds * slow_motion)
-    words = f"The robot for {seconds:.1f} s"
+    words = f"The robot{''.join(f' and the {name}' for name in objects)} for {seconds:.1f} s"
     if slow_motion != 1.0:
         words += f", {slow_motion:g} times as slow as it was"
 
     def postures(body: Humanoid) -> Iterator[None]:
         at = np.arange(count) / RATE / slow_motion
-        poses = _interpolated(at, [(t, _pose(message)) for t, message in odometry])
+        poses = _interpolated(at, [(t, as_mujoco(message.pose.pose)) for t, message in odometry])
         angles = _interpolated(at, [(t, message.position) for t, message in joints])
         places = [body.model.joint(name).qposadr[0] for name in joints[0][1].name]
-        for pose, positions in zip(poses, angles, strict=True):
+        moves = {
+            name: _interpolated(at, [(t, as_mujoco(message.pose)) for t, message in messages])
+            for name, messages in objects.items()
+            if messages
+        }
+        for frame, (pose, positions) in enumerate(zip(poses, angles, strict=True)):
             body.data.qpos[:7], body.data.qpos[places] = pose, positions
+            for name, places_of_it in moves.items():
+                body.data.joint(name).qpos[:] = places_of_it[frame]
             mujoco.mj_forward(body.model, body.data)  # which also makes the quaternion a unit again
             yield
 
-    return _film(postures, words, lambda: words, camera, file)
+    return _film(postures, words, lambda: words, camera, file, scene)
 
 
 def _frames(seconds: float) -> int:
@@ -91,9 +101,10 @@ def _film(
     caption: Callable[[], str],
     camera: str,
     file: str | Path | None,
+    scene: str,
 ) -> HTML:
     """Draw a frame for each posture that a body is brought into; `caption` is asked for at the end."""
-    body = Humanoid()
+    body = Humanoid(scene)
     try:
         reel = Reel(body, WIDTH, HEIGHT, camera=camera, rate=RATE)
     except NoOpenGLError as error:
@@ -108,12 +119,6 @@ def _film(
     if file is not None:
         Path(file).write_bytes(webp.getvalue())
     return figure(webp.getvalue(), "webp", words, caption())
-
-
-def _pose(odometry: Odometry) -> tuple[float, ...]:
-    """Position and orientation, as MuJoCo has them: w first."""
-    p, q = odometry.pose.pose.position, odometry.pose.pose.orientation
-    return p.x, p.y, p.z, q.w, q.x, q.y, q.z
 
 
 def _interpolated(at: np.ndarray, samples: Sequence[tuple[float, Any]]) -> np.ndarray:

@@ -9,7 +9,7 @@ import nbformat
 
 MAGIC = "%%gap "
 PLACEHOLDER = "raise NotImplementedError"
-IN_A_DEFINITION = "..."  # of .msg, .srv and .action files
+IN_A_DEFINITION = "..."  # of .msg, .srv and .action files, and in a .yaml of parameters
 _GAP = re.compile(
     rf"^(?P<indent> *)# YOUR CODE HERE.*\n(?: *#.*\n)*(?P=indent)(?:{PLACEHOLDER}.*|{re.escape(IN_A_DEFINITION)})\n",
     re.MULTILINE,
@@ -18,7 +18,7 @@ _SOLUTION = re.compile(r"<details>.*?```\w+\n(?P<lines>.*?)```.*?</details>", re
 
 
 def is_python(file: str) -> bool:
-    """Whether the file of a gap is a program, and not the definition of an interface."""
+    """Whether the file of a gap is a program, not a definition of an interface or a file of parameters."""
     return file.endswith(".py")
 
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import runpy
+import traceback
+from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 from lab.errors import NoAnswerError
@@ -43,3 +46,26 @@ def ask(
         advice = "look for what keeps the callback from returning"
     seen = f"no response within 2 s; the node {f'has ended: {reason}' if ended else 'still runs'}"
     raise not_yet(seen, "a response", advice)
+
+
+def read_program(file: str) -> dict[str, Any]:
+    """Run a student's file and return what it defines.
+
+    Raises GapError when that raises.
+    """
+    return asked(lambda: runpy.run_path(file), file)
+
+
+def asked(call: Callable[[], Any], file: str) -> Any:
+    """Call what the student wrote in `file` and return what it returns.
+
+    Raises GapError when that raises; it quotes the student's line.
+    """
+    try:
+        return call()
+    except Exception as problem:
+        lines = [f for f in traceback.extract_tb(problem.__traceback__) if Path(f.filename).name == file]
+        where = f" in line {lines[-1].lineno}: {lines[-1].line}" if lines else ""
+        raise not_yet(
+            f"{type(problem).__name__}: {problem}{where}", "no exception", "mend what this error names"
+        ) from None

@@ -11,7 +11,7 @@ from PIL import Image
 
 from lab import topics
 from lab.errors import NoRobotError
-from lab.picture import HEIGHT, WIDTH, take_posture
+from lab.picture import HEIGHT, WIDTH, take_present_posture
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.view import View
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
@@ -78,7 +78,7 @@ class _LiveView:
         self._thread.join()
 
     def _draw_until_stopped(self) -> None:
-        body = Humanoid()
+        body = Humanoid(topics.scene())
         try:
             view = View(body, WIDTH, HEIGHT, shadows=False)
         except NoOpenGLError as error:
@@ -94,7 +94,7 @@ class _LiveView:
         while not self._stop.is_set():
             began = time.monotonic()
             try:
-                take_posture(body, topics.odometry(), topics.latest("joint_states"))
+                take_present_posture(body)
                 self.widget.value = _jpeg(view.picture(self._camera))
             except NoRobotError:  # it may come back
                 pass

@@ -1,4 +1,4 @@
-"""A picture of the robot in its present posture."""
+"""A picture of the robot in its present posture, and of what is around it."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from functools import cache
 from html import escape
 
 import mujoco
+from geometry_msgs.msg import Pose
 from IPython.display import HTML
 from nav_msgs.msg import Odometry
 from PIL import Image
@@ -27,8 +28,8 @@ def show_robot(camera: str = "track") -> HTML:
     Without OpenGL you get the caption of the picture and the reason why there is none.
     """
     words = f"The robot: {topics.mode()} at {topics.pose()}"
-    body = _body()
-    take_posture(body, topics.odometry(), topics.latest("joint_states"))
+    body = _body(topics.scene())
+    take_present_posture(body)
     try:
         pixels = snapshot(body, WIDTH, HEIGHT, camera=camera)
     except NoOpenGLError as error:
@@ -49,15 +50,28 @@ def figure(image: bytes, kind: str, words: str, caption: str = "", *, width: int
 
 
 @cache
-def _body() -> Humanoid:
+def _body(scene: str) -> Humanoid:
     """A humanoid for rendering only: it is never stepped."""
-    return Humanoid()
+    return Humanoid(scene)
 
 
-def take_posture(body: Humanoid, odometry: Odometry, joints: JointState) -> None:
-    """Set the pose and joints of a humanoid from messages of odom and joint_states."""
-    p, q = odometry.pose.pose.position, odometry.pose.pose.orientation
-    body.data.qpos[:7] = p.x, p.y, p.z, q.w, q.x, q.y, q.z  # MuJoCo puts w first
+def take_present_posture(body: Humanoid) -> None:
+    """Set the pose and joints of a humanoid, and its objects, from the last messages.
+
+    Raises NoRobotError when there are none.
+    """
+    odometry: Odometry = topics.odometry()
+    joints: JointState = topics.latest("joint_states")
+    body.data.qpos[:7] = as_mujoco(odometry.pose.pose)
     for name, position in zip(joints.name, joints.position, strict=True):
         body.data.joint(name).qpos[0] = position
+    for name, message in topics.object_poses().items():
+        if name in body.object_poses():
+            body.data.joint(name).qpos[:] = as_mujoco(message.pose)
     mujoco.mj_forward(body.model, body.data)
+
+
+def as_mujoco(pose: Pose) -> tuple[float, ...]:
+    """Position and orientation, as MuJoCo has them: w first."""
+    p, q = pose.position, pose.orientation
+    return p.x, p.y, p.z, q.w, q.x, q.y, q.z

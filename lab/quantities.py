@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from lab.errors import LabError
+from robot_sim.model.joint_names import ACTUATED_JOINTS, FINGERS
 from ros_runtime.angles import yaw_of
 
 
@@ -31,6 +32,11 @@ def _tilt(odometry: Any) -> float:
     return math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (q.x * q.x + q.y * q.y))))
 
 
+def _pitch(odometry: Any) -> float:
+    q = odometry.pose.pose.orientation
+    return math.asin(max(-1.0, min(1.0, 2.0 * (q.w * q.y - q.z * q.x))))
+
+
 def _heading(odometry: Any) -> float:
     q = odometry.pose.pose.orientation
     return yaw_of(q.x, q.y, q.z, q.w)
@@ -43,17 +49,30 @@ QUANTITIES = {
     "turn rate": Quantity("odom", "rad/s", 0.2, lambda odometry: odometry.twist.twist.angular.z),
     "height": Quantity("odom", "m", 0.1, lambda odometry: odometry.pose.pose.position.z),
     "heading": Quantity("odom", "rad", 0.2, _heading, is_angle=True),
+    "pitch": Quantity("odom", "rad", 0.05, _pitch),
     "tilt": Quantity("odom", "rad", 0.2, _tilt),
+    "grip": Quantity("r_gripper/wrench", "N", 5.0, lambda wrench: wrench.wrench.force.y),
+    "cup height": Quantity("objects/cup/pose", "m", 0.1, lambda pose: pose.pose.position.z),
     "power": Quantity("battery_state", "W", 10.0, lambda battery: -battery.voltage * battery.current),
 }
 
 
 def quantity_named(name: str) -> Quantity:
-    """Return a quantity by its name.
+    """Return a quantity by its name; a joint's name stands for its position.
 
     Raises LabError, which lists the names, when there is none.
     """
+    if name in ACTUATED_JOINTS:
+        return _position_of(name)
     if name not in QUANTITIES:
         there_are = ", ".join(f'"{known}" ({quantity.unit})' for known, quantity in QUANTITIES.items())
-        raise LabError(f"nothing called {name!r} is recorded; there are: {there_are}")
+        raise LabError(
+            f"nothing called {name!r} is recorded; there are: {there_are}, and each joint by its name, "
+            'such as "l_elbow" (rad)'
+        )
     return QUANTITIES[name]
+
+
+def _position_of(joint: str) -> Quantity:
+    unit = "m" if joint.endswith(FINGERS) else "rad"
+    return Quantity("joint_states", unit, 0.2, lambda states: states.position[states.name.index(joint)])

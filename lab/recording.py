@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import pairwise
@@ -60,7 +61,7 @@ class Recording:
         self._start = time.monotonic()
         self._start_of_stamps = time.time()
         self._seconds: float | None = None
-        self._messages: dict[str, list[tuple[float, Any]]] = {topic: [] for topic in topics.TOPICS}
+        self._messages: defaultdict[str, list[tuple[float, Any]]] = defaultdict(list)
         self._marks: list[Mark] = []
 
     @property
@@ -92,8 +93,10 @@ class Recording:
         """The times of a quantity, in s since the beginning, and its values.
 
         There are "speed" (m/s, forwards, in base_link), "turn rate" (rad/s, left is positive), "x" and "y" (m, of the
-        pelvis in frame odom), "height" (m, of the pelvis above the floor), "heading" (rad, in frame odom), "tilt" (rad,
-        of the pelvis from upright) and "power" (W, out of the battery).
+        pelvis in frame odom), "height" (m, of the pelvis above the floor), "heading" (rad, in frame odom),
+        "pitch" (rad, of the pelvis, forwards is positive), "tilt" (rad, of the pelvis from upright) and "power" (W, out
+        of the battery); in the scene "table" also "grip" (N, of the fingers of the right hand) and "cup height" (m, of
+        its centre above the floor). A joint's name, such as "l_elbow", stands for its position (rad; m for a finger).
 
         Raises LabError when there is no such quantity, or nothing of it was recorded.
         """
@@ -152,7 +155,7 @@ class Recording:
     def film(
         self, file: str | Path | None = None, *, camera: str = "track", slow_motion: float = 1.0
     ) -> HTML:
-        """Film what was recorded, drawn afterwards from odom and joint_states; also write it to `file`, a .webp.
+        """Film what was recorded, drawn afterwards from the robot's messages; also write it to `file`, a .webp.
 
         `camera` is "track", "side" or "front"; `slow_motion` 4 makes it last four times as long. Without OpenGL you
         get the caption of the film and the reason why there is none.
@@ -165,7 +168,9 @@ class Recording:
         return film_of_messages(
             self._messages["odom"],
             self._messages["joint_states"],
+            {name: self._messages[topics.topic_of(name)] for name in topics.object_poses()},
             self.seconds,
+            scene=topics.scene(),
             slow_motion=slow_motion,
             camera=camera,
             file=file,

@@ -26,6 +26,7 @@ def start_robot(scene: str = "flat") -> None:
     domain_id = connection().domain_id  # also sets the environment that the child inherits
     if _robot is None or not _robot.is_running:
         topics.forget()
+        topics.enter(scene)
         _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1", "--scene", scene])
     robot = _robot
     if not comes_true(lambda: topics.has_published() or not robot.is_running, START_TIMEOUT):
@@ -37,6 +38,7 @@ def start_robot(scene: str = "flat") -> None:
         raise NoRobotError(
             f"the robot ended with exit status {robot.exit_status}; it printed:\n{robot.output()}"
         )
+    forget_node(NODE)  # the one that ran already, or that crashed
     expect_node(NODE)
     print(f"The robot is up in namespace {NAMESPACE}, ROS_DOMAIN_ID {domain_id}.")
 

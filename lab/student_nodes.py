@@ -46,8 +46,7 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
                 wait_until_reachable(
                     connection().node, name, lambda: not node.is_running or time.monotonic() > deadline
                 )
-                node.names.append(name)
-                expect_node(name)
+                node.expect(name)
     if not node.is_running and node.exit_status != 0:
         raise NodeEndedError(
             f"{path.name} ended at once with exit status {node.exit_status}; it printed:\n{node.log()}"
@@ -94,15 +93,19 @@ class StudentNode:
 
     Attributes:
         file: its path.
-        names: the full names of its nodes.
         was_stopped: `stop()` or `kill()` was called.
     """
 
     def __init__(self, file: Path, process: Process) -> None:
         self.file = file
-        self.names: list[str] = []
         self.was_stopped = False
         self._process = process
+        self._expected: list[str] = []
+
+    def expect(self, name: str) -> None:
+        """Let the ros2 commands wait for a node of this process, until it is stopped."""
+        self._expected.append(name)
+        expect_node(name)
 
     @property
     def is_running(self) -> bool:
@@ -137,8 +140,8 @@ class StudentNode:
         self._process.kill()
 
     def _expect_no_more(self) -> None:
-        for name in self.names:
-            forget_node(name)
+        while self._expected:
+            forget_node(self._expected.pop())
 
     def __repr__(self) -> str:
         state = "running" if self.is_running else f"ended with exit status {self.exit_status}"

@@ -1,4 +1,4 @@
-"""The last message on each of the robot's topics."""
+"""The last message on each of the robot's topics, and on those of the objects around it."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from functools import partial
 from typing import Any, NamedTuple
 
+from geometry_msgs.msg import PoseStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -21,6 +22,7 @@ from lab.events import ModeChanged
 from lab.formatting import fixed
 from lab.interaction_log import log
 from lab.waiting import comes_true
+from robot_sim.model.scenes import OBJECTS
 from ros_runtime.angles import yaw_of
 from ros_runtime.message_constants import RobotMode, name_of
 
@@ -33,6 +35,7 @@ TOPICS: dict[str, tuple[Any, Any]] = {
     "odom": (Odometry, QUEUE),
     "joint_states": (JointState, BEST_EFFORT),
 }
+GRIP = "r_gripper/wrench"  # is listened to where there is something to take
 FRESH = 1.0  # s; every one of these topics comes at least twice as often
 
 
@@ -93,6 +96,36 @@ def has_published() -> bool:
     return _memory().messages.keys() >= TOPICS.keys()
 
 
+def enter(scene: str) -> None:
+    """Also listen, from now on, to the objects of this scene and to the hand that takes them."""
+    memory = _memory()
+    memory.scene = scene
+    if OBJECTS[scene]:
+        memory.listen_to(GRIP, WrenchStamped, QUEUE)
+    for name in OBJECTS[scene]:
+        memory.listen_to(topic_of(name), PoseStamped, QUEUE)
+
+
+def scene() -> str:
+    """The scene that the robot was started in."""
+    return _memory().scene
+
+
+def object_poses() -> dict[str, PoseStamped]:
+    """The last pose of each object of the scene that has published one."""
+    memory = _memory()
+    return {
+        name: memory.messages[topic_of(name)][0]
+        for name in OBJECTS[memory.scene]
+        if topic_of(name) in memory.messages
+    }
+
+
+def topic_of(name: str) -> str:
+    """The topic of an object's pose."""
+    return f"objects/{name}/pose"
+
+
 def forget() -> None:
     """Forget the messages of an earlier robot."""
     _memory().messages.clear()
@@ -114,13 +147,25 @@ def _memory() -> _Memory:
 
 
 class _Memory:
-    """Subscribes to the robot's topics and keeps each one's last message with its time of arrival."""
+    """Subscribes to the robot's topics and keeps each one's last message with its time of arrival.
+
+    `scene` is the one that the robot was started in.
+    """
 
     def __init__(self, node: Node) -> None:
         self.messages: dict[str, tuple[Any, float]] = {}
         self.listeners: list[Callable[[str, Any], object]] = []
+        self.scene = "flat"
+        self._node = node
+        self._topics: set[str] = set()
         for topic, (message_type, qos) in TOPICS.items():
-            node.create_subscription(message_type, topic, partial(self._keep, topic), qos)
+            self.listen_to(topic, message_type, qos)
+
+    def listen_to(self, topic: str, message_type: Any, qos: Any) -> None:
+        """Subscribe to a topic, once."""
+        if topic not in self._topics:
+            self._topics.add(topic)
+            self._node.create_subscription(message_type, topic, partial(self._keep, topic), qos)
 
     def age(self, topic: str) -> float:
         """Seconds since the last message on a topic arrived."""

@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 
 from robot_sim.arms.hand import Hand
+from robot_sim.arms.joint_brakes import GRIP, JointBrakes
 from robot_sim.arms.joint_trajectory import HOLD, JointTrajectory
 from robot_sim.arms.reach import HandTarget, Reach
 from robot_sim.arms.upper_body import UpperBody
@@ -24,6 +25,7 @@ from robot_sim.model.scenes import OBJECTS
 from robot_sim.model.side import SIDES, Side
 from robot_sim.push import Pusher
 from robot_sim.rest import Rest
+from robot_sim.sensors.foot_sensor import FootSensor
 from robot_sim.sensors.imu import Imu
 from robot_sim.sensors.state_estimate import StateEstimate
 from robot_sim.state import BasePose, BaseVelocity, ImuSample, JointState, Mode, ObjectPose
@@ -60,6 +62,7 @@ class Humanoid:
         model, data: of MuJoCo; the pelvis is base_link, the world is odom.
         battery: charge, voltage, current.
         hands: the grippers by side.
+        feet: the sensors of what the feet carry, by side.
         may_rest: while it stands still without a command, physics is not integrated: only time and battery go on, and
             a step costs a fiftieth.
         motors_enabled: torque is on. False after `set_motor_power(False)`, after a fall and at zero charge.
@@ -104,9 +107,11 @@ class Humanoid:
         self.battery = Battery()
         self._imu = Imu(self.model, self.data, self.seed)
         self._pusher = Pusher(self.model, self.data, "torso")
+        self._brakes = JointBrakes(self.model, self.data)
         self._take_control()
         self._height.set(size.stance_height)
         self.hands = {side: Hand(self.model, self.data, side) for side in SIDES}
+        self.feet = {side: FootSensor(self.model, self.data, side) for side in SIDES}
         self._earlier_steps = 0
         self._fallen = False
 
@@ -135,6 +140,7 @@ class Humanoid:
             self._walker.tick(self.timestep)
             self._upper_body.tick(self.timestep)
         self._pusher.apply()
+        self._brakes.apply()
         mujoco.mj_step2(self.model, self.data)
         self.battery.drain(self.data.actuator_force, self.data.actuator_velocity, self.timestep)
         if not self._fallen and self._is_down:
@@ -177,6 +183,7 @@ class Humanoid:
             and self._height.is_idle
             and self._upper_body.is_idle
             and self._pusher.is_idle
+            and self._brakes.is_idle
         )
 
     # Commands
@@ -230,6 +237,41 @@ class Humanoid:
             ValueError: the impulse is not three finite numbers, or the duration is not positive.
         """
         self._pusher.push(impulse, duration)
+        self._rest.wake()
+
+    def hold_joint(self, joint: str, grip: float = GRIP) -> None:
+        """Hold a joint of waist, head or arm where it is, with at most `grip` (N·m), until `release_joint`.
+
+        Raises:
+            ValueError: the joint is another one, or the grip is not positive.
+        """
+        self._brakes.hold(joint, grip)
+        self._rest.wake()
+
+    def release_joint(self, joint: str) -> None:
+        """Let go of a joint."""
+        self._brakes.release(joint)
+        self._rest.wake()
+
+    def move_object(self, name: str, position: Sequence[float]) -> None:
+        """Put an object of the scene elsewhere, upright and at rest, as if somebody had taken it away.
+
+        Args:
+            name: of the object.
+            position: (x, y, z) of its centre, m in the odom frame.
+
+        Raises:
+            ValueError: the scene has no such object, or the position is not three finite numbers.
+        """
+        if name not in OBJECTS[self.scene]:
+            known = ", ".join(OBJECTS[self.scene]) or "nothing"
+            raise ValueError(f"the scene {self.scene!r} has no object {name!r}; it has {known}")
+        place = np.asarray(position, dtype=float)
+        if place.shape != (3,) or not np.isfinite(place).all():
+            raise ValueError(f"position is {position}; expected three finite numbers (x, y, z) in m")
+        joint = self.data.joint(name)
+        joint.qpos[:] = *place, 1.0, 0.0, 0.0, 0.0
+        joint.qvel[:] = 0.0
         self._rest.wake()
 
     def move_body(self, rate: float) -> None:
@@ -327,6 +369,11 @@ class Humanoid:
     def steps(self) -> int:
         """Footsteps (touchdowns) since reset."""
         return self._earlier_steps + self._walker.gait.steps
+
+    @property
+    def is_held(self) -> bool:
+        """Whether a stand holds its chest and waist, so that it cannot fall."""
+        return self.scene == "stand"
 
     @property
     def arrived(self) -> bool:

@@ -35,6 +35,22 @@ class ObjectPose:
 
 
 @dataclass(frozen=True)
+class HandPose:
+    """Pose of the point between the pads of a hand in the odom frame; x along the fingers, y the way they open."""
+
+    position: np.ndarray  # (3,) m
+    quaternion: np.ndarray  # (4,) x, y, z, w
+
+
+@dataclass(frozen=True)
+class Wrench:
+    """What acts on a foot, about its sole's centre: x ahead, y left, z up from the sole."""
+
+    force: np.ndarray  # (3,) N
+    torque: np.ndarray  # (3,) N·m
+
+
+@dataclass(frozen=True)
 class BaseVelocity:
     """Velocity of base_link, in base_link."""
 

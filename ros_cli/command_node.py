@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable
 from queue import SimpleQueue
 from typing import Any, NamedTuple
@@ -55,8 +56,8 @@ class CommandNode:
 
     def __enter__(self) -> CommandNode:
         self._thread.start()
-        expected = set(expected_nodes())  # those of the notebook in whose cell the command was called
-        self.find(lambda: expected <= {*self.node_names(hidden=True)})
+        expected = Counter(expected_nodes())  # those of the notebook in whose cell the command was called
+        self.find(lambda: expected <= Counter(self.node_names(hidden=True)))
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -40,15 +40,21 @@ def latest() -> int | None:
 
 
 def expect_node(name: str) -> None:
-    """Tell the ros2 commands in this notebook's cells that a node runs: they wait until they see it."""
-    os.environ[EXPECTED] = " ".join(sorted({*expected_nodes(), name}))
+    """Tell the ros2 commands in this notebook's cells that a node runs: they wait until they see it.
+
+    Two nodes of one name are two nodes.
+    """
+    os.environ[EXPECTED] = " ".join(sorted([*expected_nodes(), name]))
 
 
 def forget_node(name: str) -> None:
-    """Tell them that it runs no more."""
-    os.environ[EXPECTED] = " ".join(sorted({*expected_nodes()} - {name}))
+    """Tell them that it, or one of its namesakes, runs no more."""
+    nodes = expected_nodes()
+    if name in nodes:
+        nodes.remove(name)
+    os.environ[EXPECTED] = " ".join(nodes)
 
 
 def expected_nodes() -> list[str]:
-    """Return the full names of the nodes that the calling notebook says are running."""
+    """Return the full names of the nodes that the calling notebook says are running, one for each node."""
     return os.environ.get(EXPECTED, "").split()

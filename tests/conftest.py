@@ -9,8 +9,9 @@ import pytest
 TESTS = Path(__file__).parent
 TIERS = ("fast", "arena", "robot", "browser")
 
-# The longest files begin first, so that two workers end at about the same time.
-FIRST = ("test_audit.py", "test_every_chapter.py", "test_new_exercise.py", "test_notebooks_run.py")
+# The longest files begin first, and the short ones of the fast tier last, so that the workers end at about the same
+# time.
+FIRST = ("test_audit.py", "test_every_chapter.py", "test_notebooks_run.py", "test_starters.py")
 
 
 def tier_of(file: Path) -> str:
@@ -29,4 +30,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.path.is_relative_to(TESTS):
             item.add_marker(tier_of(item.path))
-    items.sort(key=lambda item: FIRST.index(item.path.name) if item.path.name in FIRST else len(FIRST))
+    items.sort(key=lambda item: turn_of(item.path))
+
+
+def turn_of(file: Path) -> int:
+    """When a file begins, as a number to sort by."""
+    if file.name in FIRST:
+        return FIRST.index(file.name)
+    return len(FIRST) + (file.is_relative_to(TESTS / "fast"))

@@ -80,6 +80,7 @@ def _carry_out(
     try:
         if simulator:
             simulator.listen()
+            simulator.wait_until_up()  # before the node starts, as on a desk: what is latched is from before
         if spec.student == "node":
             student.start()
         phases.end("start")

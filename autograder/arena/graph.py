@@ -31,6 +31,7 @@ OF_EVERY_NODE = (
     "rcl_interfaces/",
     "type_description_interfaces/",
 )  # types of services that rclpy offers itself
+OF_THE_ROBOT = "compute_arm_ik"  # the service that the robot itself offers
 EVERY_NODE_PUBLISHES = "/parameter_events"
 OF_EVERYBODY = (EVERY_NODE_PUBLISHES, "/rosout", "/clock")
 
@@ -79,13 +80,14 @@ class Graph:
         return [f"{namespace.rstrip('/')}/{name}" for namespace, name in nodes if _is_known(namespace, name)]
 
     def offered(self) -> list[str]:
-        """Return the first services on offer as 'name [type]', without those that every node has."""
+        """Return the first services on offer as 'name [type]', without the robot's and those that every node has."""
         nothing: list[tuple[str, list[str]]] = []
+        robots = self._node.resolve_service_name(OF_THE_ROBOT)
         found = self._ask(self._node.get_service_names_and_types, nothing)
         names = [
             (name, types[0] if len(types) == 1 else self._type_of_server(name) or types[0])
             for name, types in found[:MOST_NAMES]
-            if types and not types[0].startswith(OF_EVERY_NODE)
+            if types and name != robots and not types[0].startswith(OF_EVERY_NODE)
         ]
         offered = [f"{name} [{kind}]" for name, kind in names[:MOST_SERVICES] if self._is_offered(name)]
         more = len(found) - len(found[:MOST_NAMES]) + len(names) - len(names[:MOST_SERVICES])

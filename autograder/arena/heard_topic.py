@@ -25,6 +25,7 @@ class HeardTopic:
         self._type = message_type
         self._log = log
         self._reading = BoundedReading(log)
+        self._latest: Any = None
         durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
         profile = QoSProfile(depth=DEPTH, durability=durability)
         self._subscription = node.create_subscription(message_type, name, self._on_message, profile, raw=True)
@@ -34,9 +35,20 @@ class HeardTopic:
         """The number of messages that have come."""
         return self._log.count(ev.MessageReceived, topic=self.name)
 
+    @property
+    def latest(self) -> Any:
+        """The last message that has come; None before the first."""
+        return self._latest
+
+    @property
+    def publishers(self) -> int:
+        """The number of publishers that it is matched with."""
+        return self._subscription.get_publisher_count()
+
     def _on_message(self, data: bytes) -> None:
         if not self._reading.admits(ev.MessageReceived.kind, self.name):
             return
         message = self._reading.unpack("message", self.name, data, self._type)
         if message is not None:
+            self._latest = message
             self._log.append(ev.MessageReceived(topic=self.name, message=message))

@@ -8,8 +8,10 @@ from typing import Any
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.simulator import Simulator
+from humanoid_interfaces.msg import RobotState
 
 TIMEOUT = 30.0  # s on the arena's clock
+FALLING = 6.0  # s on the arena's clock, in which a robot that is knocked over has fallen
 
 
 class RobotTrouble(Exception):
@@ -36,6 +38,15 @@ class Robot:
     def push(self, impulse: Sequence[float]) -> None:
         """Push the torso (N·s in odom)."""
         self._command("push", impulse=list(impulse))
+
+    def knock_over(self, impulse: Sequence[float]) -> None:
+        """Push the torso (N·s in odom) so that the robot falls, and wait until it has fallen."""
+        self.push(impulse)
+        self.wait_for(lambda robot: robot.mode == RobotState.FALLEN, FALLING)
+
+    def lean_on(self, force: Sequence[float], duration: float) -> None:
+        """Lean on the torso with a force (N in odom) for `duration` s."""
+        self._command("push", impulse=[duration * each for each in force], duration=duration)
 
     def walk(self, velocity: Sequence[float]) -> None:
         """Walk with a velocity (m/s, m/s, rad/s in base_link); zeros stop it."""
@@ -64,6 +75,38 @@ class Robot:
     def report_arm(self, side: str) -> None:
         """Have the simulator report where elbow and hand of the arm "l" or "r" are."""
         self._command("report_arm", side=side)
+
+    def report_joints(self, names: Sequence[str]) -> None:
+        """Have the simulator report where these joints are, from now on."""
+        self._command("report_joints", names=list(names))
+
+    def report_feet(self) -> None:
+        """Have the simulator report what each foot carries, from now on."""
+        self._command("report_feet")
+
+    def move_body(self, rate: float) -> None:
+        """Crouch (below 0) or rise at a rate (m/s) until told otherwise."""
+        self._command("move_body", rate=rate)
+
+    def report_hand(self, side: str) -> None:
+        """Have the simulator report where the hand "l" or "r" is, and what it feels, from now on."""
+        self._command("report_hand", side=side)
+
+    def report_object(self, name: str) -> None:
+        """Have the simulator report where an object is, from now on."""
+        self._command("report_object", name=name)
+
+    def move_object(self, name: str, position: Sequence[float]) -> None:
+        """Put an object elsewhere (m in odom), upright and at rest, also out of a hand."""
+        self._command("move_object", name=name, position=list(position))
+
+    def hold_joint(self, joint: str) -> None:
+        """Hold a joint of waist, head or arm where it is, stronger than its motor."""
+        self._command("hold_joint", joint=joint)
+
+    def release_joint(self, joint: str) -> None:
+        """Let go of a joint."""
+        self._command("release_joint", joint=joint)
 
     def connect_battery_sensor(self, connected: bool = True) -> None:
         """Begin, or stop, publishing battery_state."""
@@ -94,6 +137,35 @@ class Robot:
     def wait_for(self, condition: Callable[[ev.RobotTruth], Any], timeout: float = TIMEOUT) -> bool:
         """Wait for a condition on its state; return False if `timeout` s are over first."""
         return self._wait_until(lambda: condition(self.state), timeout)
+
+    def wait_for_joint(self, joint: str, condition: Callable[[float], Any], timeout: float = TIMEOUT) -> bool:
+        """Wait for a condition on the position (rad) of a joint that is reported."""
+
+        def is_met() -> bool:
+            latest = self._log.last(ev.JointsTruth)
+            return latest is not None and bool(condition(latest.positions[joint]))
+
+        return self._wait_until(is_met, timeout)
+
+    def wait_for_feet(self, condition: Callable[[float, float], Any], timeout: float = TIMEOUT) -> bool:
+        """Wait for a condition on what the left and the right foot carry (N), which is reported."""
+
+        def is_met() -> bool:
+            latest = self._log.last(ev.FeetTruth)
+            return latest is not None and bool(condition(latest.left, latest.right))
+
+        return self._wait_until(is_met, timeout)
+
+    def wait_for_hand(
+        self, condition: Callable[[ev.HandTruth, ev.ObjectTruth], Any], timeout: float = TIMEOUT
+    ) -> bool:
+        """Wait for a condition on the hand and the object that are reported."""
+
+        def is_met() -> bool:
+            hand, thing = self._log.last(ev.HandTruth), self._log.last(ev.ObjectTruth)
+            return hand is not None and thing is not None and bool(condition(hand, thing))
+
+        return self._wait_until(is_met, timeout)
 
     def wait(self, duration: float) -> bool:
         """Wait until every command has taken effect, then for `duration` s of the robot's own time."""

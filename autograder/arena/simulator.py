@@ -15,6 +15,8 @@ from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.robots import Robots
 
+TIMEOUT = 30.0  # s on a clock that still runs at scale 1
+
 
 class Simulator:
     """Forks the simulator and appends its reports to the log.
@@ -45,6 +47,19 @@ class Simulator:
     def listen(self) -> None:
         """Begin to read the ground truth."""
         self._thread.start()
+
+    def wait_until_up(self) -> None:
+        """Wait until the robot has published what is latched and says where it is.
+
+        Raises:
+            RuntimeError: it ended, or did not come up in time.
+        """
+        self._log.wait_until(lambda: self._is_up() or not self.is_running(), TIMEOUT)
+        if not self._is_up():
+            raise RuntimeError(f"the simulator was not up within {TIMEOUT:g} s")
+
+    def _is_up(self) -> bool:
+        return self._log.last(ev.RobotTruth) is not None
 
     def command(self, command: Mapping[str, Any]) -> None:
         """Send one command of `robot_sim.ros.scenario_control`."""

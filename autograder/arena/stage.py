@@ -20,7 +20,7 @@ from autograder.arena.bounded_reading import BoundedReading
 from autograder.arena.heard_topic import HeardTopic
 from autograder.arena.offering import Offering
 from autograder.arena.phases import Phases
-from autograder.arena.robot import TIMEOUT, Robot, RobotTrouble
+from autograder.arena.robot import Robot, RobotTrouble
 from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
 from autograder.arena.waiting import POLLING
@@ -106,14 +106,12 @@ class Stage(Offering):
         return self._parameters[-1]
 
     def open(self) -> None:
-        """Wait until the robot and the student's services and actions are there; then speed up the clock.
+        """Wait until the student's services and actions are there and know the robot; then speed up the clock.
 
         Raises:
             NodeMissing: the services and actions do not come.
         """
         started = time.monotonic()
-        if not self.wait_until(self._robot_is_there, TIMEOUT):
-            raise RobotTrouble(f"the simulator was not ready within {TIMEOUT:g} s")
         self._wait_for_endpoints(started)
         for parameters in self._parameters:
             self._connect(parameters)
@@ -143,9 +141,6 @@ class Stage(Offering):
         self._student.wait(CLEAN_EXIT_TIMEOUT)
 
     # -- helpers ------------------------------------------------------------------------------------------------------
-
-    def _robot_is_there(self) -> bool:
-        return self._robot is None or self._log.last(ev.RobotTruth) is not None
 
     def _wait_for_endpoints(self, started: float) -> None:
         """Wait for the student's endpoints; if they do not come, record what is missing."""

@@ -8,7 +8,7 @@ from itertools import pairwise
 from autograder.authoring.failure import expect
 from autograder.authoring.goal import Goal
 from autograder.authoring.goal_endings import why_rclpy_aborted
-from autograder.authoring.missing import Missing
+from autograder.authoring.missing import Missing, ordinal
 
 MIN_RATE, MAX_RATE = 3.0, 10.0  # Hz; 5 are asked for
 RATE_SLACK = 0.5  # Hz of measuring error over a short walk
@@ -27,13 +27,22 @@ def require_feedback(goal: Goal) -> None:
     )
 
 
-def require_good_feedback_rate(goal: Goal) -> None:
-    """Require feedback at 3-10 Hz on average without a gap over 1 s, from the answer to the result."""
+def require_good_feedback_rate(
+    goal: Goal, *, wanted: float = 5.0, lowest: float = MIN_RATE, highest: float = MAX_RATE
+) -> None:
+    """Require feedback at a mean rate (Hz) without a gap over 1 s, from the answer to the result.
+
+    Args:
+        goal: which was accepted.
+        wanted: the rate that the task asks for.
+        lowest: the least mean rate that passes.
+        highest: the greatest.
+    """
     start = goal.accepted_at
     times = [feedback.t for feedback in goal.feedback if goal.result is None or feedback.t <= goal.result.t]
     expect(
         len(times) >= 3,
-        expected="feedback about five times a second while the robot walks",
+        expected=f"feedback about {wanted:.0f} times a second while the robot moves",
         observed=f"{len(times)} message(s)",
         help=why_rclpy_aborted(goal)
         or "Call goal_handle.publish_feedback(feedback), with the action's Feedback, in the loop of execute.",
@@ -41,10 +50,11 @@ def require_good_feedback_rate(goal: Goal) -> None:
     )
     rate = (len(times) - 1) / max(times[-1] - times[0], 1e-6)
     expect(
-        MIN_RATE - RATE_SLACK <= rate <= MAX_RATE + RATE_SLACK,
-        expected=f"feedback at 5 Hz ({MIN_RATE:.0f} to {MAX_RATE:.0f} Hz on average)",
+        lowest - RATE_SLACK <= rate <= highest + RATE_SLACK,
+        expected=f"feedback at {wanted:.0f} Hz ({lowest:.0f} to {highest:.0f} Hz on average)",
         observed=f"{rate:.1f} Hz",
-        help="Publish every 0.2 s: a loop with time.sleep(0.05) publishes in every fourth round.",
+        help=f"Publish every {1 / wanted:g} s: a loop with time.sleep(0.05) publishes in every "
+        f"{ordinal(round(20 / wanted))} round.",
         at=times[0],
     )
     _require_no_gap([start, *times], MAX_GAP)

@@ -6,6 +6,7 @@ The engine asks before every check whether it appeared.
 from __future__ import annotations
 
 import difflib
+import re
 
 from autograder.authoring import events as ev
 from autograder.authoring.connections import OUTSIDE
@@ -14,6 +15,7 @@ from autograder.authoring.failure import Failure
 from autograder.authoring.missing import unseen
 from autograder.authoring.record import Record
 
+_IS_OF_PARAMETERS = re.compile(r"\w/(describe|get|set)_parameters(_atomically)?$")
 ALIKE = 0.6  # of two names; above it one is taken for a misspelling of the other
 
 
@@ -106,9 +108,16 @@ def _what_is_offered_instead(run: Record, absent: ev.NodeNotReady) -> tuple[str,
         offered[name.split("/_action/")[0]] = type_name.strip("[]")
     kind = "action" if any("/_action/" in name for name in absent.missing) else "service"
     wanted = _base(absent.missing[0]) if absent.missing else ""
+    if not offered and (node := _node_without_parameters(absent.missing)):
+        return (
+            f"No node is called {node}: give that name to the node's constructor, super().__init__({node!r}).",
+            "",
+        )
     if not offered:
         return (
-            f"Your node offers no {kind}: create the server in the node's constructor, and keep it in self.",
+            f"Your node offers no {kind}: create the server in the node's constructor, and keep it in self. If it is "
+            "there already, the constructor never gets that far: it waits for something before, such as a first "
+            "message. Create the server first, and wait in callbacks.",
             "",
         )
     namesakes = [name for name in offered if _base(name) == wanted]
@@ -122,6 +131,12 @@ def _what_is_offered_instead(run: Record, absent: ev.NodeNotReady) -> tuple[str,
         "task's name.",
         "",
     )
+
+
+def _node_without_parameters(missing: list[str]) -> str:
+    """Return the name of the node if nothing but its parameter services is missing, else ''."""
+    nodes = {name.rsplit("/", 2)[-2] if _IS_OF_PARAMETERS.search(name) else "" for name in missing}
+    return nodes.pop() if len(nodes) == 1 else ""
 
 
 def _misplaced(name: str, type_name: str, namespace: str, kind: str, wanted: str) -> tuple[str, str]:

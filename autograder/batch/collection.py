@@ -9,7 +9,7 @@ from pathlib import Path
 
 from nbgrader.utils import parse_utc
 
-from autograder.engine.exercise import exercise_names, file_names
+from autograder.engine.exercise import all_names, file_names
 from autograder.engine.submission import Submission, UnusableSubmission, read_submission
 
 STUDENT = re.compile(r"[\w@+][\w@+.,' -]*")  # what nbgrader, a file system and a shell all take as a name
@@ -88,7 +88,7 @@ def collect(folder: Path) -> Collection:
         else:
             found = list(_works_of(student))
             if not found:
-                ignored.append(f"{student.name} handed in none of {', '.join(exercise_names())}")
+                ignored.append(f"{student.name} handed in none of {', '.join(all_names())}")
             works |= {(work.student, work.exercise): work for work in found}
     if not works and not refused:
         raise NoSubmissions(f"found nothing to grade in {folder}; expected {LAYOUT}")
@@ -97,7 +97,7 @@ def collect(folder: Path) -> Collection:
 
 def _works_of(student: Path) -> Iterator[Work]:
     """Prefer a folder for the exercise to a file beside it, and a notebook to the file it writes when run."""
-    for exercise in exercise_names():
+    for exercise in all_names():
         folder = student / exercise
         home = folder if folder.is_dir() else student
         path = next((place for place in _places(home, exercise) if _is_there(place)), None)

@@ -5,6 +5,8 @@
                            checks.py, hidden.py    how that is judged
                            known/                  submissions whose verdict is known
 
+An essay, which a person marks, has rubric.py in the place of the checks and scenarios (`autograder.engine.essay`).
+
 Other modules beside these are for checks.py and hidden.py, which import them as `from .judging import …`.
 """
 
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
     from autograder.authoring.checks import Check
 
 FOLDER_VARIABLE = "COURSE_EXERCISES"  # inherited by the processes that a command starts
-SCENARIO_FILE, CHECKS, HIDDEN = "scenarios.py", "checks", "hidden"
+SCENARIO_FILE, CHECKS, HIDDEN, RUBRIC = "scenarios.py", "checks", "hidden", "rubric"
 
 
 class UnknownExercise(Exception):
@@ -80,14 +82,25 @@ def use_exercises_of(folder: Path) -> None:
     Raises:
         UnusableExercise: the folder holds none.
     """
-    if not _names_in(folder):
+    if not _names_in(folder, CHECKS, RUBRIC):
         raise UnusableExercise(f"{folder} holds no exercise; expected {folder}/<exercise>/{CHECKS}.py")
     os.environ[FOLDER_VARIABLE] = str(folder.resolve())
 
 
 def exercise_names() -> list[str]:
-    """Name the exercises there are."""
-    return _names_in(exercises_folder())
+    """Name the exercises that checks judge."""
+    return _names_in(exercises_folder(), CHECKS)
+
+
+def essay_names() -> list[str]:
+    """Name the exercises that a person marks."""
+    essays = _names_in(exercises_folder(), RUBRIC)
+    return [name for name in essays if name not in exercise_names()]
+
+
+def all_names() -> list[str]:
+    """Name all exercises."""
+    return _names_in(exercises_folder(), CHECKS, RUBRIC)
 
 
 def file_names(exercise: str) -> tuple[str, ...]:
@@ -108,12 +121,14 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
     """Load an exercise with or without its hidden checks.
 
     Raises:
-        UnknownExercise: there is none of that name; the message lists those there are.
+        UnknownExercise: there is none of that name, or a person marks it; the message lists those there are.
         UnusableExercise: its author has something to fix.
     """
     # Imported late: it takes time, and a command that lists names does not need it.
     from autograder.authoring.checks import checks_in
 
+    if name in essay_names():
+        raise UnknownExercise(f"{name} has no checks: a person marks it")
     folder = exercises_folder() / name
     checks = visible = checks_in(exercise_module(name, CHECKS))
     has_hidden = (folder / f"{HIDDEN}.py").exists()
@@ -134,9 +149,9 @@ def exercise_module(exercise: str, module: str = "") -> ModuleType:
         UnusableExercise: the module cannot be imported.
     """
     folder = exercises_folder()
-    if exercise not in _names_in(folder):
+    if exercise not in all_names():
         raise UnknownExercise(
-            f"there is no exercise {exercise!r} in {folder}; there are {', '.join(_names_in(folder))}"
+            f"there is no exercise {exercise!r} in {folder}; there are {', '.join(all_names())}"
         )
     try:
         return importlib.import_module(".".join(filter(None, (_package(folder), exercise, module))))
@@ -148,13 +163,14 @@ def exercise_module(exercise: str, module: str = "") -> ModuleType:
         ) from error
 
 
-def _names_in(folder: Path) -> list[str]:
+def _names_in(folder: Path, *modules: str) -> list[str]:
+    """Name the exercises that have one of these modules."""
     if not folder.is_dir():
         return []
     return sorted(
         place.name
         for place in folder.iterdir()
-        if place.name.isidentifier() and (place / f"{CHECKS}.py").exists()
+        if place.name.isidentifier() and any((place / f"{module}.py").exists() for module in modules)
     )
 
 

@@ -84,7 +84,7 @@ def sources_from_notebook(text: str, names: tuple[str, ...], path: Path) -> dict
     except Exception as error:  # a broken file fails in many ways: no JSON, no cells, cells that are none
         raise UnusableSubmission(f"{path} is not a notebook: {error}") from error
     found = {
-        name: source for name in names for cell in cells if (source := _written_by(cell, name)) is not None
+        name: source for name in names for cell in cells if (source := written_by(cell, name)) is not None
     }
     if not found:
         wanted = " or ".join(f"'%%writefile {name}'" for name in names)
@@ -92,8 +92,8 @@ def sources_from_notebook(text: str, names: tuple[str, ...], path: Path) -> dict
     return found
 
 
-def _written_by(cell: str, name: str) -> str | None:
-    """Return what the cell writes into the file of that name; None if it does not."""
+def written_by(cell: str, name: str) -> str | None:
+    """Return what a cell writes into the file of that name; None if it does not."""
     magic = re.match(rf"\s*%%writefile\s+(?:\./)?{re.escape(name)}\s*\n", cell)
     return cell[magic.end() :] if magic else None
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
-CheckStatus = Literal["passed", "failed", "not run", "error"]
-GradeStatus = Literal["graded", "not graded"]
+CheckStatus = Literal["passed", "failed", "not run", "error", "to mark", "marked"]
+GradeStatus = Literal["graded", "not graded", "to mark"]
 
 # Characters of what a verdict says: it may quote a text of a student's, which may be as long as they like.
 LONGEST: Mapping[str, int] = {"expected": 500, "observed": 500, "help": 4000}
@@ -16,12 +16,15 @@ LENGTH_NOTE = 40  # characters at most of what is put in the place of the rest
 
 @dataclass(frozen=True)
 class CheckVerdict:
-    """What one check found; `robot_time` is when, in seconds on the arena's clock."""
+    """What one check found; `robot_time` is when, in seconds on the arena's clock.
+
+    Of an essay it is what a person gave for one criterion ("marked"), or that nobody has done so yet ("to mark").
+    """
 
     id: str
     title: str
     status: CheckStatus
-    points: int
+    points: float
     max_points: int
     expected: str = ""
     observed: str = ""
@@ -49,13 +52,15 @@ class Grade:
 
     @property
     def status(self) -> GradeStatus:
-        """'not graded' when the grader failed, never the student."""
+        """'not graded' when the grader failed, never the student; 'to mark' while points are a person's to give."""
         broken = self.reason or not self.checks or any(check.status == "error" for check in self.checks)
-        return "not graded" if broken else "graded"
+        if broken:
+            return "not graded"
+        return "to mark" if any(check.status == "to mark" for check in self.checks) else "graded"
 
     @property
-    def score(self) -> int | None:
-        """The points earned; None when not graded."""
+    def score(self) -> float | None:
+        """The points earned; None when not graded, or not marked yet."""
         return sum(check.points for check in self.checks) if self.status == "graded" else None
 
     @property

@@ -61,7 +61,7 @@ def read_grade(records: Path, student: str, exercise: str) -> Grade:
     grade = next((grade for grade in grades if grade.exercise == exercise), None)
     if grade is None:
         raise NotGradedError(f"{path} has no grade for {exercise}; grade with `course grade` first")
-    if grade.status != "graded":
+    if grade.status == "not graded":
         raise NotGradedError(f"{student}'s {exercise} was not graded: {grade.reason or 'see ' + str(path)}")
     return grade
 

@@ -23,6 +23,7 @@ _BRIDGE = "autograder.nbgrader_bridge"
 # Stock nbgrader begins with Execute, which runs the student's cells with the grader's rights. Nothing here runs a cell.
 AUTOGRADE_PREPROCESSORS = [
     f"{_BRIDGE}.cell_points.VerdictOutputs",
+    f"{_BRIDGE}.essay_pictures.EssayPictures",
     "nbconvert.preprocessors.ClearMetadataPreprocessor",
     "nbgrader.preprocessors.LimitOutput",
     "nbgrader.preprocessors.SaveAutoGrades",
@@ -43,6 +44,7 @@ _OPTIONS: dict[str, Any] = {
     "Autograde.autograde_preprocessors": AUTOGRADE_PREPROCESSORS,
     "GenerateFeedback.preprocessors": FEEDBACK_PREPROCESSORS,
     "SanitizeHTML.enabled": True,
+    "ExportApp.plugin_class": f"{_BRIDGE}.marked_export.MarkedCsvExport",
 }
 
 

@@ -11,9 +11,8 @@ from typing import Any
 
 import nbformat
 
-from autograder.engine.exercise import file_names, load_exercise
+from autograder.engine.exercise import file_names
 from autograder.engine.verdict import Grade
-from autograder.nbgrader_bridge.check_cells import with_check_cells
 from autograder.nbgrader_bridge.course_folder import (
     RECORDS,
     NbgraderError,
@@ -21,6 +20,8 @@ from autograder.nbgrader_bridge.course_folder import (
     open_course,
     write_config_file,
 )
+from autograder.nbgrader_bridge.generated_cells import with_generated_cells
+from autograder.nbgrader_bridge.hand_marks import ask_again, with_marks
 from autograder.nbgrader_bridge.rebuild_submission import rebuild_submission
 
 TIMESTAMP = "timestamp.txt"
@@ -49,38 +50,65 @@ class CourseGradebook:
         self._assigned: set[str] = set()
 
     def enter(self, entry: Entry) -> Path | None:
-        """Record one grade and return its feedback page; None for what was not graded, which leaves no score.
+        """Record one grade and return its feedback page.
 
+        None for what was not graded, which leaves no score, and for an essay that a person has not marked completely.
         A grade that is entered already is not entered again.
 
         Raises `NbgraderError` when nbgrader fails.
         """
         grade = entry.grade
-        if grade.status != "graded":
+        if grade.status == "not graded":
             record(self._folder, grade)
             return None
         self._assign(grade.exercise)
         page = self._folder / "feedback" / grade.student / grade.exercise / f"{grade.exercise}.html"
         submission = self._submission(entry)
-        if page.exists() and not self._is_new and self._holds(grade, submission):
+        is_entered = not self._is_new and self._holds(grade, submission)
+        if grade.status == "to mark":
+            return self._leave_to_a_person(grade, submission, page, is_entered)
+        if page.exists() and is_entered:
             return page
         page.unlink(missing_ok=True)  # it would show a grade that is not entered completely
-        record(self._folder, grade)
-        self._submit(grade, submission)
-        call(self._course.autograde, grade.exercise, grade.student)
+        self._autograde(grade, submission)
         call(self._course.generate_feedback, grade.exercise, grade.student)
         return page
 
+    def as_marked(self, grade: Grade) -> Grade:
+        """Return a grade with what a person has given for it so far, if that is for a person to say."""
+        if grade.status != "to mark":
+            return grade
+        with self._course.gradebook as gradebook:
+            return with_marks(gradebook, grade)
+
+    def _leave_to_a_person(
+        self, grade: Grade, submission: dict[str, str], page: Path, is_entered: bool
+    ) -> Path | None:
+        """Enter an essay without points; its page is made of those that a person has given, when none is missing."""
+        page.unlink(missing_ok=True)
+        if not (is_entered and self._autograded(grade).exists()):
+            shutil.rmtree(self._autograded(grade), ignore_errors=True)
+            self._autograde(grade, submission)
+            with self._course.gradebook as gradebook:
+                ask_again(gradebook, grade)
+        if self.as_marked(grade).status != "graded":
+            return None
+        call(self._course.generate_feedback, grade.exercise, grade.student)
+        return page
+
+    def _autograde(self, grade: Grade, submission: dict[str, str]) -> None:
+        record(self._folder, grade)
+        self._submit(grade, submission)
+        call(self._course.autograde, grade.exercise, grade.student)
+
     def _assign(self, exercise: str) -> None:
-        """Create the exercise's assignment in the gradebook, with the present points of its checks."""
+        """Create the exercise's assignment in the gradebook, with the present points of its checks or criteria."""
         if exercise in self._assigned:
             return
         folder = self._folder / "source" / exercise
         folder.mkdir(parents=True, exist_ok=True)
         source = nbformat.read(self._solutions / exercise / f"{exercise}.ipynb", as_version=4)
-        nbformat.write(
-            with_check_cells(source, load_exercise(exercise, hidden=True)), folder / f"{exercise}.ipynb"
-        )
+        nbformat.write(with_generated_cells(source, exercise), folder / f"{exercise}.ipynb")
         try:
             call(self._course.generate_assignment, exercise)
         except NbgraderError as error:
@@ -116,6 +144,10 @@ class CourseGradebook:
     def _submitted(self, grade: Grade) -> Path:
         """Where nbgrader looks for submissions."""
         return self._folder / "submitted" / grade.student / grade.exercise
+
+    def _autograded(self, grade: Grade) -> Path:
+        """Where nbgrader puts what it has read."""
+        return self._folder / "autograded" / grade.student / grade.exercise
 
 
 def record(folder: Path, grade: Grade) -> None:

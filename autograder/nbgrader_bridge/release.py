@@ -8,9 +8,8 @@ from pathlib import Path
 
 import nbformat
 
-from autograder.engine.exercise import load_exercise
-from autograder.nbgrader_bridge.check_cells import with_check_cells
 from autograder.nbgrader_bridge.course_folder import call, open_course
+from autograder.nbgrader_bridge.generated_cells import with_generated_cells
 
 
 def source_notebooks(solutions: Path) -> dict[str, Path]:
@@ -28,7 +27,7 @@ def out_of_date(solutions: Path, exercises: Path) -> list[Path]:
 
 
 def bring_up_to_date(solutions: Path, exercises: Path) -> list[Path]:
-    """Generate the grade cells in solutions/ and all of exercises/; return the notebooks that have changed."""
+    """Bring generated cells in solutions/ and all of exercises/ up to date; return the notebooks that have changed."""
     changed = []
     for path, content in _wanted(solutions, exercises).items():
         if _content(path) == content:
@@ -63,10 +62,7 @@ def _wanted(solutions: Path, exercises: Path) -> dict[Path, str | None]:
         for exercise, notebook in source_notebooks(solutions).items():
             source = nbformat.read(notebook, as_version=4)
             (renewed / exercise).mkdir(parents=True)
-            nbformat.write(
-                with_check_cells(source, load_exercise(exercise, hidden=True)),
-                renewed / exercise / notebook.name,
-            )
+            nbformat.write(with_generated_cells(source, exercise), renewed / exercise / notebook.name)
         generate_release(renewed, released)
         for made, place in ((renewed, solutions), (released, exercises)):
             wanted |= {place / path.relative_to(made): _content(path) for path in made.rglob("*.ipynb")}

@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.report.table import summary
+from autograder.report.table import MARKS, summary
 
 
 def class_table(grades: Sequence[Grade]) -> RenderableType:
@@ -23,6 +23,10 @@ def class_table(grades: Sequence[Grade]) -> RenderableType:
         if grade.status == "not graded":
             reason = (grade.reason.splitlines() or [""])[0]
             table.add_row(grade.student, grade.exercise, Text("not graded", "magenta"), Text(reason))
+        elif grade.status == "to mark":
+            table.add_row(
+                grade.student, grade.exercise, Text("to mark", MARKS["to mark"][1]), Text(summary(grade))
+            )
         else:
             table.add_row(
                 grade.student, grade.exercise, f"{grade.score}/{grade.max_score}", Text(_lost_at(grade))
@@ -32,7 +36,8 @@ def class_table(grades: Sequence[Grade]) -> RenderableType:
 
 def progress_line(grade: Grade, *, cached: bool = False) -> Text:
     """Return the line to print when one submission is graded."""
-    colour = "magenta" if grade.status == "not graded" else "green" if grade.all_passed else "yellow"
+    colours = {"not graded": "magenta", "to mark": MARKS["to mark"][1]}
+    colour = colours.get(grade.status, "green" if grade.all_passed else "yellow")
     note = "  (as before)" if cached else ""
     return Text.assemble(
         (f"{grade.student} · {grade.exercise}  ", ""), (summary(grade).splitlines()[0], colour), (note, "dim")
@@ -41,8 +46,18 @@ def progress_line(grade: Grade, *, cached: bool = False) -> Text:
 
 def _lost_at(grade: Grade) -> str:
     def words(verdict: CheckVerdict) -> str:
-        return verdict.id if verdict.status == "failed" else f"{verdict.id} ({verdict.status})"
+        return (
+            verdict.id
+            if verdict.status == "failed"
+            else f"{verdict.id} ({verdict.points}/{verdict.max_points})"
+        )
 
-    failed = [words(verdict) for verdict in grade.checks if verdict.status == "failed"]
+    failed = [
+        words(verdict) for verdict in grade.checks if verdict.status == "failed" or _lacks_points(verdict)
+    ]
     not_run = sum(verdict.status == "not run" for verdict in grade.checks)
     return ", ".join([*failed, f"{not_run} not run"] if not_run else failed)
+
+
+def _lacks_points(verdict: CheckVerdict) -> bool:
+    return verdict.status == "marked" and verdict.points < verdict.max_points

@@ -20,6 +20,8 @@ MARKS = {
     "failed": ("✗", "red"),
     "not run": ("–", "yellow"),
     "error": ("!", "magenta"),
+    "to mark": ("…", "cyan"),
+    "marked": ("•", "cyan"),
 }
 
 
@@ -84,9 +86,12 @@ def grade_table(grade: Grade) -> RenderableType:
 
 
 def summary(grade: Grade) -> str:
-    """Return the score in one line, marked if there was no isolation or no verdict."""
+    """Return the score in one line, marked if there was no isolation or no verdict, or a person has to give one."""
     if grade.status == "not graded":
         return f"NOT GRADED, no points either way{': ' + grade.reason if grade.reason else ''}"
+    if grade.status == "to mark":
+        waiting = sum(verdict.status == "to mark" for verdict in grade.checks)
+        return f"to be marked by hand: {waiting} of {len(grade.checks)} criteria"
     label = "" if grade.isolation == "namespaces" else f"  [{grade.isolation}]"
     return f"{grade.score} of {grade.max_score} points{label}"
 

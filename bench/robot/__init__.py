@@ -1,4 +1,4 @@
-"""Trials of the humanoid: walking, stopping, balance, reaching, grasping and carrying, and the simulation's speed."""
+"""Trials of the humanoid: walking, stopping, balance, arms, hands, grasping, carrying, and the simulation's speed."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from bench.robot import (
     estimates,
     goals,
     grasps,
+    hand_poses,
     limits,
     pushes,
     reaches,
@@ -34,6 +35,7 @@ TRIALS: dict[str, Trial] = {
     "estimates": estimates.TRIAL,
     "crouches": crouches.TRIAL,
     "reaches": reaches.TRIAL,
+    "hand_poses": hand_poses.TRIAL,
     "grasps": grasps.TRIAL,
     "carries": carries.TRIAL,
     "speed": speed.TRIAL,

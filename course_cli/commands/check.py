@@ -9,14 +9,16 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from autograder.engine.essay import load_essay
 from autograder.engine.exercise import (
     UnknownExercise,
     UnusableExercise,
+    essay_names,
     exercise_names,
     file_names,
     scenario_file,
 )
-from autograder.engine.submission import UnusableSubmission, place_of_work
+from autograder.engine.submission import UnusableSubmission, place_of_work, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
@@ -39,6 +41,9 @@ def check(
     console = Console(highlight=False)
     try:
         path = file or _default_file(exercise)
+        if exercise in essay_names():
+            _show_rubric(console, exercise, path)
+            return
         with SubmissionArenas(scenario_file(exercise)) as arenas:
             if exercise in exercise_names() and path.exists():
                 arenas.open_ahead()
@@ -51,6 +56,14 @@ def check(
     if json_file:
         json_file.write_text(json.dumps(result.to_json(), indent=2) + "\n")
     raise typer.Exit(0 if result.all_passed else COULD_NOT)
+
+
+def _show_rubric(console: Console, exercise: str, path: Path) -> None:
+    """Say that the work can be read, and by what a person will mark it."""
+    read_submission(path, exercise)
+    console.print(f"{path} can be read. A person marks {exercise}, so nothing is checked here:", markup=False)
+    for criterion in load_essay(exercise).criteria:
+        console.print(f"  {criterion.title}: {criterion.points} points", markup=False)
 
 
 def _default_file(exercise: str) -> Path:

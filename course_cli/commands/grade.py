@@ -18,6 +18,7 @@ from autograder.batch.collection import Collection, NoSubmissions, collect
 from autograder.batch.records import GRADES, write_grades
 from autograder.batch.runner import BatchRunner, Graded
 from autograder.engine.exercise import UnusableExercise, exercises_folder
+from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation, available_isolation
 from autograder.nbgrader_bridge.course_folder import NbgraderError
 from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
@@ -68,9 +69,10 @@ def grade(
         raise ended(console, error, UNUSABLE) from error
     grades = [result.grade for result in results]
     write_grades(out / GRADES, grades)
+    unentered, grades = _enter_all(console, results, out)
+    write_grades(out / GRADES, grades)  # again, with the points that a person has given for essays
     if json_file:
         write_grades(json_file, grades)
-    unentered = _enter_all(console, results, out)
     console.print(class_table(grades))
     for line in collection.ignored:
         console.print(f"left aside: {line}", style="yellow", markup=False)
@@ -78,6 +80,12 @@ def grade(
         console.print(f"not graded: {line}", style="red", markup=False)
     for line in unentered:
         console.print(f"not in the gradebook: {line}", style="red", markup=False)
+    to_mark = [grade for grade in grades if grade.status == "to mark"]
+    if to_mark:
+        console.print(
+            f"{len(to_mark)} to be marked by hand, in formgrader; then run this again, and the points are in {GRADES}",
+            style="cyan",
+        )
     not_graded = [result for result in results if result.grade.status == "not graded"]
     if not_graded:
         console.print(f"{len(not_graded)} not graded; try those again with --resume", style="magenta")
@@ -109,9 +117,7 @@ def _grade_all(
             resume=resume,
             report=lambda verdict: progress.advance(task),
         )
-        progress.update(
-            task, total=sum(len(runner.exercise(work.exercise).checks) for work in collection.works)
-        )
+        progress.update(task, total=sum(runner.count(work.exercise) for work in collection.works))
         results: dict[object, Graded] = {}
         try:
             with closing(runner.run(collection.works)) as graded:
@@ -124,9 +130,13 @@ def _grade_all(
     return [results[work] for work in collection.works]
 
 
-def _enter_all(console: Console, results: Sequence[Graded], out: Path) -> list[str]:
-    """Enter the grades into nbgrader's gradebook one by one; return a sentence for each that failed."""
+def _enter_all(console: Console, results: Sequence[Graded], out: Path) -> tuple[list[str], list[Grade]]:
+    """Enter the grades into nbgrader's gradebook one by one.
+
+    Returns a sentence for each that failed, and the grades with what a person has given there.
+    """
     problems: list[str] = []
+    grades: list[Grade] = []
     logs: list[str] = []
     with _progress(console) as progress:
         task = progress.add_task("gradebook", total=len(results))
@@ -134,7 +144,9 @@ def _enter_all(console: Console, results: Sequence[Graded], out: Path) -> list[s
         for result in results:
             try:
                 gradebook.enter(Entry(result.grade, result.sources, result.problem, result.work.timestamp))
+                grades.append(gradebook.as_marked(result.grade))
             except (NbgraderError, NoSolutionCell, OSError) as error:
+                grades.append(result.grade)
                 problems.append(f"{result.work.student}'s {result.work.exercise}: {error}")
                 if isinstance(error, NbgraderError):
                     logs.append(f"{problems[-1]}\n{error.log}")
@@ -142,7 +154,7 @@ def _enter_all(console: Console, results: Sequence[Graded], out: Path) -> list[s
     if logs:
         (out / LOG).write_text("\n\n".join(logs))
         problems.append(f"what nbgrader said about it is in {out / LOG}")
-    return problems
+    return problems, grades
 
 
 def _progress(console: Console) -> Progress:

@@ -22,27 +22,28 @@ def run_tests(
     ] = False,
     arena: Annotated[
         bool,
-        typer.Option("--arena", help="Sandboxes, submissions graded in them, gradebooks: seven minutes."),
+        typer.Option("--arena", help="Sandboxes, submissions graded in them, gradebooks: half an hour."),
     ] = False,
     robot: Annotated[
         bool,
         typer.Option(
-            "--robot", help="Robot processes, chapters and the lab in kernels, the demo: six minutes."
+            "--robot",
+            help="Robot processes, chapters and the lab in kernels, the demo: half an hour.",
         ),
     ] = False,
     browser: Annotated[
-        bool, typer.Option("--browser", help="JupyterLab and the web view, seen in a browser: half a minute.")
+        bool, typer.Option("--browser", help="JupyterLab and the web view, seen in a browser: one minute.")
     ] = False,
 ) -> None:
-    """Run the tests: all of them (14 minutes), or the tiers that are named.
+    """Run the tests: all of them (45 minutes), or the tiers that are named.
 
     Further arguments go to pytest: `course test tests/fast/setup -x`, `course test --fast -k name`.
     """
     chosen = {tier for tier, wanted in zip(TIERS, (fast, arena, robot, browser), strict=True) if wanted}
-    # In a child, because pytest's plugins and the ROS libraries both hold on to a process's state. Two files at a
+    # In a child, because pytest's plugins and the ROS libraries both hold on to a process's state. Three files at a
     # time: robots and notebooks of the tests wait for the clock more than for the processors. The order of the files
     # is that of tests/conftest.py.
-    command = [sys.executable, "-m", "pytest", "-n", "2", "--dist", "loadfile", "--no-loadscope-reorder"]
+    command = [sys.executable, "-m", "pytest", "-n", "3", "--dist", "loadfile", "--no-loadscope-reorder"]
     status = subprocess.run([*command, *pytest_arguments(chosen, context.args)], cwd=PROJECT).returncode
     raise typer.Exit(0 if status == 0 else 1)
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-import runpy
-import traceback
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 from lab.gap import Gap, expect, not_yet
+from lab.gap_checks import asked, read_program
 
 RATE = 20  # Hz, of odom
 SPEED = 0.35  # m/s, of the robot
@@ -23,7 +21,7 @@ MARCH = 30.0  # s
 
 def decides_the_phase() -> str:
     """Ask for the next phase in one situation after the other."""
-    program = _program("route.py")
+    program = read_program("route.py")
     turn, walk, there = (program[name] for name in ("TURN", "WALK", "THERE"))
     situations = (
         (walk, 1.5, 0.0, walk, "the distance is over REACH: go on walking"),
@@ -44,7 +42,7 @@ def decides_the_phase() -> str:
         (there, 0.7, 0.05, walk, "a push took the robot away: the distance is over REACH"),
     )
     for phase, distance, bearing, wanted, reason in situations:
-        got = _asked(partial(program["next_phase"], phase, distance, bearing), "route.py")
+        got = asked(partial(program["next_phase"], phase, distance, bearing), "route.py")
         expect(
             got == wanted,
             seen=f"{got!r} for phase {phase!r}, {distance} m and a bearing of {bearing} rad",
@@ -56,7 +54,7 @@ def decides_the_phase() -> str:
 
 def forgets_the_sway() -> str:
     """Walk four paths, each with the sway of the pelvis, and compare the distances."""
-    walked = _program("odometer.py")["walked"]
+    walked = read_program("odometer.py")["walked"]
     paths = {
         "2 m straight": (2.0, _along([(0, 0), (2, 0)])),
         "2 m there and 2 m back": (4.0, _along([(0, 0), (2, 0), (0, 0)])),
@@ -90,7 +88,7 @@ def forgets_the_sway() -> str:
         expected=f"at most {MOST_SWAY} m",
         next="compare with `shortest`: a shorter piece may be sway",
     )
-    everything = float(_asked(partial(walked, march, 0.0), "odometer.py"))
+    everything = float(asked(partial(walked, march, 0.0), "odometer.py"))
     expect(
         everything > naive / 2,
         seen=f"{everything:.2f} m for the march with shortest=0.0",
@@ -102,7 +100,7 @@ def forgets_the_sway() -> str:
 
 def knows_a_charge() -> str:
     """Hand in one percentage after the other."""
-    program = _program("battery_watch.py")
+    program = read_program("battery_watch.py")
     ignore, cancel, go_on = (program[name] for name in ("IGNORE", "CANCEL", "GO_ON"))
     percentages = (
         (0.8, go_on, "a charge above LIMIT: go on"),
@@ -120,7 +118,7 @@ def knows_a_charge() -> str:
         ),
     )
     for percentage, wanted, reason in percentages:
-        got = _asked(partial(program["decide"], percentage), "battery_watch.py")
+        got = asked(partial(program["decide"], percentage), "battery_watch.py")
         expect(
             got == wanted,
             seen=f"{got!r} for {percentage:g}",
@@ -130,25 +128,8 @@ def knows_a_charge() -> str:
     return f"the right answer for {len(percentages)} percentages, three of them no charge"
 
 
-def _program(file: str) -> dict[str, Any]:
-    """Run a student's file and return what it defines."""
-    return _asked(lambda: runpy.run_path(file), file)
-
-
-def _asked(call: Callable[[], Any], file: str) -> Any:
-    """Call what the student wrote; an exception becomes an error that quotes its line."""
-    try:
-        return call()
-    except Exception as problem:
-        lines = [f for f in traceback.extract_tb(problem.__traceback__) if Path(f.filename).name == file]
-        where = f" in line {lines[-1].lineno}: {lines[-1].line}" if lines else ""
-        raise not_yet(
-            f"{type(problem).__name__}: {problem}{where}", "no exception", "mend what this error names"
-        ) from None
-
-
 def _walked(walked: Callable[..., Any], points: Iterable[tuple[float, float]]) -> float:
-    return float(_asked(partial(walked, list(points)), "odometer.py"))
+    return float(asked(partial(walked, list(points)), "odometer.py"))
 
 
 def _walked_naively(points: Iterable[tuple[float, float]]) -> float:

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 
 import mujoco
+import numpy as np
 
 from robot_sim.model.joint_names import finger_joints
 from robot_sim.model.side import Side
+from robot_sim.state import HandPose
 
 WIDEST = 0.09  # m between the pads
 
@@ -20,6 +22,7 @@ class Hand:
         self._data = data
         self._motors = [model.actuator(name).id for name in joints]
         self._slides = [model.joint(name).qposadr[0] for name in joints]
+        self._grip = data.site(f"{side.letter}_grip")
         self._touches = [model.sensor(f"{name}_touch").adr[0] for name in joints]
 
     def open_to(self, opening: float) -> None:
@@ -33,6 +36,18 @@ class Hand:
         if not math.isfinite(opening):
             raise ValueError(f"the opening is {opening}; expected 0 to {WIDEST} m")
         self._data.ctrl[self._motors] = min(max(opening, 0.0), WIDEST) / 2
+
+    @property
+    def pose(self) -> HandPose:
+        """Where the point between the pads is, and which way the fingers point."""
+        quaternion = np.empty(4)
+        mujoco.mju_mat2Quat(quaternion, self.rotation.ravel())
+        return HandPose(self._grip.xpos.copy(), np.roll(quaternion, -1))  # MuJoCo has w first
+
+    @property
+    def rotation(self) -> np.ndarray:
+        """Rotation matrix (3, 3) of the hand in the world frame: x along the fingers, y the way they open."""
+        return hand_rotation(self._grip.xmat)
 
     @property
     def opening(self) -> float:
@@ -49,3 +64,13 @@ class Hand:
     def grip_force(self) -> float:
         """Force with which an object is held, N: that of the pad that presses less."""
         return min(self.forces)
+
+
+def hand_rotation(grip: np.ndarray) -> np.ndarray:
+    """Return the rotation matrix (3, 3) of a hand, given that (9,) of its grip site.
+
+    Its x points along the fingers and its y the way they open, so that a hand that points ahead, with the fingers side
+    by side, has the axes of base_link. The site's -z and y do.
+    """
+    x, y, z = grip.reshape(3, 3).T
+    return np.column_stack((-z, y, x))

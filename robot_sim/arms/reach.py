@@ -73,7 +73,7 @@ class Reach:
         self._model, self._data, self._target, self._parameters = model, data, target, parameters
         self._grip = model.site(f"{side.letter}_grip").id
         self._dofs = np.array([model.joint(name).dofadr[0] for name in self.joints])
-        self._relaxed = np.array([0.0] * len(waist) + _relaxed_arm(side))
+        self._relaxed = np.array([0.0] * len(waist) + relaxed_arm(side))
         self._reference = data.site_xpos[self._grip].copy()
         self._jacobian = np.zeros((6, model.nv))
 
@@ -148,5 +148,6 @@ def _shortened(vector: np.ndarray, longest: float) -> np.ndarray:
     return vector * (longest / length) if length > longest else vector
 
 
-def _relaxed_arm(side: Side) -> list[float]:
+def relaxed_arm(side: Side) -> list[float]:
+    """Return the positions (7,) rad of an arm at ease, with its elbow away from the body."""
     return [on_side(side, joint, RELAXED_ARM.get(joint, 0.0)) for joint in ARM]

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+
+import numpy as np
 
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.side import Side
@@ -12,9 +14,13 @@ from ros_runtime.record.event import Event, to_line
 from ros_runtime.record.ground_truth import (
     ArmReported,
     BatteryPublished,
+    FeetTruth,
+    HandTruth,
     ImuPublished,
     JointsPublished,
+    JointsTruth,
     MotorPowerReceived,
+    ObjectTruth,
     RobotCommanded,
     RobotPeers,
     RobotReady,
@@ -24,6 +30,7 @@ from ros_runtime.record.ground_truth import (
 
 GROUND_TRUTH_RATE = 50.0  # Hz, simulated
 MOST_POWER_MESSAGES = 100  # that are written; a flood of them is no news
+DIGITS = 4  # behind the point, of joints, hands and objects: 0.1 mrad or mm, and records stay small
 
 
 class GroundTruthWriter:
@@ -32,6 +39,10 @@ class GroundTruthWriter:
     def __init__(self, fd: int) -> None:
         self._fd = fd
         self._power_messages = 0
+        self._reported_joints: dict[str, tuple[int, int]] = {}
+        self._feet_are_reported = False
+        self._reported_hands: list[Side] = []
+        self._reported_objects: list[str] = []
 
     def ready(self) -> None:
         """Write that the robot stands and its topics exist."""
@@ -59,6 +70,77 @@ class GroundTruthWriter:
                 motors_enabled=bool(humanoid.motors_enabled),
                 steps=int(humanoid.steps),
                 battery=float(humanoid.battery.percentage),
+            )
+        )
+        if self._reported_joints:
+            self._joints(humanoid)
+        if self._feet_are_reported:
+            self._feet(humanoid)
+        for side in self._reported_hands:
+            self._hand(humanoid, side)
+        for name in self._reported_objects:
+            self._object(humanoid, name)
+
+    def report_joints(self, humanoid: Humanoid, names: Sequence[str]) -> None:
+        """Write where these joints are, now and with each state of the robot from now on."""
+        joints = [humanoid.model.joint(name) for name in names]
+        self._reported_joints = {
+            joint.name: (int(joint.qposadr[0]), int(joint.dofadr[0])) for joint in joints
+        }
+        self._joints(humanoid)
+
+    def _joints(self, humanoid: Humanoid) -> None:
+        places, rates = humanoid.data.qpos, humanoid.data.qvel
+        self._write(
+            JointsTruth(
+                positions={
+                    name: round(float(places[at]), DIGITS) for name, (at, _) in self._reported_joints.items()
+                },
+                velocities={
+                    name: round(float(rates[at]), DIGITS) for name, (_, at) in self._reported_joints.items()
+                },
+            )
+        )
+
+    def report_feet(self, humanoid: Humanoid) -> None:
+        """Write what each foot carries, now and with each state of the robot from now on."""
+        self._feet_are_reported = True
+        self._feet(humanoid)
+
+    def _feet(self, humanoid: Humanoid) -> None:
+        left, right = (float(humanoid.feet[side].read().force[2]) for side in (Side.LEFT, Side.RIGHT))
+        self._write(FeetTruth(left=left, right=right))
+
+    def report_hand(self, humanoid: Humanoid, side: Side) -> None:
+        """Write where a hand is and what it feels, now and with each state of the robot from now on."""
+        self._reported_hands.append(side)
+        self._hand(humanoid, side)
+
+    def _hand(self, humanoid: Humanoid, side: Side) -> None:
+        hand = humanoid.hands[side]
+        self._write(
+            HandTruth(
+                side=side.letter,
+                position=_rounded(hand.pose.position),
+                opening=round(hand.opening, DIGITS),
+                forces=_rounded(hand.forces),
+            )
+        )
+
+    def report_object(self, humanoid: Humanoid, name: str) -> None:
+        """Write where an object is, now and with each state of the robot from now on."""
+        self._reported_objects.append(name)
+        self._object(humanoid, name)
+
+    def _object(self, humanoid: Humanoid, name: str) -> None:
+        body = humanoid.data.body(name)
+        velocity = humanoid.data.joint(name).qvel[:3]
+        self._write(
+            ObjectTruth(
+                name=name,
+                position=_rounded(body.xpos),
+                up=round(float(body.xmat[8]), DIGITS),
+                speed=round(float(np.linalg.norm(velocity)), DIGITS),
             )
         )
 
@@ -105,3 +187,7 @@ class GroundTruthWriter:
         view = memoryview(to_line(event))
         while view:
             view = view[os.write(self._fd, view) :]
+
+
+def _rounded(numbers: Iterable[float]) -> list[float]:
+    return [round(float(number), DIGITS) for number in numbers]

@@ -14,13 +14,15 @@ from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.side import SIDES, Side
 from robot_sim.ros.messages import has_subscribers, set_fields
+from robot_sim.state import HandPose, ObjectPose
 
 WRENCH_RATE = 20.0  # Hz, as all rates below, in simulated time
+HAND_RATE = 20.0
 OBJECTS_RATE = 10.0
 
 
 class ManipulationTopics:
-    """The topic joint_trajectory, the grippers' and the objects' poses, on the humanoid's node."""
+    """The topic joint_trajectory, those of the hands, and the objects' poses, on the humanoid's node."""
 
     def __init__(self, node: Node, humanoid: Humanoid) -> None:
         self._node = node
@@ -37,11 +39,18 @@ class ManipulationTopics:
         self._wrenches = {
             side: node.create_publisher(WrenchStamped, f"{side.letter}_gripper/wrench", 10) for side in SIDES
         }
+        self._hands = {
+            side: node.create_publisher(PoseStamped, f"{side.letter}_hand/pose", 10) for side in SIDES
+        }
         self._objects = {
             name: node.create_publisher(PoseStamped, f"objects/{name}/pose", 10)
             for name in humanoid.object_poses()
         }
-        self.jobs = ((WRENCH_RATE, self._publish_wrenches), (OBJECTS_RATE, self._publish_objects))
+        self.jobs = (
+            (WRENCH_RATE, self._publish_wrenches),
+            (HAND_RATE, self._publish_hands),
+            (OBJECTS_RATE, self._publish_objects),
+        )
 
     def _on_trajectory(self, message: JointTrajectoryMessage) -> None:
         try:
@@ -64,16 +73,24 @@ class ManipulationTopics:
                 message.wrench.force.y = self._humanoid.hands[side].grip_force
                 publisher.publish(message)
 
+    def _publish_hands(self) -> None:
+        for side, publisher in self._hands.items():
+            if has_subscribers(publisher):
+                publisher.publish(self._stamped(self._humanoid.hands[side].pose))
+
     def _publish_objects(self) -> None:
         if not any(map(has_subscribers, self._objects.values())):
             return
         for name, pose in self._humanoid.object_poses().items():
-            message = PoseStamped()
-            message.header.stamp = self._node.get_clock().now().to_msg()
-            message.header.frame_id = "odom"
-            set_fields(message.pose.position, "xyz", pose.position)
-            set_fields(message.pose.orientation, "xyzw", pose.quaternion)
-            self._objects[name].publish(message)
+            self._objects[name].publish(self._stamped(pose))
+
+    def _stamped(self, pose: HandPose | ObjectPose) -> PoseStamped:
+        message = PoseStamped()
+        message.header.stamp = self._node.get_clock().now().to_msg()
+        message.header.frame_id = "odom"
+        set_fields(message.pose.position, "xyz", pose.position)
+        set_fields(message.pose.orientation, "xyzw", pose.quaternion)
+        return message
 
 
 def _trajectory(message: JointTrajectoryMessage) -> JointTrajectory:

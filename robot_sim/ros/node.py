@@ -18,8 +18,11 @@ from humanoid_interfaces.msg import BalanceGains as BalanceGainsMessage
 from humanoid_interfaces.msg import RobotState
 from robot_sim.humanoid import Humanoid, Mode
 from robot_sim.model.joint_names import ACTUATED_JOINTS
+from robot_sim.ros.arm_ik_service import ArmIkService
+from robot_sim.ros.foot_topics import FootTopics
 from robot_sim.ros.ground_truth import GroundTruthWriter
 from robot_sim.ros.inbox import Inbox
+from robot_sim.ros.joint_limits import publish_joint_limits
 from robot_sim.ros.manipulation_topics import ManipulationTopics
 from robot_sim.ros.messages import floats, has_subscribers, set_fields
 from robot_sim.ros.periodic_jobs import PeriodicJobs
@@ -70,11 +73,16 @@ class HumanoidNode(Node):
         self._robot_state = self.create_publisher(RobotState, "robot_state", LATCHED)
         self._clock_topic = self.create_publisher(Clock, "/clock", 10)
         manipulation = ManipulationTopics(self, humanoid)
+        feet = FootTopics(self, humanoid)
+        ArmIkService(self, humanoid)
+        self._joint_limits = publish_joint_limits(self, humanoid.model, LATCHED)
         report = ground_truth.refused if ground_truth else None
         subscriptions = (
             self.create_subscription(Twist, "cmd_vel", self._on_velocity, 10),
             self.create_subscription(Bool, "motor_power", self._on_motor_power, 10),
             self.create_subscription(BalanceGainsMessage, "balance_gains", self._on_balance_gains, 10),
+            # Of a transient local publisher also what it sent earlier; a volatile one matches only the one above.
+            self.create_subscription(BalanceGainsMessage, "balance_gains", self._on_balance_gains, LATCHED),
             *manipulation.grippers,
         )
         self.inboxes = [Inbox(subscription, report) for subscription in subscriptions]
@@ -94,6 +102,7 @@ class HumanoidNode(Node):
             (ROBOT_STATE_RATE, self._publish_robot_state),
             (CLOCK_RATE, self._publish_clock),
             *manipulation.jobs,
+            *feet.jobs,
         )
 
     def _make_messages(self) -> None:
@@ -280,7 +289,10 @@ class HumanoidNode(Node):
         """Write when connections change, so that a scenario need not guess how long discovery takes."""
         if self._ground_truth is None:
             return
-        publishers = (self._joint_states, self._imu, self._odom, self._battery_state, self._robot_state)
+        publishers = (
+            *(self._joint_states, self._imu, self._odom),
+            *(self._battery_state, self._robot_state, self._joint_limits),
+        )
         peers = (
             {publisher.topic_name: publisher.get_subscription_count() for publisher in publishers},
             # Node.count_publishers would take names apart and check them each time.

@@ -15,6 +15,8 @@ from robot_sim.ros.node import HumanoidNode
 COMMANDS = (
     *("push", "walk", "take_over", "set_battery", "battery_sensor", "robot_state", "motor_power"),
     *("joint_sensors", "joint_states", "imu_sensor", "gyro_bias", "move_joints", "report_arm", "reset"),
+    *("hold_joint", "release_joint", "report_joints", "report_feet", "move_body"),
+    *("report_hand", "report_object", "move_object"),
 )
 
 
@@ -70,6 +72,22 @@ def apply_command(
             humanoid.move_joints(JointTrajectory(tuple(positions), (goal,)))
         case {"do": "report_arm", "side": side} if ground_truth:
             ground_truth.arm(humanoid, Side.of_letter(side))
+        case {"do": "report_joints", "names": names} if ground_truth:
+            ground_truth.report_joints(humanoid, names)
+        case {"do": "report_feet"} if ground_truth:
+            ground_truth.report_feet(humanoid)
+        case {"do": "move_body", "rate": rate}:
+            humanoid.move_body(rate)
+        case {"do": "report_hand", "side": side} if ground_truth:
+            ground_truth.report_hand(humanoid, Side.of_letter(side))
+        case {"do": "report_object", "name": name} if ground_truth:
+            ground_truth.report_object(humanoid, name)
+        case {"do": "move_object", "name": name, "position": position}:
+            humanoid.move_object(name, position)
+        case {"do": "hold_joint", "joint": joint}:
+            humanoid.hold_joint(joint)
+        case {"do": "release_joint", "joint": joint}:
+            humanoid.release_joint(joint)
         case {"do": "robot_state", "published": published}:
             node.robot_state_published = published
         case {"do": "motor_power", "on": on}:

@@ -1,4 +1,4 @@
-"""Services that a real robot does not have: pause, step, reset, push, charge. Absent while grading."""
+"""Controls that a real robot does not have: pause, step, reset, push, hold, charge. Absent while grading."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any
 
 from geometry_msgs.msg import Vector3
 from rclpy.node import Node
+from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 
 from humanoid_interfaces.srv import SetFloat64
@@ -31,6 +32,7 @@ class SimControls:
         self.paused = False
         self._steps_left = 0
         self._reset_wanted = False
+        self._held_joint = ""
         services: list[tuple[Any, str, Any]] = [
             (SetBool, "set_pause", self._set_pause),
             (SetFloat64, "step_simulation", self._step_simulation),
@@ -40,7 +42,10 @@ class SimControls:
         ]
         for service_type, name, answer in services:
             node.create_service(service_type, f"/sim/{name}", answer)
-        self.inboxes = [Inbox(node.create_subscription(Vector3, "/sim/push", self._push, 10))]
+        self.inboxes = [
+            Inbox(node.create_subscription(Vector3, "/sim/push", self._push, 10)),
+            Inbox(node.create_subscription(String, "/sim/hold_joint", self._hold_joint, 10)),
+        ]
 
     def steps_due(self, most: int) -> int:
         """Return how many steps to make now: `most`; while paused, as many of them as were requested."""
@@ -111,3 +116,16 @@ class SimControls:
             self._humanoid.push((impulse.x, impulse.y, impulse.z))
         except ValueError as error:
             self._node.get_logger().error(f"/sim/push ignored: {error}")
+
+    def _hold_joint(self, joint: String) -> None:
+        """Hold a joint where it is, as a hand would, and let go of the one held before; an empty name: none."""
+        self._humanoid.release_joint(self._held_joint)
+        self._held_joint = ""
+        if not joint.data:
+            return
+        try:
+            self._humanoid.hold_joint(joint.data)
+        except ValueError as error:
+            self._node.get_logger().error(f"/sim/hold_joint ignored: {error}")
+        else:
+            self._held_joint = joint.data

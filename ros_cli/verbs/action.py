@@ -17,6 +17,8 @@ from ros_cli.verb import Verbs, add_graph_verb
 from ros_cli.verbs import action_send_goal
 
 ByNode = Callable[[Node, str, str], "list[tuple[str, list[str]]]"]
+_CLIENTS: ByNode = get_action_client_names_and_types_by_node
+_SERVERS: ByNode = get_action_server_names_and_types_by_node
 
 
 def add_verbs(verbs: Verbs) -> None:
@@ -51,9 +53,12 @@ def print_info(options: Namespace) -> None:
     """Print the nodes that have a client or a server of an action."""
     action = absolute(options.action_name)
     with CommandNode(options.spin_time) as command:
-        command.discover(lambda: action in dict(get_action_names_and_types(command.node)))
-        clients = _nodes_with(command, action, get_action_client_names_and_types_by_node)
-        servers = _nodes_with(command, action, get_action_server_names_and_types_by_node)
+
+        def clients_and_servers() -> list[list[tuple[str, list[str]]]]:
+            return [_nodes_with(command, action, by_node) for by_node in (_CLIENTS, _SERVERS)]
+
+        command.discover(lambda: any(clients_and_servers()))  # the action's name is seen before whose it is
+        clients, servers = clients_and_servers()
     print(f"Action: {options.action_name}")
     for kind, nodes in (("clients", clients), ("servers", servers)):
         print(f"Action {kind}: {len(nodes)}")

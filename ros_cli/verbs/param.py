@@ -1,4 +1,4 @@
-"""`ros2 param`: list, get, set, dump, load."""
+"""`ros2 param`: list, describe, get, set, dump, load."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import yaml
-from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterType, ParameterValue
 from rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file, parameter_value_to_python
 from rclpy.parameter_client import AsyncParameterClient
 
@@ -29,10 +29,28 @@ LABELS = {
     ParameterType.PARAMETER_DOUBLE_ARRAY: "Double values are:",
     ParameterType.PARAMETER_STRING_ARRAY: "String values are:",
 }
+TYPES = {
+    ParameterType.PARAMETER_NOT_SET: "not set",
+    ParameterType.PARAMETER_BOOL: "boolean",
+    ParameterType.PARAMETER_INTEGER: "integer",
+    ParameterType.PARAMETER_DOUBLE: "double",
+    ParameterType.PARAMETER_STRING: "string",
+    ParameterType.PARAMETER_BYTE_ARRAY: "byte array",
+    ParameterType.PARAMETER_BOOL_ARRAY: "boolean array",
+    ParameterType.PARAMETER_INTEGER_ARRAY: "integer array",
+    ParameterType.PARAMETER_DOUBLE_ARRAY: "double array",
+    ParameterType.PARAMETER_STRING_ARRAY: "string array",
+}
 
 
 def add_verbs(verbs: Verbs) -> None:
     """Add the verbs of this group."""
+    describe = _of_one_node(
+        add_graph_verb(
+            verbs, "describe", print_descriptions, "Show descriptive information about declared parameters"
+        )
+    )
+    describe.add_argument("parameter_names", nargs="+", help="Names of the parameters")
     _of_one_node(
         add_graph_verb(verbs, "dump", dump, "Show all of the parameters of a node in a YAML file format")
     )
@@ -62,6 +80,22 @@ def print_list(options: Namespace) -> None:
             raise _not_found(wanted, names)
         for name in [wanted] if wanted else names:
             _print_names(command, name, with_title=wanted is None)
+
+
+def print_descriptions(options: Namespace) -> None:
+    """Print the type, the description and the constraints of parameters.
+
+    Raises:
+        CommandError: there is no such node, or it has not declared all of the parameters.
+    """
+    with _node_of(options) as (command, client):
+        descriptors = command.result(client.describe_parameters(options.parameter_names)).descriptors
+    if not descriptors:
+        raise CommandError(
+            f"Not all of {', '.join(options.parameter_names)} are declared; `param list` shows those that are"
+        )
+    for descriptor in descriptors:
+        print(described(descriptor))
 
 
 def print_value(options: Namespace) -> None:
@@ -124,6 +158,23 @@ def worded(value: ParameterValue, *, with_label: bool = True) -> str:
         return "Parameter not set." if with_label else "None"
     text = str(parameter_value_to_python(value))
     return f"{LABELS[value.type]} {text}" if with_label else text
+
+
+def described(descriptor: ParameterDescriptor) -> str:
+    """Return the lines that `param describe` prints for a parameter."""
+    lines = [f"Parameter name: {descriptor.name}", f"  Type: {TYPES[descriptor.type]}"]
+    if descriptor.description:
+        lines.append(f"  Description: {descriptor.description}")
+    lines.append("  Constraints:")
+    if descriptor.read_only:
+        lines.append("    Read only: true")
+    for limits in [*descriptor.floating_point_range, *descriptor.integer_range][:1]:
+        lines += [f"    Min value: {limits.from_value}", f"    Max value: {limits.to_value}"]
+        if limits.step:
+            lines.append(f"    Step: {limits.step}")
+    if descriptor.additional_constraints:
+        lines.append(f"    Additional constraints: {descriptor.additional_constraints}")
+    return "\n".join(lines)
 
 
 def as_file(node: str, parameters: dict[str, Any]) -> str:

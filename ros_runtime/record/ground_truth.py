@@ -62,6 +62,48 @@ class ImuPublished(Event):
 
 
 @dataclass(frozen=True, kw_only=True)
+class JointsTruth(Event):
+    """Where the joints are that a scenario asked about (50 Hz), rad and rad/s; whoever reads joint_states."""
+
+    positions: dict[str, float]
+    velocities: dict[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class FeetTruth(Event):
+    """What each foot carries, N, where a scenario asked about it (50 Hz); whoever reads their topics."""
+
+    left: float
+    right: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class HandTruth(Event):
+    """Where the point between the pads of a hand is that a scenario asked about (50 Hz), m in odom.
+
+    `opening` is the distance of the pads, m; `forces` is the contact force of each, N.
+    """
+
+    side: str
+    position: list[float]
+    opening: float
+    forces: list[float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ObjectTruth(Event):
+    """Where the centre of an object is that a scenario asked about (50 Hz), m in odom.
+
+    `up` is 1 when it is upright; `speed` is m/s.
+    """
+
+    name: str
+    position: list[float]
+    up: float
+    speed: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class ArmReported(Event):
     """Where elbow and hand (between the fingers) of an arm were: m from its shoulder, along the torso's x, y and z."""
 

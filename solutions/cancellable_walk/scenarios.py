@@ -10,7 +10,6 @@ from action_msgs.srv import CancelGoal
 from autograder.arena.poses import pose_at
 from autograder.arena.stage import STRANGER, ActionClient, Goal, Stage
 from humanoid_interfaces.action import WalkTo
-from humanoid_interfaces.msg import RobotState
 
 SETTLING = 1.0  # s for the first odom and robot_state to arrive
 WATCHING = 3.5  # s after a cancel in which the robot must stop and stay still
@@ -138,8 +137,7 @@ def fall(stage: Stage, impulse: tuple[float, float, float]) -> None:
     """Knock the walking robot over (N·s in odom)."""
     goal = _open(stage).send_and_wait(_pose(*FAR), as_="walk")
     _let_it_walk(stage, 0.5)
-    stage.robot.push(impulse)
-    stage.robot.wait_for(lambda robot: robot.mode == RobotState.FALLEN, timeout=6.0)
+    stage.robot.knock_over(impulse)
     goal.wait_for_result(SOON)
 
 

@@ -16,18 +16,11 @@ from autograder.authoring.walking.truth import (
     require_walking,
 )
 
-from .judging import (
-    require_detour_counted,
-    require_facing,
-    require_good_estimate,
-    require_half_done_half_way,
-    require_led_astray,
-    require_measured_path,
-    require_named_phases,
-    require_no_detour,
-    require_rising_progress,
-    require_true_navigation_time,
-)
+from .odometer import require_measured_path
+from .phases import require_facing, require_named_phases
+from .progress import require_half_done_half_way, require_rising_progress
+from .recoveries import require_detour_counted, require_led_astray, require_no_detour
+from .times import require_good_estimate, require_true_navigation_time
 
 GO = Scenario("navigate", {"x": -1.4, "y": 1.4, "yaw": -2.6})
 STAY = Scenario("stay")
@@ -44,6 +37,7 @@ KNOWN = 0.6  # s for a change of the robot to be known to the node
 AT_ONCE = 4.0  # s
 STAYED = 0.10  # m the pelvis may move while the robot only stands
 EARLY, LATE = 1.5, 4.0  # s a TIMEOUT may come too early, and too late: the robot has to stand first
+_ODOM_TELLS = "Count legs of the way in odom: the robot may not obey what you publish on cmd_vel."
 
 server_appears = standard.server_appears(
     "the action navigate_to_pose", points=1, on=INTERRUPT, see="06_walk_to_a_pose#small-intro"
@@ -261,13 +255,13 @@ def gives_up_in_time(run: Transcript) -> None:
 def stands_still_after_the_limit(run: Transcript) -> None:
     """After TIMEOUT the robot stands still, also when it is let go"""
     require_accepted(run.goal("held"))
-    require_stopped(run, run.told("take_over", velocity=None).t)
+    require_stopped(run, run.told("take_over", velocity=None).t, event="being let go")
 
 
 @check(points=1, on=HELD, needs=[gives_up_in_time, measures_its_path], see="08_navigation#odometer-why")
 def measures_what_was_walked(run: Transcript) -> None:
     """distance_traveled is what was walked, not what was commanded"""
-    require_measured_path(run.goal("held"), run.goal("held").require_result(ABORTED))
+    require_measured_path(run.goal("held"), run.goal("held").require_result(ABORTED), too_much=_ODOM_TELLS)
 
 
 @check(points=2, on=MID_STRIDE, needs=accepts_a_goal, see="07_cancel_and_preempt#fix-intro")

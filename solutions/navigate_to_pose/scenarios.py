@@ -117,8 +117,7 @@ def fall(stage: Stage, impulse: tuple[float, float, float]) -> None:
     """Knock the walking robot over (N·s in odom)."""
     goal = _open(stage).send_and_wait(_pose(*FAR), as_="walk")
     _let_it_move(stage, 0.5)
-    stage.robot.push(impulse)
-    stage.robot.wait_for(lambda robot: robot.mode == RobotState.FALLEN, timeout=6.0)
+    stage.robot.knock_over(impulse)
     goal.wait_for_result(SOON)
 
 

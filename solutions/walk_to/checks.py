@@ -66,7 +66,7 @@ def rejects_what_is_no_rotation(run: Transcript) -> None:
     """It rejects an orientation of four zeros"""
     run.goal("zero quaternion").require_rejected(
         because="x, y, z and w are all 0, which is no rotation",
-        help="A quaternion that somebody forgot to fill is all zeros: reject it when x² + y² + z² + w² is not about 1.",
+        help="Four zeros are no rotation, and no heading to turn to: reject it when x² + y² + z² + w² is not about 1.",
     )
 
 

@@ -90,8 +90,7 @@ def fall(stage: Stage, impulse: tuple[float, float, float], max_velocity: float)
     """Knock the walking robot over (N·s in odom)."""
     goal = _open(stage).send_and_wait(_goal(*FAR, max_velocity=max_velocity), as_="walk")
     _let_it_walk(stage, 0.5)
-    stage.robot.push(impulse)
-    stage.robot.wait_for(lambda robot: robot.mode == RobotState.FALLEN, timeout=6.0)
+    stage.robot.knock_over(impulse)
     goal.wait_for_result(SOON)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from autograder.authoring.failure import expect
+from autograder.authoring.falls import require_fell_told
 from autograder.authoring.goal import ABORTED, Goal
 from autograder.authoring.walking.reports import require_error_code
 from autograder.authoring.walking.truth import (
@@ -12,24 +13,10 @@ from autograder.authoring.walking.truth import (
     require_walking,
 )
 
-REACTION = 1.0  # s before the simulator calls it a fall, in which a server may already see one
-
 
 def require_aborted_by_a_fall(goal: Goal) -> None:
     """Require that the goal went on until the robot fell, and was then ABORTED with FELL."""
-    fallen = require_fall(require_accepted(goal).run)
-    result = goal.require_result(
-        ABORTED,
-        help=f"The robot fell at {fallen.t:.1f} s and execute went on. Look at robot_state.mode in every round.",
-    )
-    expect(
-        result.t >= fallen.t - REACTION,
-        expected="the goal to go on until the robot falls",
-        observed=f"it ended {fallen.t - result.t:.1f} s before the robot fell",
-        help="A push alone is no reason to give up: abort when robot_state.mode is FALLEN.",
-        at=result.t,
-    )
-    require_error_code(goal, "FELL", because="the robot has fallen")
+    require_fell_told(goal, require_fall(require_accepted(goal).run))
 
 
 def require_preempted(old: Goal, new: Goal) -> None:

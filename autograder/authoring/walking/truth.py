@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from autograder.authoring import events as ev
 from autograder.authoring.connections import why_nothing_is_heard
 from autograder.authoring.failure import Failure, expect
+from autograder.authoring.falls import fall_after
 from autograder.authoring.goal import SUCCEEDED, Goal
 from autograder.authoring.robot_record import RobotRecord
 from autograder.authoring.transcript import Transcript
@@ -87,16 +88,16 @@ def require_walking(run: RobotRecord, at: float) -> None:
     )
 
 
-def require_stopped(run: Transcript, since: float) -> None:
-    """Require that the robot stands still and upright from 2 s after `since` on."""
+def require_stopped(run: Transcript, since: float, event: str = "the cancel") -> None:
+    """Require that the robot stands still and upright from 2 s after an event at `since` (s) on."""
     watched = run.robot_between(since + STOP_TIME, since + WATCHED)
     fastest = max(watched, key=lambda robot: robot.speed)
     expect(
         fastest.speed < STOP_SPEED,
-        expected=f"the robot slower than {STOP_SPEED:.2f} m/s within {STOP_TIME:.0f} s of the cancel, and still "
+        expected=f"the robot slower than {STOP_SPEED:.2f} m/s within {STOP_TIME:.0f} s of {event}, and still "
         "from then on",
-        observed=f"{fastest.speed:.2f} m/s {fastest.t - since:.1f} s after the cancel",
-        help="Publish a zero Twist on cmd_vel when the cancel is seen, and nothing else on it afterwards.",
+        observed=f"{fastest.speed:.2f} m/s {fastest.t - since:.1f} s after {event}",
+        help="Publish a zero Twist on cmd_vel before the terminal call, and nothing else on it afterwards.",
         at=fastest.t,
     )
     require_upright(watched)
@@ -106,9 +107,8 @@ def require_fall(run: RobotRecord) -> ev.RobotTruth:
     """Return the robot when it had fallen after it was pushed while it walked."""
     push = run.told("push")
     require_walking(run, push.t)
-    for robot in run.robot_between(push.t, run.end):
-        if robot.mode == RobotState.FALLEN:
-            return robot
+    if fallen := fall_after(run, push.t):
+        return fallen
     raise Failure(
         expected="the walking robot to be knocked over by the push",
         observed="it did not fall",

@@ -24,6 +24,10 @@ from autograder.engine.submission_arenas import SubmissionArenas
 # One that passes everything, and a few that go wrong in different ways: an answer that is wrong, one that never comes,
 # a node that ends.
 SUBMISSIONS_OF = {
+    "balance_controller": [
+        *("correct/class_based", "faulty/publishes_at_10_hz", "faulty/keeps_while_it_checks"),
+        *("faulty/volatile_gains", "faulty/traceback_at_a_bad_start"),
+    ],
     "battery_guard": [
         *(
             "correct/one_loop",
@@ -60,18 +64,34 @@ SUBMISSIONS_OF = {
         *("correct/class_based", "faulty/key_error", "faulty/keeps_the_first_message"),
         "faulty/remembers_the_places",
     ],
+    "low_battery_fetch": [
+        *("correct/one_thread_awaits", "faulty/cancels_itself_alone", "faulty/ignores_the_status"),
+        *("faulty/opens_the_hand", "faulty/leaves_a_silent_child"),
+    ],
     "motor_services": [
         *("correct/class_based", "faulty/sets_a_field_of_its_own", "faulty/refuses_and_obeys"),
         *("faulty/flag_of_its_own", "faulty/only_a_flag"),
+    ],
+    "move_arm": [
+        *("correct/threads_and_sleep", "faulty/sleeps_on_one_thread", "faulty/aborts_and_lets_go"),
+        "faulty/ignores_cancel",
     ],
     "navigate_to_pose": [
         *("correct/threads_and_sleep", "faulty/sleeps_on_one_thread", "faulty/velocity_goes_on"),
         "faulty/feedback_for_ever",
     ],
+    "pick_and_place": [
+        *("correct/threads_and_sleep", "faulty/drops_when_canceled", "faulty/waits_for_the_hand_for_ever"),
+        "faulty/crashes_on_a_name",
+    ],
     "patterns": ["correct/as_in_the_notebook", "faulty/eleven_answers"],
     "robot_controller": [
         *("correct/class_based", "faulty/asks_only_once", "faulty/both_at_once", "faulty/always_exit_0"),
         *("faulty/raises_before_the_node", "faulty/no_overall_deadline"),
+    ],
+    "stand_up": [
+        *("correct/threads_and_sleep", "faulty/says_it_once", "faulty/raises_for_the_unknown"),
+        *("faulty/ignores_the_loads", "faulty/feedback_for_ever", "faulty/height_is_enough"),
     ],
     "walk_client": [
         *("correct/one_loop", "faulty/reads_the_message_itself", "faulty/waits_for_the_result_for_ever"),

@@ -30,6 +30,7 @@ def asks_and_tells(stage):
     stage.open()
     tell.call(as_="tell")
     stage.wait_until(lambda: heard.messages and kept.messages, 5.0)
+    stage.mark(f"{heard.latest.data} / {kept.latest.data}")
 """
 SERVER = """
 import rclpy
@@ -71,6 +72,7 @@ def test_a_server_meets_what_the_stage_offers_and_is_heard(tmp_path) -> None:
     assert transcript.call("tell").response.success
     assert [event.message.data for event in transcript.heard("told")] == ["good morning, Motors: ON"]
     assert [event.message.data for event in transcript.heard("kept")] == ["from the beginning"]
+    assert transcript.mark("good morning, Motors: ON / from the beginning")
     (request,) = transcript.requests("get_status")
     assert request.reply
     (published,) = transcript.published("words")

@@ -92,6 +92,31 @@ def test_the_reference_gets_full_marks_the_starter_some_and_a_second_run_goes_on
     assert scores(out)["carl"][0] == 0
 
 
+def test_an_essay_waits_for_a_person_and_has_their_points_when_it_is_graded_again(tmp_path):
+    essay, out = "arm_architecture", tmp_path / "graded"
+    handed_in = tmp_path / f"submitted/anna/{essay}/{essay}.ipynb"
+    handed_in.parent.mkdir(parents=True)
+    shutil.copyfile(ROOT / f"exercises/{essay}/{essay}.ipynb", handed_in)
+
+    first = course("grade", tmp_path / "submitted", "--out", out)
+    assert first.returncode == 0, first.stdout + first.stderr
+    assert "1 to be marked by hand" in first.stdout
+    (anna,) = json.loads((out / "grades.json").read_text())
+    assert (anna["status"], anna["score"], anna["max_score"]) == ("to mark", None, 20)
+    assert not (out / "feedback").exists()
+
+    with Gradebook(f"sqlite:///{out / 'gradebook.db'}") as db:
+        for grade in db.find_submission_notebook(essay, essay, "anna").grades:  # as formgrader does
+            grade.manual_score, grade.needs_manual_grade = 0.5, False
+        db.db.commit()
+    second = course("grade", tmp_path / "submitted", "--out", out)
+    assert second.returncode == 0, second.stdout + second.stderr
+    (anna,) = json.loads((out / "grades.json").read_text())
+    assert (anna["status"], anna["score"]) == ("graded", 3.5)
+    assert {check["status"] for check in anna["checks"]} == {"marked"}
+    assert (out / f"feedback/anna/{essay}/{essay}.html").exists()
+
+
 def test_without_isolation_grades_are_marked_and_hidden_checks_left_out(tmp_path):
     hand_in(tmp_path / "submitted", "anna", b"not a notebook")
     out = tmp_path / "graded"

@@ -11,8 +11,7 @@ from nbgrader.api import Gradebook, MissingEntry
 from traitlets.config import PyFileConfigLoader
 
 from autograder.engine.exercise import load_exercise
-from autograder.nbgrader_bridge import course_folder
-from autograder.nbgrader_bridge import gradebook as gradebook_module
+from autograder.nbgrader_bridge import course_folder, generated_cells
 from autograder.nbgrader_bridge.course_folder import NbgraderError, StudentCodeWouldRun, call, open_course
 from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry, record
 
@@ -98,7 +97,7 @@ def test_what_a_person_has_decided_stays(gradebook, course):
 def test_a_gradebook_with_submissions_says_why_it_cannot_take_other_checks(gradebook, course, monkeypatch):
     gradebook.enter(Entry(grade_of("anna"), SOURCES))
     fewer = dataclasses.replace(EXERCISE, checks=EXERCISE.checks[:-1])
-    monkeypatch.setattr(gradebook_module, "load_exercise", lambda name, hidden: fewer)
+    monkeypatch.setattr(generated_cells, "load_exercise", lambda name, hidden: fewer)
     with pytest.raises(NbgraderError, match=r"Cannot add or remove cells.*give another --out"):
         CourseGradebook(course, SOLUTIONS).enter(Entry(grade_of("bert"), SOURCES))
 

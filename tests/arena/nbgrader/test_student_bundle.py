@@ -42,9 +42,11 @@ def test_it_holds_no_solutions_hidden_checks_or_submissions(unpacked):
     assert not [name for name in names if "__pycache__" in name or "/." in name]
     reference = "def _reason_to_give_up"
     assert reference in (ROOT / "solutions/cancellable_walk/cancellable_walk.ipynb").read_text()
+    of_an_essay = "safety_relay"
+    assert of_an_essay in (ROOT / "solutions/arm_architecture/arm_architecture.ipynb").read_text()
     for name in names:
         content = (unpacked / name).read_bytes()
-        for secret in (reference, "BEGIN SOLUTION", *hidden_check_ids()):
+        for secret in (reference, of_an_essay, "BEGIN SOLUTION", *hidden_check_ids()):
             assert secret.encode() not in content, name
 
 
@@ -88,11 +90,14 @@ from robot_sim.model.build import build_model
 from robot_sim.model.scenes import SCENES
 for scene in SCENES:
     build_model(scene)
-from autograder.engine.exercise import exercise_names, load_exercise
+from autograder.engine.essay import load_essay
+from autograder.engine.exercise import all_names, essay_names, exercise_names, load_exercise
 for name in exercise_names():
     exercise = load_exercise(name, hidden=True)
     assert not exercise.has_hidden_checks and exercise.checks
-print(*exercise_names())
+for name in essay_names():
+    assert load_essay(name).criteria
+print(*all_names())
 """
     environment = {**os.environ, "PYTHONPATH": str(unpacked), "PYTHONDONTWRITEBYTECODE": "1"}
     ran = subprocess.run(

@@ -114,7 +114,9 @@ def test_of_thousands_of_services_some_are_listed_and_the_rest_counted(log: Aren
     assert more == "and up to 2,960 more"
 
 
-def test_what_every_node_offers_and_what_nobody_offers_is_not_listed(log: ArenaLog) -> None:
+def test_what_robot_and_every_node_offer_and_what_nobody_offers_is_not_listed(log: ArenaLog) -> None:
+    arm_ik = ("/robot/compute_arm_ik", ["humanoid_interfaces/srv/ComputeArmIK"])
+    assert graph_of(log, get_service_names_and_types=[arm_ik], count_services=1).offered() == []
     parameters = ("/robot/a/get_parameters", ["rcl_interfaces/srv/GetParameters"])
     wanted = ("/robot/get_status", ["std_srvs/srv/Trigger"])
     assert graph_of(log, get_service_names_and_types=[parameters], count_services=1).offered() == []

@@ -36,6 +36,9 @@ def test_there_are_chapters() -> None:
         "06",
         "07",
         "08",
+        "09",
+        "10",
+        "11",
     ]
 
 

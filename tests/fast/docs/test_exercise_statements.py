@@ -10,15 +10,30 @@ import pytest
 from autograder.engine.exercise import exercises_folder, load_exercise
 
 EXERCISES = (
+    "arm_architecture",
+    "balance_controller",
     "battery_guard",
     "battery_service",
     "cancellable_walk",
     "joint_query",
+    "low_battery_fetch",
     "motor_services",
+    "move_arm",
     "navigate_to_pose",
+    "pick_and_place",
+    "stand_up",
     "walk_to",
 )
-LADDERS = ("cancellable_walk", "navigate_to_pose", "walk_to")
+LADDERS = (
+    "balance_controller",
+    "cancellable_walk",
+    "low_battery_fetch",
+    "move_arm",
+    "navigate_to_pose",
+    "pick_and_place",
+    "stand_up",
+    "walk_to",
+)
 ON_NO_STEP = {"server_appears", "ends_cleanly"}  # the starter passes them
 
 
@@ -43,7 +58,7 @@ def test_hints_are_folded_and_a_stretch_task_comes_after_the_self_check(exercise
 
 
 @pytest.mark.parametrize("exercise", LADDERS)
-def test_the_ladder_of_a_walk_names_every_visible_check_once(exercise: str) -> None:
+def test_a_ladder_names_every_visible_check_once(exercise: str) -> None:
     solution = cells_of(exercise)["solution"]
     ladder = solution[solution.index("# The ladder.") :].partition("def __init__")[0]
     steps = re.findall(r"\[([\w, ]+)\]", re.sub(r"\n *# *", " ", ladder))

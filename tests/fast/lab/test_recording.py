@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from drawings import read
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import BatteryState
+from sensor_msgs.msg import BatteryState, JointState
 
 from humanoid_interfaces.msg import RobotState
 from lab.curves_plot import plot_curves
@@ -77,6 +77,14 @@ def test_tilt_is_the_angle_from_upright_whatever_the_heading(stage: Stage) -> No
     np.testing.assert_allclose(stage.end(1.0).values("tilt")[1], 0.4, atol=1e-6)
 
 
+def test_pitch_is_positive_forwards_whatever_the_heading(stage: Stage) -> None:
+    for yaw in (0.0, 1.0, 3.0):
+        stage.walk(0.1 + yaw / 10, yaw=yaw, pitch=0.3)
+        stage.walk(0.5 + yaw / 10, yaw=yaw, pitch=-0.3)
+    values = stage.end(1.0).values("pitch")[1]
+    np.testing.assert_allclose(np.sort(values), [-0.3] * 3 + [0.3] * 3, atol=1e-6)
+
+
 def test_the_heading_goes_on_where_it_turns_over(stage: Stage) -> None:
     for step in range(9):
         stage.walk(step / 10, yaw=2.8 + 0.1 * step)
@@ -86,6 +94,17 @@ def test_the_heading_goes_on_where_it_turns_over(stage: Stage) -> None:
 def test_power_is_what_leaves_the_battery(stage: Stage) -> None:
     stage.publish("battery_state", BatteryState(voltage=50.0, current=-2.0), at=0.5)
     assert stage.end(1.0).mean("power") == pytest.approx(100.0)
+
+
+def test_a_joint_is_recorded_by_its_name_whatever_its_place(stage: Stage) -> None:
+    states = JointState(name=["l_elbow", "head_pan", "r_finger_1"], position=[-0.5, 0.3, 0.02])
+    stage.publish("joint_states", states, at=0.2)
+    reversed_states = JointState(name=states.name[::-1], position=states.position[::-1])
+    stage.publish("joint_states", reversed_states, at=0.4)
+    recording = stage.end(1.0)
+    np.testing.assert_allclose(recording.values("l_elbow")[1], [-0.5, -0.5])
+    drawing = read(recording.plot("head_pan", "r_finger_1"))
+    assert {"head_pan, rad", "r_finger_1, m"} <= set(drawing.texts)
 
 
 def test_a_plot_has_a_panel_for_each_quantity_and_a_label_for_each_moment(stage: Stage) -> None:

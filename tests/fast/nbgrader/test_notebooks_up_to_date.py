@@ -10,9 +10,10 @@ from pathlib import Path
 import nbformat
 import pytest
 from nbgrader.nbgraderformat import MetadataValidator
-from nbgrader.utils import is_grade, is_solution
+from nbgrader.utils import is_grade, is_solution, is_task
 
-from autograder.engine.exercise import exercise_names, file_names, load_exercise
+from autograder.engine.essay import load_essay
+from autograder.engine.exercise import all_names, essay_names, exercise_names, file_names, load_exercise
 from autograder.nbgrader_bridge.release import (
     bring_up_to_date,
     generate_release,
@@ -30,8 +31,8 @@ def read(folder, exercise):
     return nbformat.read(folder / exercise / f"{exercise}.ipynb", as_version=4)
 
 
-def test_every_exercise_with_checks_has_a_source_notebook():
-    assert sorted(source_notebooks(SOLUTIONS)) == exercise_names()
+def test_every_exercise_has_a_source_notebook():
+    assert sorted(source_notebooks(SOLUTIONS)) == all_names()
 
 
 def test_exercises_are_what_nbgrader_makes_of_solutions():
@@ -52,7 +53,18 @@ def test_grade_cells_are_the_checks_in_order_with_their_points(folder, exercise)
 
 
 @pytest.mark.parametrize("folder", [SOLUTIONS, EXERCISES], ids=["solutions", "exercises"])
-@pytest.mark.parametrize("exercise", exercise_names())
+@pytest.mark.parametrize("essay", essay_names())
+def test_an_essay_has_a_cell_for_each_criterion_which_only_a_person_can_fill(folder, essay):
+    cells = [cell for cell in read(folder, essay).cells if is_grade(cell) or is_task(cell)]
+    criteria = load_essay(essay).criteria
+    assert [(cell.metadata.nbgrader.grade_id, cell.metadata.nbgrader.points) for cell in cells] == [
+        (criterion.id, criterion.points) for criterion in criteria
+    ]
+    assert all(is_task(cell) and not is_grade(cell) and cell.metadata.nbgrader.locked for cell in cells)
+
+
+@pytest.mark.parametrize("folder", [SOLUTIONS, EXERCISES], ids=["solutions", "exercises"])
+@pytest.mark.parametrize("exercise", all_names())
 def test_notebooks_are_valid_stripped_and_have_stable_cell_ids(folder, exercise):
     notebook = read(folder, exercise)
     nbformat.validate(notebook)
@@ -75,7 +87,7 @@ def test_a_release_holds_no_solution_and_does_not_tell_what_is_hidden(exercise):
             assert check.title not in release
 
 
-@pytest.mark.parametrize("exercise", exercise_names())
+@pytest.mark.parametrize("exercise", all_names())
 def test_the_starter_lacks_what_the_reference_has(exercise):
     reference, starter = (solutions_in(folder, exercise) for folder in (SOLUTIONS, EXERCISES))
     assert list(reference) == list(starter) == list(file_names(exercise))
@@ -98,8 +110,8 @@ def test_making_the_release_again_gives_the_same_bytes(tmp_path):
     for folder in ("first", "second"):
         generate_release(SOLUTIONS, tmp_path / folder)
     compared = filecmp.dircmp(tmp_path / "first", tmp_path / "second")
-    assert compared.common_dirs == exercise_names()
-    for exercise in exercise_names():
+    assert compared.common_dirs == all_names()
+    for exercise in all_names():
         name = f"{exercise}/{exercise}.ipynb"
         assert (tmp_path / "first" / name).read_bytes() == (tmp_path / "second" / name).read_bytes()
 
@@ -128,4 +140,4 @@ def test_a_program_left_beside_a_source_notebook_is_not_released(tmp_path):
     (solutions / "battery_service/battery_service.py").write_text("the reference solution")
     generate_release(solutions, tmp_path / "exercises")
     written = [path.name for path in (tmp_path / "exercises").rglob("*") if path.is_file()]
-    assert sorted(written) == [f"{exercise}.ipynb" for exercise in exercise_names()]
+    assert sorted(written) == [f"{exercise}.ipynb" for exercise in all_names()]

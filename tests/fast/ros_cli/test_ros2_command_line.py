@@ -37,6 +37,7 @@ COURSE = Path(sys.executable).with_name("course")
         "node info /robot/humanoid",
         "param list",
         "param list /robot/arm",
+        "param describe /robot/arm gain limits.low",
         "param get /robot/arm gain",
         "param set /robot/arm gain -0.5",
         "param dump /robot/arm",

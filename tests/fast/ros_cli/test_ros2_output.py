@@ -6,12 +6,18 @@ from itertools import islice
 
 import pytest
 from geometry_msgs.msg import PoseStamped
-from rcl_interfaces.msg import ParameterValue
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    ParameterType,
+    ParameterValue,
+)
 from rclpy.parameter import get_parameter_value
 
 from ros_cli.errors import CommandError, unknown
 from ros_cli.verbs.interface import definition
-from ros_cli.verbs.param import as_file, worded
+from ros_cli.verbs.param import as_file, described, worded
 from ros_cli.verbs.topic_echo import as_text, select
 from ros_cli.verbs.topic_hz import ArrivalRate
 from ros_cli.verbs.topic_pub import ticks
@@ -57,6 +63,40 @@ def test_a_parameter_is_told_with_its_type(typed: str, line: str) -> None:
 
 def test_a_parameter_without_a_value_is_told() -> None:
     assert worded(ParameterValue()) == "Parameter not set."
+
+
+def test_a_parameter_is_described_with_its_constraints() -> None:
+    gain = ParameterDescriptor(
+        name="gain",
+        type=ParameterType.PARAMETER_DOUBLE,
+        description="N·m/rad",
+        floating_point_range=[FloatingPointRange(from_value=0.0, to_value=2.5)],
+        additional_constraints="above the last one",
+    )
+    assert described(gain).splitlines() == [
+        "Parameter name: gain",
+        "  Type: double",
+        "  Description: N·m/rad",
+        "  Constraints:",
+        "    Min value: 0.0",
+        "    Max value: 2.5",
+        "    Additional constraints: above the last one",
+    ]
+    steps = ParameterDescriptor(
+        name="steps",
+        type=ParameterType.PARAMETER_INTEGER,
+        read_only=True,
+        integer_range=[IntegerRange(from_value=2, to_value=8, step=2)],
+    )
+    assert described(steps).splitlines() == [
+        "Parameter name: steps",
+        "  Type: integer",
+        "  Constraints:",
+        "    Read only: true",
+        "    Min value: 2",
+        "    Max value: 8",
+        "    Step: 2",
+    ]
 
 
 def test_parameters_are_dumped_as_a_parameter_file() -> None:

@@ -78,3 +78,14 @@ def test_a_notebook_tells_which_nodes_its_commands_have_to_see(monkeypatch: pyte
     assert notebook_domains.expected_nodes() == ["/robot/humanoid", "/robot/notebook"]
     notebook_domains.forget_node("/robot/humanoid")
     assert notebook_domains.expected_nodes() == ["/robot/notebook"]
+
+
+def test_two_nodes_of_one_name_are_both_expected(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(notebook_domains.EXPECTED, "")
+    notebook_domains.expect_node("/robot/where_am_i")
+    notebook_domains.expect_node("/robot/where_am_i")
+    notebook_domains.forget_node("/robot/where_am_i")
+    assert notebook_domains.expected_nodes() == ["/robot/where_am_i"]
+    notebook_domains.forget_node("/robot/where_am_i")
+    notebook_domains.forget_node("/robot/where_am_i")
+    assert notebook_domains.expected_nodes() == []

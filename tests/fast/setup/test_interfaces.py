@@ -24,6 +24,10 @@ FIELDS = [
         {"header": "std_msgs/Header", "mode": "uint8", "motors_enabled": "boolean", "steps": "uint32"},
     ),
     (msg.BalanceGains, dict.fromkeys(("kp_pitch", "kd_pitch", "kp_roll", "kd_roll", "max_torque"), "double")),
+    (
+        msg.JointLimits,
+        {"names": "sequence<string>", **dict.fromkeys(("lower", "upper", "velocity"), "sequence<double>")},
+    ),
     (srv.AddTwoInts.Request, {"a": "int64", "b": "int64"}),
     (srv.AddTwoInts.Response, {"sum": "int64"}),
     (srv.GetBatteryStatus.Request, {}),
@@ -42,6 +46,11 @@ FIELDS = [
     (
         srv.ComputeIK.Response,
         {"error_code": "int32", "message": "string", "shoulder": "double", "elbow": "double"},
+    ),
+    (srv.ComputeArmIK.Request, {"arm": "string", "hand_pose": POSE, "with_waist": "boolean"}),
+    (
+        srv.ComputeArmIK.Response,
+        {"error_code": "int32", "message": "string", "joint_state": "sensor_msgs/JointState"},
     ),
     (srv.NavigateToPose.Request, {"target_pose": "geometry_msgs/Pose", "navigation_mode": "string"}),
     (srv.NavigateToPose.Response, {"success": "boolean", "message": "string", "execution_time": "double"}),
@@ -96,6 +105,12 @@ FIELDS = [
 WALK_CODES = {"NONE": 0, "FELL": 1, "PREEMPTED": 2, "TIMEOUT": 3}
 CONSTANTS = {
     msg.RobotState: {"OFF": 0, "STANDING": 1, "WALKING": 2, "FALLEN": 3},
+    srv.ComputeArmIK.Response: {
+        "SUCCESS": 1,
+        "NO_IK_SOLUTION": -31,
+        "FRAME_TRANSFORM_FAILURE": -21,
+        "INVALID_GROUP_NAME": -15,
+    },
     srv.ComputeIK.Response: {"SUCCESS": 1, "NO_IK_SOLUTION": -31, "FRAME_TRANSFORM_FAILURE": -21},
     action.WalkTo.Result: WALK_CODES,
     action.NavigateToPose.Result: WALK_CODES,

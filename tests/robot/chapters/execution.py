@@ -8,7 +8,7 @@ from pathlib import Path
 from book.chapter_run import Executed, processes_in
 from book.chapter_run import execute as execute_file
 
-__all__ = ["CHAPTERS", "Executed", "execute", "in_order", "processes_in"]
+__all__ = ["CHAPTERS", "Executed", "execute", "in_order", "number", "numbers", "processes_in"]
 
 CHAPTERS = Path(__file__).resolve().parents[3] / "chapters"
 
@@ -21,3 +21,15 @@ def execute(name: str, folder: Path) -> Executed:
 def in_order(text: str, *parts: str) -> bool:
     """Whether the parts stand in a text one after the other."""
     return re.search(".*?".join(re.escape(part) for part in parts), text, re.DOTALL) is not None
+
+
+def number(pattern: str, text: str) -> float:
+    """The number that a pattern finds in a text."""
+    found = re.search(pattern, text)
+    assert found, (pattern, text)
+    return float(found[1])
+
+
+def numbers(pattern: str, text: str) -> list[float]:
+    """All the numbers that a pattern finds in a text."""
+    return [float(found) for found in re.findall(pattern, text)]

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 import pytest
-from execution import Executed, in_order
+from execution import Executed, in_order, number, numbers
 from gap_trials import GapTrials
 
 CHAPTER = "08_navigation"
@@ -15,18 +15,6 @@ CHAPTER = "08_navigation"
 @pytest.fixture
 def chapter(executed: Callable[[str], Executed]) -> Executed:
     return executed(CHAPTER)
-
-
-def number(pattern: str, text: str) -> float:
-    """The number that a pattern finds in a text."""
-    found = re.search(pattern, text)
-    assert found, (pattern, text)
-    return float(found[1])
-
-
-def numbers(pattern: str, text: str) -> list[float]:
-    """All the numbers that a pattern finds in a text."""
-    return [float(found) for found in re.findall(pattern, text)]
 
 
 def test_the_action_has_the_fields_of_nav2(chapter: Executed) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from itertools import groupby
 from pathlib import Path
 
 import nbformat
@@ -75,6 +76,13 @@ def test_patterns_from_the_task_to_the_verdicts(tmp_path):
     assert "12 action c" in seen["try"]
     assert "Situation 6" in seen["self-check"]
     assert "✗" not in seen["self-check"]
+
+
+def test_arm_architecture_is_drawn_and_asked_for_what_is_missing(tmp_path):
+    seen = run("arm_architecture", tmp_path)
+    assert "HTML object" in seen["sample-a-draw"]
+    assert "arm_architecture.txt: 11 nodes, 13 links\n  Every link says all six facts." in seen["look"]
+    assert "HTML object" in seen["look"]
 
 
 def test_robot_controller_without_servers_with_good_ones_and_with_silent_ones(tmp_path):
@@ -156,3 +164,41 @@ def test_navigate_to_pose_on_the_live_robot(tmp_path):
     assert "the walk takes 6.7 s, the turns 9.0 s, together 15.7 s" in seen["example-time"]
     assert "SUCCEEDED" in seen["try-result"]
     assert 1.1 < float(re.search(r"distance_traveled ([\d.]+)", seen["try-result"])[1]) < 1.7
+
+
+def test_stand_up_on_the_live_robot(tmp_path):
+    seen = run("stand_up", tmp_path, until="self-check-intro")
+    assert "120 and 252 N: 0.48 stop" in seen["example-loads"]
+    assert "0.8 s: even for 0.3 s -> rise" in seen["example-row"]
+    assert "base_link is at 0.4" in seen["try-start"]
+    phases = re.findall(r"'(shifting|rising|settling)'", seen["try-walk"])
+    assert "rising, shifting, rising, settling" in ", ".join(phase for phase, _ in groupby(phases))
+    assert "SUCCEEDED" in seen["try-result"]
+    assert "ALREADY_STANDING" in seen["try-result"] or "stands already" in seen["try-result"]
+
+
+def test_balance_controller_on_the_live_robot(tmp_path):
+    seen = run("balance_controller", tmp_path, until="self-check-intro")
+    assert "a tempo of 0 would never tick" in seen["example-run"]
+    assert "120.0" in seen["example-run"]
+    assert "has to be above 51.0" in seen["try"] or "out of range" in seen["try"]
+    assert "kp_pitch: 340.0" in seen["try"]
+    assert "successful False" in seen["try-atomic"]
+    assert "302.0" in seen["try-atomic"]
+
+
+def test_move_arm_on_the_live_robot(tmp_path):
+    seen = run("move_arm", tmp_path, until="self-check-intro")
+    assert "after 1.0 s at -1.0 rad" in seen["example-straight"]
+    assert "2.0 s: l_elbow -1.5, r_elbow -1.0" in seen["example-merge"]
+    assert "SUCCEEDED" in seen["try-move"]
+    assert "reject" in seen["try-range"].lower()
+
+
+def test_pick_and_place_on_the_live_robot(tmp_path):
+    seen = run("pick_and_place", tmp_path, until="self-check-intro")
+    assert "command 35 mm: 10.0 N" in seen["example-force"]
+    assert "command 35 mm: 10.0 N" in seen["example-missing"]
+    assert "back 0.04 m, on 0.08 m: put it back" in seen["example-nearer"]
+    assert "SUCCEEDED" in seen["try-fetch"]
+    assert "UNREACHABLE" in seen["try-far"] or "error_code 2" in seen["try-far"]

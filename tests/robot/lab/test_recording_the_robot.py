@@ -80,3 +80,21 @@ def test_without_a_robot_it_says_so(kernel: Kernel) -> None:
     """.replace("\n        ", "\n")
     )
     assert "nothing arrived on /robot/robot_state" in printed
+
+
+def test_the_cup_and_the_grip_are_recorded_at_the_table(own_kernel: Kernel) -> None:
+    own_kernel.run(
+        """
+        import time
+        from std_msgs.msg import Float64
+        lab.start_robot("table")
+        with lab.record_robot() as recording:
+            lab.publish("r_gripper/command", Float64(data=0.06))
+            time.sleep(2)
+        assert abs(recording.values("cup height")[1][-1] - 0.755) < 0.005
+        assert recording.values("grip")[1][-1] == 0.0
+        assert abs(recording.values("r_finger_1")[1][-1] - 0.03) < 0.005
+    """.replace("\n        ", "\n")
+    )
+    assert "The robot and the cup for" in own_kernel.run("print(recording.film().data)")
+    assert "STANDING" in own_kernel.run("print(lab.show_robot().data)")

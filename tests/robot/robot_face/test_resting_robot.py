@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import PoseStamped, Twist, WrenchStamped
 from nav_msgs.msg import Odometry
 from rclpy.qos import qos_profile_sensor_data
 from robot_process import LATCHED, running_robot
@@ -15,6 +15,8 @@ HEARD = {  # message type, QoS, messages to hear, rate in Hz of simulated time
     "odom": (Odometry, qos_profile_sensor_data, 100, 20.0),
     "joint_states": (JointState, qos_profile_sensor_data, 100, 20.0),
     "imu": (Imu, qos_profile_sensor_data, 250, 50.0),
+    "l_hand/pose": (PoseStamped, qos_profile_sensor_data, 100, 20.0),
+    "r_foot/wrench": (WrenchStamped, qos_profile_sensor_data, 250, 50.0),
     "battery_state": (BatteryState, LATCHED, 10, 2.0),
     "robot_state": (RobotState, LATCHED, 25, 5.0),
 }
@@ -84,6 +86,17 @@ def test_it_is_where_the_other_is(heard):
     assert resting == pytest.approx(integrated, abs=1e-5)
     resting, integrated = (vectors(messages, "effort") for messages in heard["joint_states"])
     assert resting == pytest.approx(integrated, abs=1e-2)
+
+
+def test_its_hands_are_where_the_others_are_and_its_feet_carry_as_much(heard):
+    resting, integrated = (
+        vectors(messages, "pose.position", "pose.orientation") for messages in heard["l_hand/pose"]
+    )
+    assert resting == pytest.approx(integrated, abs=1e-5)
+    resting, integrated = (
+        vectors(messages, "wrench.force", "wrench.torque") for messages in heard["r_foot/wrench"]
+    )
+    assert resting == pytest.approx(integrated, abs=0.05)
 
 
 def test_its_inertial_sensor_is_as_noisy(heard):

@@ -1,15 +1,18 @@
-"""What /sim offers: pause, step, reset, push, charge, pace."""
+"""What /sim offers: pause, step, reset, push, hold, charge, pace."""
 
 import time
 
 import pytest
+from builtin_interfaces.msg import Duration
 from geometry_msgs.msg import Vector3
 from nav_msgs.msg import Odometry
 from rclpy.qos import qos_profile_sensor_data
 from robot_process import LATCHED, NAMESPACE, running_robot
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import BatteryState, JointState
+from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from humanoid_interfaces.msg import RobotState
 from humanoid_interfaces.srv import SetFloat64
@@ -80,6 +83,27 @@ def test_the_pace_is_set(robot):
     robot.one(Clock, "/clock", until=lambda message: seconds(message) > seconds(first) + 8.0)
     assert time.monotonic() - began < 7.0
     assert "expected 0" in number(robot, "set_real_time_factor", -1.0).message
+
+
+def test_a_joint_is_held_until_another_or_none_is(robot):
+    def bend(joint, position):
+        point = JointTrajectoryPoint(positions=[position], time_from_start=Duration(sec=1))
+        robot.publish(JointTrajectory(joint_names=[joint], points=[point]), "joint_trajectory")
+
+    def positions_of(joint, count):
+        messages = robot.collect(JointState, "joint_states", count, qos_profile_sensor_data)
+        return [message.position[message.name.index(joint)] for message in messages]
+
+    robot.publish(String(data="l_elbow_2"), "/sim/hold_joint")  # which there is not
+    robot.publish(String(data="l_elbow"), "/sim/hold_joint")
+    bend("l_elbow", -1.5)
+    assert min(positions_of("l_elbow", 40)) > -0.6  # in two seconds
+    robot.publish(String(data="r_elbow"), "/sim/hold_joint")
+    assert positions_of("l_elbow", 40)[-1] == pytest.approx(-1.5, abs=0.02)
+    bend("r_elbow", -1.5)
+    assert min(positions_of("r_elbow", 40)) > -0.6
+    robot.publish(String(), "/sim/hold_joint")
+    assert positions_of("r_elbow", 40)[-1] == pytest.approx(-1.5, abs=0.02)
 
 
 def test_a_graded_robot_has_no_controls():

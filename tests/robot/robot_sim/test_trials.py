@@ -14,6 +14,12 @@ def test_quick_stops_and_reaches_meet_their_references():
     assert table_of(rows).row_count == 2
 
 
+def test_hands_come_to_the_poses_they_can_reach_and_the_others_are_refused():
+    (row,) = run_trials(["hand_poses"], quick=True)
+    assert (row.met, row.successes, row.runs) == (True, 40, 40), row.failures
+    assert "8 out of reach" in row.measured
+
+
 def test_speed_is_told_for_bare_physics_and_with_the_controller():
     titles = [row.title for row in run_trials(["speed"], quick=True)]
     assert titles == ["speed, bare mj_step", "speed, standing", "speed, walking"]

@@ -107,6 +107,11 @@ def press_ctrl_c(process: subprocess.Popen[str]) -> tuple[int, str]:
         ),
         ("param get /demo/playground gain", "Double value is: 1.5\n"),
         (
+            "param describe /demo/playground gain limits.low",
+            "Parameter name: gain\n  Type: double\n  Constraints:\n"
+            "Parameter name: limits.low\n  Type: integer\n  Constraints:\n",
+        ),
+        (
             "param dump /demo/playground",
             "/demo/playground:\n  ros__parameters:\n    gain: 1.5\n    limits:\n      low: 2\n"
             "    start_type_description_service: true\n    use_sim_time: false\n\n",
@@ -259,6 +264,7 @@ def test_a_parameter_is_set_refused_dumped_and_loaded(ros2: Ros2, tmp_path: Path
         ("node info /playground", "Unknown node '/playground': did you mean /demo/playground?"),
         ("param get /demo/nobody gain", "Node not found"),
         ("param get /demo/playground strength", "Parameter not set"),
+        ("param describe /demo/playground gain strength", "Not all of gain, strength are declared"),
         ("param load /demo/playground missing.yaml", "missing.yaml cannot be loaded"),
     ],
 )

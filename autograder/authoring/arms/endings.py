@@ -1,0 +1,105 @@
+"""Why an arm's goal was given up though it could be carried out: by its error_code, and by where the arm was."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+from autograder.authoring.arms.plan import errors, largest
+from autograder.authoring.arms.truth import joints_at, plan_of
+from autograder.authoring.failure import Failure
+from autograder.authoring.goal import ABORTED, Goal
+from autograder.authoring.goal_endings import lesson_on_the_end, why_rclpy_aborted
+from humanoid_interfaces.action import MoveArm
+from ros_runtime.message_constants import name_of
+
+GOAL_TOLERANCE = 0.05  # rad, where the goal says 0
+PATIENCE = 1.0  # s after the last point in which the arm may still arrive
+NEAR = 0.25  # rad, off a trajectory that the arm follows
+_PREEMPTED = (
+    "Nobody has sent another goal for this arm. Remember the newest goal of each arm, not one for both: a goal gives "
+    "way only to one with the same `arm`."
+)
+_DEAF = (
+    "The robot published joint_states all the time, but nobody served your node's subscription: each execute that "
+    "sleeps keeps a thread. Use a MultiThreadedExecutor(num_threads=6), or an async execute that awaits."
+)
+
+
+class ErrorCode(IntEnum):
+    """The codes of MoveArm's result, by name."""
+
+    NONE = MoveArm.Result.NONE
+    INVALID_JOINTS = MoveArm.Result.INVALID_JOINTS
+    PATH_TOLERANCE_VIOLATED = MoveArm.Result.PATH_TOLERANCE_VIOLATED
+    GOAL_TOLERANCE_VIOLATED = MoveArm.Result.GOAL_TOLERANCE_VIOLATED
+    PREEMPTED = MoveArm.Result.PREEMPTED
+
+
+def require_not_given_up(goal: Goal, help: str = "") -> None:
+    """Require that the server did not abort a goal that can be carried out.
+
+    Args:
+        goal: which was accepted.
+        help: what to do if it did, and nothing in the record says more.
+    """
+    if goal.status != ABORTED:
+        return
+    assert goal.result
+    result = goal.result.result
+    code = name_of(ErrorCode, result.error_code)
+    raise Failure(
+        expected="status SUCCEEDED",
+        observed=f"status ABORTED, error_code {code}, error_msg {result.error_msg!r}",
+        help=why_given_up(goal, help),
+        at=goal.result.t,
+        see=lesson_on_the_end(goal),
+    )
+
+
+def why_given_up(goal: Goal, help: str = "") -> str:
+    """Return what to do about a goal that was aborted; `help`: if nothing in the record says more."""
+    assert goal.result
+    if unmeant := why_rclpy_aborted(goal):
+        return unmeant
+    match goal.result.result.error_code:
+        case ErrorCode.PREEMPTED:
+            return _PREEMPTED
+        case ErrorCode.INVALID_JOINTS:
+            return _DEAF
+        case ErrorCode.GOAL_TOLERANCE_VIOLATED:
+            return _why_missed(goal, help)
+    joint, off = largest(
+        errors(joints_at(goal.run, goal.result.t).positions, plan_of(goal).at(goal.result.t))
+    )
+    if off <= NEAR:
+        return (
+            f"In the simulator {joint} was the worst joint then, and {off:.2f} rad off its trajectory. Are "
+            "joint_states served while execute runs, and is each joint looked up by its name?"
+        )
+    return help or (
+        f"In the simulator {joint} was {off:.2f} rad off its trajectory, too: the robot did not get all of it. Publish "
+        "the whole trajectory once on joint_trajectory, with every point and its time_from_start."
+    )
+
+
+def _why_missed(goal: Goal, help: str) -> str:
+    """Return what to do about a goal that its server aborted because of the goal's tolerance."""
+    assert goal.result
+    plan = plan_of(goal)
+    tolerance = goal.request.goal_tolerance or GOAL_TOLERANCE
+    joint, off = largest(errors(joints_at(goal.run, goal.result.t).positions, plan.final()))
+    if off <= tolerance:
+        meant = "0 rad, which means 0.05" if goal.request.goal_tolerance == 0 else f"{tolerance:g} rad"
+        return help or (
+            f"In the simulator {joint} was the worst joint then, {off:.2f} rad from the last point, and goal_tolerance "
+            f"is {meant}. Compare with that, joint by joint."
+        )
+    if goal.result.t < plan.end + 0.7 * PATIENCE:
+        return (
+            f"That came {goal.result.t - plan.end:.1f} s after the last point's time, but a joint has 1 s more to get "
+            "there."
+        )
+    return help or (
+        f"In the simulator {joint} was {off:.2f} rad from the last point, too: the robot did not get all of the "
+        "trajectory, or it was stopped."
+    )

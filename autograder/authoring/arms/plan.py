@@ -1,0 +1,80 @@
+"""Where a goal's trajectory has the joints at a time, as the robot follows it: straight between the points."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A trajectory from where the joints were when it began.
+
+    Attributes:
+        joints: their names.
+        begin: s, when it began.
+        times: s after that, of each point, the start at 0 included.
+        places: rad, of each point, one for each joint; the start included.
+    """
+
+    joints: tuple[str, ...]
+    begin: float
+    times: tuple[float, ...]
+    places: tuple[tuple[float, ...], ...]
+
+    @classmethod
+    def of(cls, trajectory: JointTrajectory, start: Mapping[str, float], begin: float) -> Plan:
+        """Return the plan of a trajectory that begins at `begin` (s) with the joints at `start` (rad)."""
+        joints = tuple(trajectory.joint_names)
+        times = (0.0, *map(seconds_of, trajectory.points))
+        here = tuple(start[joint] for joint in joints)
+        return cls(joints, begin, times, (here, *(tuple(point.positions) for point in trajectory.points)))
+
+    @property
+    def end(self) -> float:
+        """When (s) its last point is due."""
+        return self.begin + self.times[-1]
+
+    def due(self, point: int) -> float:
+        """Return when (s) a point is due, counted from 0 as feedback does."""
+        return self.begin + self.times[point + 1]
+
+    def at(self, t: float) -> dict[str, float]:
+        """Return where the joints should be (rad) at a time (s)."""
+        after = min(max(bisect_right(self.times, t - self.begin), 1), len(self.times) - 1)
+        earlier, later = self.times[after - 1], self.times[after]
+        share = min(max((t - self.begin - earlier) / (later - earlier), 0.0), 1.0)
+        places = zip(self.joints, self.places[after - 1], self.places[after], strict=True)
+        return {joint: before + share * (then - before) for joint, before, then in places}
+
+    def point_at(self, t: float) -> int:
+        """Return the index of the point that the arm moves to at a time (s)."""
+        return min(max(bisect_right(self.times, t - self.begin) - 1, 0), len(self.times) - 2)
+
+    def final(self) -> dict[str, float]:
+        """Return where the joints shall end (rad)."""
+        return dict(zip(self.joints, self.places[-1], strict=True))
+
+
+def largest(errors: Mapping[str, float]) -> tuple[str, float]:
+    """Return the joint with the largest error and that error."""
+    worst = max(errors, key=lambda joint: errors[joint])
+    return worst, errors[worst]
+
+
+def errors(places: Mapping[str, float], wanted: Mapping[str, float]) -> dict[str, float]:
+    """Return how far (rad) each wanted joint is from its place."""
+    return {joint: abs(places[joint] - place) for joint, place in wanted.items()}
+
+
+def seconds_of(point: JointTrajectoryPoint) -> float:
+    """Return the time_from_start of a point in s."""
+    return point.time_from_start.sec + 1e-9 * point.time_from_start.nanosec
+
+
+def speeds(velocities: Sequence[float]) -> float:
+    """Return the highest of some speeds (rad/s)."""
+    return max(map(abs, velocities), default=0.0)

@@ -1,0 +1,58 @@
+"""Where the arms' joints were, as the simulator has it; the scenario has asked for it with `report_joints`."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
+
+from autograder.authoring import events as ev
+from autograder.authoring.arms.plan import Plan
+from autograder.authoring.connections import why_nothing_is_heard
+from autograder.authoring.goal import Goal
+from autograder.authoring.missing import unseen
+from autograder.authoring.robot_record import LONGEST_GAP, RobotRecord
+
+_ACCEPT = (
+    "goal_callback must return GoalResponse.ACCEPT for a trajectory in which nothing is wrong (True is not "
+    "GoalResponse.ACCEPT). Does it know the ranges? joint_limits is published once, so subscribe with "
+    "DurabilityPolicy.TRANSIENT_LOCAL."
+)
+
+
+def require_accepted(goal: Goal, help: str = "") -> Goal:
+    """Require that the server accepted the goal."""
+    deaf = (why_nothing_is_heard(goal.run, topic) for topic in ("joint_limits", "joint_states"))
+    return goal.require_accepted(next(filter(None, deaf), help or _ACCEPT))
+
+
+def accepted_at(goal: Goal) -> float:
+    """Return when (s) the goal was accepted, which it must have been."""
+    answer = require_accepted(goal).answer
+    assert answer
+    return answer.t
+
+
+def plan_of(goal: Goal) -> Plan:
+    """Return the plan of an accepted goal, from where the joints really were when it was accepted."""
+    begin = accepted_at(goal)
+    return Plan.of(goal.request.trajectory, joints_at(goal.run, begin).positions, begin)
+
+
+def joints_at(run: RobotRecord, t: float) -> ev.JointsTruth:
+    """Return the joints at a time (s): the last report not later, or the first there is."""
+    reports = run.all(ev.JointsTruth)
+    if not reports or reports[0].t > t + LONGEST_GAP or reports[-1].t < t - LONGEST_GAP:
+        raise unseen(run, f"nothing is known of the joints at {t:.1f} s")
+    return reports[max(0, bisect_right(reports, t, key=_time) - 1)]
+
+
+def joints_between(run: RobotRecord, start: float, end: float) -> Sequence[ev.JointsTruth]:
+    """Return the reports from `start` to `end` (s); there must be some from end to end."""
+    joints_at(run, start)
+    last = joints_at(run, end)
+    reports = run.all(ev.JointsTruth)
+    return reports[bisect_left(reports, start, key=_time) : bisect_right(reports, end, key=_time)] or [last]
+
+
+def _time(report: ev.JointsTruth) -> float:
+    return report.t

@@ -1,0 +1,46 @@
+"""An exercise without a program to run: a person marks it by the criteria of its rubric."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from autograder.authoring.rubric import Criterion, Picture, criteria_in, picture_in
+from autograder.engine.exercise import RUBRIC, UnusableExercise, exercise_module, exercises_folder
+from autograder.engine.verdict import CheckVerdict, Grade
+
+BY_HAND = "by hand"  # in the place of an arena's isolation: nothing runs
+
+
+@dataclass(frozen=True)
+class Essay:
+    """The criteria of one exercise, and how the files handed in are drawn for the marker."""
+
+    name: str
+    folder: Path
+    criteria: Sequence[Criterion]
+    picture: Picture | None
+
+
+def load_essay(name: str) -> Essay:
+    """Load an essay.
+
+    Raises:
+        UnknownExercise: there is none of that name.
+        UnusableExercise: its author has something to fix.
+    """
+    module = exercise_module(name, RUBRIC)
+    try:
+        return Essay(name, exercises_folder() / name, criteria_in(module), picture_in(module))
+    except ValueError as error:
+        raise UnusableExercise(f"the rubric of {name} cannot be used: {error}") from error
+
+
+def left_to_a_person(essay: Essay, student: str) -> Grade:
+    """Return the record of work that nobody has marked yet: neither points nor none."""
+    verdicts = [
+        CheckVerdict(criterion.id, criterion.title, "to mark", 0, criterion.points)
+        for criterion in essay.criteria
+    ]
+    return Grade(essay.name, student, BY_HAND, verdicts)

@@ -1,0 +1,192 @@
+"""Joint angles that bring a hand to a pose, found without moving the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from robot_sim.arms.arm_chain import ArmChain
+from robot_sim.arms.hand import hand_rotation
+from robot_sim.arms.reach import rotation_vector
+from robot_sim.model.side import SIDES, Side
+
+MOST_GIVEN_WAY = 0.03  # m, by which the body gives way to balance an arm, at most
+
+
+@dataclass(frozen=True)
+class HandGoal:
+    """Where the point between the pads of a hand is to be, in base_link.
+
+    Attributes:
+        position: (3,) m.
+        rotation: (3, 3) of the hand, x along the fingers, y the way they open; None: any.
+        with_waist: the waist may turn to help.
+        balancing: base_link is where it is now, and gives way as the arm moves, because the robot keeps its centre of
+            mass above its feet; False: base_link moves with the goal.
+    """
+
+    position: np.ndarray
+    rotation: np.ndarray | None = None
+    with_waist: bool = False
+    balancing: bool = False
+
+
+@dataclass(frozen=True)
+class ArmPosture:
+    """Joints of an arm, with waist_yaw before them if it may turn, and their positions, rad."""
+
+    names: tuple[str, ...]
+    positions: tuple[float, ...]
+
+
+class Unreachable(ValueError):
+    """No posture brings the hand to the goal; the message says what is in the way."""
+
+
+@dataclass(frozen=True, slots=True)
+class SolverParameters:
+    """Tolerances and effort of the solver."""
+
+    position_tolerance: float = 1e-4  # m
+    rotation_tolerance: float = 1e-3  # rad
+    rotation_weight: float = 0.3  # m/rad
+    least_damping: float = 1e-6  # m²
+    longest_step: float = 0.6  # rad, of a joint
+    most_steps: int = 40  # from one start
+    standstill: float = 0.9  # the share of the squared error that is left after a step which leads nowhere
+    starts: int = 30
+    seed: int = 9  # of the starts at random
+
+
+class ArmInverseKinematics:
+    """A solver for both arms.
+
+    From a start it goes step by step down the squared error, by Newton's method with that error as the damping, so
+    that it neither leaps far from a solution nor creeps near one (T. Sugihara, "Solvability-unconcerned inverse
+    kinematics by the Levenberg-Marquardt method", IEEE Transactions on Robotics 27(5), 2011). Joints at the end of
+    their range are left out of a step. The first start is the arm as it is, so that a near solution is found first;
+    then come the relaxed arm and postures at random, always the same: the same goal in the same state has the same
+    solution.
+    """
+
+    def __init__(self, model: mujoco.MjModel, parameters: SolverParameters | None = None) -> None:
+        self._parameters = parameters or SolverParameters()
+        self._model = model
+        self._data = mujoco.MjData(model)
+        self._chains = {
+            (side, turns): ArmChain(model, side, turns) for side in SIDES for turns in (False, True)
+        }
+        self._body = model.body("pelvis").id
+        self._jacobian = np.zeros((6, model.nv))
+        self._com_jacobian = np.zeros((3, model.nv))
+
+    def solve(self, state: mujoco.MjData, side: Side, goal: HandGoal) -> ArmPosture:
+        """Return a posture that brings the hand to the goal, while all other joints are as in `state`.
+
+        Raises:
+            Unreachable: there is none, or none without the arm in the robot's own body.
+        """
+        chain = self._chains[side, goal.with_waist]
+        self._stand_at_the_origin(state)
+        missing = chain.metres_short(self._data, goal.position)
+        if missing > (MOST_GIVEN_WAY if goal.balancing else self._parameters.position_tolerance):
+            raise Unreachable(f"the arm is {missing:.3f} m too short")
+        closest = _Miss(np.inf, np.inf, np.inf)
+        touches = False
+        for start in self._starts(chain):
+            positions, miss = self._descend(chain, goal, start)
+            if not self._is_there(miss):
+                closest = min(closest, miss, key=lambda each: each.cost)
+                continue
+            mujoco.mj_collision(self._model, self._data)
+            if not chain.touches_the_robot(self._data):
+                return ArmPosture(chain.names, tuple(positions.tolist()))
+            touches = True
+        if touches:
+            raise Unreachable("the arm would have to be inside the robot's own body")
+        raise Unreachable(
+            f"the closest posture found leaves the hand {closest.distance:.3f} m and {closest.angle:.2f} rad away"
+        )
+
+    def _stand_at_the_origin(self, state: mujoco.MjData) -> None:
+        """Take over the joints of a state, with base_link as the world."""
+        root = self._model.joint("root").qposadr[0]
+        self._data.qpos[:] = state.qpos
+        self._data.qpos[root : root + 7] = 0, 0, 0, 1, 0, 0, 0
+        mujoco.mj_kinematics(self._model, self._data)
+        mujoco.mj_comPos(self._model, self._data)
+        self._com = self._data.subtree_com[self._body].copy()
+
+    def _starts(self, chain: ArmChain) -> Iterator[np.ndarray]:
+        yield np.clip(self._data.qpos[chain.positions], chain.low, chain.high)
+        yield chain.relaxed
+        chance = np.random.default_rng(self._parameters.seed)
+        for _ in range(self._parameters.starts - 2):
+            yield chance.uniform(chain.low, chain.high)
+
+    def _descend(self, chain: ArmChain, goal: HandGoal, start: np.ndarray) -> tuple[np.ndarray, _Miss]:
+        """Return the posture (n,) rad that a start leads to, and how far from the goal it is."""
+        positions = start
+        error, miss = self._error(chain, goal, positions)
+        for _ in range(self._parameters.most_steps):
+            if self._is_there(miss):
+                break
+            before = miss
+            positions = self._step(chain, goal, positions, error)
+            error, miss = self._error(chain, goal, positions)
+            if miss.cost > self._parameters.standstill * before.cost:
+                break
+        return positions, miss
+
+    def _error(self, chain: ArmChain, goal: HandGoal, positions: np.ndarray) -> tuple[np.ndarray, _Miss]:
+        """Pose the arm; return the error (3,) m, or with the weighted rotation (6,) m, and the miss."""
+        self._data.qpos[chain.positions] = positions
+        mujoco.mj_kinematics(self._model, self._data)
+        mujoco.mj_comPos(self._model, self._data)
+        shift = goal.position - self._data.site_xpos[chain.grip]
+        if goal.balancing:
+            shift[:2] += (self._data.subtree_com[self._body] - self._com)[:2]
+        if goal.rotation is None:
+            return shift, _Miss(float(np.linalg.norm(shift)), 0.0, float(shift @ shift))
+        turn = rotation_vector(hand_rotation(self._data.site_xmat[chain.grip]), goal.rotation)
+        error = np.concatenate((shift, self._parameters.rotation_weight * turn))
+        return error, _Miss(float(np.linalg.norm(shift)), float(np.linalg.norm(turn)), float(error @ error))
+
+    def _step(self, chain: ArmChain, goal: HandGoal, positions: np.ndarray, error: np.ndarray) -> np.ndarray:
+        """Return the positions (n,) rad of one step nearer, within the joints' ranges."""
+        mujoco.mj_jacSite(self._model, self._data, self._jacobian[:3], self._jacobian[3:], chain.grip)
+        if goal.balancing:
+            mujoco.mj_jacSubtreeCom(self._model, self._data, self._com_jacobian, self._body)
+            self._jacobian[:2] -= self._com_jacobian[:2]
+        jacobian = self._jacobian[: len(error), chain.dofs]
+        jacobian[3:] *= self._parameters.rotation_weight
+        damping = (error @ error / 2 + self._parameters.least_damping) * np.eye(len(error))
+        free = np.ones(len(positions), dtype=bool)
+        while True:
+            step = np.linalg.solve(jacobian @ jacobian.T + damping, error) @ jacobian
+            step *= min(1.0, self._parameters.longest_step / max(np.abs(step).max(), 1e-12))
+            moved = positions + step
+            stopped = free & (
+                ((moved < chain.low) & (positions <= chain.low))
+                | ((moved > chain.high) & (positions >= chain.high))
+            )
+            if not stopped.any():
+                return np.clip(moved, chain.low, chain.high)
+            free &= ~stopped
+            jacobian[:, stopped] = 0.0
+
+    def _is_there(self, miss: _Miss) -> bool:
+        limits = self._parameters
+        return miss.distance < limits.position_tolerance and miss.angle < limits.rotation_tolerance
+
+
+@dataclass(frozen=True, slots=True)
+class _Miss:
+    """How far a hand is from its goal."""
+
+    distance: float  # m
+    angle: float  # rad
+    cost: float  # m², the squared error that the solver goes down

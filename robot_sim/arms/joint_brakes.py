@@ -1,0 +1,52 @@
+"""Brakes: a joint is held where it is, as by somebody's hand, against its own motor."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from robot_sim.arms.joint_trajectory import MOVABLE
+
+STIFFNESS = 600.0  # N·m/rad; three times an arm's servo
+GRIP = 80.0  # N·m, twice what the strongest motor of an arm has
+
+
+class JointBrakes:
+    """Springs on single joints; each pulls its joint back to where it was when it was taken hold of.
+
+    A spring acts between the two links of its joint, so it neither lifts the robot nor pushes it over.
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        self._model, self._data = model, data
+        self._held: dict[str, tuple[int, int, float, float]] = {}
+
+    def hold(self, joint: str, grip: float = GRIP) -> None:
+        """Hold a joint with at most `grip` (N·m).
+
+        Raises:
+            ValueError: the joint is not one of those that a trajectory moves, or the grip is not positive.
+        """
+        if joint not in MOVABLE:
+            raise ValueError(f"joint {joint!r} cannot be held; the joints are {', '.join(MOVABLE)}")
+        if not 0 < grip < float("inf"):
+            raise ValueError(f"grip is {grip}; expected more than 0 N·m")
+        position = int(self._model.joint(joint).qposadr[0])
+        dof = int(self._model.joint(joint).dofadr[0])
+        self._held[joint] = (position, dof, float(self._data.qpos[position]), float(grip))
+
+    def release(self, joint: str) -> None:
+        """Let go of a joint; one that is not held stays free."""
+        if held := self._held.pop(joint, None):
+            self._data.qfrc_applied[held[1]] = 0.0
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether no joint is held."""
+        return not self._held
+
+    def apply(self) -> None:
+        """Set the torques of the next step."""
+        for position, dof, place, grip in self._held.values():
+            pull = STIFFNESS * (place - self._data.qpos[position])
+            self._data.qfrc_applied[dof] = np.clip(pull, -grip, grip)

@@ -1,0 +1,39 @@
+"""A design as a picture: on the left the node that publishes or asks, then the link, then the node at its other end."""
+
+from __future__ import annotations
+
+from ros_runtime.design import Design, Link
+from ros_runtime.drawing.columns import SAND, End, Row, columns_svg
+
+HEADINGS = ("publishes or asks", "pattern, type", "receives or answers")
+FILLS = {"topic": SAND, "service": "#e8f4ea", "action": "#e6eefb", "wire": "#eeeeee"}
+LONGEST_NODE, LONGEST_TYPE = 24, 56  # characters that fit into a box
+MOST_LINKS = 60  # a drawing that a person can still look at
+
+
+def design_svg(design: Design, *, title: str) -> str:
+    """Draw the links of a design; the lines of one that lacks a fact are red and dashed.
+
+    Raises:
+        ValueError: there is no link to draw.
+    """
+    if not design.links:
+        raise ValueError("a design needs at least one link")
+    rows = [_row(link) for link in design.links[:MOST_LINKS]]
+    words = " ".join(f"{link}: {link.pattern} {link.type}." for link in design.links[:MOST_LINKS])
+    return columns_svg(rows, headings=HEADINGS, title=title, words=words)
+
+
+def _row(link: Link) -> Row:
+    broken = bool(link.missing())
+    return Row(
+        _shorten(link.pattern, LONGEST_NODE),
+        _shorten(link.type, LONGEST_TYPE),
+        left=[End(_shorten(link.sender, LONGEST_NODE), broken)],
+        right=[End(_shorten(link.receiver, LONGEST_NODE), broken)],
+        fill=FILLS.get(link.pattern, SAND),
+    )
+
+
+def _shorten(text: str, most: int) -> str:
+    return text if len(text) <= most else f"{text[: most - 1]}…"

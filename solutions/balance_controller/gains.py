@@ -1,0 +1,33 @@
+"""The five gains: their defaults, and how a request for a change of them is written in a scenario's inputs."""
+
+from __future__ import annotations
+
+from random import Random
+from typing import Any
+
+DEFAULTS = {"kp_pitch": 276.0, "kd_pitch": 34.0, "kp_roll": 302.0, "kd_roll": 38.0, "max_torque": 10000.0}
+NAMES = tuple(DEFAULTS)
+TOPPLE = 51.0  # N·m/rad, with which gravity topples the trunk
+
+Set = dict[str, Any]
+
+
+def set_each(name: str, **values: Any) -> Set:
+    """Return a request to set_parameters, in which each parameter is a set of its own."""
+    return {"name": name, "values": values, "atomically": False}
+
+
+def set_together(name: str, **values: Any) -> Set:
+    """Return a request to set_parameters_atomically."""
+    return {"name": name, "values": values, "atomically": True}
+
+
+def sound_gains(random: Random) -> dict[str, float]:
+    """Draw gains that hold the robot upright: all of the robot's own, made a little weaker or stiffer."""
+    stiffness = random.uniform(0.8, 1.6)
+    gains = {
+        name: round(DEFAULTS[name] * stiffness * random.uniform(0.95, 1.05), 1)
+        for name in NAMES
+        if name != "max_torque"
+    }
+    return gains | {"max_torque": round(random.uniform(2000.0, 8000.0), 1)}

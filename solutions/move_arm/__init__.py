@@ -1,0 +1,1 @@
+"""An action server that moves an arm along a trajectory."""

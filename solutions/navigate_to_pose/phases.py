@@ -1,0 +1,78 @@
+"""The turn to the goal, the walk and the turn to its heading: how the robot moves, and what status says of it."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from autograder.authoring import events as ev
+from autograder.authoring.failure import expect
+from autograder.authoring.goal import Goal
+from autograder.authoring.missing import unseen
+from autograder.authoring.walking.path import walking_speed
+
+from .legs import Leg, off_the_way
+
+FACING = 0.6  # rad between heading and goal while it walks
+IN_PLACE, WALKS = 0.10, 0.20  # m/s of the body as a whole
+TURNS = 0.15  # rad/s
+
+
+def require_facing(goal: Goal) -> None:
+    """Require that the robot faces the goal while it walks in the middle of its way."""
+    leg = Leg.of(goal)
+    for robot in goal.run.robot_between(leg.half - 1.0, leg.half + 0.5):
+        if walking_speed(goal.run, robot.t) < IN_PLACE:
+            continue
+        off = off_the_way(robot, goal)
+        expect(
+            off <= FACING,
+            expected="the robot to turn toward the goal first, and to walk straight ahead",
+            observed=f"it walks with its heading {off:.1f} rad off the goal",
+            help="While the goal is farther than 0.3 m, publish angular.z alone until math.atan2(dy, dx) minus the "
+            "heading is small; only then linear.x.",
+            at=robot.t,
+        )
+
+
+def require_named_phases(goal: Goal) -> None:
+    """Require that the walk has a name of its own, and the turns before and after it have others."""
+    leg = Leg.of(goal)
+    turning = _statuses(goal, leg.start, leg.half, lambda robot, speed: speed < IN_PLACE and _turns(robot))
+    walking = _statuses(goal, leg.start, leg.end, lambda robot, speed: speed > WALKS)
+    aligning = _statuses(goal, leg.half, leg.end, lambda robot, speed: speed < IN_PLACE and _turns(robot))
+    for phase, statuses in (
+        ("it turns toward the goal", turning),
+        ("it walks", walking),
+        ("it turns to the goal's heading", aligning),
+    ):
+        if not statuses:
+            raise unseen(goal.run, f"no feedback came while {phase}")
+        expect(
+            all(status.strip() for status in statuses),
+            expected=f"feedback.status to say in words that {phase}",
+            observed="an empty status",
+            help="Keep the phase in a variable, change it where the loop changes what it does, and copy it to "
+            "feedback.status.",
+        )
+    names = [statuses.most_common(1)[0][0] for statuses in (turning, walking, aligning)]
+    expect(
+        names[1] not in (names[0], names[2]),
+        expected="a status of its own for the walk, and others for the turns before and after it",
+        observed=f"{names[0]!r} as it turns, {names[1]!r} as it walks, {names[2]!r} as it turns to the heading",
+        help="Set the phase where the loop decides to turn, to walk or to align, and send that.",
+        at=leg.half,
+    )
+
+
+def _turns(robot: ev.RobotTruth) -> bool:
+    return abs(robot.turn_rate) > TURNS
+
+
+def _statuses(goal: Goal, start: float, end: float, during) -> Counter[str]:
+    """Count the statuses of the feedback between two moments while the robot did something."""
+    run = goal.run
+    return Counter(
+        feedback.feedback.status
+        for feedback in goal.feedback
+        if start < feedback.t < end and during(run.robot_at(feedback.t), walking_speed(run, feedback.t))
+    )

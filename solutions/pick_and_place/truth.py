@@ -1,0 +1,117 @@
+"""Where hand and cup were, as the simulator has it; the scenario has asked for it."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+from geometry_msgs.msg import Point
+
+from autograder.authoring import events as ev
+from autograder.authoring.goal import Goal
+from autograder.authoring.missing import unseen
+from autograder.authoring.robot_record import LONGEST_GAP, RobotRecord
+
+LIFTED = 0.02  # m above where it stood: the table carries nothing of it
+
+E = TypeVar("E", ev.HandTruth, ev.ObjectTruth, ev.JointsTruth)
+
+
+@dataclass(frozen=True)
+class Grip:
+    """A hand and the cup at one time.
+
+    Attributes:
+        t: s.
+        hand, cup: (x, y, z) m in odom.
+        force: N, of the pad that presses less.
+        strongest: N, of the one that presses more.
+        opening: m between the pads.
+    """
+
+    t: float
+    hand: Sequence[float]
+    cup: Sequence[float]
+    force: float
+    strongest: float
+    opening: float
+
+    @property
+    def distance(self) -> float:
+        """Distance of the hand from the cup, m."""
+        return math.dist(self.hand, self.cup)
+
+
+def reports(run: RobotRecord, kind: type[E], start: float, end: float) -> Sequence[E]:
+    """Return the simulator's reports of one kind from `start` to `end` (s); there must be some from end to end."""
+    found = run.all(kind)
+    times = [report.t for report in found]
+    if not times or times[0] > start + LONGEST_GAP or times[-1] < end - LONGEST_GAP:
+        raise unseen(run, f"nothing is known of hand and cup at {end:.1f} s")
+    first, last = bisect_left(times, start), bisect_right(times, end)
+    return found[first:last] or [found[max(0, last - 1)]]
+
+
+def cup_at(run: RobotRecord, t: float) -> ev.ObjectTruth:
+    """Return the cup at a time (s): the last report not later, or the first there is."""
+    return reports(run, ev.ObjectTruth, t, t)[-1]
+
+
+def grip_at(run: RobotRecord, t: float) -> Grip:
+    """Return hand and cup at a time (s)."""
+    return grips(run, t, t)[-1]
+
+
+def grips(run: RobotRecord, start: float, end: float) -> list[Grip]:
+    """Return hand and cup from `start` to `end` (s)."""
+    hands, cups = reports(run, ev.HandTruth, start, end), reports(run, ev.ObjectTruth, start, end)
+    times = [cup.t for cup in cups]
+    return [
+        Grip(
+            t=hand.t,
+            hand=hand.position,
+            cup=cups[min(bisect_left(times, hand.t), len(cups) - 1)].position,
+            force=min(hand.forces),
+            strongest=max(hand.forces),
+            opening=hand.opening,
+        )
+        for hand in hands
+    ]
+
+
+def around(seen: Sequence[Grip], start: float, end: float) -> Sequence[Grip]:
+    """Return those of some grips, in order of time, that are from `start` to `end` (s), or the last before."""
+    first = bisect_left(seen, start, key=_time)
+    last = bisect_right(seen, end, key=_time)
+    return seen[first:last] or seen[max(0, last - 1) : max(1, last)]
+
+
+def _time(grip: Grip) -> float:
+    return grip.t
+
+
+def carried(goal: Goal, until: float) -> list[Grip]:
+    """Return hand and cup while the cup was off the table, from the goal's acceptance to `until` (s)."""
+    height = max(cup_at(goal.run, goal.accepted_at).position[2], place_of(goal)[2]) + LIFTED
+    return [grip for grip in grips(goal.run, goal.accepted_at, until) if grip.cup[2] > height]
+
+
+def taken_from(goal: Goal) -> tuple[float, float, float]:
+    """Return where the cup stood when the goal was sent, m in odom."""
+    return as_tuple(cup_at(goal.run, goal.sent.t).position)
+
+
+def place_of(goal: Goal) -> tuple[float, float, float]:
+    """Return where the cup shall stand, m in odom."""
+    return as_tuple(goal.request.place_pose.pose.position)
+
+
+def as_tuple(position: Sequence[float] | Point) -> tuple[float, float, float]:
+    """Return (x, y, z) of a position."""
+    if isinstance(position, Point):
+        return position.x, position.y, position.z
+    x, y, z = position
+    return x, y, z

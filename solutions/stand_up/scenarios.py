@@ -1,0 +1,369 @@
+"""What is done to a server that stands the robot up. No expected answers here: this runs in the arena."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Sequence
+
+from geometry_msgs.msg import Twist, WrenchStamped
+from nav_msgs.msg import Odometry
+from rclpy.clock import Clock
+
+from autograder.arena.heard_topic import HeardTopic
+from autograder.arena.stage import ActionClient, Goal, Stage
+from humanoid_interfaces.action import StandUp
+from humanoid_interfaces.msg import RobotState
+
+SETTLING = 1.0  # s for the first messages of the robot to arrive
+AFTERWARDS = 1.5  # s after a result in which nothing more may be published
+WATCHING = 3.0  # s after a cancel or the time limit in which the pelvis must stay where it is
+SOON = 5.0  # s for a result that has to come at once
+LONGEST = 16.0  # s for any result
+BEGUN = 0.46  # m; a pelvis so high has begun to rise from the crouch at 0.45 m
+UNEVEN = 0.5  # of the larger load, at most; so the robot stands when somebody leans on it
+LEANING = 4.0  # s for the loads to become uneven
+
+
+def rise(stage: Stage) -> None:
+    """Stand up, and watch a little longer."""
+    goal = _open(stage).send_and_wait(as_="rise")
+    goal.wait_for_result(LONGEST)
+    stage.wait(AFTERWARDS)
+
+
+def rise_from(stage: Stage, height: float) -> None:
+    """Crouch to a height (m), and stand up from there."""
+    stand_up = _open(stage)
+    stage.robot.take_over((0.0, 0.0, 0.0))  # so that nothing comes between
+    stage.robot.move_body(-0.1)
+    stage.robot.wait_for(lambda robot: robot.z < height, SOON)
+    stage.robot.move_body(0.0)
+    stage.robot.give_back()
+    stage.robot.wait(SETTLING)
+    stand_up.send_and_wait(as_="rise").wait_for_result(LONGEST)
+
+
+def rise_twice(stage: Stage) -> None:
+    """Stand up, and ask for it again."""
+    stand_up = _open(stage)
+    stand_up.send_and_wait(as_="rise").wait_for_result(LONGEST)
+    stage.wait(SETTLING)
+    stand_up.send_and_wait(as_="again").wait_for_result(SOON)
+
+
+def ask_a_standing_robot(stage: Stage) -> None:
+    """Ask a robot that stands, and watch it."""
+    goal = _open(stage).send_and_wait(as_="standing")
+    goal.wait_for_result(SOON)
+    stage.wait(AFTERWARDS)
+
+
+def lean_on_before(stage: Stage, force: Sequence[float], duration: float) -> None:
+    """Lean on the robot (N in odom) for `duration` s, then ask."""
+    stand_up = _open(stage, with_feet=True)
+    _lean_on(stage, force, duration)
+    stand_up.send_and_wait(as_="rise").wait_for_result(LONGEST)
+
+
+def lean_on_under_way(stage: Stage, force: Sequence[float], duration: float) -> None:
+    """Lean on the robot (N in odom) for `duration` s as soon as it rises."""
+    goal = _open(stage, with_feet=True).send_and_wait(as_="rise")
+    stage.robot.wait_for(lambda robot: robot.z > BEGUN, SOON)
+    _lean_on(stage, force, duration)
+    goal.wait_for_result(LONGEST)
+
+
+def push(stage: Stage, impulse: Sequence[float], height: float) -> None:
+    """Push the rising robot (N·s in odom) when its pelvis is at a height (m)."""
+    goal = _open(stage).send_and_wait(as_="rise")
+    stage.robot.wait_for(lambda robot: robot.z > height, SOON)
+    stage.robot.push(impulse)
+    goal.wait_for_result(LONGEST)
+
+
+def cancel(stage: Stage, height: float) -> None:
+    """Cancel a goal when the pelvis is at a height (m), and watch it."""
+    _cancel(stage, _open(stage), height)
+    stage.wait(WATCHING)
+
+
+def cancel_and_rise_again(stage: Stage, height: float) -> None:
+    """Cancel a goal when the pelvis is at a height (m), then send another."""
+    stand_up = _open(stage)
+    _cancel(stage, stand_up, height)
+    stage.wait(SETTLING)
+    stand_up.send_and_wait(as_="again").wait_for_result(LONGEST)
+
+
+def cancel_while_it_shifts(stage: Stage, force: Sequence[float], duration: float) -> None:
+    """Lean on the robot (N in odom) for `duration` s, ask, and cancel while it is leaned on."""
+    stand_up = _open(stage, with_feet=True)
+    _lean_on(stage, force, duration)
+    goal = stand_up.send_and_wait(as_="rise")
+    stage.wait(0.8)
+    goal.cancel().wait()
+    goal.wait_for_result(SOON)
+    stage.wait(WATCHING)
+
+
+def ask_twice(stage: Stage) -> None:
+    """Send a second goal while the robot rises."""
+    stand_up = _open(stage)
+    first = stand_up.send_and_wait(as_="first")
+    stage.robot.wait_for(lambda robot: robot.z > BEGUN, SOON)
+    stand_up.send_and_wait(as_="second")
+    first.wait_for_result(LONGEST)
+
+
+def hold(stage: Stage) -> None:
+    """Keep the robot from rising until the goal has ended, then let it go and watch."""
+    stand_up = _open(stage)
+    stage.robot.take_over((0.0, 0.0, 0.0))
+    stage.robot.wait_for_commands()
+    stand_up.send_and_wait(as_="held").wait_for_result(LONGEST)
+    stage.robot.give_back()
+    stage.robot.wait_for_commands()
+    stage.wait(WATCHING)
+
+
+def fall(stage: Stage, impulse: Sequence[float]) -> None:
+    """Knock the rising robot over (N·s in odom)."""
+    goal = _open(stage).send_and_wait(as_="rise")
+    stage.robot.wait_for(lambda robot: robot.z > BEGUN, SOON)
+    stage.robot.knock_over(impulse)
+    goal.wait_for_result(SOON)
+
+
+def ask_a_fallen_robot(stage: Stage, impulse: Sequence[float]) -> None:
+    """Knock the robot over (N·s in odom), let it say so, and ask it to stand up."""
+    stand_up = _open(stage)
+    stage.robot.knock_over(impulse)
+    stage.wait(SETTLING)
+    stand_up.send_and_wait(as_="fallen").wait_for_result(SOON)
+
+
+def interrupt(stage: Stage) -> None:
+    """Press Ctrl-C while no goal is active."""
+    _open(stage)
+    stage.interrupt_node()
+
+
+# -- a robot that the scenario plays -----------------------------------------------------------------------------------
+
+
+def ask_before_anything_is_known(stage: Stage) -> None:
+    """Ask before any message of the robot, and again when a played one crouches."""
+    robot = _PlayedRobot(stage, 0.45)
+    stand_up = _open(stage)
+    stand_up.send_and_wait(as_="before")
+    with robot:
+        stage.wait(2 * SETTLING)
+        stand_up.send_and_wait(as_="after")
+
+
+def sway_before(stage: Stage, light: float, period: float, swings: int) -> None:
+    """Play a robot whose weight swings from foot to foot, then rests between them.
+
+    Args:
+        stage: the stage.
+        light: what the lighter foot carries at the ends of a swing, as a share of the other's load.
+        period: of a swing, s; a third of it the loads are even.
+        swings: from side to side.
+    """
+    with _PlayedRobot(stage, 0.45) as robot:
+        stand_up = _open(stage)
+        robot.change(share=light)
+        stage.wait(period)
+        goal = stand_up.send_and_wait(as_="rise")
+        for swing in range(swings):
+            robot.change(share=1.0)
+            stage.wait(period / 3)
+            robot.change(share=1.0 / light if swing % 2 else light)
+            stage.wait(2 * period / 3)
+        robot.change("even", share=1.0)
+        robot.live_until_the_end(goal)
+
+
+def step_aside_at_the_top(stage: Stage, light: float, duration: float) -> None:
+    """Play a robot that has risen, puts its weight on one foot for `duration` s, and then back between both."""
+    with _PlayedRobot(stage, 0.48) as robot:
+        goal = _open(stage).send_and_wait(as_="rise")
+        stage.poll_until(lambda: robot.z >= TOP, SOON)
+        stage.wait(0.2)
+        robot.change("uneven", share=light)
+        stage.wait(duration)
+        robot.change("even", share=1.0)
+        robot.live_until_the_end(goal)
+
+
+def be_restless(stage: Stage, speed: float, tilt: float, calm: float, duration: float) -> None:
+    """Play a robot that has risen, and is not calm for `duration` s.
+
+    Args:
+        stage: the stage.
+        speed: with which the pelvis glides and bobs, m/s.
+        tilt: of the pelvis, rad.
+        calm: how long it stands still and upright before each unrest of 0.3 s; 0: never.
+        duration: of all that, s.
+    """
+    with _PlayedRobot(stage, 0.48) as robot:
+        goal = _open(stage).send_and_wait(as_="rise")
+        stage.poll_until(lambda: robot.z >= NEAR_THE_TOP, SOON)
+        robot.change("restless", speed=speed, tilt=tilt)
+        if not calm:
+            stage.wait(duration)
+        for _ in range(round(duration / (calm + 0.3)) if calm else 0):
+            robot.change(speed=speed, tilt=tilt)
+            stage.wait(0.3)
+            robot.change(speed=0.0, tilt=0.0)
+            stage.wait(calm)
+        robot.change("calm", speed=0.0, tilt=0.0)
+        robot.live_until_the_end(goal)
+
+
+def never_get_up(stage: Stage, even: float, uneven: float, times: int) -> None:
+    """Play a robot that is too weak to rise, and whose weight goes to one foot again and again, at last for good.
+
+    Args:
+        stage: the stage.
+        even: how long its weight rests on both feet, s.
+        uneven: how long it rests on one of them, s.
+        times: how often.
+    """
+    with _PlayedRobot(stage, 0.45, weak=True) as robot:
+        goal = _open(stage).send_and_wait(as_="rise")
+        for _ in range(times):
+            robot.change(share=1.0)
+            stage.wait(even)
+            robot.change(share=0.3)
+            stage.wait(uneven)
+        robot.change("uneven", share=0.3)
+        robot.live_until_the_end(goal)
+
+
+def _open(stage: Stage, *, with_feet: bool = False) -> ActionClient:
+    """Open the stage; `with_feet`: record what each foot carries."""
+    stand_up = stage.action("stand_up", StandUp)
+    stage.open()
+    if with_feet:
+        stage.robot.report_feet()
+        stage.robot.wait_for_commands()
+    stage.wait(SETTLING)
+    return stand_up
+
+
+def _lean_on(stage: Stage, force: Sequence[float], duration: float) -> None:
+    """Lean on the robot, and wait until one foot carries much more than the other."""
+    stage.robot.lean_on(force, duration)
+    stage.robot.wait_for_feet(lambda left, right: min(left, right) < UNEVEN * max(left, right), LEANING)
+
+
+def _cancel(stage: Stage, stand_up: ActionClient, height: float) -> None:
+    goal = stand_up.send_and_wait(as_="canceled")
+    stage.robot.wait_for(lambda robot: robot.z > height, SOON)
+    goal.cancel().wait()
+    goal.wait_for_result(SOON)
+
+
+PERIOD = 0.05  # s between two messages of the played robot
+WEIGHT = 372.0  # N
+NEAR_THE_TOP, TOP, STANCE = 0.575, 0.59, 0.60  # m
+HEEDED = 10  # periods, 0.5 s, for which a velocity holds
+BOB = 0.003  # m
+BOBBING = 6  # periods
+
+
+class _PlayedRobot:
+    """Publishes in a `with` block what a robot publishes that stands on both feet and rises as cmd_vel says.
+
+    Args:
+        stage: the stage.
+        height: of the pelvis at first, m.
+        weak: it does not rise, whatever it is told.
+
+    Attributes:
+        z: height of the pelvis, m.
+        share: what the right foot carries, as a share of the left foot's load.
+        speed: with which it glides ahead, m/s; it then bobs, too.
+        tilt: its pitch, rad.
+    """
+
+    def __init__(self, stage: Stage, height: float, *, weak: bool = False) -> None:
+        self.z, self.share, self.speed, self.tilt = height, 1.0, 0.0, 0.0
+        self._x, self._weak = 0.0, weak
+        self._stage = stage
+        self._state = stage.offer_topic("robot_state", RobotState, latched=True)
+        self._odom = stage.offer_topic("odom", Odometry)
+        self._feet = {side: stage.offer_topic(f"{side}_foot/wrench", WrenchStamped) for side in "lr"}
+        self._cmd_vel: HeardTopic = stage.listen("cmd_vel", Twist)
+        self._heard, self._silent, self._rounds = 0, 0, 0
+        self._then = time.monotonic()
+        self._changing = threading.Lock()
+        self._is_over = False
+
+    def __enter__(self) -> _PlayedRobot:
+        threading.Thread(target=self._live, daemon=True).start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        with self._changing:
+            self._is_over = True
+
+    def change(self, mark: str = "", **attributes: float) -> None:
+        """Set attributes between two rounds of messages, and name that moment for the checks."""
+        with self._changing:
+            for name, value in attributes.items():
+                setattr(self, name, value)
+            if mark:
+                self._stage.mark(mark)
+
+    def live_until_the_end(self, goal: Goal) -> None:
+        """Wait until a goal ends, if it was accepted."""
+        goal.wait_for_result(LONGEST)
+
+    def _live(self) -> None:
+        due = time.monotonic()
+        while True:
+            with self._changing:
+                if self._is_over:
+                    return
+                self._publish()
+            due = max(due + PERIOD, time.monotonic())
+            self._stage.wait(due - time.monotonic())
+
+    def _climb(self) -> float:
+        """Return how fast it rises now, m/s."""
+        heard, self._heard = self._heard, self._cmd_vel.messages
+        self._silent = 0 if self._heard > heard else self._silent + 1
+        if self._weak or self._cmd_vel.latest is None or self._silent > HEEDED:
+            return 0.0
+        rate = self._cmd_vel.latest.linear.z
+        is_there = self.z >= STANCE and rate > 0
+        return 0.0 if is_there or not math.isfinite(rate) else max(-0.15, min(0.15, rate))
+
+    def _publish(self) -> None:
+        now = time.monotonic()
+        passed, self._then = min(now - self._then, 2 * PERIOD), now
+        climb = self._climb()
+        self.z = min(STANCE, self.z + climb * passed)
+        self._x += self.speed * passed
+        self._rounds += 1
+        stamp = Clock().now().to_msg()
+        state = RobotState(mode=RobotState.STANDING, motors_enabled=True)
+        state.header.stamp = stamp
+        odom = Odometry(child_frame_id="base_link")
+        odom.header.frame_id, odom.header.stamp = "odom", stamp
+        position, orientation = odom.pose.pose.position, odom.pose.pose.orientation
+        position.x, position.z = self._x, self.z - (BOB if self.speed and self._rounds % BOBBING > 2 else 0.0)
+        orientation.y, orientation.w = math.sin(self.tilt / 2), math.cos(self.tilt / 2)
+        odom.twist.twist.linear.x, odom.twist.twist.linear.z = self.speed, climb
+        left = WEIGHT / (1.0 + self.share)
+        for side, load in (("l", left), ("r", WEIGHT - left)):
+            wrench = WrenchStamped()
+            wrench.header.frame_id, wrench.header.stamp = f"{side}_sole", stamp
+            wrench.wrench.force.z = load
+            self._feet[side].publish(wrench)
+        self._odom.publish(odom)
+        self._state.publish(state)

@@ -1,0 +1,99 @@
+"""An instructor marks an essay: formgrader in a browser, seven scores, a comment, and the student's page."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import psutil
+import pytest
+from playwright.sync_api import Page, sync_playwright
+
+from autograder.engine.essay import left_to_a_person, load_essay
+from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
+
+CHROMIUM = shutil.which("chromium")
+OFFLINE = ("--no-sandbox", "--disable-quic", "--disable-background-networking", "--disable-component-update")
+TIMEOUT = 90.0  # s, for each thing a busy machine has to do
+SOLUTIONS = Path(__file__).resolve().parents[3] / "solutions"
+NAME = "arm_architecture"
+ESSAY = load_essay(NAME)
+ENTRY = Entry(
+    left_to_a_person(ESSAY, "anna"), {f"{NAME}.txt": (SOLUTIONS / NAME / "marked/weak.txt").read_text()}
+)
+POINTS = {"graph": "0", "pattern": "1", "type": "0", "qos": "0", "rate": "1.5", "failure": "0", "safety": "0"}
+
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium to look with")
+
+
+@pytest.fixture(scope="module")
+def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A course folder in which one essay waits."""
+    folder = tmp_path_factory.mktemp("course") / "graded"
+    assert CourseGradebook(folder, SOLUTIONS).enter(ENTRY) is None
+    return folder
+
+
+@pytest.fixture(scope="module")
+def address(course: Path) -> Iterator[str]:
+    """Where Jupyter serves that folder, started as `course grade` says."""
+    options = ["--no-browser", "--allow-root", "--ServerApp.port=0", "--IdentityProvider.token="]
+    with subprocess.Popen(
+        [sys.executable, "-m", "jupyter", "lab", *options],
+        cwd=course,
+        env={**os.environ, "JUPYTER_CONFIG_DIR": str(course / "jupyter"), "HOME": str(course)},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as server:
+        assert server.stderr
+        line = next(line for line in server.stderr if "http://127.0.0.1" in line)
+        yield line[line.index("http://") :].strip().partition("/lab")[0]
+        started = psutil.Process(server.pid).children(recursive=True)
+        server.terminate()
+        server.communicate(timeout=TIMEOUT)
+        psutil.wait_procs(started, timeout=TIMEOUT)
+
+
+@pytest.fixture
+def page(address: str) -> Iterator[Page]:
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OFFLINE)
+        page = browser.new_page(viewport={"width": 1200, "height": 1000})
+        page.set_default_timeout(1000 * TIMEOUT)
+        yield page
+        browser.close()
+
+
+def test_an_essay_is_opened_marked_and_given_back(page: Page, address: str, course: Path) -> None:
+    page.goto(f"{address}/formgrader/gradebook/{NAME}/{NAME}")
+    page.get_by_role("link", name="Submission #1").click()
+
+    page.get_by_text("arm_interfaces/action/EmergencyStop").first.wait_for()  # the work
+    drawing = page.locator('img[src^="data:image/svg+xml"]')
+    drawing.wait_for()
+    assert drawing.evaluate("image => image.naturalWidth") > 500
+    for criterion in ESSAY.criteria:
+        box = page.locator(f"input#{criterion.id}.needs_manual_grade")
+        box.wait_for()
+        assert box.input_value() == ""
+        box.fill(POINTS[criterion.id])
+        with page.expect_response(lambda answer: "/api/grade/" in answer.url and answer.ok):
+            box.dispatch_event("change")
+    comment = page.locator("textarea#safety-comment")
+    comment.fill("What if the screen hangs?")
+    with page.expect_response(lambda answer: "/api/comment/" in answer.url and answer.ok):
+        comment.dispatch_event("change")
+    assert page.locator("input.needs_manual_grade").count() == 0
+
+    gradebook = CourseGradebook(course, SOLUTIONS)  # as `course grade` does when it is run again
+    feedback = gradebook.enter(ENTRY)
+    assert gradebook.as_marked(ENTRY.grade).score == 2.5
+    assert feedback
+    page.goto(feedback.as_uri())
+    page.get_by_text("(Score: 2.5 / 20.0)").wait_for()
+    page.get_by_text("What if the screen hangs?").wait_for()

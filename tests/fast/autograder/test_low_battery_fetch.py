@@ -1,0 +1,161 @@
+"""How a fetch is judged by its children, on records made by hand: a sound server and its near misses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import pytest
+from action_msgs.msg import GoalStatus
+from sensor_msgs.msg import BatteryState
+
+from autograder.authoring import events as ev
+from autograder.authoring.checks import CannotBeJudged, Failure
+from autograder.authoring.transcript import Transcript
+from autograder.engine.exercise import load_exercise
+from humanoid_interfaces.action import NavigateToPose, PickAndPlace
+
+CHECKS = {check.id: check for check in load_exercise("low_battery_fetch", hidden=True).checks}
+SERVERS = {"navigate_to_pose": "server 1", "pick_and_place": "server 2"}
+SUCCEEDED, CANCELED = GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_CANCELED
+ABORTED = GoalStatus.STATUS_ABORTED
+TABLE, TRAY, HOME, PLACE = (1.2, 0.0, 0.0), (1.45, 0.0, 0.72), (0.0, 0.0, 0.0), (0.4, -0.1, 0.75)
+STARTED = [ev.NodeStarted(t=0.0), ev.NodeReady(t=0.5, waited=0.5)]
+OVER = [ev.ScenarioEnded(t=60.0)]
+
+
+def put(message: Any, place: Sequence[float]) -> Any:
+    pose = message.pose if isinstance(message, NavigateToPose.Goal) else message.place_pose
+    pose.header.frame_id = "odom"
+    pose.pose.position.x, pose.pose.position.y, pose.pose.position.z = place
+    pose.pose.orientation.w = 1.0
+    return message
+
+
+def fetch(sent: float, ended: float, status: int, message: str = "") -> list[Any]:
+    result = PickAndPlace.Result(error_msg=message)
+    return [
+        ev.GoalSent(t=sent, goal="fetch", action="fetch", request=arm(PLACE)),
+        ev.GoalAnswered(t=sent + 0.1, goal="fetch", accepted=True),
+        ev.ResultReceived(t=ended, goal="fetch", status=status, result=result),
+    ]
+
+
+def walk(place: Sequence[float]) -> Any:
+    return put(NavigateToPose.Goal(), place)
+
+
+def arm(place: Sequence[float]) -> Any:
+    return put(PickAndPlace.Goal(object_id="cup", grasp_force=12.0), place)
+
+
+def child(number: int, message: Any, sent: float, ended: float | None, status: int = SUCCEEDED) -> list[Any]:
+    action = "navigate_to_pose" if isinstance(message, NavigateToPose.Goal) else "pick_and_place"
+    name = f"goal {number}"
+    events = [
+        ev.GoalReceived(t=sent, goal=name, action=action, server=SERVERS[action], message=message),
+        ev.GoalReplySent(t=sent + 0.05, goal=name, accepted=True),
+    ]
+    if ended is not None:
+        result = NavigateToPose.Result() if action == "navigate_to_pose" else PickAndPlace.Result()
+        events += [
+            ev.GoalFinished(t=ended, goal=name, status=status, result=result),
+            ev.ResultSent(t=ended, goal=name),
+        ]
+    return events
+
+
+def cancel(t: float, number: int = 1, action: str = "navigate_to_pose") -> list[Any]:
+    name, goal = f"cancel of {number}", f"goal {number}"
+    return [
+        ev.CancelReceived(t=t, cancel=name, action=action, server=SERVERS[action], goal=goal),
+        ev.CancelReplySent(t=t, cancel=name, return_code=0, canceling=[goal]),
+    ]
+
+
+def canceled_fetch(t: float) -> list[Any]:
+    return [
+        ev.CancelSent(t=t, cancel="cancel 1", goal="fetch", by="client"),
+        ev.CancelAnswered(t=t + 0.1, cancel="cancel 1", return_code=0, canceling=["fetch"]),
+    ]
+
+
+def drop(t: float, level: float = 0.17, subscriptions: int = 1) -> list[Any]:
+    message = BatteryState(percentage=level)
+    return [ev.MessagePublished(t=t, topic="battery_state", message=message, subscriptions=subscriptions)]
+
+
+def judge(check: str, *parts: list[Any]) -> None:
+    events = [event for part in (STARTED, *parts, OVER) for event in part]
+    CHECKS[check].run([Transcript.from_events("fetch", {}, events)])
+
+
+def failure(check: str, *parts: list[Any]) -> Failure:
+    with pytest.raises(Failure) as caught:
+        judge(check, *parts)
+    return caught.value
+
+
+FOUR = [
+    child(1, walk(TABLE), 1.2, 3.2),
+    child(2, arm(TRAY), 3.3, 5.3),
+    child(3, walk(HOME), 5.4, 7.4),
+    child(4, arm(PLACE), 7.5, 9.5),
+]
+GAVE_UP = [drop(2.0), cancel(2.1), child(1, walk(TABLE), 1.2, 3.1, CANCELED), child(2, walk(HOME), 3.2, 5.2)]
+
+
+def test_four_children_in_order_are_a_fetch() -> None:
+    judge("fetches", fetch(1.0, 9.6, SUCCEEDED), *FOUR)
+
+
+def test_an_end_before_that_of_the_last_child_leaves_it_at_work() -> None:
+    assert "still at work" in failure("fetches", fetch(1.0, 9.0, SUCCEEDED), *FOUR).observed
+
+
+def test_two_children_at_once_are_no_fetch() -> None:
+    early = [*FOUR[:2], child(3, walk(HOME), 5.0, 7.4), FOUR[3]]
+    assert (
+        "while pick_and_place was at work" in failure("fetches", fetch(1.0, 9.6, SUCCEEDED), *early).observed
+    )
+
+
+def test_giving_up_before_the_grasp() -> None:
+    judge("gives_up_before_the_grasp", fetch(1.0, 5.3, ABORTED, "the battery is low"), *GAVE_UP)
+
+
+@pytest.mark.parametrize(
+    ("parts", "observed"),
+    [
+        ([fetch(1.0, 5.3, ABORTED, "too tired"), *GAVE_UP], "error_msg: 'too tired'"),
+        ([fetch(1.0, 5.0, ABORTED, "battery"), *GAVE_UP], "still at work"),
+        ([fetch(1.0, 3.3, ABORTED, "battery"), *GAVE_UP[:3]], "none; fetch ended ABORTED"),
+        (
+            [fetch(1.0, 5.3, ABORTED, "battery"), *GAVE_UP[:3], child(2, walk(HOME), 2.9, 5.2)],
+            "while navigate_to_pose",
+        ),
+        ([fetch(1.0, 5.3, ABORTED, "battery"), *GAVE_UP, cancel(3.5, 2)], "a request to cancel it"),
+        ([fetch(1.0, 5.3, ABORTED, "battery"), drop(2.0, subscriptions=0), *GAVE_UP[1:]], "none"),
+    ],
+    ids=["no reason", "too early", "not home", "home too early", "home is canceled", "no subscription"],
+)
+def test_near_misses_of_giving_up(parts: list[list[Any]], observed: str) -> None:
+    assert observed in failure("gives_up_before_the_grasp", *parts).observed
+
+
+def test_a_battery_that_never_dropped_proves_nothing() -> None:
+    with pytest.raises(CannotBeJudged):
+        judge("gives_up_before_the_grasp", fetch(1.0, 5.3, ABORTED)[:2], *GAVE_UP[1:])
+
+
+def test_a_fetch_that_ends_before_the_battery_drops_was_not_under_way() -> None:
+    early = failure("gives_up_before_the_grasp", fetch(1.0, 2.5, SUCCEEDED), child(1, walk(TABLE), 1.2, 3.1))
+    assert "ended SUCCEEDED before that" in early.observed
+
+
+def test_a_cancel_goes_down_and_the_child_ends_first() -> None:
+    asked, at_work = [canceled_fetch(2.0), cancel(2.1)], child(1, walk(TABLE), 1.2, 3.6, CANCELED)
+    judge("cancel_goes_down", fetch(1.0, 3.7, CANCELED), *asked, at_work)
+    assert "still at work" in failure("cancel_goes_down", fetch(1.0, 2.3, CANCELED), *asked, at_work).observed
+    left = [canceled_fetch(2.0), child(1, walk(TABLE), 1.2, None)]
+    assert failure("cancel_goes_down", fetch(1.0, 2.3, CANCELED), *left).observed == "none"

@@ -1,0 +1,76 @@
+"""A notebook draws a design, and asks for what is missing, without judging it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import lab
+from lab import design as module
+
+HALF = """
+camera -> finder : topic sensor_msgs/msg/Image
+    qos: best effort
+    rate: 15 Hz
+"""
+WHOLE = HALF + "    failure: after 0.5 s it says so\n    safety: it moves nothing\n"
+
+
+@pytest.fixture
+def kept(monkeypatch: pytest.MonkeyPatch) -> list[tuple]:
+    """What is kept for the page of progress."""
+    made: list[tuple] = []
+    monkeypatch.setattr(module, "keep_check", lambda *check: made.append(check))
+    return made
+
+
+def written(folder: Path, text: str) -> Path:
+    file = folder / "arm.txt"
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def test_what_is_missing_is_printed_link_by_link(
+    tmp_path: Path, capsys: pytest.CaptureFixture, kept: list[tuple]
+) -> None:
+    lab.check_design(written(tmp_path, HALF), links=2)
+    assert capsys.readouterr().out.splitlines()[1:] == [
+        "  camera -> finder: failure is missing",
+        "  camera -> finder: safety is missing",
+        "  the task asks for at least 2 links",
+    ]
+    assert kept == [("arm", 4, 12)]
+
+
+def test_all_six_facts_are_no_judgement(
+    tmp_path: Path, capsys: pytest.CaptureFixture, kept: list[tuple]
+) -> None:
+    lab.check_design(written(tmp_path, WHOLE))
+    printed = capsys.readouterr().out
+    assert "2 nodes, 1 link\n" in printed
+    assert "Whether they are right, a person decides." in printed
+    assert kept == [("arm", 6, 6)]
+
+
+def test_a_design_is_drawn(tmp_path: Path) -> None:
+    html = lab.draw_design(written(tmp_path, WHOLE), title="One link").data
+    assert "<title>One link</title>" in html
+    assert "camera -&gt; finder: topic sensor_msgs/msg/Image." in html
+
+
+def test_a_file_that_is_not_there_yet_is_told_how_to_be_made(tmp_path: Path) -> None:
+    with pytest.raises(lab.LabError, match=r"run the cell that begins %%writefile arm\.txt"):
+        lab.draw_design(tmp_path / "arm.txt")
+
+
+def test_a_file_without_a_link_is_shown_one(tmp_path: Path) -> None:
+    with pytest.raises(lab.LabError, match="has no link yet; a link begins with"):
+        lab.draw_design(written(tmp_path, "# YOUR CODE HERE\n"))
+
+
+def test_a_file_that_is_no_text_is_an_error_of_the_lab(tmp_path: Path) -> None:
+    file = tmp_path / "arm.txt"
+    file.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(lab.LabError, match="cannot be read"):
+        lab.check_design(file)

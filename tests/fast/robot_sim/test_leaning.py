@@ -1,0 +1,70 @@
+"""A scenario leans on the robot, lowers it, and asks what its feet carry."""
+
+from __future__ import annotations
+
+import json
+import os
+
+import pytest
+
+from bench.robot.trial import simulate
+from robot_sim.humanoid import Humanoid
+from robot_sim.ros.ground_truth import GroundTruthWriter
+from robot_sim.ros.scenario_control import apply_command
+from robot_sim.state import Mode
+
+CROUCH, STANCE = 0.45, 0.60  # m
+FORCE = 20.0  # N
+
+
+def loads(humanoid: Humanoid) -> list[dict]:
+    """What the ground truth tells of the feet, once asked and then with the robot's state."""
+    read_end, write_end = os.pipe()
+    truth = GroundTruthWriter(write_end)
+    truth.robot(humanoid, 0.0)
+    apply_command({"do": "report_feet"}, humanoid, None, truth)
+    truth.robot(humanoid, 0.0)
+    os.close(write_end)
+    with os.fdopen(read_end) as pipe:
+        told = [json.loads(line) for line in pipe]
+    assert [line["kind"] for line in told] == ["robot_truth", "feet_truth", "robot_truth", "feet_truth"]
+    return [line for line in told if line["kind"] == "feet_truth"]
+
+
+def test_the_feet_that_were_asked_about_are_told_with_each_state_of_the_robot() -> None:
+    humanoid = Humanoid()
+    simulate(humanoid, 1.0)
+    for sample in loads(humanoid):
+        assert sample["left"] == pytest.approx(186, abs=4)
+        assert sample["right"] == pytest.approx(186, abs=4)
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+@pytest.mark.parametrize("height", [CROUCH, STANCE])
+def test_a_robot_that_is_leaned_on_stands_on_both_feet_unevenly_until_it_is_let_go(
+    side: int, height: float
+) -> None:
+    humanoid = Humanoid()
+    humanoid.reset(height=height)
+    simulate(humanoid, 1.0)
+    apply_command({"do": "push", "impulse": [0.0, 3 * side * FORCE, 0.0], "duration": 3.0}, humanoid, None)
+    simulate(humanoid, 0.3)
+    for _ in range(25):
+        sample = loads(humanoid)[0]
+        heavy, light = (sample["left"], sample["right"])[::side]
+        assert 20 < light < 0.4 * heavy
+        assert humanoid.mode is Mode.STANDING
+        simulate(humanoid, 0.1)
+    simulate(humanoid, 1.0)
+    sample = loads(humanoid)[0]
+    assert sample["left"] == pytest.approx(sample["right"], rel=0.1)
+    assert (humanoid.mode, humanoid.steps) == (Mode.STANDING, 0)
+
+
+def test_a_scenario_lowers_the_robot_until_told_otherwise() -> None:
+    humanoid = Humanoid()
+    apply_command({"do": "move_body", "rate": -0.1}, humanoid, None)
+    assert simulate(humanoid, 2.0, until=lambda: humanoid.base_pose().position[2] < 0.53)
+    apply_command({"do": "move_body", "rate": 0.0}, humanoid, None)
+    simulate(humanoid, 1.0)
+    assert humanoid.base_pose().position[2] == pytest.approx(0.52, abs=0.015)

@@ -1,0 +1,258 @@
+"""Chapter 9 shows what it says."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+import pytest
+from execution import Executed, in_order, number, numbers
+from gap_trials import GapTrials
+
+CHAPTER = "09_arms"
+
+
+@pytest.fixture
+def chapter(executed: Callable[[str], Executed]) -> Executed:
+    return executed(CHAPTER)
+
+
+def test_the_message_and_the_limits_are_shown(chapter: Executed) -> None:
+    assert in_order(chapter.text("message"), "joint_names", "points", "positions", "time_from_start", "3.0")
+
+
+def test_velocities_of_0_are_a_stop_and_no_velocities_are_none(chapter: Executed) -> None:
+    printed = chapter.text("velocities-run")
+    stop, through, straight = (
+        number(rf"{name} +(-[\d.]+) rad/s", printed)
+        for name in ("velocities 0", "-0.5, then 0", "no velocities")
+    )
+    assert stop > -0.2
+    assert -0.43 < straight < -0.24
+    assert -0.65 < through < straight - 0.05
+    assert in_order(chapter.html("velocities-plot"), "velocities 0:", "no velocities:")
+
+
+def test_a_trajectory_for_the_other_arm_stops_this_one(chapter: Executed) -> None:
+    assert -1.4 < number(r"left elbow: (-[\d.]+) rad", chapter.text("replace-run")) < -1.1
+    assert in_order(chapter.html("replace-run"), "l_elbow in rad", "r_elbow in rad", "the right elbow")
+
+
+def test_a_replaced_motion_turns_round_and_an_empty_trajectory_holds(chapter: Executed) -> None:
+    words = chapter.html("brake-run")
+    assert in_order(words, "replaced: back", "empty")
+    lowest = number(r"lowest (-[\d.]+) at", words)
+    at = number(r"lowest -[\d.]+ at ([\d.]+) s", words)
+    assert at > number(r"([\d.]+) s: replaced: back", words)
+    assert lowest < -1.25
+    assert -1.2 < number(r"(-[\d.]+) at last", words) < -0.6
+
+
+def test_nobody_says_that_a_trajectory_was_ignored_or_bent(chapter: Executed) -> None:
+    assert -0.05 < number(r"measured (-[\d.]+) rad", chapter.text("silent-run")) < 0.0
+
+
+def test_the_action_has_the_codes(chapter: Executed) -> None:
+    printed = chapter.text("move-arm")
+    assert in_order(printed, "PATH_TOLERANCE_VIOLATED=2", "GOAL_TOLERANCE_VIOLATED=3", "float64 max_error")
+
+
+def test_the_clock_succeeds_beside_the_goal(chapter: Executed) -> None:
+    printed = chapter.text("clock-run")
+    assert "end: SUCCEEDED" in printed
+    assert number(r"elbow: (-[\d.]+) rad", printed) > -1.2
+
+
+def test_two_tolerances_find_two_faults(chapter: Executed) -> None:
+    free, early, late = chapter.text("bend-run").splitlines()
+    assert in_order(free, "held at None: SUCCEEDED", "error_code 0")
+    assert in_order(early, "held at -0.9: ABORTED", "error_code 2", "l_elbow is 0.5", "off its trajectory")
+    assert in_order(late, "held at -1.7: ABORTED", "error_code 3", "from its last point")
+    assert 0.06 < number(r"l_elbow is ([\d.]+) rad", late) < 0.4
+    for cell in ("bend-run", "bend-late-plot"):
+        assert in_order(chapter.html(cell), "Dashed beside l_elbow: trajectory", "held", "result: ABORTED")
+
+
+def test_an_aborted_arm_jumps_when_it_is_let_go_unless_it_was_told_to_hold(chapter: Executed) -> None:
+    pattern = r"let go at (-[\d.]+) rad, it went to (-[\d.]+) rad"
+    for cell, least, most in (("release-run", 0.8, 1.2), ("release-fix-run", 0.3, 0.65)):
+        printed = chapter.text(cell)
+        assert "end: ABORTED" in printed
+        found = re.search(pattern, printed)
+        assert found, printed
+        assert least < float(found[1]) - float(found[2]) < most
+        assert in_order(chapter.html(cell), "result: ABORTED", "let go")
+
+
+def test_the_cup_is_seen_and_what_is_too_far_is_refused(chapter: Executed) -> None:
+    assert in_order(chapter.text("cup-look"), "x: 0.3", "error_code=-31", "too short")
+    assert "around the cup: True" in chapter.text("reach")
+    assert number(r"hand to cup: (\d+) mm", chapter.text("reach")) < 15
+
+
+def test_the_force_is_what_the_opening_lacks(chapter: Executed) -> None:
+    forces = dict(re.findall(r"asked for (\d) cm: +([\d.]+) N", chapter.text("force-run")))
+    assert float(forces["7"]) == 0.0
+    for opening in "543":
+        expected = 400 * (0.06 - int(opening) / 100)
+        assert abs(float(forces[opening]) - expected) < 0.25 * expected + 0.5, forces
+
+
+def test_a_weak_grip_slips_and_a_firm_one_lifts(chapter: Executed) -> None:
+    weak, firm = chapter.text("slip-run"), chapter.text("firm-run")
+    assert number(r"pressed with ([\d.]+) N", weak) < 0.9
+    assert number(r"the cup is (-?[\d.]+) cm", weak) < 1.0
+    assert 5.5 < number(r"pressed with ([\d.]+) N", firm) < 8.5
+    assert number(r"the cup is (-?[\d.]+) cm", firm) > 8.0
+    for cell in ("slip-run", "firm-run"):
+        assert in_order(chapter.html(cell), "grip in N:", "cup height in m:", "squeeze", "lift")
+
+
+def test_a_grip_that_becomes_weaker_loses_the_cup_where_friction_ends(chapter: Executed) -> None:
+    held = number(r"held with ([\d.]+) N", chapter.text("loosen-run"))
+    asked = number(r"asked for ([\d.]+) N", chapter.text("loosen-run"))
+    assert asked < 1.2
+    assert 0.8 < held < 1.3
+    assert in_order(chapter.html("loosen-run"), "grip in N:", "0.00 at last", "cup height in m:")
+
+
+def test_a_cancel_that_opens_the_hand_drops_the_cup(chapter: Executed) -> None:
+    printed = chapter.text("lift-run")
+    assert "end: CANCELED" in printed
+    assert number(r"fell by up to ([\d.]+) cm", printed) > 4.0
+    assert in_order(
+        chapter.html("lift-run"), "grip in N", "cup height in m", "cancel accepted", "result: CANCELED"
+    )
+    assert "The robot and the cup for" in chapter.html("lift-film")
+
+
+def test_a_cancel_that_puts_the_cup_down_does_not(chapter: Executed) -> None:
+    printed = chapter.text("careful-run")
+    assert "end: CANCELED" in printed
+    assert abs(number(r"the cup is (-?[\d.]+) cm", printed)) < 0.5
+    assert number(r"fell by up to ([\d.]+) cm", printed) < 2.5
+    words = chapter.html("careful-run")
+    took = number(r"([\d.]+) s: result: CANCELED", words) - number(r"([\d.]+) s: cancel requested", words)
+    assert 1.0 < took < 3.5
+    assert in_order(chapter.html("careful-draw"), "<title>A cancel while the hand holds a cup", "CANCELED")
+
+
+def test_the_clock_does_not_stand_up(chapter: Executed) -> None:
+    printed = chapter.text("rise-run")
+    assert "end: SUCCEEDED" in printed
+    assert 0.50 < number(r"height: ([\d.]+) m", printed) < 0.57
+
+
+def test_the_pushed_robot_is_still_for_a_moment_before_it_is_at_rest(chapter: Executed) -> None:
+    spells = re.findall(r"(still|moves) for ([\d.]+) s", chapter.text("still-run"))
+    assert [name for name, _ in spells] == ["moves", "still", "moves", "still"]
+    assert float(spells[1][1]) < 0.3
+    assert float(spells[3][1]) > 1.0
+    left, right = numbers(r"([\d.]+)", chapter.text("feet"))
+    assert abs(left - right) < 0.1 * left
+
+
+def test_phases_end_by_measurement(chapter: Executed) -> None:
+    printed = chapter.text("phases-run")
+    assert "end: SUCCEEDED | phases: rising settling" in printed
+    assert number(r"height: ([\d.]+) m", printed) >= 0.59
+    assert in_order(chapter.html("phases-run"), "rising", "settling", "result: SUCCEEDED")
+
+
+PATH = "if error > PATH_TOLERANCE:\n    return OFF_PATH\n"
+LEFT = "if left > 0:\n    return GO_ON\n"
+THERE = "if error <= GOAL_TOLERANCE:\n    return THERE\n"
+LATE = "return MISSED if left < -PATIENCE else GO_ON"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (f"{PATH}{THERE}{LATE}", "ask whether `left` is over"),
+        (f"{LEFT}{PATH}{THERE}{LATE}", "ends the goal on the way, too"),
+        (f"if error > GOAL_TOLERANCE:\n    return OFF_PATH\n{LEFT}return THERE", "counts only at the end"),
+        (f"{PATH}{LEFT}{THERE}return MISSED", "PATIENCE seconds more"),
+        (f"{PATH}{LEFT}if left < -PATIENCE:\n    return MISSED\n{THERE}return GO_ON", "before MISSED"),
+        (f"{PATH}{LEFT}{THERE}return GO_ON", "PATIENCE is over"),
+        (f"{LEFT}{THERE}{PATH}{LATE}", "ends the goal on the way, too"),
+        (f"{PATH}{LEFT}{THERE}", "end each path with `return`"),
+        (f"{PATH}{LEFT}{THERE}return MISSED if late else GO_ON", "NameError"),
+    ],
+)
+def test_the_gap_of_the_tolerances_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("tolerances.py", lines)
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (
+            "hand.open()\nhand.lower()\ngoal_handle.canceled()\nreturn result",
+            "lower the hand before you open it",
+        ),
+        ("hand.open()\ngoal_handle.canceled()\nreturn result", "call hand.lower() first"),
+        ("hand.lower()\nhand.open()\ngoal_handle.canceled()\nreturn result", "if hand.lower():"),
+        ("hand.lower()\ngoal_handle.canceled()\nreturn result", "call hand.open()"),
+        (
+            "goal_handle.canceled()\nif hand.lower():\n    hand.open()\nreturn result",
+            "CANCELED says that the robot is safe",
+        ),
+        ("if hand.lower():\n    hand.open()\nreturn result", "without it rclpy aborts the goal"),
+        ("if hand.lower():\n    hand.open()\ngoal_handle.abort()\nreturn result", "and with no other call"),
+        (
+            "if hand.lower():\n    hand.open()\n    goal_handle.canceled()\nreturn result",
+            "without it rclpy aborts",
+        ),
+        ("if hand.lower():\n    hand.open()\ngoal_handle.canceled()", "end with `return result`"),
+        ("if self.hand.lower():\n    hand.open()\ngoal_handle.canceled()\nreturn result", "NameError"),
+    ],
+)
+def test_the_gap_of_the_cancel_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("put_down.py", lines)
+
+
+FORGET = "if not is_so:\n    self.since = None\n    return False\n"
+BEGIN = "if self.since is None:\n    self.since = now\n"
+LASTS = "return now - self.since >= self.seconds"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ("return is_so", "it has only just begun"),
+        (f"if not is_so:\n    return False\n{BEGIN}{LASTS}", "a break sets self.since back to None"),
+        (f"{FORGET}if not self.since:\n    self.since = now\n{LASTS}", "ask `self.since is None`"),
+        (f"{FORGET}self.since = now\n{LASTS}", "it is so for 0.55 s"),
+        (f"{FORGET}{BEGIN}return now - self.since >= 0.5", "compare with self.seconds"),
+        (f"{FORGET}{BEGIN}return now - Steady.since >= self.seconds", "AttributeError"),
+        (
+            f"{FORGET}{BEGIN}if now - self.since >= self.seconds:\n    return True",
+            "end each path with `return`",
+        ),
+    ],
+)
+def test_the_gap_of_the_lasting_condition_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("steady.py", lines)
+
+
+@pytest.mark.parametrize(
+    ("file", "lines"),
+    [
+        (
+            "tolerances.py",
+            "if error > PATH_TOLERANCE:\n    return OFF_PATH\nif left <= 0 and error <= GOAL_TOLERANCE:\n"
+            "    return THERE\nif left + PATIENCE < 0:\n    return MISSED\nreturn GO_ON",
+        ),
+        (
+            "put_down.py",
+            "stands = hand.lower()\nif stands is True:\n    hand.open()\ngoal_handle.canceled()\nreturn result",
+        ),
+        (
+            "steady.py",
+            "if not is_so or self.since is None:\n    self.since = now\n"
+            "return is_so and now - self.since >= self.seconds",
+        ),
+    ],
+)
+def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+    assert f"✓ {file}" in gaps.accept(file, lines)

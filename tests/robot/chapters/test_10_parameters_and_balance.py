@@ -1,0 +1,240 @@
+"""Chapter 10 shows what it says."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+import pytest
+from execution import Executed, in_order, number
+from gap_trials import GapTrials
+
+CHAPTER = "10_parameters_and_balance"
+
+
+@pytest.fixture
+def chapter(executed: Callable[[str], Executed]) -> Executed:
+    return executed(CHAPTER)
+
+
+def test_gains_that_are_weaker_than_gravity_topple_the_robot(chapter: Executed) -> None:
+    assert 0.5 < number(r"fallen ([\d.]+) s after the push", chapter.text("weak-run")) < 20
+    drawn = chapter.html("weak-plot")
+    assert in_order(drawn, "pitch in rad", "push", "STANDING → FALLEN")
+    assert "The robot for" in chapter.html("weak-film")
+
+
+def test_a_parameter_is_listed_and_described(chapter: Executed) -> None:
+    printed = chapter.text("circle-run")
+    assert in_order(printed, "  speed", "  start_type_description_service", "  turn", "  use_sim_time")
+    assert in_order(
+        printed, "Parameter name: speed", "Type: double", "Description: m/s, ahead", "Min value: 0.0"
+    )
+    assert in_order(
+        printed, "Max value: 0.4", "Parameter name: turn", "Min value: -0.45", "Double value is: 0.0"
+    )
+
+
+def test_a_value_within_the_range_moves_the_robot_and_one_beyond_is_refused(chapter: Executed) -> None:
+    printed = chapter.text("walk-run")
+    assert printed.count("Set parameter successful") == 2
+    assert in_order(printed, "Setting parameter failed: Parameter speed out of range", "robot: WALKING")
+
+
+def test_an_integer_does_not_stop_the_robot_and_a_double_does(chapter: Executed) -> None:
+    assert in_order(
+        chapter.text("int-run"),
+        "Setting parameter failed: Wrong parameter type, expected 'Type.DOUBLE' got 'Type.INTEGER'",
+        "exit status 0",
+        "robot: WALKING",
+        "Set parameter successful",
+        "exit status 0",
+        "robot: STANDING",
+    )
+
+
+def test_the_textbooks_callback_is_one_set_late_and_a_refused_set_moves_the_robot(chapter: Executed) -> None:
+    first, second = re.findall(r"walks at ([+-][\d.]+)", chapter.text("book-run"))
+    assert chapter.text("book-run").count("Set parameter successful") == 2
+    assert abs(float(first)) < 0.03
+    assert float(second) > 0.1
+    printed = chapter.text("book-stop-run")
+    assert printed.count("Setting parameter failed") == 2
+    assert "failed:" not in printed  # it gives no reason
+    assert all(float(speed) < -0.1 for speed in re.findall(r"walks at ([+-][\d.]+)", printed))
+
+
+def test_a_rule_about_two_numbers_refuses_with_a_reason_and_the_last_radius_is_kept(
+    chapter: Executed,
+) -> None:
+    printed = chapter.text("guarded-run")
+    assert printed.count("Set parameter successful") == 2
+    assert in_order(
+        printed, "failed: 0.1 m/s is too slow", "failed: Parameter turn out of range", "value: nan"
+    )
+    assert in_order(printed, "Double value is: 0.2", "data: 0.5")
+
+
+def test_one_by_one_makes_a_third_circle_and_atomically_none_or_all(chapter: Executed) -> None:
+    assert chapter.text("atomic-start").endswith("radius: [0.5]\n")
+    one_by_one = chapter.text("atomic-run")
+    assert in_order(
+        one_by_one, "refused: 0.1 m/s is too slow for a turn of 0.45", "set\n", "radius: [0.5, 1.0]\n"
+    )
+    atomically = chapter.text("atomic-fix-run")
+    assert in_order(atomically, "set\n", "radius: [0.5, 1.0, 0.44]\n", "refused: Parameter turn out of range")
+    assert atomically.endswith("radius: [0.5, 1.0, 0.44]\n")
+
+
+def test_a_callback_registered_late_misses_the_values_from_the_start(chapter: Executed) -> None:
+    assert in_order(
+        chapter.text("late-run"),
+        "late.py runs",
+        "Double value is: 0.45",
+        "guarded.py has ended:",
+        "InvalidParameterValueException",
+        "0.1 m/s is too slow for a turn of 0.45 rad/s",
+        "guarded.py has ended:",
+        "InvalidParameterTypeException",
+        "expecting type 'DOUBLE'",
+    )
+
+
+def test_a_name_that_nobody_declared_is_ignored_at_the_start_and_refused_later(chapter: Executed) -> None:
+    printed = chapter.text("typo-run")
+    assert "  sped" not in printed
+    assert in_order(
+        printed, "  speed", "Double value is: 0.0", "Setting parameter failed: Invalid access to undeclared"
+    )
+
+
+def test_a_dumped_file_is_loaded_by_half_and_then_whole(chapter: Executed) -> None:
+    assert in_order(
+        chapter.text("dump-run"), "/robot/circle:", "ros__parameters:", "speed: 0.1", "turn: 0.2", "both: set"
+    )
+    first, second = chapter.text("load-run").replace("\r", "").split("0.2\n0.2\n")
+    assert in_order(first, "Set parameter speed failed: 0.1 m/s is too slow", "Set parameter turn successful")
+    assert in_order(first, "failed: Trying to set a read-only parameter", "exit status 0")
+    assert in_order(second, "Set parameter speed successful", "Set parameter turn successful", "0.1\n0.2\n")
+
+
+def test_pushes_add_up_with_a_gain_that_is_just_above_gravity(chapter: Executed) -> None:
+    pattern = r"at most ([\d.]+) rad, at the end (-?[\d.]+) rad, STANDING"
+    strong, weak = (
+        re.search(pattern, chapter.text("push-helper")),
+        re.search(pattern, chapter.text("push-run")),
+    )
+    assert strong
+    assert weak
+    assert float(strong[1]) < 0.06
+    assert abs(float(strong[2])) < 0.01
+    assert float(weak[1]) > 0.1
+    assert float(weak[2]) > 0.04
+    assert in_order(chapter.html("push-run"), "kp 276:", "kp 60:")
+
+
+# A trial leaves its lines behind, so the file that needs the others is tried first.
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (
+            "circle:\n  ros__parameters:\n    speed: 0.2\n    turn: 0.25",
+            "the node's full name, /robot/circle:",
+        ),
+        ("/robot/circle:\n  speed: 0.2\n  turn: 0.25", "below the node stands ros__parameters:"),
+        ("/robot/circle:\n  ros_parameters:\n    speed: 0.2\n    turn: 0.25", "two underscores"),
+        ("/robot/circle:\n  ros__parameters:\n    speed: 0.2\n    turn: 0", "turn has to be a double"),
+        ("/robot/circle:\n  ros__parameters:\n    sped: 0.2\n    turn: 0.25", "there is no speed"),
+        (
+            "/robot/circle:\n  ros__parameters:\n    speed: 0.25\n    turn: 0.2",
+            "write speed: 0.2 and turn: 0.25",
+        ),
+        ("speed: 0.2\nturn: 0.25", "the node's full name, /robot/circle:"),
+        ("/robot/circle:\n  ros__parameters:\n    speed:0.2\n    turn:0.25", "a space follows each colon"),
+    ],
+)
+def test_the_gap_of_the_file_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("start.yaml", lines)
+
+
+ON_SET = "self.add_on_set_parameters_callback(self.decide)\n"
+POST_SET = "self.add_post_set_parameters_callback(self.apply)\n"
+DECLARE, APPLY = "self.declare()\n", "self.apply([])"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (f"{DECLARE}{ON_SET}{POST_SET}{APPLY}", "register self.decide before self.declare()"),
+        (f"{ON_SET}{POST_SET}{DECLARE}{APPLY}", "call self.declare(), then register self.apply"),
+        (f"{ON_SET}{DECLARE}{POST_SET}", "call self.apply([]) once"),
+        (f"{ON_SET}{DECLARE}{APPLY}", "register self.apply with self.add_post_set_parameters_callback()"),
+        (f"{DECLARE}{POST_SET}{APPLY}", "register self.decide with self.add_on_set_parameters_callback()"),
+        (f"{ON_SET.replace('decide', 'apply')}{DECLARE}{APPLY}", "self.apply needs both parameters"),
+        (f"{ON_SET}{POST_SET}{APPLY}", "self.apply needs both parameters"),
+    ],
+)
+def test_the_gap_of_the_order_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("guarded.py", lines)
+
+
+DECIDED = 'if not wanted["speed"] >= TIGHTEST * abs(wanted["turn"]):\n'
+REFUSED = '    return SetParametersResult(successful=False, reason="too tight")'
+OVER = "for parameter in parameters:\n    wanted[parameter.name] = parameter.value\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (f"{DECIDED}{REFUSED}", "judge the new value"),
+        (f"{OVER.replace('wanted', 'now')}{DECIDED}{REFUSED}", "deciding has no side effect"),
+        (
+            f'{OVER}if wanted["speed"] < TIGHTEST * abs(wanted["turn"]):\n{REFUSED}',
+            "every comparison with NaN is false",
+        ),
+        (
+            f'{OVER}if not wanted["speed"] >= TIGHTEST * wanted["turn"]:\n{REFUSED}',
+            "a turn to the right is negative",
+        ),
+        (
+            f'{OVER}if not wanted["speed"] / abs(wanted["turn"]) >= TIGHTEST:\n{REFUSED}',
+            "multiply, do not divide",
+        ),
+        (f"{OVER}{DECIDED}    return False", "return SetParametersResult(successful=False"),
+        (f"{OVER}{DECIDED}    return SetParametersResult(successful=False)", "without a reason"),
+        (
+            "new = {parameter.name: parameter.value for parameter in parameters}\n"
+            'if not new.get("speed", 0.0) >= TIGHTEST * abs(new.get("turn", 0.0)):\n' + REFUSED,
+            "take what is not in the list",
+        ),
+        (
+            "for parameter in parameters:\n    wanted[parameter.name] = parameter.value\n"
+            '    if not wanted["speed"] >= TIGHTEST * abs(wanted["turn"]):\n    ' + REFUSED,
+            "before you judge",
+        ),
+        (f"{OVER}{DECIDED}    raise ValueError('too tight')", "ends the node"),
+    ],
+)
+def test_the_gap_of_the_decision_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("decide.py", lines)
+
+
+@pytest.mark.parametrize(
+    ("file", "lines"),
+    [
+        (
+            "decide.py",
+            "wanted.update((one.name, one.value) for one in parameters)\n"
+            'speed, turn = wanted["speed"], abs(wanted["turn"])\n'
+            "if speed != speed or turn != turn or speed < TIGHTEST * turn:\n"
+            '    return SetParametersResult(successful=False, reason=f"{speed} / {turn} is too tight")',
+        ),
+        (
+            "guarded.py",
+            f"{ON_SET}{DECLARE}{APPLY}\n{POST_SET}",
+        ),
+        ("start.yaml", "/**:\n  ros__parameters: {speed: 0.2, turn: 0.25}"),
+    ],
+)
+def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+    assert f"✓ {file}" in gaps.accept(file, lines)

@@ -1,0 +1,258 @@
+"""Chapter 11 shows what it says."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+import pytest
+from execution import Executed, in_order, numbers
+from gap_trials import GapTrials
+
+CHAPTER = "11_capstone"
+
+
+@pytest.fixture
+def chapter(executed: Callable[[str], Executed]) -> Executed:
+    return executed(CHAPTER)
+
+
+def moments(html: str, node: str) -> dict[str, float]:
+    """When a node printed what, in s, by the words of a time line."""
+    (words,) = re.findall(
+        rf"{re.escape(node)} began at [\d.]+ s; (.*?)\.(?: |</desc>)(?=\w+\.py|It still|<|$)", html
+    )
+    return {said: float(at) for at, said in re.findall(r"([\d.]+) s: ([^;]+)", words)}
+
+
+def test_on_one_thread_the_child_works_and_its_parent_never_hears_of_it(chapter: Executed) -> None:
+    printed = chapter.text("blocked-run")
+    assert in_order(printed, "cancel: no answer", "legs:   SUCCEEDED", "errand: EXECUTING")
+    drawn = chapter.html("blocked-draw")
+    assert in_order(drawn, "blocked.py", "asks the legs", "killed")
+    assert "the legs have ended" not in drawn
+
+
+def test_with_more_threads_the_same_file_succeeds(chapter: Executed) -> None:
+    assert chapter.text("threads-run") == "errand: SUCCEEDED\n"
+
+
+def test_a_parent_is_a_server_of_one_action_and_a_client_of_the_other(chapter: Executed) -> None:
+    of_errand, of_legs = chapter.text("family").split("Action: /robot/go_ahead")
+    assert in_order(of_errand, "Action servers: 1", "/robot/errand [humanoid_interfaces/action/WalkTo]")
+    assert in_order(of_legs, "Action clients: 1", "/robot/errand", "Action servers: 1", "/robot/legs")
+
+
+def test_an_orphan_walks_on_and_blocks_the_next_errand(chapter: Executed) -> None:
+    printed = chapter.text("hasty-run")
+    assert in_order(printed, "cancel: accepted", "errand: CANCELED", "the robot: WALKING")
+    assert in_order(printed, "another errand: ABORTED", "go_ahead has not accepted the goal")
+
+
+def test_an_empty_request_to_cancel_catches_the_orphan(chapter: Executed) -> None:
+    printed = chapter.text("hasty-cli")
+    assert in_order(printed, "goals_canceling=[action_msgs", "legs:  CANCELED, and the robot stands")
+    assert in_order(printed, "robot: STANDING")
+    drawn = chapter.html("hasty-draw")
+    parent, child = moments(drawn, "hasty_errand.py"), moments(drawn, "legs.py")
+    assert child["CANCELED, and the robot stands"] > parent["CANCELED"] + 2.0
+
+
+def test_the_careful_parent_ends_after_its_child(chapter: Executed) -> None:
+    printed = chapter.text("careful-run")
+    assert in_order(printed, "cancel: accepted", "errand: CANCELED after", "robot:  STANDING")
+    assert numbers(r"([\d.]+) s, \d+ steps", printed)[0] < 5.0
+    assert numbers(r"(\d+) steps", printed)[0] > 0
+    drawn = chapter.html("careful-draw")
+    parent, child = moments(drawn, "careful_errand.py"), moments(drawn, "legs.py")
+    assert parent["the errand has ended"] > child["CANCELED, and the robot stands"]
+
+
+def test_a_second_errand_is_aborted_because_the_legs_reject_its_child(chapter: Executed) -> None:
+    printed = chapter.text("two-run")
+    assert in_order(printed, "new: ABORTED", "go_ahead has not accepted", "old: EXECUTING", "old: CANCELED")
+
+
+def test_a_newer_errand_begins_when_the_old_child_has_ended(chapter: Executed) -> None:
+    printed = chapter.text("newest-run")
+    assert in_order(printed, "old: ABORTED (error_code 2", "a newer errand came", "new: SUCCEEDED")
+    child = moments(chapter.html("newest-draw"), "legs.py")
+    assert child["walks 5.0 m"] < child["CANCELED, and the robot stands"] < child["walks 0.5 m"]
+
+
+def test_nobody_tells_a_parent_that_its_child_is_dead(chapter: Executed) -> None:
+    printed = chapter.text("dead-run")
+    assert in_order(printed, "errand EXECUTING, robot STANDING", "cancel: accepted", "errand CANCELING")
+    assert in_order(chapter.html("dead-draw"), "legs.py", "killed")
+
+
+def test_a_limit_on_silence_ends_the_errand_and_names_the_child(chapter: Executed) -> None:
+    printed = chapter.text("patient-run")
+    assert in_order(printed, "errand: ABORTED", "go_ahead")
+    assert 2.0 < numbers(r"([\d.]+) s after the legs died", printed)[0] < 8.0
+
+
+def test_the_child_of_a_dead_parent_walks_to_its_end(chapter: Executed) -> None:
+    assert chapter.text("parent-run") == "legs: SUCCEEDED, and the robot stands\n"
+
+
+def test_without_a_low_battery_the_glass_is_carried(chapter: Executed) -> None:
+    printed = chapter.text("carry-run")
+    assert "come SUCCEEDED, lift SUCCEEDED, carry SUCCEEDED, lower SUCCEEDED" in printed
+    assert in_order(printed, "SUCCEEDED ''", "robot STANDING")
+
+
+@pytest.mark.parametrize(
+    ("cell", "ends"),
+    [
+        ("come-run", "come CANCELED\n"),
+        ("lift-run", "lift CANCELED, lower SUCCEEDED\n"),
+        ("walk-run", "come SUCCEEDED, lift SUCCEEDED, carry CANCELED, lower SUCCEEDED\n"),
+    ],
+)
+def test_there_are_three_ways_to_give_up(chapter: Executed, cell: str, ends: str) -> None:
+    printed = chapter.text(cell)
+    assert ends in printed
+    assert in_order(printed, "ABORTED 'the battery is low'", "robot STANDING")
+    (low,) = numbers(r"hand ([\d.]+) m, robot", printed)
+    assert 0.3 < low < 0.6
+
+
+def test_the_glass_is_lowered_from_where_it_was(chapter: Executed) -> None:
+    for cell in ("lift-run", "walk-run"):
+        high, low = re.search(
+            r"hand is ([\d.]+) m.*hand ([\d.]+) m, robot", chapter.text(cell), re.DOTALL
+        ).groups()
+        assert float(high) > float(low) + 0.04
+    lifted = numbers(r"hand is ([\d.]+) m", chapter.text("walk-run"))[0]
+    assert 0.6 < lifted < 0.8
+
+
+def test_on_the_way_the_legs_end_before_the_glass_is_lowered(chapter: Executed) -> None:
+    drawn = chapter.html("walk-run")
+    parent, child = moments(drawn, "carry_glass.py"), moments(drawn, "legs.py")
+    assert child["CANCELED, and the robot stands"] < parent["lower begins"] < parent["lower SUCCEEDED"]
+
+
+def test_giving_up_is_cheap(chapter: Executed) -> None:
+    drawn = chapter.html("walk-plot")
+    assert "battery: 15 %" in drawn
+    power = drawn.partition("power in W")[2]
+    assert 30 < numbers(r"lowest ([\d.]+)", power)[0] < 50
+    assert 90 < numbers(r"highest ([\d.]+)", power)[0] < 160
+
+
+def test_the_sample_designs_are_drawn_and_the_marks_add_up(chapter: Executed) -> None:
+    assert in_order(chapter.html("sample-1-draw"), "A gripper", "line", "GripperCommand")
+    sources = {cell.id: cell.source for cell in chapter.notebook.cells}
+    for cell, total in (("sample-1-marks", 19), ("sample-2-marks", 6)):
+        points = numbers(r"\| (\d) of \d \|", sources[cell])
+        assert sum(points) == total
+        assert f"**{total} of 20.**" in sources[cell]
+        assert sum(numbers(r"\| \d of (\d) \|", sources[cell])) == 20
+
+
+LOOP = "asked = False\nwhile not end.done():\n"
+ASK = "    if self.should_stop(goal_handle) and not asked:\n        child.cancel_goal_async()\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (
+            "while not end.done():\n    time.sleep(TICK)",
+            "2 s after the cancel of the errand, go_ahead got none",
+        ),
+        (f"{LOOP}{ASK}        return\n    time.sleep(TICK)", "go on waiting until end.done()"),
+        (
+            f"{LOOP}    if self.should_stop(goal_handle):\n        goal_handle.canceled()\n        return\n"
+            "    time.sleep(TICK)",
+            "nobody has cancelled its goal",
+        ),
+        (
+            "child.cancel_goal_async()\nwhile not end.done():\n    time.sleep(TICK)",
+            "only if self.should_stop",
+        ),
+        ("return", "return only when end.done()"),
+        (
+            "while not self.should_stop(goal_handle):\n    time.sleep(TICK)\nchild.cancel_goal_async()\n"
+            "while not end.done():\n    time.sleep(TICK)",
+            "leave the loop as soon as end.done()",
+        ),
+        (
+            f"{LOOP}{ASK}        asked = True\n    time.sleep(TICK)\n"
+            "if goal_handle.is_cancel_requested:\n    goal_handle.canceled()",
+            "finish() makes the terminal call",
+        ),
+        (f"{LOOP}{ASK}        asked = True\n    time.sleep(TOCK)", "mend what this error names"),
+    ],
+)
+def test_the_gap_of_the_cancel_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("careful_errand.py", lines)
+
+
+SILENT = "if time.monotonic() - self.heard > PATIENCE:\n"
+CANCEL = "    child.cancel_goal_async()\n"
+WAIT = "    wait_for(end, PATIENCE)\n"
+ABORT = "    goal_handle.abort()\n"
+RETURN = '    return WalkTo.Result(error_msg="go_ahead is silent")\n'
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (f"if not wait_for(end, PATIENCE):\n{CANCEL}{WAIT}{ABORT}{RETURN}", "measure the silence"),
+        (f"{SILENT}{ABORT}{RETURN}", "the child may still walk"),
+        (f"{SILENT}{CANCEL}{ABORT}{RETURN}", "wait_for(end, PATIENCE)"),
+        ("pass", "in every round"),
+        (f"{SILENT}{CANCEL}{WAIT}{ABORT}    return WalkTo.Result()", "a sentence that names go_ahead"),
+        (f"{SILENT}{CANCEL}{WAIT}    goal_handle.canceled()\n{RETURN}", "end it with goal_handle.abort()"),
+        (
+            f"{SILENT}{CANCEL}    while not end.done():\n        time.sleep(TICK)\n{ABORT}{RETURN}",
+            "wait only with a limit",
+        ),
+    ],
+)
+def test_the_gap_of_the_silence_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("patient_errand.py", lines)
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ("if step == COME:\n    return True, []\nreturn True, [LOWER]", "let the arm finish"),
+        ("if step == LOWER:\n    return False, []\nreturn True, [LOWER]", "the hand is empty"),
+        ("return step != LOWER, []", "the hand has the glass"),
+        ("if step in (LIFT, CARRY):\n    return True, [LOWER]", "end each path with `return`"),
+        ("return step != LOWER, [LOWERED]", "NameError"),
+    ],
+)
+def test_the_gap_of_the_ways_out_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("way_out.py", lines)
+
+
+@pytest.mark.parametrize(
+    ("file", "lines"),
+    [
+        (
+            "careful_errand.py",
+            "while not end.done() and not self.should_stop(goal_handle):\n    time.sleep(TICK)\n"
+            "if not end.done():\n    child.cancel_goal()\nwhile not end.done():\n    time.sleep(TICK)",
+        ),
+        (
+            "patient_errand.py",
+            "silence = time.monotonic() - self.heard\nif silence >= PATIENCE:\n"
+            "    child.cancel_goal_async()\n    until = time.monotonic() + 3.0\n"
+            "    while not end.done() and time.monotonic() < until:\n        time.sleep(TICK)\n"
+            '    result = WalkTo.Result(error_msg=f"nothing of go_ahead for {silence:.1f} s")\n'
+            "    goal_handle.abort()\n    return result",
+        ),
+        (
+            "way_out.py",
+            "ways = {COME: (True, ()), LIFT: (True, (LOWER,)), CARRY: (True, (LOWER,)), LOWER: (False, ())}\n"
+            "return ways[step]",
+        ),
+    ],
+)
+def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+    assert f"✓ {file}" in gaps.accept(file, lines)
