@@ -23,8 +23,8 @@ from ros_runtime.notebook_domains import expected_nodes
 from ros_runtime.reachability import wait_until_reachable
 
 SPIN_TIME = 0.5  # s, as in ros2cli
-MISSING = 6  # times the spin time, as long as what is looked for is not seen: the machine may be busy
-LONGEST_DISCOVERY = 10  # times the spin time, for a graph that never stops changing
+MISSING = 10  # times the spin time, as long as what is looked for is not seen: Fast DDS says lost words again after 3 s
+LONGEST_DISCOVERY = 16  # times the spin time, for a graph that never stops changing
 PERIOD = 0.02  # s between two looks at the graph, whose changes rclpy does not report
 OF_EVERY_NODE = "/rosout"  # a topic that every node publishes
 NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
@@ -69,7 +69,7 @@ class CommandNode:
     def discover(self, is_there: Callable[[], bool] = lambda: True) -> None:
         """Wait until the graph has not changed for the spin time, and every node in it has its name.
 
-        It waits six times as long while it sees no other node, or not yet what is looked for.
+        It waits ten times as long while it sees no other node, or not yet what is looked for.
         """
         changed = time.monotonic()
         latest = changed + LONGEST_DISCOVERY * self._spin_time

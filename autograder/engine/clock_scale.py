@@ -43,11 +43,11 @@ class ClockScale:
         may_be_fast = usual > 1 and scenario.is_light and not self._was_late
         return FAST if may_be_fast and _load_per_core() < BUSY else usual
 
-    def retry_scale(self, first: float, was_strained: bool) -> float:
-        """Return the scale to retry a scenario that ran at scale `first`: a lower one if the machine was strained."""
-        if was_strained:
-            return next((slower for slower in SLOWER if slower < first), 1.0)
-        return first if self._asked else min(first, USUAL)
+    def retry_scale(self, before: float, too_fast: bool) -> float:
+        """Return the scale to retry a scenario that ran at scale `before`: a lower one if that was too fast."""
+        if too_fast:
+            return next((slower for slower in SLOWER if slower < before), 1.0)
+        return before if self._asked else min(before, USUAL)
 
     def attempts(self, scale: float) -> Sequence[float]:
         """Return the scales to try, one after the other, while an arena is late or fails; the lowest comes twice."""

@@ -1,12 +1,14 @@
 """Grades one submission: runs the scenarios that its checks need, judges the transcripts, gives each check a verdict.
 
 A failed check is retried in a second arena and costs points only if it fails again: middleware and machines have bad
-moments, but a fault of the submission shows every time.
+moments, but a fault of the submission shows every time. What a check had to see and did not is looked for again on
+slower clocks, before the check counts as not graded.
 """
 
 from __future__ import annotations
 
 import threading
+from collections import Counter
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
@@ -20,7 +22,7 @@ from autograder.engine.judging import judge, verdict_on
 from autograder.engine.lateness import OVERLOADED, STRAINED, lateness
 from autograder.engine.submission import Submission
 from autograder.engine.submission_arenas import SubmissionArenas
-from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.engine.verdict import CheckStatus, CheckVerdict, Grade
 from autograder.isolation.availability import Isolation, available_isolation
 
 Report = Callable[[CheckVerdict], None]
@@ -28,6 +30,8 @@ Running = Callable[[Sequence[Scenario]], None]
 OnRetry = Callable[[Check], None]
 Runs = dict[Scenario, Future[Transcript]]
 Evidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
+
+MOST_ATTEMPTS: dict[CheckStatus, int] = {"passed": 1, "failed": 2, "not run": 1, "error": 4}
 
 
 class HiddenChecksRefused(Exception):
@@ -59,7 +63,7 @@ def grade(
         scale: of every arena's clock; None: what the machine can bear.
         isolation: of the arenas; None: the best this machine has.
         report: gets each verdict as soon as it is known.
-        on_retry: gets each check that failed once and is now retried.
+        on_retry: gets each check that did not pass and is now tried again.
         evidence: gets the transcripts that a check was judged on.
         running: gets the scenarios that run, whenever they change.
         arenas: of this submission, if one was opened ahead; they are closed at the end.
@@ -88,7 +92,7 @@ def grade(
 
 
 class _Session:
-    """The state of one grading: transcripts by scenario, of first runs and of retries, and verdicts by check."""
+    """The state of one grading: transcripts by attempt and scenario, and verdicts by check."""
 
     def __init__(
         self,
@@ -116,16 +120,15 @@ class _Session:
         self._scenarios = list(dict.fromkeys(scenario for check in exercise.checks for scenario in check.on))
         self._stop = threading.Event()
         self._verdicts: dict[str, CheckVerdict] = {}
-        self._first: Runs = {}
-        self._retries: Runs = {}
-        self._failed_once: set[str] = set()
+        self._runs: list[Runs] = [{} for _ in range(max(MOST_ATTEMPTS.values()))]  # by attempt
+        self._attempts: Counter[str] = Counter()  # that did not settle a check, by its id
 
     def run(self, jobs: int, first_alone: bool = False) -> Grade:
         with self._arenas, ThreadPoolExecutor(jobs) as pool:
             try:
                 while len(self._verdicts) < len(self._exercise.checks):
                     self._settle()
-                    alone = first_alone and not any(run.done() for run in self._first.values())
+                    alone = first_alone and not any(run.done() for run in self._runs[0].values())
                     running = self._start(pool, 1 if alone else jobs)
                     if running:
                         wait(running, return_when=FIRST_COMPLETED)
@@ -142,39 +145,40 @@ class _Session:
             if unmet := [need for need in check.needs if self._verdicts[need].status != "passed"]:
                 self._conclude(self._not_run(check, unmet))
                 continue
-            if check.id not in self._failed_once and _are_done(check.on, self._first):
-                self._judge(check, self._first)
-            if check.id in self._failed_once and _are_done(check.on, self._retries):
-                self._judge(check, self._retries)
+            while check.id not in self._verdicts and _are_done(
+                check.on, self._runs[self._attempts[check.id]]
+            ):
+                self._judge(check, self._attempts[check.id])
 
     def _start(self, pool: ThreadPoolExecutor, jobs: int) -> list[Future[Transcript]]:
         """Keep `jobs` arenas busy, first with what is certainly needed, and return the runs."""
-        running = {run: scenario for scenario, run in self._runs() if not run.done()}
-        for scenario, runs in self._wanted():
+        running = {run: scenario for runs in self._runs for scenario, run in runs.items() if not run.done()}
+        for scenario, attempt in self._wanted():
             if len(running) >= jobs:
                 break
-            if scenario in runs:  # several checks want it
+            if scenario in self._runs[attempt]:  # several checks want it
                 continue
-            attempt = self._run_first if runs is self._first else self._retry
-            runs[scenario] = pool.submit(attempt, scenario)
-            running[runs[scenario]] = scenario
+            run = (
+                pool.submit(self._run_again, scenario, attempt)
+                if attempt
+                else pool.submit(self._run_first, scenario)
+            )
+            self._runs[attempt][scenario] = run
+            running[run] = scenario
         self._running(list(running.values()))
         return list(running)
 
-    def _runs(self) -> list[tuple[Scenario, Future[Transcript]]]:
-        return [*self._first.items(), *self._retries.items()]
-
-    def _wanted(self) -> list[tuple[Scenario, Runs]]:
-        """Return the scenarios to run and where their transcripts go, first those whose checks' needs are met."""
-        certain: list[tuple[Scenario, Runs]] = []
-        possible: list[tuple[Scenario, Runs]] = []
+    def _wanted(self) -> list[tuple[Scenario, int]]:
+        """Return the scenarios to run and which attempts they are, first those whose checks' needs are met."""
+        certain: list[tuple[Scenario, int]] = []
+        possible: list[tuple[Scenario, int]] = []
         for check in self._exercise.checks:
             if check.id in self._verdicts:
                 continue
-            runs = self._retries if check.id in self._failed_once else self._first
+            attempt = self._attempts[check.id]
             met = all(need in self._verdicts for need in check.needs)
             wanted = certain if met else possible
-            wanted += [(scenario, runs) for scenario in check.on if scenario not in runs]
+            wanted += [(scenario, attempt) for scenario in check.on if scenario not in self._runs[attempt]]
         return certain + possible
 
     def _run_first(self, scenario: Scenario) -> Transcript:
@@ -182,11 +186,14 @@ class _Session:
         cold = scenario is self._scenarios[0]
         return self._run(scenario, self._scale.first_scale(scenario), OVERLOADED, cold)
 
-    def _retry(self, scenario: Scenario) -> Transcript:
-        """Run a scenario again, cold and at a scale that the machine bears, since now points can be lost."""
-        first = self._first[scenario].result()
-        was_strained = lateness(first) > STRAINED
-        return self._run(scenario, self._scale.retry_scale(first.scale, was_strained), STRAINED, cold=True)
+    def _run_again(self, scenario: Scenario, attempt: int) -> Transcript:
+        """Run a scenario again, cold and at a scale that the machine bears, since now points can be lost.
+
+        From the third attempt on something was not seen that has to be: each is slower than the one before.
+        """
+        before = self._runs[attempt - 1][scenario].result()
+        too_fast = attempt > 1 or lateness(before) > STRAINED
+        return self._run(scenario, self._scale.retry_scale(before.scale, too_fast), STRAINED, cold=True)
 
     def _run(self, scenario: Scenario, scale: float, tolerated: float, cold: bool) -> Transcript:
         """Run a scenario, and again at a lower scale if the simulator was more than `tolerated` s late.
@@ -222,16 +229,16 @@ class _Session:
             )
         raise problem or NotGraded("no attempt was made")
 
-    def _judge(self, check: Check, runs: Runs) -> None:
-        """Judge a check on first runs or retries; on first runs only a pass is a verdict, the rest is retried."""
+    def _judge(self, check: Check, attempt: int) -> None:
+        """Judge a check on the runs of an attempt; only a pass is a verdict at once, the rest is tried again."""
         try:
-            transcripts = [runs[scenario].result() for scenario in check.on]
+            transcripts = [self._runs[attempt][scenario].result() for scenario in check.on]
         except NotGraded as error:
             self._conclude(verdict_on(check, "error", help=f"Not graded: {error}"))
             return
         verdict = judge(check, transcripts)
-        if verdict.status != "passed" and runs is self._first:
-            self._failed_once.add(check.id)
+        if attempt + 1 < MOST_ATTEMPTS[verdict.status]:
+            self._attempts[check.id] += 1
             self._on_retry(check)
             return
         self._evidence(verdict, transcripts)

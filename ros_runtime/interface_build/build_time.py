@@ -8,6 +8,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, NoReturn
 
+ENOUGH = (
+    0.5  # of the limit: the kernel ends a process by counting ticks, and tells afterwards what it measured
+)
 GRACE = 5  # s in which the process itself can still report that it took too long
 
 
@@ -40,6 +43,6 @@ def limit_processor_time(seconds: int | None) -> Iterator[None]:
         yield
     except RuntimeError:
         children = resource.getrusage(resource.RUSAGE_CHILDREN)
-        if children.ru_utime + children.ru_stime >= 0.9 * seconds:  # the kernel counts in ticks
+        if children.ru_utime + children.ru_stime >= ENOUGH * seconds:
             give_up()
         raise

@@ -205,20 +205,14 @@ def be_restless(stage: Stage, speed: float, tilt: float, calm: float, duration: 
         stage: the stage.
         speed: with which the pelvis glides and bobs, m/s.
         tilt: of the pelvis, rad.
-        calm: how long it stands still and upright before each unrest of 0.3 s; 0: never.
+        calm: how long it stands still and upright after each unrest of 0.3 s; 0: never.
         duration: of all that, s.
     """
     with _PlayedRobot(stage, 0.48) as robot:
         goal = _open(stage).send_and_wait(as_="rise")
         stage.poll_until(lambda: robot.z >= NEAR_THE_TOP, SOON)
-        robot.change("restless", speed=speed, tilt=tilt)
-        if not calm:
-            stage.wait(duration)
-        for _ in range(round(duration / (calm + 0.3)) if calm else 0):
-            robot.change(speed=speed, tilt=tilt)
-            stage.wait(0.3)
-            robot.change(speed=0.0, tilt=0.0)
-            stage.wait(calm)
+        robot.change("restless", speed=speed, tilt=tilt, calm=calm)
+        stage.wait(duration)
         robot.change("calm", speed=0.0, tilt=0.0)
         robot.live_until_the_end(goal)
 
@@ -270,6 +264,7 @@ def _cancel(stage: Stage, stand_up: ActionClient, height: float) -> None:
 PERIOD = 0.05  # s between two messages of the played robot
 WEIGHT = 372.0  # N
 NEAR_THE_TOP, TOP, STANCE = 0.575, 0.59, 0.60  # m
+RESTLESS = 6  # periods, 0.3 s, between two pauses
 HEEDED = 10  # periods, 0.5 s, for which a velocity holds
 BOB = 0.003  # m
 BOBBING = 6  # periods
@@ -288,10 +283,11 @@ class _PlayedRobot:
         share: what the right foot carries, as a share of the left foot's load.
         speed: with which it glides ahead, m/s; it then bobs, too.
         tilt: its pitch, rad.
+        calm: how long speed and tilt are left out after each 0.3 s with them, s; 0: never.
     """
 
     def __init__(self, stage: Stage, height: float, *, weak: bool = False) -> None:
-        self.z, self.share, self.speed, self.tilt = height, 1.0, 0.0, 0.0
+        self.z, self.share, self.speed, self.tilt, self.calm = height, 1.0, 0.0, 0.0, 0.0
         self._x, self._weak = 0.0, weak
         self._stage = stage
         self._state = stage.offer_topic("robot_state", RobotState, latched=True)
@@ -333,6 +329,11 @@ class _PlayedRobot:
             due = max(due + PERIOD, time.monotonic())
             self._stage.wait(due - time.monotonic())
 
+    def _is_calm(self) -> bool:
+        """Return whether this round falls into a pause, counted in rounds, which no other thread can make longer."""
+        pause = round(self.calm / PERIOD)
+        return self._rounds % (RESTLESS + pause) >= RESTLESS
+
     def _climb(self) -> float:
         """Return how fast it rises now, m/s."""
         heard, self._heard = self._heard, self._cmd_vel.messages
@@ -348,17 +349,18 @@ class _PlayedRobot:
         passed, self._then = min(now - self._then, 2 * PERIOD), now
         climb = self._climb()
         self.z = min(STANCE, self.z + climb * passed)
-        self._x += self.speed * passed
         self._rounds += 1
+        speed, tilt = (0.0, 0.0) if self._is_calm() else (self.speed, self.tilt)
+        self._x += speed * passed
         stamp = Clock().now().to_msg()
         state = RobotState(mode=RobotState.STANDING, motors_enabled=True)
         state.header.stamp = stamp
         odom = Odometry(child_frame_id="base_link")
         odom.header.frame_id, odom.header.stamp = "odom", stamp
         position, orientation = odom.pose.pose.position, odom.pose.pose.orientation
-        position.x, position.z = self._x, self.z - (BOB if self.speed and self._rounds % BOBBING > 2 else 0.0)
-        orientation.y, orientation.w = math.sin(self.tilt / 2), math.cos(self.tilt / 2)
-        odom.twist.twist.linear.x, odom.twist.twist.linear.z = self.speed, climb
+        position.x, position.z = self._x, self.z - (BOB if speed and self._rounds % BOBBING > 2 else 0.0)
+        orientation.y, orientation.w = math.sin(tilt / 2), math.cos(tilt / 2)
+        odom.twist.twist.linear.x, odom.twist.twist.linear.z = speed, climb
         left = WEIGHT / (1.0 + self.share)
         for side, load in (("l", left), ("r", WEIGHT - left)):
             wrench = WrenchStamped()

@@ -49,7 +49,7 @@ def test_no_point_is_lost_at_a_fast_scale(load, first, was_strained, second):
 
 def test_a_scale_that_was_asked_for_is_kept(load):
     scale = ClockScale(3.0)
-    assert scale.first_scale(LIGHT[0]) == scale.retry_scale(3.0, was_strained=False) == 3.0
+    assert scale.first_scale(LIGHT[0]) == scale.retry_scale(3.0, too_fast=False) == 3.0
 
 
 def test_where_no_process_can_follow_a_clock_all_run_at_the_walls(load, monkeypatch):

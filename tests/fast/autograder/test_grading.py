@@ -7,6 +7,7 @@ import pytest
 
 from autograder.authoring import events as ev
 from autograder.authoring.checks import Scenario, check, expect
+from autograder.authoring.failure import CannotBeJudged
 from autograder.authoring.transcript import Transcript
 from autograder.engine import grading
 from autograder.engine.arena_run import NotGraded
@@ -124,7 +125,25 @@ def test_what_the_arena_left_out_is_looked_for_again_and_then_not_graded(monkeyp
     grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, jobs=1)
     assert (grade.status, statuses(grade)["base"]) == ("not graded", "error")
     assert grade.checks[0].help == "Not graded: first: the record breaks off at 3.0 s"
-    assert [name for name, _ in ran].count("first") == 2
+    assert [name for name, _ in ran].count("first") == 4
+
+
+@pytest.mark.parametrize("slow_enough", [2.0, 1.0])
+def test_what_is_not_seen_is_looked_for_again_on_slower_clocks(monkeypatch, slow_enough):
+    @check(points=1, on=FIRST)
+    def sees(run):
+        """It is seen"""
+        if not run.all(ev.Mark):
+            raise CannotBeJudged("nothing was seen")
+
+    ran = arenas(
+        monkeypatch,
+        lambda scenario, scale: transcript(
+            scenario, mark="here" if scale <= slow_enough else None, scale=scale
+        ),
+    )
+    assert grading.grade(SUBMISSION, exercise(sees), isolation=ISOLATED, scale=5.0).all_passed
+    assert [scale for _, scale in ran] == [5.0, 5.0, 2.0, 1.0][: 3 if slow_enough == 2.0 else 4]
 
 
 def test_an_overloaded_run_is_repeated_more_slowly_before_it_is_judged(monkeypatch, two_checks):
