@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import threading
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
 from autograder.authoring.checks import Check, Scenario
@@ -52,6 +52,7 @@ def grade(
     running: Running = lambda scenarios: None,
     arenas: SubmissionArenas | None = None,
     first_alone: bool = False,
+    at_first_look: Collection[str] = (),
 ) -> Grade:
     """Grade a submission.
 
@@ -68,6 +69,7 @@ def grade(
         running: gets the scenarios that run, whenever they change.
         arenas: of this submission, if one was opened ahead; they are closed at the end.
         first_alone: run nothing beside the first scenario, as somebody waits for the first verdict.
+        at_first_look: the checks (ids) whose first failure counts, where no points can be lost: in an audit.
 
     Raises:
         HiddenChecksRefused: there are hidden checks, and arenas cannot be isolated here.
@@ -87,6 +89,7 @@ def grade(
         evidence,
         running,
         arenas,
+        at_first_look,
     )
     return session.run(jobs, first_alone)
 
@@ -106,6 +109,7 @@ class _Session:
         evidence: Evidence,
         running: Running,
         arenas: SubmissionArenas,
+        at_first_look: Collection[str],
     ) -> None:
         self._submission = submission
         self._exercise = exercise
@@ -117,6 +121,7 @@ class _Session:
         self._evidence = evidence
         self._running = running
         self._arenas = arenas
+        self._at_first_look = at_first_look
         self._scenarios = list(dict.fromkeys(scenario for check in exercise.checks for scenario in check.on))
         self._stop = threading.Event()
         self._verdicts: dict[str, CheckVerdict] = {}
@@ -237,7 +242,8 @@ class _Session:
             self._conclude(verdict_on(check, "error", help=f"Not graded: {error}"))
             return
         verdict = judge(check, transcripts)
-        if attempt + 1 < MOST_ATTEMPTS[verdict.status]:
+        failed_at_once = verdict.status == "failed" and check.id in self._at_first_look
+        if attempt + 1 < MOST_ATTEMPTS[verdict.status] and not failed_at_once:
             self._attempts[check.id] += 1
             self._on_retry(check)
             return

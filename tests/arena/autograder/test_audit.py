@@ -1,9 +1,9 @@
 """Submissions whose verdict is known get that verdict: the proof that the grader grades.
 
-`./course audit` grades all of them with every check; here are as many as prove every check, the faulty ones with the
-checks that must catch them. They are graded a few at a time in the background from the first test that needs one on,
-in the order of the tests, so each test waits for its own and only those that were selected are graded
-(`-k battery_service`, `-k walks_on`).
+`./course audit` grades all of them with every check, and counts what fails twice. Here are as many as prove every
+check, the faulty ones with the checks that must catch them, at the first look. They are graded a few at a time in the
+background from the first test that needs one on, in the order of the tests, so each test waits for its own and only
+those that were selected are graded (`-k battery_service`, `-k walks_on`).
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -33,7 +33,12 @@ def audited(request):
     wanted = [item.callspec.params["known"] for item in request.session.items if is_audit(item)]
     with ThreadPoolExecutor(ARENAS_AT_A_TIME) as pool:
         runs = {
-            known.path: pool.submit(audit_one, known, enough_to_catch(known, EXERCISES[known.exercise]))
+            known.path: pool.submit(
+                audit_one,
+                known,
+                enough_to_catch(known, EXERCISES[known.exercise]),
+                at_first_look=known.caught_by if known.kind == "faulty" else (),
+            )
             for known in wanted
         }
         yield lambda known: runs[known.path].result()

@@ -272,3 +272,10 @@ def test_without_isolation_a_grade_is_labelled_untrusted(monkeypatch, two_checks
     arenas(monkeypatch, lambda scenario, scale: transcript(scenario, mark="here"))
     grade = grading.grade(SUBMISSION, two_checks, isolation=Isolation(Kind.NONE, "no namespaces here"))
     assert grade.to_json()["isolation"] == "untrusted"
+
+
+def test_where_no_points_can_be_lost_the_first_failure_may_count(monkeypatch, two_checks):
+    ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
+    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, jobs=1, at_first_look=["base"])
+    assert statuses(grade) == {"base": "failed", "above": "not run"}
+    assert [name for name, _ in ran] == ["first"]
