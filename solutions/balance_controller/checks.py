@@ -14,20 +14,10 @@ from autograder.authoring.readiness import require_alive, require_ready
 from autograder.authoring.transcript import Transcript
 
 from .gains import DEFAULTS, NAMES, set_each, set_together
-from .judging import (
-    NEAR_DEFAULT,
-    TOPIC,
-    call_named,
-    require_accepted,
-    require_bad_start_refused,
-    require_doubles,
-    require_gains,
-    require_once,
-    require_published,
-    require_refused,
-    require_silence,
-    require_standing_after_push,
-)
+from .published import require_accepted, require_gains, require_once, require_published, require_silence
+from .refused import require_bad_start_refused, require_refused
+from .sets import NEAR_DEFAULT, TOPIC, call_named, require_doubles
+from .standing import require_standing_after_push
 
 DECLARED = "10_parameters_and_balance#circle-why"
 TWO_CALLBACKS = "10_parameters_and_balance#book-why"

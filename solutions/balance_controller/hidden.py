@@ -21,15 +21,9 @@ from .checks import (
     survives_a_push,
 )
 from .gains import NAMES, TOPPLE, set_each, set_together, sound_gains
-from .judging import (
-    require_accepted,
-    require_bad_start_refused,
-    require_once,
-    require_published,
-    require_refused,
-    require_silence,
-    require_standing_after_push,
-)
+from .published import require_accepted, require_once, require_published, require_silence
+from .refused import require_bad_start_refused, require_refused
+from .standing import require_standing_after_push
 
 AN_INTEGER = "10_parameters_and_balance#int-why"
 

@@ -7,27 +7,23 @@ from autograder.authoring.checks import RESTING, Scenario, check, expect
 from autograder.authoring.feedback import require_good_feedback_rate
 from autograder.authoring.transcript import Transcript
 
-from .judging import (
-    OPENED,
-    require_aborted,
-    require_aborted_by_a_fall,
-    require_dropped,
-    require_filled_result,
-    require_force_kept,
-    require_grasp_failed,
-    require_left_alone,
-    require_lifted,
-    require_nothing_moved,
-    require_placed,
-    require_preempted_or_rejected,
-    require_put_away,
-    require_withdrawn,
-)
+from .endings import require_aborted
+from .holding import require_force_kept, require_lifted
+from .placing import OPENED, require_filled_result, require_placed, require_withdrawn
 from .reports import (
     require_rising_percentage,
     require_stages_in_order,
     require_true_stages,
     require_true_values,
+)
+from .safe_ends import (
+    require_aborted_by_a_fall,
+    require_dropped,
+    require_grasp_failed,
+    require_left_alone,
+    require_nothing_moved,
+    require_preempted_or_rejected,
+    require_put_away,
 )
 from .truth import taken_from
 

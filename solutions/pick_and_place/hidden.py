@@ -15,14 +15,10 @@ from .checks import (
     places_the_cup,
     puts_the_cup_back,
 )
-from .judging import (
-    require_aborted,
-    require_dropped,
-    require_force_kept,
-    require_left_alone,
-    require_placed,
-    require_put_away,
-)
+from .endings import require_aborted
+from .holding import require_force_kept
+from .placing import require_placed
+from .safe_ends import require_dropped, require_left_alone, require_put_away
 from .truth import place_of
 
 

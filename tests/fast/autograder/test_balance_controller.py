@@ -16,8 +16,10 @@ from autograder.authoring.transcript import Transcript
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.msg import BalanceGains, RobotState
 
-JUDGING = exercise_module("balance_controller", "judging")
-DEFAULTS = JUDGING.DEFAULTS
+SETS, PUBLISHED, REFUSED, STANDING = (
+    exercise_module("balance_controller", name) for name in ("sets", "published", "refused", "standing")
+)
+DEFAULTS = SETS.DEFAULTS
 ASKED, SET, END = 2.0, 4.0, 8.0  # s
 
 
@@ -63,7 +65,7 @@ PAIR = {"kp_pitch": 320.0, "kd_roll": 44.0}
 def test_each_accepted_set_has_one_message(together: bool) -> None:
     sets = requested(PAIR, *([YES] if together else [YES, YES]), together=together)
     first = [] if together else [message(SET + 0.05, kp_pitch=320.0)]
-    JUDGING.require_once(controller(*sets, *first, message(SET + 0.06, **PAIR)), "set")
+    PUBLISHED.require_once(controller(*sets, *first, message(SET + 0.06, **PAIR)), "set")
 
 
 @pytest.mark.parametrize(
@@ -87,24 +89,24 @@ def test_each_accepted_set_has_one_message(together: bool) -> None:
 )
 def test_what_is_published_for_a_set_is_compared_with_it(published: list[Any], next_step: str) -> None:
     run = controller(*requested(PAIR, YES, together=True), *published)
-    assert next_step in failure_of(JUDGING.require_once, run, "set").help
+    assert next_step in failure_of(PUBLISHED.require_once, run, "set").help
 
 
 def test_a_refused_set_is_silent_and_has_a_reason() -> None:
     refused = controller(*requested(PAIR, NO, together=True))
-    JUDGING.require_silence(refused, "set")
-    JUDGING.require_refused(refused, "set", "it is bad", "Refuse it.")
+    PUBLISHED.require_silence(refused, "set")
+    REFUSED.require_refused(refused, "set", "it is bad", "Refuse it.")
     told = controller(*requested(PAIR, NO, together=True), message(SET + 0.1, **PAIR))
-    assert "only says yes or no" in failure_of(JUDGING.require_silence, told, "set").help
+    assert "only says yes or no" in failure_of(PUBLISHED.require_silence, told, "set").help
     silent = controller(*requested(PAIR, SetParametersResult(successful=False), together=True))
-    assert "a reason" in failure_of(JUDGING.require_refused, silent, "set", "", "").help
+    assert "a reason" in failure_of(REFUSED.require_refused, silent, "set", "", "").help
 
 
 def test_a_set_that_was_accepted_is_not_refused() -> None:
     run = controller(*requested({"kp_pitch": 40.0}, YES))
-    assert failure_of(JUDGING.require_refused, run, "set", "gravity", "Refuse it.").help == "Refuse it."
+    assert failure_of(REFUSED.require_refused, run, "set", "gravity", "Refuse it.").help == "Refuse it."
     refused = controller(*requested(PAIR, NO, together=True))
-    assert "too weak" in failure_of(JUDGING.require_accepted, refused, "set").observed
+    assert "too weak" in failure_of(PUBLISHED.require_accepted, refused, "set").observed
 
 
 def test_gains_that_are_no_doubles_are_named() -> None:
@@ -112,7 +114,7 @@ def test_gains_that_are_no_doubles_are_named() -> None:
         values=[ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=276)]
     )
     run = run_of(asked("at the start", "x/get_parameters"), answered("at the start", response=response))
-    assert failure_of(JUDGING.require_doubles, run, "at the start").observed == "an integer"
+    assert failure_of(SETS.require_doubles, run, "at the start").observed == "an integer"
 
 
 def started_with(*events: Any) -> Transcript:
@@ -122,10 +124,10 @@ def started_with(*events: Any) -> Transcript:
 
 def test_a_bad_start_ends_with_a_status_and_a_line() -> None:
     words = said("balance_controller cannot start: kp_pitch is 40.0", t=2.0)
-    JUDGING.require_bad_start_refused(started_with(*words, ev.NodeExited(t=2.0, returncode=1)))
-    assert "before you declare" in failure_of(JUDGING.require_bad_start_refused, started_with()).help
+    REFUSED.require_bad_start_refused(started_with(*words, ev.NodeExited(t=2.0, returncode=1)))
+    assert "before you declare" in failure_of(REFUSED.require_bad_start_refused, started_with()).help
     for events in ([ev.NodeExited(t=2.0, returncode=1)], [*words, ev.NodeExited(t=2.0, returncode=0)]):
-        failure_of(JUDGING.require_bad_start_refused, started_with(*events))
+        failure_of(REFUSED.require_bad_start_refused, started_with(*events))
 
 
 def pushed(*, fallen_from: float = 99.0, off: bool = False) -> Transcript:
@@ -139,24 +141,24 @@ def pushed(*, fallen_from: float = 99.0, off: bool = False) -> Transcript:
 
 
 def test_a_robot_that_falls_is_told_with_which_gains() -> None:
-    JUDGING.require_standing_after_push(pushed())
-    failure = failure_of(JUDGING.require_standing_after_push, pushed(fallen_from=5.0))
+    STANDING.require_standing_after_push(pushed())
+    failure = failure_of(STANDING.require_standing_after_push, pushed(fallen_from=5.0))
     assert "1.0 s after the push" in failure.observed
     assert "kp_pitch 276" in failure.observed
     assert (
         "before anybody pushed"
-        in failure_of(JUDGING.require_standing_after_push, pushed(fallen_from=3.5)).observed
+        in failure_of(STANDING.require_standing_after_push, pushed(fallen_from=3.5)).observed
     )
     assert (
         "switched its motors off"
-        in failure_of(JUDGING.require_standing_after_push, pushed(fallen_from=5.0, off=True)).help
+        in failure_of(STANDING.require_standing_after_push, pushed(fallen_from=5.0, off=True)).help
     )
 
 
 def test_without_a_push_nothing_is_proved() -> None:
     run = run_of(*(robot(0.1 * n) for n in range(1, 80)), until=END)
     with pytest.raises((CannotBeJudged, Failure)):
-        JUDGING.require_standing_after_push(run)
+        STANDING.require_standing_after_push(run)
 
 
 def test_a_node_of_another_name_is_told_the_tasks() -> None:

@@ -1,0 +1,81 @@
+"""Judges how a goal ended: SUCCEEDED, or ABORTED with a code and a reason."""
+
+from __future__ import annotations
+
+from autograder.authoring import events as ev
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
+from autograder.authoring.goal_endings import why_rclpy_aborted
+from autograder.authoring.robot_record import RobotRecord
+from humanoid_interfaces.action import PickAndPlace
+from humanoid_interfaces.msg import RobotState
+
+_WHY_IT_GAVE_UP = {
+    "UNKNOWN_OBJECT": "objects/cup/pose comes ten times a second. Is anything of your node served while execute "
+    "waits? On one thread time.sleep keeps every message out: use MultiThreadedExecutor, or an async execute that "
+    "awaits.",
+    "UNREACHABLE": "Look at what you asked of compute_arm_ik: frame odom, the right arm, a hand that points ahead, a "
+    "place above the table.",
+    "GRASP_FAILED": "Was the open hand around the cup, 0.01 m above its centre, before it closed? And is the force "
+    "that you compare force.y of r_gripper/wrench?",
+    "DROPPED": "Let the fingers press with grasp_force before you lift. And when you put the cup down, the force may "
+    "vanish: nothing is lost then.",
+    "FELL": "Move the hand slowly, 0.2 m/s at most: a long reach in a jerk topples the robot.",
+}
+CODES = ("NONE", "UNKNOWN_OBJECT", "UNREACHABLE", "GRASP_FAILED", "DROPPED", "FELL", "PREEMPTED")
+_FALLEN = RobotState.FALLEN
+
+
+def require_succeeded(goal: Goal) -> ev.ResultReceived:
+    """Require that a goal that can be carried out SUCCEEDED, and return its result."""
+    goal.require_accepted()
+    if goal.status == ABORTED and not why_rclpy_aborted(goal) and goal.result:
+        said = goal.result.result
+        raise Failure(
+            expected="status SUCCEEDED",
+            observed=f"status ABORTED, error_code {said.error_code} ({_code(goal)}): {said.error_msg[:200]!r}",
+            help=_WHY_IT_GAVE_UP.get(
+                _code(goal), "This goal can be carried out: find out why your server gave up."
+            ),
+            at=goal.result.t,
+        )
+    return goal.require_result(SUCCEEDED)
+
+
+def _code(goal: Goal) -> str:
+    """Return the name of the result's error_code."""
+    assert goal.result
+    code = goal.result.result.error_code
+    return next((name for name in CODES if getattr(PickAndPlace.Result, name) == code), "no constant")
+
+
+def require_robot_upright(run: RobotRecord, start: float, end: float) -> None:
+    """Require that the robot kept its balance."""
+    fallen = next((robot for robot in run.robot_between(start, end) if robot.mode == _FALLEN), None)
+    expect(
+        fallen is None,
+        expected="a robot that keeps its balance while it reaches",
+        observed="it fell",
+        help="Publish nothing on motor_power, and give the arm time: a long reach in a jerk topples the robot.",
+        at=fallen.t if fallen else None,
+    )
+
+
+def require_aborted(goal: Goal, code: str, *, because: str, help: str) -> ev.ResultReceived:
+    """Require that a goal was ABORTED with an error_code and a reason, and return the result."""
+    goal.require_accepted()
+    result = goal.require_result(ABORTED, help=help)
+    goal.expect(
+        "error_code",
+        getattr(PickAndPlace.Result, code),
+        because=f"{because}: {code}",
+        help=why_rclpy_aborted(goal) or f"It ended with {_code(goal)}. {help}",
+    )
+    expect(
+        bool(result.result.error_msg.strip()),
+        expected="error_msg with a reason for people",
+        observed="an empty one",
+        help="Fill result.error_msg before abort(): say what was tried, and what was seen instead.",
+        at=result.t,
+    )
+    return result
