@@ -177,7 +177,7 @@ def fails_with_few_samples(run: Transcript) -> None:
 def is_content_with_enough_samples(run: Transcript) -> None:
     """100 samples are enough, also when some are missing"""
     call = run.call("the imu falls silent")
-    require_imu_lost(call, fewest=112, most=140)
+    require_imu_lost(call, fewest=112, most=134)
     require_calibrated(call)
 
 
