@@ -37,7 +37,7 @@ class Drawings:
             if verdict.status not in DRAWN:
                 return
             try:
-                self._keep(self._path(exercise, sources, verdict), verdict, transcripts)
+                self.keep(exercise, sources, verdict, draw(transcripts))
             except Exception:  # a drawing that fails may cost nobody a grade
                 logging.getLogger(__name__).exception("no drawing of %s, %s", exercise, verdict.id)
 
@@ -58,12 +58,9 @@ class Drawings:
             if path.exists()
         }
 
-    def _keep(self, path: Path, verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
-        drawn: list[str] = []
-        for transcript in transcripts[:MOST_RUNS]:
-            title = transcript.scenario.replace("_", " ")
-            if transcript.events or transcript.ground_truth:
-                drawn += [transcript_svg(transcript, title), *motion_svgs(transcript, title)]
+    def keep(self, exercise: str, sources: Sources, verdict: CheckVerdict, drawn: Sequence[str]) -> None:
+        """Keep the drawings (SVG) of one verdict."""
+        path = self._path(exercise, sources, verdict)
         path.parent.mkdir(parents=True, exist_ok=True)
         unfinished = path.with_suffix(
             f".{threading.get_ident()}"
@@ -74,3 +71,16 @@ class Drawings:
     def _path(self, exercise: str, sources: Sources, verdict: CheckVerdict) -> Path:
         key = json.dumps([dict(sources), asdict(verdict)], sort_keys=True)
         return self.batch / FOLDER / exercise / f"{hashlib.sha256(key.encode()).hexdigest()}.json"
+
+
+def draw(transcripts: Sequence[Transcript]) -> list[str]:
+    """Draw runs as SVG: the sequence of messages, and what the robot did if it moved.
+
+    Raises:
+        ValueError: nothing happened in one.
+    """
+    drawn: list[str] = []
+    for transcript in transcripts[:MOST_RUNS]:
+        title = transcript.scenario.replace("_", " ")
+        drawn += [transcript_svg(transcript, title), *motion_svgs(transcript, title)]
+    return drawn
