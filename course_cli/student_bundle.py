@@ -43,6 +43,7 @@ KEPT_BACK = (
     "autograder/batch",
     "autograder/nbgrader_bridge",
     "autograder/new_exercise",
+    "autograder/report/classroom",
     "course_cli/student_bundle.py",
     *(
         f"course_cli/commands/{name}.py"

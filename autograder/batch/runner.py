@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import threading
 import traceback
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 
@@ -13,10 +13,12 @@ from autograder.batch.cache import GradeCache
 from autograder.batch.collection import Work
 from autograder.engine.essay import left_to_a_person, load_essay
 from autograder.engine.exercise import Exercise, essay_names, load_exercise
-from autograder.engine.grading import Report, grade
+from autograder.engine.grading import Evidence, Report, grade
 from autograder.engine.submission import Submission, UnusableSubmission
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.availability import Isolation
+
+EvidenceOf = Callable[[str, Mapping[str, str]], Evidence]
 
 
 @dataclass(frozen=True)
@@ -37,7 +39,8 @@ class _Interrupted(Exception):
 class BatchRunner:
     """Grades submissions in `jobs` arenas in parallel; without trusted isolation only with the visible checks.
 
-    `report` is called with each verdict as soon as it is known, on any thread.
+    `report` is called with each verdict as soon as it is known, on any thread, and what `evidence` returns for an
+    exercise and its sources with each verdict and the transcripts it was judged on.
     """
 
     def __init__(
@@ -49,6 +52,7 @@ class BatchRunner:
         seed: int = 0,
         resume: bool = False,
         report: Report = lambda verdict: None,
+        evidence: EvidenceOf = lambda exercise, sources: lambda verdict, transcripts: None,
     ) -> None:
         self._cache = cache
         self._isolation = isolation
@@ -56,6 +60,7 @@ class BatchRunner:
         self._seed = seed
         self._resume = resume
         self._report = report
+        self._evidence = evidence
         self._stop = threading.Event()
 
     def exercise(self, name: str) -> Exercise:
@@ -120,6 +125,7 @@ class BatchRunner:
                     jobs=jobs,
                     isolation=self._isolation,
                     report=self._report_or_stop,
+                    evidence=self._evidence(exercise.name, submission.sources),
                 )
             )
         except _Interrupted:

@@ -1,9 +1,11 @@
-"""How the checks of an exercise and the grade cells of its notebook name each other."""
+"""How the checks of an exercise and the grade cells of its notebook name each other, and what stays unnamed."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Protocol
+
+HIDDEN_HELP = "Not passed. Read the task again sentence by sentence: every sentence of it is checked."
 
 
 class Named(Protocol):

@@ -13,12 +13,10 @@ from nbgrader.utils import is_grade, is_solution
 from traitlets import Unicode
 
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.nbgrader_bridge.cell_names import cell_names
+from autograder.nbgrader_bridge.cell_names import HIDDEN_HELP, cell_names
 
 UNJUDGED = "unjudged_cells"  # resources["nbgrader"] key: grade_ids that have no verdict
 LONGEST_TEXT = 8000  # characters of one cell's output
-
-HIDDEN_HELP = "Not passed. Read the task again sentence by sentence: every sentence of it is checked."
 
 
 class NotGradedError(Exception):

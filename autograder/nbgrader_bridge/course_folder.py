@@ -43,6 +43,7 @@ _OPTIONS: dict[str, Any] = {
     "ClearSolutions.code_stub": {"python": "# YOUR CODE HERE"},
     "Autograde.autograde_preprocessors": AUTOGRADE_PREPROCESSORS,
     "GenerateFeedback.preprocessors": FEEDBACK_PREPROCESSORS,
+    "GenerateFeedback.exporter_class": f"{_BRIDGE}.feedback_page.FeedbackPage",
     "SanitizeHTML.enabled": True,
     "ExportApp.plugin_class": f"{_BRIDGE}.marked_export.MarkedCsvExport",
 }

@@ -6,20 +6,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from jinja2 import Environment, FileSystemLoader, select_autoescape
 from markupsafe import Markup
 
 from autograder.engine.verdict import Grade
-from autograder.report.table import summary
+from autograder.report.rendering import drawn, write_html
 
 
 @dataclass(frozen=True)
 class Section:
-    """One grade with the diagrams (SVG) that explain its verdicts, by check id."""
+    """One grade with the drawings (SVG) that explain its verdicts, by check id."""
 
     heading: str
     grade: Grade
-    diagrams: Mapping[str, str] = field(default_factory=dict)
+    drawings: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
 
 def write_page(
@@ -30,19 +29,12 @@ def write_page(
     figures: Sequence[str] = (),
     sections: Sequence[Section] = (),
 ) -> None:
-    """Write an HTML page. `figures` and the diagrams are trusted markup; all other texts are escaped."""
-    environment = Environment(
-        loader=FileSystemLoader(Path(__file__).parent / "templates"),
-        autoescape=select_autoescape(default=True),
-    )
-    html = environment.get_template("page.html").render(
+    """Write an HTML page. `figures` and the drawings are trusted markup; all other texts are escaped."""
+    write_html(
+        path,
+        "page.html",
         title=title,
         introduction=introduction,
         figures=[Markup(figure) for figure in figures],
-        sections=[
-            (section, {check: Markup(svg) for check, svg in section.diagrams.items()}) for section in sections
-        ],
-        summary=summary,
+        sections=[(section, drawn(section.grade, section.drawings)) for section in sections],
     )
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(html, encoding="utf-8")

@@ -118,13 +118,13 @@ def _grade_three(console: Console, jobs: int) -> tuple[list[Grade], list[Section
         ),
     ]
     for submission in submissions:
-        diagrams: dict[str, str] = {}
+        diagrams: dict[str, list[str]] = {}
 
         def keep(
-            verdict: CheckVerdict, runs: Sequence[Transcript], diagrams: dict[str, str] = diagrams
+            verdict: CheckVerdict, runs: Sequence[Transcript], diagrams: dict[str, list[str]] = diagrams
         ) -> None:
             if verdict.status == "failed":
-                diagrams[verdict.id] = transcript_svg(runs[-1], verdict.title)
+                diagrams[verdict.id] = [transcript_svg(runs[-1], verdict.title)]
 
         name = submission.student
         with console.status(f"   {name} …"):

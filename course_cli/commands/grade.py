@@ -24,6 +24,8 @@ from autograder.nbgrader_bridge.course_folder import NbgraderError
 from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
 from autograder.nbgrader_bridge.rebuild_submission import NoSolutionCell
 from autograder.report.class_table import class_table, progress_line
+from autograder.report.classroom.drawings import Drawings
+from autograder.report.classroom.pages import write_pages
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 from course_cli.jobs_option import JobsOption
@@ -73,6 +75,7 @@ def grade(
     write_grades(out / GRADES, grades)  # again, with the points that a person has given for essays
     if json_file:
         write_grades(json_file, grades)
+    page = write_pages(out, grades, [result.sources for result in results], collection.refused)
     console.print(class_table(grades))
     for line in collection.ignored:
         console.print(f"left aside: {line}", style="yellow", markup=False)
@@ -89,6 +92,7 @@ def grade(
     not_graded = [result for result in results if result.grade.status == "not graded"]
     if not_graded:
         console.print(f"{len(not_graded)} not graded; try those again with --resume", style="magenta")
+    console.print(f"to read first: {page}", markup=False, soft_wrap=True)
     console.print(f"{out / GRADES}, {out / 'gradebook.db'}, {out / 'feedback'}/", style="dim", markup=False)
     jupyter = Path(sys.executable).with_name("jupyter")
     console.print(
@@ -116,6 +120,7 @@ def _grade_all(
             seed=seed,
             resume=resume,
             report=lambda verdict: progress.advance(task),
+            evidence=Drawings(out).evidence,
         )
         progress.update(task, total=sum(runner.count(work.exercise) for work in collection.works))
         results: dict[object, Graded] = {}

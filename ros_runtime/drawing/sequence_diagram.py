@@ -16,6 +16,7 @@ ROW_HEIGHT = 30
 LEFT = 100
 TOP = 74
 BOTTOM = 20
+NOTE_GAP, LETTER = 10, 8  # px beside a note's dot, and at most for a letter of it
 COLOURS = {"request": "#1f5fa8", "answer": "#2c7a3f", "message": "#777777"}
 DASHES = {"request": "", "answer": ' stroke-dasharray="7 4"', "message": ' stroke-dasharray="2 3"'}
 
@@ -46,7 +47,8 @@ def sequence_svg(arrows: Sequence[Arrow], *, title: str, participants: Sequence[
         dict.fromkeys([*(participants or ()), *(name for a in ordered for name in (a.sender, a.receiver))])
     )
     centre = {name: LEFT + LANE_WIDTH // 2 + index * LANE_WIDTH for index, name in enumerate(lanes)}
-    width = LEFT + LANE_WIDTH * len(lanes)
+    notes = [centre[a.sender] + NOTE_GAP + LETTER * len(a.label) for a in ordered if a.sender == a.receiver]
+    width = max(LEFT + LANE_WIDTH * len(lanes), *notes, 0)
     height = TOP + ROW_HEIGHT * (len(ordered) + 1) + BOTTOM
     parts: list[str] = []
     for name, x in centre.items():
@@ -72,7 +74,7 @@ def _arrow(arrow: Arrow, centre: dict[str, int], y: int) -> list[str]:
         return [
             time,
             f'<circle cx="{start}" cy="{y}" r="4" fill="{colour}"/>',
-            f'<text x="{start + 10}" y="{y + 4}" fill="{colour}">{escape(arrow.label)}</text>',
+            f'<text x="{start + NOTE_GAP}" y="{y + 4}" fill="{colour}">{escape(arrow.label)}</text>',
         ]
     back = -8 if end > start else 8
     return [

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from markupsafe import escape
 from nbgrader.api import Gradebook
 
 from autograder.engine.exercise import load_exercise
@@ -17,6 +18,7 @@ from autograder.isolation.availability import available_isolation
 
 ROOT = Path(__file__).resolve().parents[3]
 NOTEBOOK = "battery_service/battery_service.ipynb"
+PAGE = "battery_service.html"
 KEYS = {"exercise", "student", "status", "isolation", "score", "max_score", "reason", "checks"}
 CHECK_KEYS = {
     "id",
@@ -46,6 +48,19 @@ def hand_in(folder: Path, student: str, content: bytes) -> None:
     path = folder / student / NOTEBOOK
     path.parent.mkdir(parents=True)
     path.write_bytes(content)
+
+
+def assert_pages(out: Path, right: dict, wrong: dict) -> None:
+    """The class page names both; a failed check is drawn for its student, also when its grade is an earlier run's."""
+    class_page = (out / "class.html").read_text()
+    assert f"{right['score']}/{right['max_score']}" in class_page
+    failed = next(check for check in wrong["checks"] if check["status"] == "failed" and not check["hidden"])
+    page = (out / "pages" / wrong["student"] / PAGE).read_text()
+    for html in (class_page, page):
+        assert escape(failed["title"]) in html
+    assert "<svg" in page
+    assert "<svg" not in (out / "pages" / right["student"] / PAGE).read_text()
+    assert not [check for check in wrong["checks"] if check["hidden"] and escape(check["title"]) in page]
 
 
 def scores(folder: Path) -> dict[str, tuple[float, float]]:
@@ -80,11 +95,14 @@ def test_the_reference_gets_full_marks_the_starter_some_and_a_second_run_goes_on
     failed = next(check for check in bert["checks"] if check["status"] == "failed")
     assert failed["id"] in page
     assert "YOUR CODE HERE" in page
+    assert_pages(out, anna, bert)
 
     hand_in(submitted, "carl", b"not a notebook")
     second = course("grade", submitted, "--out", out, "--resume")
     assert second.returncode == 0, second.stdout + second.stderr
     assert second.stdout.count("(as before)") == 2
+    assert_pages(out, anna, bert)
+    assert "is not a notebook" in (out / "pages/carl" / PAGE).read_text()
     assert json.loads((out / "grades.json").read_text())[:2] == [anna, bert]
     carl = json.loads((out / "grades.json").read_text())[2]
     assert (carl["status"], carl["score"]) == ("graded", 0)

@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
+import html
 import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 from made_up_grades import FAILED, SOLUTIONS, grade_of
@@ -220,3 +226,44 @@ def test_the_written_configuration_is_the_one_we_grade_with(gradebook, course):
     assert config.GenerateFeedback.preprocessors == course_folder.FEEDBACK_PREPROCESSORS
     assert config.SanitizeHTML.enabled is True
     assert config.VerdictOutputs.records == "records"
+
+
+def test_the_feedback_page_lists_each_check_by_its_title(gradebook, course):
+    gradebook.enter(Entry(grade_of("anna", follows_the_battery=FAILED), SOURCES))
+    made = {"ours": feedback_list(course), "nbgrader's own command": []}
+    page(course).unlink()
+    subprocess.run(
+        [Path(sys.executable).with_name("nbgrader"), "generate_feedback", "battery_service", "--force"],
+        cwd=course,
+        env={**os.environ, "JUPYTER_CONFIG_DIR": str(course / "jupyter")},
+        check=True,
+        capture_output=True,
+    )
+    made["nbgrader's own command"] = feedback_list(course)
+
+    numbers = {check.id: number for number, check in enumerate(HIDDEN, start=1)}
+    titles = [
+        f"Hidden check {numbers[check.id]}" if check.hidden else check.title for check in EXERCISE.checks
+    ]
+    for maker, listed in made.items():
+        assert [title for title, _ in listed] == titles, maker
+        scores = dict(listed)
+        follows = next(check for check in EXERCISE.checks if check.id == "follows_the_battery")
+        assert scores[follows.title] == f"(Score: 0.0 / {float(follows.points)})", maker
+    text = page(course).read_text()
+    assert "Test cell" not in text
+    for check in EXERCISE.checks:
+        assert (check.title in text) is not check.hidden
+
+
+def page(course):
+    return course / "feedback/anna/battery_service/battery_service.html"
+
+
+def feedback_list(course):
+    """The title and the score in each line of the list at the top of the page; each link leads somewhere."""
+    text = page(course).read_text()
+    toc = text[text.index('<div id="toc">') : text.index("</ol>")]
+    lines = re.findall(r'<li><a href="#([^"]+)">(.*?)</a>\s*(.*?)</li>', toc, re.DOTALL)
+    assert all(f'name="{anchor}"' in text for anchor, _, _ in lines)
+    return [(html.unescape(title), score) for _, title, score in lines]

@@ -96,4 +96,6 @@ def test_an_essay_is_opened_marked_and_given_back(page: Page, address: str, cour
     assert feedback
     page.goto(feedback.as_uri())
     page.get_by_text("(Score: 2.5 / 20.0)").wait_for()
+    titles = [criterion.title for criterion in ESSAY.criteria]
+    assert page.locator("#toc a").all_inner_texts() == [*titles, f"Comment on: {titles[-1]}"]
     page.get_by_text("What if the screen hangs?").wait_for()

@@ -1,0 +1,41 @@
+"""nbgrader's feedback page with a list that names each check by its title; stock nbgrader calls each "Test cell"."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+from nbconvert.exporters import HTMLExporter
+from nbformat import NotebookNode
+from traitlets.config import Config
+
+TEMPLATES = Path(__file__).parent / "templates"
+TEMPLATE = "checks_by_title"
+_POINTS = re.compile(r"\s*\(\d+ points?\)$")
+
+
+class FeedbackPage(HTMLExporter):
+    """Renders feedback with our template, which extends the one that nbgrader configures."""
+
+    def __init__(self, config: Config, **options: Any) -> None:
+        nbgraders = config.HTMLExporter
+        folders = list(nbgraders.extra_template_basedirs)
+        ours = Config()
+        ours.FeedbackPage.template_name = TEMPLATE
+        ours.FeedbackPage.extra_template_basedirs = [str(TEMPLATES), *folders]
+        # Our template finds nbgrader's there, as feedback/index.html.j2, and its style sheet.
+        ours.FeedbackPage.extra_template_paths = [*nbgraders.extra_template_paths, *folders]
+        super().__init__(config=Config(config, **ours), **options)
+
+    def default_filters(self) -> Iterable[tuple[str, Callable[..., Any]]]:
+        """Add the filter that names a cell."""
+        yield from super().default_filters()
+        yield ("check_title", check_title)
+
+
+def check_title(cell: NotebookNode) -> str:
+    """Return the title of a check or a criterion: the first line of its generated cell, without the points."""
+    first = next(iter(cell.source.splitlines()), "")
+    return _POINTS.sub("", first.lstrip("# ")) or str(cell.metadata.nbgrader.grade_id)

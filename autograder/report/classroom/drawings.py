@@ -1,0 +1,86 @@
+"""Drawings of what failed checks were judged on, kept on disk while a class is graded."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from autograder.authoring.transcript import Transcript
+from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.report.classroom.motion import motion_svgs
+from autograder.report.sequence import transcript_svg
+
+Sources = Mapping[str, str]
+
+FOLDER = Path("cache/drawings")
+DRAWN = ("failed", "error")
+MOST_RUNS = 3  # drawn of one check
+
+
+@dataclass(frozen=True)
+class Drawings:
+    """Those in the output of a batch. Each belongs to one verdict on one program, so a cached grade has its own."""
+
+    batch: Path
+
+    def evidence(
+        self, exercise: str, sources: Sources
+    ) -> Callable[[CheckVerdict, Sequence[Transcript]], None]:
+        """Return what `grade` calls with each verdict of a submission and the transcripts it was judged on."""
+
+        def keep(verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
+            if verdict.status not in DRAWN:
+                return
+            try:
+                self.keep(exercise, sources, verdict, draw(transcripts))
+            except Exception:  # a drawing that fails may cost nobody a grade
+                logging.getLogger(__name__).exception("no drawing of %s, %s", exercise, verdict.id)
+
+        return keep
+
+    def of(self, grade: Grade, sources: Sources | None) -> dict[str, list[str]]:
+        """Return the drawings (SVG) of a grade by the check's id, of those checks that have some."""
+        if sources is None:
+            return {}
+        paths = {
+            verdict.id: self._path(grade.exercise, sources, verdict)
+            for verdict in grade.checks
+            if verdict.status in DRAWN
+        }
+        return {
+            check: json.loads(path.read_text(encoding="utf-8"))
+            for check, path in paths.items()
+            if path.exists()
+        }
+
+    def keep(self, exercise: str, sources: Sources, verdict: CheckVerdict, drawn: Sequence[str]) -> None:
+        """Keep the drawings (SVG) of one verdict."""
+        path = self._path(exercise, sources, verdict)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        unfinished = path.with_suffix(
+            f".{threading.get_ident()}"
+        )  # an interruption must not leave half a file
+        unfinished.write_text(json.dumps(drawn), encoding="utf-8")
+        unfinished.replace(path)
+
+    def _path(self, exercise: str, sources: Sources, verdict: CheckVerdict) -> Path:
+        key = json.dumps([dict(sources), asdict(verdict)], sort_keys=True)
+        return self.batch / FOLDER / exercise / f"{hashlib.sha256(key.encode()).hexdigest()}.json"
+
+
+def draw(transcripts: Sequence[Transcript]) -> list[str]:
+    """Draw runs as SVG: the sequence of messages, and what the robot did if it moved.
+
+    Raises:
+        ValueError: nothing happened in one.
+    """
+    drawn: list[str] = []
+    for transcript in transcripts[:MOST_RUNS]:
+        title = transcript.scenario.replace("_", " ")
+        drawn += [transcript_svg(transcript, title), *motion_svgs(transcript, title)]
+    return drawn

@@ -1,0 +1,148 @@
+"""What the grades of a class say together: scores by exercise, the hardest checks, who needs help. Pure functions."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from statistics import median
+
+from autograder.engine.verdict import CheckVerdict, Grade
+
+TENTHS = [f"{10 * tenth}–{10 * tenth + 9}" for tenth in range(10)]
+FULL = "100"
+NEEDS_HELP = 0.6  # of the points: whoever has less is listed
+MOST_TOPICS = 3  # of one student's submission
+
+
+@dataclass(frozen=True)
+class HardCheck:
+    """How a check went in a class: `failed` and `not_run` of `graded` submissions, and what those were told most."""
+
+    id: str
+    title: str
+    hidden: bool
+    failed: int
+    not_run: int
+    graded: int
+    advice: str
+
+    @property
+    def share_failed(self) -> float:
+        """0..1 of the submissions on which the check was made."""
+        return self.failed / max(1, self.graded - self.not_run)
+
+
+@dataclass(frozen=True)
+class ExerciseFigures:
+    """The grades of one exercise: those with a score, and how many have none yet."""
+
+    exercise: str
+    graded: Sequence[Grade]
+    not_graded: int
+    to_mark: int
+    hardest: Sequence[HardCheck]
+
+    @property
+    def median(self) -> float:
+        """Of the scores, in points."""
+        return median(grade.score or 0 for grade in self.graded)
+
+    @property
+    def max_score(self) -> int:
+        """The points there are."""
+        return max(grade.max_score for grade in self.graded)
+
+    @property
+    def bins(self) -> Mapping[str, int]:
+        """How many submissions have how many per cent of the points."""
+        counts = Counter(_bin(share(grade)) for grade in self.graded)
+        return {label: counts[label] for label in [*TENTHS, FULL]}
+
+
+@dataclass(frozen=True)
+class NeedsHelp:
+    """A submission with few points, and the checks to begin a conversation with."""
+
+    grade: Grade
+    topics: Sequence[CheckVerdict]
+    more: int
+
+    @property
+    def share(self) -> float:
+        """0..1 of the points."""
+        return share(self.grade)
+
+
+def exercise_figures(grades: Sequence[Grade]) -> list[ExerciseFigures]:
+    """Return the figures of every exercise, in order of the exercises' first appearance."""
+    by_exercise: dict[str, list[Grade]] = {}
+    for grade in grades:
+        by_exercise.setdefault(grade.exercise, []).append(grade)
+    figures = []
+    for exercise, its in by_exercise.items():
+        status = Counter(grade.status for grade in its)
+        graded = [grade for grade in its if grade.status == "graded"]
+        figures.append(
+            ExerciseFigures(exercise, graded, status["not graded"], status["to mark"], _hardest(graded))
+        )
+    return figures
+
+
+def who_needs_help(grades: Sequence[Grade]) -> list[NeedsHelp]:
+    """Return the graded submissions with less than NEEDS_HELP of the points, the fewest first."""
+    few = [grade for grade in grades if grade.status == "graded" and share(grade) < NEEDS_HELP]
+    return [_topics(grade) for grade in sorted(few, key=lambda grade: (share(grade), grade.student))]
+
+
+def cause(grade: Grade) -> str:
+    """Return in one line why a submission is not graded; of a traceback its first and its last line."""
+    lines = [line.strip() for line in grade.reason.splitlines() if line.strip()] or ["no check was judged"]
+    return f"{lines[0]} {lines[-1]}" if len(lines) > 1 and lines[0].endswith(":") else lines[0]
+
+
+def share(grade: Grade) -> float:
+    """Return the share of the points that a grade has, 0..1."""
+    return min(1.0, max(0.0, (grade.score or 0) / max(1, grade.max_score)))
+
+
+def _bin(part: float) -> str:
+    return FULL if part >= 1 else TENTHS[int(10 * part + 1e-9)]
+
+
+def _hardest(graded: Sequence[Grade]) -> list[HardCheck]:
+    """The checks that somebody failed, the most failed first; then as the exercise orders them."""
+    verdicts: dict[str, list[CheckVerdict]] = {}
+    for grade in graded:
+        for verdict in grade.checks:
+            verdicts.setdefault(verdict.id, []).append(verdict)
+    checks = [_hard_check(its) for its in verdicts.values()]
+    return sorted((check for check in checks if check.failed), key=lambda check: -check.share_failed)
+
+
+def _hard_check(verdicts: Sequence[CheckVerdict]) -> HardCheck:
+    failed = [verdict for verdict in verdicts if lost(verdict)]
+    advice = Counter(verdict.help for verdict in failed if verdict.help).most_common(1)
+    first = verdicts[0]
+    return HardCheck(
+        first.id,
+        first.title,
+        first.hidden,
+        len(failed),
+        sum(verdict.status == "not run" for verdict in verdicts),
+        len(verdicts),
+        advice[0][0] if advice else "",
+    )
+
+
+def _topics(grade: Grade) -> NeedsHelp:
+    """The first checks that failed: what comes later in an exercise builds upon them."""
+    failed = [verdict for verdict in grade.checks if lost(verdict)]
+    return NeedsHelp(grade, failed[:MOST_TOPICS], len(failed[MOST_TOPICS:]))
+
+
+def lost(verdict: CheckVerdict) -> bool:
+    """Whether a check failed, or a person gave less than half of a criterion's points."""
+    return verdict.status == "failed" or (
+        verdict.status == "marked" and verdict.points < verdict.max_points / 2
+    )

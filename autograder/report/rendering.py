@@ -1,0 +1,49 @@
+"""Makes HTML pages from the templates beside this file: one file each, without scripts or references."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined, select_autoescape
+from markupsafe import Markup
+
+from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.report.table import MARKS, summary
+
+ENVIRONMENT = Environment(
+    loader=FileSystemLoader(Path(__file__).parent / "templates"),
+    autoescape=select_autoescape(default=True),
+    undefined=StrictUndefined,
+    trim_blocks=True,
+    lstrip_blocks=True,
+)
+ENVIRONMENT.globals |= {"summary": summary, "marks": {status: mark for status, (mark, _) in MARKS.items()}}
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """Drawings of our own, which are markup, or the check that they are shown at already."""
+
+    svgs: Sequence[Markup]
+    as_at: CheckVerdict | None = None
+
+
+def write_html(path: Path, template: str, **values: Any) -> None:
+    """Fill a template. Every text is escaped that is not Markup."""
+    html = ENVIRONMENT.get_template(template).render(**values)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(html, encoding="utf-8", errors="backslashreplace")  # a student may print half a character
+
+
+def drawn(grade: Grade, drawings: Mapping[str, Sequence[str]]) -> dict[str, Drawn]:
+    """Return what a page shows of the drawings, by the check's id: checks of one run share theirs, shown once."""
+    first: dict[tuple[str, ...], CheckVerdict] = {}
+    shown: dict[str, Drawn] = {}
+    for check in grade.checks:
+        if svgs := tuple(drawings.get(check.id, ())):
+            owner = first.setdefault(svgs, check)
+            shown[check.id] = Drawn(list(map(Markup, svgs))) if owner is check else Drawn([], owner)
+    return shown

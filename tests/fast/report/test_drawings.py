@@ -1,0 +1,111 @@
+"""What is drawn of a failed check, from recorded events, and which submission it is shown for."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from geometry_msgs.msg import PoseStamped
+
+from autograder.authoring import events as ev
+from autograder.authoring.transcript import Transcript
+from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.report.classroom.drawings import Drawings
+from autograder.report.classroom.motion import motion_svgs
+from humanoid_interfaces.action import WalkTo
+from humanoid_interfaces.msg import RobotState
+from ros_runtime.drawing.line_plot import Flag, Plot, plot_svg
+from ros_runtime.message_constants import GoalStatus
+
+SOURCES = {"walk_to.py": "print('a program')"}
+FAILED = CheckVerdict("walks", "It walks", "failed", 0, 2, expected="1 m", observed="0 m", robot_time=3.0)
+
+
+def robot(t, x):
+    numbers = dict.fromkeys(("y", "yaw", "turn_rate", "lag", "steps"), 0) | {
+        "x": x,
+        "z": 0.6,
+        "speed": 0.2,
+        "up": 1,
+    }
+    return ev.RobotTruth(
+        t=t,
+        simulated=t,
+        mode=RobotState.WALKING,
+        motors_enabled=True,
+        battery=1,
+        **numbers,
+    )
+
+
+def walk(to=1.0, goal_x=1.0, scenario="walk_ahead"):
+    goal = WalkTo.Goal(target_pose=PoseStamped())
+    goal.target_pose.pose.position.x = goal_x
+    return Transcript.from_events(
+        scenario,
+        {},
+        [
+            ev.NodeReady(t=0.0, waited=1.0),
+            ev.GoalSent(t=0.5, goal="a <b>", action="walk_to", request=goal),
+            ev.GoalAnswered(t=0.6, goal="a <b>", accepted=True),
+            *(ev.FeedbackReceived(t=1 + k / 5, goal="a <b>", feedback=WalkTo.Feedback()) for k in range(5)),
+            ev.CancelSent(t=2.0, cancel="1", goal="a <b>", by="client"),
+            ev.ResultReceived(t=2.5, goal="a <b>", status=GoalStatus.CANCELED, result=WalkTo.Result()),
+            *(robot(k / 10, to * k / 30) for k in range(31)),
+        ],
+    )
+
+
+def said(svg):
+    """The title and the words of a drawing."""
+    return re.search(r"<title>(.*?)</title>\n<desc>(.*?)</desc>", svg, re.DOTALL).groups()
+
+
+def test_a_walk_has_its_speed_with_the_goals_moments_and_its_path_with_the_goals_place():
+    speed, path = (said(svg) for svg in motion_svgs(walk(), "walk ahead"))
+    assert speed == (
+        "How fast the robot was: walk ahead",
+        "speed, m/s: 0.20 at first, 0.20 at last, 0.20 at most; time, s: 0.00 to 3.00. "
+        "goal “a &lt;b&gt;”: at 0.50. cancel “a &lt;b&gt;”: at 2.00. “a &lt;b&gt;” ends CANCELED: at 2.50. "
+        "5 feedback messages from 1.00 to 1.80.",
+    )
+    assert "start: at 0.00, 0.00. goal “a &lt;b&gt;”: at 1.00, 0.00. end: at 1.00, 0.00." in path[1]
+
+
+def test_a_robot_that_stays_has_no_plot_and_a_goal_that_is_nowhere_no_place():
+    assert motion_svgs(walk(to=0.01), "stay") == []
+    for nowhere in (float("nan"), float("inf"), 1e6):
+        assert "goal" not in said(motion_svgs(walk(goal_x=nowhere), "walk")[1])[1]
+
+
+def test_a_failed_check_has_its_drawings_under_its_own_submission_and_verdict_only(tmp_path):
+    Drawings(tmp_path).evidence("walk_to", SOURCES)(FAILED, [walk()])
+    grade = Grade("walk_to", "anna", "namespaces", [FAILED])
+    kept = Drawings(tmp_path).of(grade, SOURCES)
+    assert [said(svg)[0] for svg in kept["walks"]] == [
+        "walk ahead",
+        "How fast the robot was: walk ahead",
+        "Where the robot went, from above: walk ahead",
+    ]
+    later = CheckVerdict(**(vars(FAILED) | {"observed": "0.5 m"}))
+    assert Drawings(tmp_path).of(Grade("walk_to", "anna", "namespaces", [later]), SOURCES) == {}
+    assert Drawings(tmp_path).of(grade, {"walk_to.py": "another program"}) == {}
+    assert Drawings(tmp_path).of(grade, None) == {}
+
+
+def test_what_passed_is_not_drawn_and_what_cannot_be_drawn_costs_nobody_a_grade(tmp_path, caplog):
+    keep = Drawings(tmp_path).evidence("walk_to", SOURCES)
+    keep(CheckVerdict("walks", "It walks", "passed", 2, 2), [walk()])
+    assert not list(tmp_path.rglob("*.json"))
+    nothing_to_draw = Transcript.from_events("walk", {}, [ev.ScenarioEnded(t=1.0)])
+    keep(FAILED, [nothing_to_draw])
+    assert "no drawing of walk_to, walks" in caplog.text
+
+
+def test_a_plot_needs_points_that_are_finite():
+    for points in ([], [(0.0, float("nan"))]):
+        with pytest.raises(ValueError, match="at least one point"):
+            plot_svg(Plot("t", "x", "y", points))
+    assert "<polyline" in plot_svg(
+        Plot("t", "x", "y", [(1.0, 1.0)], flags=[Flag("here", 1.0, 1.0)], equal=True)
+    )
