@@ -32,7 +32,8 @@ _ETC = {
 }
 _PROGRAM_FOLDERS = ("/usr/bin", "/usr/local/bin", "/bin")
 _SYSTEM_LINKS = ("/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
-_SYSTEM_PATHS = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/localtime")
+_SYSTEM_FILES = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/localtime")
+SYSTEM_PATHS = ("/usr", *_SYSTEM_LINKS, *_SYSTEM_FILES)  # of the host, shown in every sandbox
 
 
 class SandboxError(Exception):
@@ -95,7 +96,7 @@ class Sandbox:
                 self.add("--symlink", os.readlink(path), path)
             elif os.path.isdir(path):
                 self.add("--ro-bind", path, path)
-        for path in _SYSTEM_PATHS:
+        for path in _SYSTEM_FILES:
             self.add("--ro-bind-try", path, path)
         for path, text in _ETC.items():
             self.add_data("--ro-bind-data", text.encode(), path)

@@ -20,7 +20,7 @@ from autograder.audit.known_submission import (
 from autograder.audit.run import AuditedRun
 from autograder.audit.run import audit as run_audit
 from autograder.engine.exercise import UnknownExercise, UnusableExercise, exercise_names, load_exercise
-from autograder.engine.grading import HiddenChecksRefused
+from autograder.engine.exposure import HiddenChecksRefused
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 from course_cli.jobs_option import JobsOption
