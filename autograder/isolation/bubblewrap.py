@@ -11,14 +11,16 @@ import os
 import select
 import subprocess
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
 from autograder.isolation.process_tree import children, ended_within, is_asleep
 
-STUDENT_FILTER = "/run/course/student.seccomp"  # where the arena keeps the filter of `seccomp_filter`
+WRITABLE = ("/tmp", "/dev/shm")  # file systems of a sandbox's own, in memory
+# where the arena keeps the filters of `seccomp_filter`
+STUDENT_FILTER, BUILD_FILTER = "/run/course/student.seccomp", "/run/course/build.seccomp"
 
 _START_TIMEOUT = 30.0  # s, for the namespaces and mounts on a busy machine
 # The command waits until init will end with bwrap; when we die before that, so does it, as its input ends.
@@ -113,9 +115,16 @@ class Sandbox:
             self.add("--setenv", name, value)
 
     def start(
-        self, command: Sequence[str], *, prefix: Sequence[str] = (), pass_fds: Sequence[int] = ()
+        self,
+        command: Sequence[str],
+        *,
+        prefix: Sequence[str] = (),
+        pass_fds: Sequence[int] = (),
+        prepare: Callable[[int], object] = lambda pid: None,
     ) -> StartedSandbox:
         """Run `command` inside with pipes for its streams; `prefix` is a program that becomes bwrap.
+
+        `prepare` gets the process id that the command will have, before it runs.
 
         Call it from a thread that lives as long as the sandbox: the kernel ends the sandbox when that thread
         ends. Raises `SandboxError` when the command could not be started.
@@ -123,6 +132,7 @@ class Sandbox:
         started = self._start(command, prefix, pass_fds)
         assert started.process.stdin
         try:
+            prepare(started.command_pid)
             started.process.stdin.write(b"go\n")
         except OSError as error:
             raise SandboxError(_why_it_failed(started.process)) from error

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import errno
 import signal
+import socket
 import tempfile
 from functools import lru_cache
 
@@ -17,7 +18,7 @@ from autograder.isolation.bubblewrap import SandboxError
 _DENIED = (
     "ptrace", "process_vm_readv", "process_vm_writev", "process_madvise", "process_mrelease", "kcmp",
     "pidfd_open", "pidfd_getfd", "pidfd_send_signal", "personality",
-    "sched_setscheduler", "sched_setattr",  # back to a class that is served before others
+    "sched_setattr",
     "keyctl", "add_key", "request_key",
     "mount", "umount", "umount2", "pivot_root", "chroot", "move_mount", "open_tree", "fsopen", "fsconfig",
     "fsmount", "fspick", "mount_setattr",
@@ -45,6 +46,7 @@ _CLONE_NEW_NAMESPACES = (0x00020000, 0x02000000, 0x04000000, 0x08000000, 0x10000
 _CLONE_PARENT = 0x00008000  # a child of the parent, so that it would be a process of nobody we know
 _MAP_KIND_OR_ANONYMOUS, _MAP_SHARED_ANONYMOUS = 0x2F, 0x21
 _RWF_NOWAIT = 0x8
+_POLICY, _BEFORE_OTHERS = 0xFF, (0, 1, 2, 6, 7)  # scheduling classes that are served before SCHED_BATCH
 
 
 class SeccompUnavailableError(SandboxError):
@@ -53,7 +55,21 @@ class SeccompUnavailableError(SandboxError):
 
 @lru_cache(maxsize=1)
 def student_filter() -> bytes:
-    """Return the filter as a program for bwrap's --seccomp. Raises `SeccompUnavailableError`."""
+    """Return the filter of students' programs, as a program for bwrap's --seccomp.
+
+    Raises:
+        SeccompUnavailableError: the library is missing.
+    """
+    return _filter(handles_children=False)
+
+
+@lru_cache(maxsize=1)
+def build_filter() -> bytes:
+    """Return the filter of our own modules that build students' definitions with CMake; see `student_filter`."""
+    return _filter(handles_children=True)
+
+
+def _filter(handles_children: bool) -> bytes:
     try:
         import pyseccomp
     except (ImportError, RuntimeError) as error:
@@ -80,19 +96,30 @@ def student_filter() -> bytes:
         pyseccomp.Arg(0, pyseccomp.EQ, _NETLINK),
         pyseccomp.Arg(2, pyseccomp.NE, _NETLINK_ROUTE),
     )
+    for policy in _BEFORE_OTHERS:  # the middleware sets again what it has
+        rules.add_rule(denied, "sched_setscheduler", pyseccomp.Arg(1, pyseccomp.MASKED_EQ, _POLICY, policy))
+    # without effect, as where a request is beyond what the kernel grants: a buffer is as large as the system has it
+    for option in (socket.SO_SNDBUF, socket.SO_RCVBUF):
+        rules.add_rule(
+            pyseccomp.ERRNO(0),
+            "setsockopt",
+            pyseccomp.Arg(1, pyseccomp.EQ, int(socket.SOL_SOCKET)),
+            pyseccomp.Arg(2, pyseccomp.EQ, int(option)),
+        )
     # such memory stays in use while no process has it in its resident size
     rules.add_rule(
         pyseccomp.ERRNO(errno.ENOMEM),
         "mmap",
         pyseccomp.Arg(3, pyseccomp.MASKED_EQ, _MAP_KIND_OR_ANONYMOUS, _MAP_SHARED_ANONYMOUS),
     )
-    # the kernel counts the processor time of a child when somebody waits for it, so no child may go without that
-    rules.add_rule(
-        denied,
-        "rt_sigaction",
-        pyseccomp.Arg(0, pyseccomp.EQ, int(signal.SIGCHLD)),
-        pyseccomp.Arg(1, pyseccomp.NE, 0),
-    )
+    if not handles_children:
+        # the kernel counts the processor time of a child when somebody waits for it, so no child may go without that
+        rules.add_rule(
+            denied,
+            "rt_sigaction",
+            pyseccomp.Arg(0, pyseccomp.EQ, int(signal.SIGCHLD)),
+            pyseccomp.Arg(1, pyseccomp.NE, 0),
+        )
     rules.add_rule(
         pyseccomp.ERRNO(errno.EOPNOTSUPP),
         "preadv2",

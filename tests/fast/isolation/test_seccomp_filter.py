@@ -56,6 +56,7 @@ REFUSED = {
     "a mounted tree": ("call(467, 0, 0, 0, 0, 0)", errno.ENOSYS),
 }
 ALLOWED = {
+    "the scheduling class it has": "os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))",
     "the network interfaces": "assert socket.if_nameindex()",
     "netlink for routes": "socket.socket(16, socket.SOCK_RAW, 0)",
     "shared memory with a file": """
@@ -114,4 +115,16 @@ def test_it_refuses(code: str, error: int) -> None:
 
 @pytest.mark.parametrize("code", ALLOWED.values(), ids=ALLOWED)
 def test_it_lets_pass(code: str) -> None:
+    assert errno_of(code) == 0
+
+
+def test_a_buffer_of_a_socket_stays_as_the_system_has_it() -> None:
+    code = """
+one, _ = socket.socketpair()
+before = one.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF)
+one.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 16 * before)
+one.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+assert one.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF) == before
+assert one.getsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR) == 1
+"""
     assert errno_of(code) == 0
