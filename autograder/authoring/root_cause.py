@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from autograder.authoring import events as ev
-from autograder.authoring.ending import GROWS, LEAKS, end_in_words, remedy_for_the_end
+from autograder.authoring.ending import GROWS, LEAKS, end_in_words, remedy_for_a_limit, remedy_for_the_end
 from autograder.authoring.record import Record
 from autograder.authoring.standing import where_it_stood, why_nobody_serves
 
@@ -64,12 +64,9 @@ def _killed(run: Record) -> Cause | None:
     killed = run.first(ev.NodeKilled)
     if killed is None:
         return None
-    return Cause(
-        f"the node had been ended at {killed.t:.1f} s: {killed.reason}",
-        GROWS,
-        killed.t,
-        LEAKS,
-    )
+    remedy = remedy_for_a_limit(killed)
+    words = f"the node had been ended at {killed.t:.1f} s: {killed.reason}"
+    return Cause(words, remedy.help, killed.t, remedy.see)
 
 
 def _overfull(run: Record) -> Cause | None:

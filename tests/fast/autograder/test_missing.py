@@ -141,6 +141,21 @@ def test_a_robot_whose_time_stands_still_is_not_judged():
     require_whole(transcript(robot_until=4.0), WITHOUT)
 
 
+@pytest.mark.parametrize(
+    ("reason", "help"),
+    [
+        ("it used 900 MiB of memory; 700 MiB are allowed", "list that grows"),
+        ("it made 11,045 files; 10,000 are allowed", "files that are made in a callback"),
+        ("with it there were 80 TCP sockets; 64 are allowed", "connections that are made in a callback"),
+    ],
+)
+def test_each_limit_has_a_remedy_of_its_own(reason, help):
+    with pytest.raises(Missing) as missing:
+        transcript(ASKED, ev.NodeKilled(t=3.0, reason=reason)).call("second")
+    assert f"had been ended at 3.0 s: {reason}" in missing.value.observed
+    assert help in missing.value.help
+
+
 def test_a_sound_program_on_a_busy_machine_is_not_to_blame():
     """It has used no more than on an idle one, although it took longer, and started while it waited for others."""
     slow_start = replace(BUSY, cpu=3.5, wall=3.6, cpu_in_time=1.9, in_time=1.0, burst=1.2)
