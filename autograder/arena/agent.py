@@ -113,6 +113,7 @@ def _perform(
     def speed_up() -> None:
         monitor.begin()
         clock.run_at(spec.scale)
+        student.count_from_now()
         phases.end("settling")
 
     scenario = getattr(scenarios_in(spec.scenario_file), spec.scenario)

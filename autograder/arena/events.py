@@ -117,12 +117,34 @@ class NodeKilled(Event):
 
 
 @dataclass(frozen=True, kw_only=True)
+class ArenaOverfull(Event):
+    """The controller ended the arena: student, robot and grader together used more memory than an arena has.
+
+    Robot and grader use a quarter of it, and always the same.
+    """
+
+    memory_mib: float
+    limit_mib: int
+
+
+@dataclass(frozen=True, kw_only=True)
 class NodeUsage(Event):
-    """What the student's processes used: processor time (s) over `wall` s of real time, peak memory (MiB)."""
+    """What the student's program and all it started used.
+
+    Attributes:
+        cpu, wall: processor time over real time, s.
+        peak_memory_mib: resident.
+        cpu_in_time: of `cpu`, what was used since the arena's clock ran at its scale.
+        in_time: s on that clock since then.
+        burst: the most processors that were busy over half a second of real time since then.
+    """
 
     cpu: float
     wall: float
     peak_memory_mib: float
+    cpu_in_time: float = 0.0
+    in_time: float = 0.0
+    burst: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -241,7 +263,7 @@ _EVENTS: list[type[Event]] = [
     ),
     *(RobotPeers, RobotCommanded, RobotRefused, MotorPowerReceived),
     *(NodeStarted, NodeReady, NodeNotReady, NodeOutput, NodeTyped),
-    *(NodeSignalled, NodeExited, NodeKilled, NodeUsage, NodeTopics, NodeStack),
+    *(NodeSignalled, NodeExited, NodeKilled, ArenaOverfull, NodeUsage, NodeTopics, NodeStack),
     *(ServiceOffered, ServiceWithdrawn, RequestReceived, ReplySent, MessagePublished, MessageReceived),
     *(
         ActionOffered,

@@ -90,6 +90,9 @@ class Host:
 def main() -> None:
     """Serve orders until the controller closes the socket."""
     signal.signal(signal.SIGINT, signal.default_int_handler)  # students' nodes inherit it, whoever started us
+    signal.signal(
+        signal.SIGCHLD, signal.SIG_DFL
+    )  # they inherit this, too: else nobody counts their children's time
     orders = socket.socket(fileno=int(sys.argv[1]))
     preload()
     host = Host()

@@ -52,7 +52,7 @@ class Student:
 
     def start_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:
         """Run a module of ours on some of the student's files, with no more rights than the student's program has."""
-        self._start(["-m", module, *arguments], files)
+        self._start(["-m", module, *arguments], files, builds=True)
 
     def has_exited(self) -> bool:
         """Return whether the program was started and its end is in the log, with all that it printed before."""
@@ -73,6 +73,11 @@ class Student:
     def wait(self, timeout: float) -> int | None:
         """Wait for the end and return the exit status, or None after `timeout` s."""
         return self._running.wait(timeout)
+
+    def count_from_now(self) -> None:
+        """Count the processor time while the clock runs at its scale from now on, or from the program's start."""
+        if self._watch:
+            self._watch.count_from_now()
 
     def starved(self) -> float:
         """Return how long (s of real time) the program has waited for a processor."""
@@ -95,7 +100,11 @@ class Student:
         return self._process
 
     def _start(
-        self, arguments: Sequence[str], names: Sequence[str], interpreter: WarmInterpreter | None = None
+        self,
+        arguments: Sequence[str],
+        names: Sequence[str],
+        interpreter: WarmInterpreter | None = None,
+        builds: bool = False,
     ) -> None:
         files = {name: content for name, content in self._spec.files.items() if name in names}
         self._log.append(ev.NodeStarted())
@@ -105,6 +114,7 @@ class Student:
             env={**ros_environment(), **self._clock.environment(), "PYTHONFAULTHANDLER": "1"},
             read_only_paths=[*self._spec.student_paths, self._clock.path],
             interpreter=interpreter,
+            builds=builds,
             on_line=self._on_line,
             on_exit=self._on_exit,
         )

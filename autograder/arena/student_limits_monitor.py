@@ -1,22 +1,28 @@
-"""Enforces the memory limit of a student's processes and adds up their processor time."""
+"""Enforces limits of a student's processes that the kernel has none for, and adds up their processor time."""
 
 from __future__ import annotations
 
 import threading
 import time
+from collections import deque
 
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.isolation.limits import StudentLimits
-from autograder.isolation.process_tree import cpu_seconds, resident_mib, seconds_without_a_processor
+from autograder.isolation.process_tree import cpu_seconds, resident_mib, seconds_without_a_processor, sockets
 from autograder.isolation.student_process import StudentProcess
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, real_monotonic_ns
 
 PERIOD = 0.1  # s of real time between two measurements, which read some files of every process
+BURST = 0.5  # s of real time over which the busy processors are counted
 
 
 class StudentLimitsMonitor:
-    """A thread that ends the student's processes above the limit, before a memory bomb ends the arena."""
+    """A thread that ends the student's processes above a limit, before they end the arena or hurt the machine.
+
+    Their processor time is exact: the kernel adds a child's to that of the process that waits for it, the sandbox's
+    first process waits for all orphans, and the filter lets no child go without (`isolation/seccomp_filter.py`).
+    """
 
     def __init__(
         self, student: StudentProcess, log: ArenaLog, clock: ScaledClock, limits: StudentLimits
@@ -29,13 +35,33 @@ class StudentLimitsMonitor:
         self._cpu = 0.0
         self._peak = 0.0
         self._starved: dict[int, float] = {}
+        self._cpu_before = 0.0
+        self._in_time_since = time.monotonic()
+        self._looks: deque[tuple[float, float]] = deque()  # real s, processor s
+        self._burst = 0.0
+        self._looking = threading.Lock()
         threading.Thread(target=self._watch, name="student limits", daemon=True).start()
+
+    def count_from_now(self) -> None:
+        """Begin to count what is used while the arena's clock runs at its scale."""
+        self._look()
+        with self._looking:
+            self._cpu_before, self._in_time_since = self._cpu, time.monotonic()
+            self._looks.clear()
+            self._burst = 0.0
 
     def report(self) -> None:
         """Record the resources used so far."""
         self._look()
-        wall = (real_monotonic_ns() - self._started) / 1e9
-        self._log.append(ev.NodeUsage(cpu=self._cpu, wall=wall, peak_memory_mib=self._peak))
+        usage = ev.NodeUsage(
+            cpu=self._cpu,
+            wall=(real_monotonic_ns() - self._started) / 1e9,
+            peak_memory_mib=self._peak,
+            cpu_in_time=self._cpu - self._cpu_before,
+            in_time=time.monotonic() - self._in_time_since,
+            burst=self._burst,
+        )
+        self._log.append(usage)
 
     def starved(self) -> float:
         """Return how long (s of real time) the processes have waited for a processor so far."""
@@ -43,22 +69,45 @@ class StudentLimitsMonitor:
 
     def _watch(self) -> None:
         while self._student.returncode is None:
-            used = self._look()
-            if used > self._limits.memory_mib:
-                reason = f"it used {used:.0f} MiB of memory; {self._limits.memory_mib} MiB are allowed"
-                self._log.append(ev.NodeKilled(reason=reason))
+            excess = self._look()
+            if excess:
+                self._log.append(ev.NodeKilled(reason=excess))
                 self._student.kill()
                 return
             time.sleep(PERIOD * self._clock.scale)  # this process follows the clock
 
-    def _look(self) -> float:
-        """Return the memory in use (MiB)."""
-        processes = self._student.processes()
-        self._cpu = max(self._cpu, cpu_seconds(processes))
-        used = resident_mib(processes)
-        self._peak = max(self._peak, used)
-        for process in processes:
-            self._starved[process] = max(
-                self._starved.get(process, 0.0), seconds_without_a_processor(process)
-            )
-        return used
+    def _look(self) -> str:
+        """Measure, and return which limit is exceeded, as a reason; empty: none."""
+        with self._looking:
+            processes = self._student.processes()
+            self._cpu = max(self._cpu, cpu_seconds(processes))
+            self._count_busy_processors()
+            used = resident_mib(processes)
+            self._peak = max(self._peak, used)
+            for process in processes:
+                self._starved[process] = max(
+                    self._starved.get(process, 0.0), seconds_without_a_processor(process)
+                )
+        return self._excess(used)
+
+    def _count_busy_processors(self) -> None:
+        now = real_monotonic_ns() / 1e9
+        self._looks.append((now, self._cpu))
+        while len(self._looks) > 1 and now - self._looks[1][0] >= BURST:
+            self._looks.popleft()
+        then, cpu = self._looks[0]
+        if now - then >= BURST:
+            self._burst = max(self._burst, (self._cpu - cpu) / (now - then))
+
+    def _excess(self, memory: float) -> str:
+        limits = self._limits
+        if memory > limits.memory_mib:
+            return f"it used {memory:.0f} MiB of memory; {limits.memory_mib} MiB are allowed"
+        if (files := self._student.files()) > limits.files:
+            return f"it made {files:,} files; {limits.files:,} are allowed"
+        open_sockets, tcp = sockets()
+        if open_sockets > limits.sockets:
+            return f"with it there were {open_sockets:,} sockets; {limits.sockets} are allowed"
+        if tcp > limits.tcp_sockets:
+            return f"with it there were {tcp:,} TCP sockets; {limits.tcp_sockets} are allowed"
+        return ""

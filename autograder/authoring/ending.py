@@ -126,6 +126,26 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
 )
 
 
+_LIMITS: tuple[tuple[str, Remedy], ...] = (  # by what the reason of a NodeKilled names
+    (
+        r" files\b",
+        Remedy("Look for files that are made in a callback or in a loop: make none, or one at the start."),
+    ),
+    (
+        r" sockets\b",
+        Remedy(
+            "Look for nodes, clients or connections that are made in a callback or in a loop: make each one once."
+        ),
+    ),
+    (r"", Remedy(GROWS, LEAKS)),
+)
+
+
+def remedy_for_a_limit(killed: ev.NodeKilled) -> Remedy:
+    """Return what to do about a program that was ended above a limit."""
+    return next(remedy for words, remedy in _LIMITS if re.search(words, killed.reason))
+
+
 def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
     """Return what to do about a program that ended by itself, or by an exception."""
     traceback = _last_traceback(run)

@@ -10,7 +10,7 @@ import re
 
 from autograder.authoring import events as ev
 from autograder.authoring.connections import OUTSIDE
-from autograder.authoring.ending import GROWS, LEAKS, end_in_words, remedy_for_the_end
+from autograder.authoring.ending import end_in_words, remedy_for_a_limit, remedy_for_the_end
 from autograder.authoring.failure import Failure
 from autograder.authoring.missing import unseen
 from autograder.authoring.record import Record
@@ -69,9 +69,9 @@ def require_within_limits(run: Record) -> None:
         raise Failure(
             expected="a node that stays within its limits",
             observed=f"it was ended: {killed.reason}",
-            help=GROWS,
+            help=remedy_for_a_limit(killed).help,
             at=killed.t,
-            see=LEAKS,
+            see=remedy_for_a_limit(killed).see,
         )
 
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from autograder.authoring import events as ev
-from autograder.authoring.ending import GROWS, LEAKS, end_in_words, remedy_for_the_end
+from autograder.authoring.ending import GROWS, LEAKS, end_in_words, remedy_for_a_limit, remedy_for_the_end
 from autograder.authoring.record import Record
 from autograder.authoring.standing import where_it_stood, why_nobody_serves
 
-BUSY_PROCESSORS = 0.8  # processors; a submission that keeps more of them busy caused what comes late itself
+# Processor-seconds that a sound program may use to start, and in each second of the arena's clock: as many on a busy
+# machine as on an idle one, and several times what it needs. One that uses more caused what comes late itself.
+STARTING, ALLOWED_LOAD = 2.0, 0.3
+ONE_INTERPRETER = 1.4  # processors: what Python and the threads of the middleware can keep busy for a while
 
 SERVES = "02_services#first-intro"
 DEADLOCK = "02_services#m4-why"
@@ -48,26 +51,33 @@ def why_it_went_no_further(run: Record) -> Cause | None:
 
 
 def why_the_robot_was_held_up(run: Record) -> Cause | None:
-    """Return how the submission held up the robot: with messages it had to refuse, or by busy processors."""
-    return _refused(run) or _busy(run)
+    """Return how the submission held up the robot: by messages it had to refuse, busy processors, or all the memory."""
+    return _refused(run) or _overfull(run) or _busy(run)
 
 
 def keeps_processors_busy(run: Record) -> bool:
     """Return whether the submission itself kept the processors busy; such a run is judged as it is."""
-    usage = run.first(ev.NodeUsage)
-    return usage is not None and usage.cpu > BUSY_PROCESSORS * usage.wall
+    return bool(_load_in_words(run))
 
 
 def _killed(run: Record) -> Cause | None:
     killed = run.first(ev.NodeKilled)
     if killed is None:
         return None
-    return Cause(
-        f"the node had been ended at {killed.t:.1f} s: {killed.reason}",
-        GROWS,
-        killed.t,
-        LEAKS,
+    remedy = remedy_for_a_limit(killed)
+    words = f"the node had been ended at {killed.t:.1f} s: {killed.reason}"
+    return Cause(words, remedy.help, killed.t, remedy.see)
+
+
+def _overfull(run: Record) -> Cause | None:
+    overfull = run.first(ev.ArenaOverfull)
+    if overfull is None:
+        return None
+    words = (
+        f"your program, with all it started, filled the arena: {overfull.memory_mib:.0f} MiB of memory at "
+        f"{overfull.t:.1f} s; {overfull.limit_mib} MiB are there for everybody"
     )
+    return Cause(words, GROWS, overfull.t, LEAKS)
 
 
 def _exited(run: Record) -> Cause | None:
@@ -116,11 +126,30 @@ def _size(count: int) -> str:
 
 
 def _busy(run: Record) -> Cause | None:
-    usage = run.first(ev.NodeUsage)
-    if usage is None or not keeps_processors_busy(run):
+    words = _load_in_words(run)
+    if not words:
         return None
     return Cause(
-        f"your program kept the processors busy: {usage.cpu:.1f} s of processor time in {usage.wall:.1f} s",
-        "Look for a loop without a pause: spin() waits by itself until there is something to do.",
-        usage.t,
+        words,
+        "Look for a loop without a pause, and for programs or threads started again and again: spin() waits by itself "
+        "until there is something to do.",
+        run.all(ev.NodeUsage)[0].t,
     )
+
+
+def _load_in_words(run: Record) -> str:
+    """Return what the submission used of the processors if that is too much, else nothing."""
+    usage = run.first(ev.NodeUsage)
+    if usage is None:
+        return ""
+    allowed = STARTING + ALLOWED_LOAD * usage.in_time
+    subject = "your program, with all it started,"
+    if usage.cpu_in_time > allowed:
+        return (
+            f"{subject} used more than {allowed:.1f} processor-seconds in {usage.in_time:.1f} s: "
+            f"{usage.cpu_in_time:.1f}"
+        )
+    allowed = max(ONE_INTERPRETER, ALLOWED_LOAD * run.scale)
+    if usage.burst > allowed:
+        return f"{subject} kept more than {allowed:.1f} processors busy at once: {usage.burst:.1f}"
+    return ""

@@ -13,9 +13,9 @@ from autograder.authoring.checks import Scenario
 from autograder.authoring.transcript import Transcript
 from autograder.engine.clock_scale import USUAL, scale_of
 from autograder.engine.exercise import Exercise
-from autograder.engine.submission_arena import ArenaEnded, student_paths
+from autograder.engine.submission_arena import LIMITS, ArenaEnded, student_paths
 from autograder.engine.submission_arenas import SubmissionArenas
-from autograder.isolation.arena_process import Kind
+from autograder.isolation.arena_process import ArenaReport, Ended, Kind
 from autograder.isolation.bubblewrap import SandboxError
 
 STARTUP_ALLOWANCE = 60.0  # s of wall time for the processes of an arena to start on a loaded machine
@@ -73,7 +73,11 @@ def run_in_arena(
             is_isolated = arena.kind is Kind.NAMESPACES
             report = arena.carry_out(_specification(run, params, scale, is_isolated), deadline, stop)
             return _transcript(run, params, scale, report)
-    except (SandboxError, ArenaEnded) as error:
+    except ArenaEnded as error:
+        if error.report.ended is Ended.MEMORY:
+            return _broken_off(run, params, scale, error.events, error.report)
+        raise NotGraded(f"scenario {run.scenario.name}: {error}") from error
+    except SandboxError as error:
         raise NotGraded(f"scenario {run.scenario.name}: {error}") from error
 
 
@@ -99,15 +103,30 @@ def _specification(run: ArenaRun, params: dict[str, Any], scale: float, is_isola
 
 
 def _transcript(run: ArenaRun, params: dict[str, Any], scale: float, report: bytes) -> Transcript:
-    """Read the events; a last line cut short by the end of a process is dropped."""
-    *lines, _unfinished = report.split(b"\n")
-    try:
-        events = [ev.parse_event(line) for line in lines]
-    except ValueError as error:
-        raise NotGraded(f"the arena's report cannot be read: {error}") from error
+    """Read the events of a scenario that came to its end."""
+    events = _events(report)
     failed = next((event for event in events if isinstance(event, ev.ScenarioFailed)), None)
     if failed:
         raise NotGraded(f"scenario {run.scenario.name}: {failed.reason}")
     if not any(isinstance(event, ev.ScenarioEnded) for event in events):
         raise NotGraded(f"scenario {run.scenario.name}: it did not come to its end")
     return Transcript.from_events(run.scenario.name, params, events, scale)
+
+
+def _broken_off(
+    run: ArenaRun, params: dict[str, Any], scale: float, report: bytes, ended: ArenaReport
+) -> Transcript:
+    """Read the events of a scenario whose arena was ended for its memory, which only the submission can take."""
+    events = _events(report)
+    last = max((event.t for event in events), default=0.0)
+    events.append(ev.ArenaOverfull(t=last, memory_mib=ended.peak_memory_mib, limit_mib=LIMITS.memory_mib))
+    return Transcript.from_events(run.scenario.name, params, events, scale)
+
+
+def _events(report: bytes) -> list[Any]:
+    """Read the events; a last line cut short by the end of a process is dropped."""
+    *lines, _unfinished = report.split(b"\n")
+    try:
+        return [ev.parse_event(line) for line in lines]
+    except ValueError as error:
+        raise NotGraded(f"the arena's report cannot be read: {error}") from error

@@ -17,7 +17,8 @@ from autograder.authoring.root_cause import why_the_robot_was_held_up
 from autograder.authoring.transcript import Transcript
 from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.engine.clock_scale import ClockScale
-from autograder.engine.exercise import Exercise
+from autograder.engine.exercise import Exercise, exercises_folder
+from autograder.engine.exposure import HiddenChecksRefused, require_hidden
 from autograder.engine.judging import judge, verdict_on
 from autograder.engine.lateness import OVERLOADED, STRAINED, lateness
 from autograder.engine.submission import Submission
@@ -32,10 +33,6 @@ Runs = dict[Scenario, Future[Transcript]]
 Evidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
 
 MOST_ATTEMPTS: dict[CheckStatus, int] = {"passed": 1, "failed": 2, "not run": 1, "error": 4}
-
-
-class HiddenChecksRefused(Exception):
-    """Hidden checks would be exposed to the submission on this machine."""
 
 
 def grade(
@@ -72,11 +69,13 @@ def grade(
         at_first_look: the checks (ids) whose first failure counts, where no points can be lost: in an audit.
 
     Raises:
-        HiddenChecksRefused: there are hidden checks, and arenas cannot be isolated here.
+        HiddenChecksRefused: there are hidden checks, and arenas cannot be isolated here, or would show them.
     """
     isolation = isolation or available_isolation()
-    if not isolation.trusted and any(check.hidden for check in exercise.checks):
-        raise HiddenChecksRefused(f"hidden checks need isolated arenas: {isolation.reason}")
+    if any(check.hidden for check in exercise.checks):
+        if not isolation.trusted:
+            raise HiddenChecksRefused(f"hidden checks need isolated arenas: {isolation.reason}")
+        require_hidden([exercise.folder, exercises_folder()])
     arenas = arenas or SubmissionArenas(exercise.scenario_file, isolation.kind)
     session = _Session(
         submission,

@@ -35,11 +35,12 @@ _SWEEPING = 15.0  # s for the processes of a scenario to end
 
 
 class ArenaEnded(Exception):
-    """The arena ended before the scenario did."""
+    """The arena ended before the scenario did; `events` is what had arrived until then."""
 
-    def __init__(self, report: ArenaReport) -> None:
+    def __init__(self, report: ArenaReport, events: bytes = b"") -> None:
         super().__init__(f"{report.explain(LIMITS)}\n{report.stderr.text[-2000:]}")
         self.report = report
+        self.events = events
 
 
 class SubmissionArena:
@@ -99,7 +100,7 @@ class SubmissionArena:
             finally:
                 os.close(write_end)
             report = self._read(events.fileno(), stop)
-        self._await_the_end_of_its_processes()
+        self._await_the_end_of_its_processes(report)
         self._process.allow(IDLE)
         return report
 
@@ -115,7 +116,7 @@ class SubmissionArena:
             if stop and stop.is_set():
                 raise ArenaEnded(self._process.kill())
             if self._process.poll() and not _is_readable(fd, 0):
-                raise ArenaEnded(self._process.wait())
+                raise ArenaEnded(self._process.wait(), bytes(report))
             if not _is_readable(fd, _LOOK):
                 continue
             chunk = os.read(fd, 2**20)
@@ -124,17 +125,17 @@ class SubmissionArena:
             report += chunk
         raise ArenaEnded(self._process.kill())
 
-    def _await_the_end_of_its_processes(self) -> None:
+    def _await_the_end_of_its_processes(self, report: bytes) -> None:
         deadline = time.monotonic() + _SWEEPING
         while time.monotonic() < deadline:
             if self._process.poll():
-                raise ArenaEnded(self._process.wait())
+                raise ArenaEnded(self._process.wait(), report)
             if _is_readable(self._orders.fileno(), _LOOK):
                 with suppress(OSError):
                     if self._orders.recv(len(DONE)) == DONE:
                         return
                 break
-        raise ArenaEnded(self._process.kill())
+        raise ArenaEnded(self._process.kill(), report)
 
 
 def ros_paths() -> list[Path]:

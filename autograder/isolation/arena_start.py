@@ -15,9 +15,16 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from autograder.isolation.arena_spec import ISOLATION_VARIABLE, ArenaSpec, Kind
-from autograder.isolation.bubblewrap import STUDENT_FILTER, Sandbox, SandboxError, StartedSandbox, same_paths
+from autograder.isolation.bubblewrap import (
+    BUILD_FILTER,
+    STUDENT_FILTER,
+    Sandbox,
+    SandboxError,
+    StartedSandbox,
+    same_paths,
+)
 from autograder.isolation.process_tree import ended_within
-from autograder.isolation.seccomp_filter import student_filter
+from autograder.isolation.seccomp_filter import build_filter, student_filter
 from autograder.isolation.warm_interpreter import first_process
 from ros_runtime.project import PROJECT
 from ros_runtime.ros_domain import NoDomainLeft, ReservedDomain
@@ -72,7 +79,7 @@ def start_with_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
 
 def start_without_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
     """Start the arena as ordinary processes under a reaper, on a ROS domain of its own."""
-    folder = Path(tempfile.mkdtemp(prefix="arena-"))
+    folder = Path(tempfile.mkdtemp(prefix=f"arena-{os.getpid()}-"))
     stack.callback(shutil.rmtree, folder, ignore_errors=True)
     try:
         domain = ReservedDomain()
@@ -108,6 +115,7 @@ def _describe(sandbox: Sandbox, spec: ArenaSpec, paths: list[tuple[str, str]]) -
     sandbox.add("--unshare-net")
     sandbox.add_file_system(spec.limits.tmp_mib, spec.limits.shared_memory_mib, paths)
     sandbox.add_data("--ro-bind-data", student_filter(), STUDENT_FILTER)
+    sandbox.add_data("--ro-bind-data", build_filter(), BUILD_FILTER)
     sandbox.close_file_system()
     sandbox.add("--chdir", "/tmp")
     sandbox.add_environment(_sandbox_environment(spec) if spec.waiting_env is None else spec.waiting_env)
@@ -128,7 +136,7 @@ def _sandbox_environment(spec: ArenaSpec) -> dict[str, str]:
 @contextmanager
 def _staging_folder() -> Iterator[Path]:
     """Yield a folder to mount on. The mounts are seen by the arena alone, which needs them only to start."""
-    staging = Path(tempfile.mkdtemp(prefix="arena-", dir="/tmp"))
+    staging = Path(tempfile.mkdtemp(prefix=f"arena-{os.getpid()}-", dir="/tmp"))
     try:
         yield staging
     finally:

@@ -56,6 +56,7 @@ def try_namespaces() -> Isolation:
         nested = (
             f"exec {bwrap_path()} --unshare-user --unshare-pid --unshare-ipc --unshare-uts --cap-drop ALL"
             " --disable-userns --ro-bind / / --proc /proc --dev /dev --size 65536 --tmpfs /tmp"
+            " --dev-bind /dev/full /dev/zero --tmpfs /proc/1"
         )
         script = f"{nested} --seccomp 3 -- /bin/true 3<{STUDENT_FILTER}"
         limits = ArenaLimits(deadline_s=_PROBE_DEADLINE)

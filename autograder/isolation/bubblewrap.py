@@ -11,14 +11,16 @@ import os
 import select
 import subprocess
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
 from autograder.isolation.process_tree import children, ended_within, is_asleep
 
-STUDENT_FILTER = "/run/course/student.seccomp"  # where the arena keeps the filter of `seccomp_filter`
+WRITABLE = ("/tmp", "/dev/shm")  # file systems of a sandbox's own, in memory
+# where the arena keeps the filters of `seccomp_filter`
+STUDENT_FILTER, BUILD_FILTER = "/run/course/student.seccomp", "/run/course/build.seccomp"
 
 _START_TIMEOUT = 30.0  # s, for the namespaces and mounts on a busy machine
 # The command waits until init will end with bwrap; when we die before that, so does it, as its input ends.
@@ -32,7 +34,8 @@ _ETC = {
 }
 _PROGRAM_FOLDERS = ("/usr/bin", "/usr/local/bin", "/bin")
 _SYSTEM_LINKS = ("/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
-_SYSTEM_PATHS = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/localtime")
+_SYSTEM_FILES = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/localtime")
+SYSTEM_PATHS = ("/usr", *_SYSTEM_LINKS, *_SYSTEM_FILES)  # of the host, shown in every sandbox
 
 
 class SandboxError(Exception):
@@ -95,7 +98,7 @@ class Sandbox:
                 self.add("--symlink", os.readlink(path), path)
             elif os.path.isdir(path):
                 self.add("--ro-bind", path, path)
-        for path in _SYSTEM_PATHS:
+        for path in _SYSTEM_FILES:
             self.add("--ro-bind-try", path, path)
         for path, text in _ETC.items():
             self.add_data("--ro-bind-data", text.encode(), path)
@@ -112,9 +115,16 @@ class Sandbox:
             self.add("--setenv", name, value)
 
     def start(
-        self, command: Sequence[str], *, prefix: Sequence[str] = (), pass_fds: Sequence[int] = ()
+        self,
+        command: Sequence[str],
+        *,
+        prefix: Sequence[str] = (),
+        pass_fds: Sequence[int] = (),
+        prepare: Callable[[int], object] = lambda pid: None,
     ) -> StartedSandbox:
         """Run `command` inside with pipes for its streams; `prefix` is a program that becomes bwrap.
+
+        `prepare` gets the process id that the command will have, before it runs.
 
         Call it from a thread that lives as long as the sandbox: the kernel ends the sandbox when that thread
         ends. Raises `SandboxError` when the command could not be started.
@@ -122,6 +132,7 @@ class Sandbox:
         started = self._start(command, prefix, pass_fds)
         assert started.process.stdin
         try:
+            prepare(started.command_pid)
             started.process.stdin.write(b"go\n")
         except OSError as error:
             raise SandboxError(_why_it_failed(started.process)) from error

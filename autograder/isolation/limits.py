@@ -35,4 +35,8 @@ class StudentLimits:
     address_space_mib: int = 4096  # a process
     tmp_mib: int = 32  # its folder and everything else under /tmp
     shared_memory_mib: int = 16
+    # The kernel has no limit for these; enforced by arena/student_limits_monitor.py.
+    files: int = 10_000  # and folders and links, which take memory although they are empty
+    sockets: int = 700  # of the arena, with the robot's and the grader's, which are about 60
+    tcp_sockets: int = 64  # of these; each may hold megabytes, and ROS has none
     output_kib: int = 256  # kept of stdout and of stderr each

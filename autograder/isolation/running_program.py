@@ -9,7 +9,7 @@ import threading
 from contextlib import suppress
 from typing import IO
 
-from autograder.isolation.bubblewrap import StartedSandbox
+from autograder.isolation.bubblewrap import WRITABLE, StartedSandbox
 from autograder.isolation.process_tree import descendants
 
 
@@ -48,8 +48,12 @@ class RunningProgram:
             return self._status()
 
     def processes(self) -> list[int]:
-        """Return the ids of the program and of everything it started."""
+        """Return the ids of the program and of everything it started, each parent before its children."""
         raise NotImplementedError
+
+    def files(self) -> int:
+        """Return how many files there are in what the program can write to; 0 where it has no folders of its own."""
+        return 0
 
     def _kill_everything(self) -> None:
         raise NotImplementedError
@@ -72,6 +76,10 @@ class ChildProgram(RunningProgram):
         )
         self._process = process
         self._init = sandbox_init
+
+    def files(self) -> int:
+        """Return how many files there are in the sandbox's own folders."""
+        return _files_in_memory(self._init) if self._init else 0
 
     def processes(self) -> list[int]:
         """Return the ids of its processes: the program, or bwrap around it, and all that descend from it."""
@@ -102,6 +110,10 @@ class EnteredProgram(RunningProgram):
         self._report = report
         self._sandbox = sandbox
 
+    def files(self) -> int:
+        """Return how many files there are in the sandbox's own folders."""
+        return _files_in_memory(self._sandbox.init_pid)
+
     def processes(self) -> list[int]:
         """Return the ids of its processes: the program, the init of its sandbox, and all that descend from them."""
         roots = (self._main_pid, self._sandbox.init_pid)
@@ -115,6 +127,16 @@ class EnteredProgram(RunningProgram):
         self._report.close()
         self._sandbox.process.communicate()
         return int(status) if status else -signal.SIGKILL
+
+
+def _files_in_memory(process: int) -> int:
+    """Return how many files, folders and links a sandbox's own file systems hold; `process` is one in it."""
+    held = 0
+    for folder in WRITABLE:
+        with suppress(OSError):  # it ends just now
+            state = os.statvfs(f"/proc/{process}/root{folder}")
+            held += state.f_files - state.f_ffree
+    return held
 
 
 def _kill(*pids: int) -> None:

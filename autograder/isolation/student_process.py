@@ -36,6 +36,7 @@ def start_student(
     read_only_paths: Sequence[str | Path] = (),
     limits: StudentLimits | None = None,
     interpreter: WarmInterpreter | None = None,
+    builds: bool = False,
     on_line: Callable[[float, str, str], object] | None = None,
     on_exit: Callable[[int], object] | None = None,
 ) -> StudentProcess:
@@ -43,7 +44,8 @@ def start_student(
 
     `interpreter` is one that waits to become the program, instead of a new one. `env` is its environment, to which
     the arena's network settings are added. `read_only_paths` are files and folders of the arena that it sees at the
-    same place. `on_line(time, "stdout" | "stderr", text)` is called for each kept line and `on_exit(returncode)` once
+    same place. `builds` says that it is a module of ours that runs CMake, which handles the end of its children itself.
+    `on_line(time, "stdout" | "stderr", text)` is called for each kept line and `on_exit(returncode)` once
     at the end, after the last line, both on a thread of their own. Raises `SandboxError` when the
     sandbox cannot be started, ValueError for a file name that leaves the folder.
     """
@@ -53,7 +55,15 @@ def start_student(
                 f"the file name {name!r} leads out of the working directory; give a relative one without '..'"
             )
     return StudentProcess(
-        Program(arguments, workdir_files, env or {}, read_only_paths, limits or StudentLimits(), interpreter),
+        Program(
+            arguments,
+            workdir_files,
+            env or {},
+            read_only_paths,
+            limits or StudentLimits(),
+            interpreter,
+            builds,
+        ),
         on_line,
         on_exit,
     )
@@ -111,6 +121,10 @@ class StudentProcess:
         if self._returncode is not None:
             return []
         return self._running.processes()
+
+    def files(self) -> int:
+        """Return how many files there are in the program's own folders, where it has any that are its own alone."""
+        return 0 if self._returncode is not None else self._running.files()
 
     def interrupt(self) -> None:
         """Send SIGINT to the program itself, as Ctrl-C does."""

@@ -14,11 +14,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from autograder.isolation.arena_spec import ISOLATION_VARIABLE, Kind
-from autograder.isolation.bubblewrap import STUDENT_FILTER, Sandbox, SandboxError, same_paths
+from autograder.isolation.bubblewrap import BUILD_FILTER, STUDENT_FILTER, Sandbox, SandboxError, same_paths
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.running_program import ChildProgram, EnteredProgram, RunningProgram
 from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.workarounds.scaled_clock.clock import PAGE_VARIABLE
+from ros_runtime.workarounds.warm_start.confinement import stand_back
 
 _WORKDIR = "/tmp/work"  # the program's working directory in its sandbox
 _NETWORK_VARIABLES = ("ROS_DOMAIN_ID", "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_BUILTIN_TRANSPORTS")
@@ -34,6 +35,7 @@ class Program:
     read_only_paths: Sequence[str | Path]
     limits: StudentLimits
     interpreter: WarmInterpreter | None = None  # that is to become it; None: a new one
+    builds: bool = False  # it is a module of ours that runs CMake
 
 
 def start_program(program: Program, stack: ExitStack) -> RunningProgram:
@@ -71,7 +73,8 @@ def _start_in_sandbox(program: Program, stack: ExitStack) -> ChildProgram:
         nproc = (
             f"--nproc={program.limits.processes}"  # counted in this sandbox alone, as it has its own users
         )
-        started = sandbox.start([*_limited(program.limits), nproc, "--", sys.executable, *program.arguments])
+        command = [*_limited(program.limits), nproc, "--", sys.executable, *program.arguments]
+        started = sandbox.start(command, prepare=stand_back)
     stack.callback(os.close, started.init_pidfd)
     return ChildProgram(started.process, started.command_pid, started.init_pid)
 
@@ -97,12 +100,16 @@ def _describe(sandbox: Sandbox, program: Program) -> None:
     sandbox.add_isolation()
     sandbox.add("--disable-userns")
     sandbox.add_file_system(limits.tmp_mib, limits.shared_memory_mib, same_paths(program.read_only_paths))
+    # writing to its memory shares memory that no limit counts; reading it brings zeros all the same
+    sandbox.add("--dev-bind", "/dev/full", "/dev/zero")
+    # the sandbox's first process has the program's user, who could otherwise write to its memory
+    sandbox.add("--perms", "0555", "--size", "4096", "--tmpfs", "/proc/1", "--remount-ro", "/proc/1")
     sandbox.add("--dir", _WORKDIR)
     for name, content in program.workdir_files.items():
         sandbox.add_data("--file", content, f"{_WORKDIR}/{name}")
     sandbox.close_file_system()
     sandbox.add("--chdir", _WORKDIR)
-    sandbox.add_data("--seccomp", Path(STUDENT_FILTER).read_bytes())
+    sandbox.add_data("--seccomp", Path(BUILD_FILTER if program.builds else STUDENT_FILTER).read_bytes())
 
 
 def _start_bare(program: Program, stack: ExitStack) -> ChildProgram:
@@ -122,6 +129,8 @@ def _start_bare(program: Program, stack: ExitStack) -> ChildProgram:
         env=program_environment(program.env, str(folder)),
         start_new_session=True,
     )
+    with suppress(ProcessLookupError):  # it has ended already
+        stand_back(process.pid)
     return ChildProgram(process, process.pid)
 
 

@@ -17,10 +17,11 @@ from autograder.audit.known_submission import (
     known_submission,
     known_submissions,
 )
+from autograder.audit.residue import residue
 from autograder.audit.run import AuditedRun
 from autograder.audit.run import audit as run_audit
 from autograder.engine.exercise import UnknownExercise, UnusableExercise, exercise_names, load_exercise
-from autograder.engine.grading import HiddenChecksRefused
+from autograder.engine.exposure import HiddenChecksRefused
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 from course_cli.jobs_option import JobsOption
@@ -60,20 +61,21 @@ def audit(
         if to_patch:
             console.print(_to_patch(_found(exercise, to_patch)), markup=False, soft_wrap=True)
             return
-        for name in [exercise] if exercise else exercise_names():
-            loaded = load_exercise(name, hidden=True)
-            runs = run_audit(
-                known_submissions(name, only=only),
-                loaded,
-                jobs=jobs,
-                repeat=repeat,
-                scale=scale,
-                report=lambda run: print_progress(console, run),
-            )
-            console.print()
-            console.print(kill_matrix(runs, loaded), width=max(console.width, MATRIX_WIDTH))
-            console.print()
-            audited[name] = runs
+        with residue() as left:
+            for name in [exercise] if exercise else exercise_names():
+                loaded = load_exercise(name, hidden=True)
+                runs = run_audit(
+                    known_submissions(name, only=only),
+                    loaded,
+                    jobs=jobs,
+                    repeat=repeat,
+                    scale=scale,
+                    report=lambda run: print_progress(console, run),
+                )
+                console.print()
+                console.print(kill_matrix(runs, loaded), width=max(console.width, MATRIX_WIDTH))
+                console.print()
+                audited[name] = runs
     except (UnknownExercise, UnusableExercise, HeaderError, PatchError) as error:
         raise ended(console, error, UNUSABLE) from error
     except HiddenChecksRefused as error:
@@ -84,7 +86,9 @@ def audit(
     every_run = [run for runs in audited.values() for run in runs]
     if not every_run:
         raise ended(console, f"no submission matches {only!r}", UNUSABLE)
-    raise typer.Exit(COULD_NOT if any(run.surprises() for run in every_run) else 0)
+    for line in left:
+        console.print(f"left behind: {line}", style="red", markup=False)
+    raise typer.Exit(COULD_NOT if left or any(run.surprises() for run in every_run) else 0)
 
 
 def _found(exercise: str | None, name: str) -> KnownSubmission:

@@ -18,6 +18,7 @@ from autograder.batch.collection import Collection, NoSubmissions, collect
 from autograder.batch.records import GRADES, write_grades
 from autograder.batch.runner import BatchRunner, Graded
 from autograder.engine.exercise import UnusableExercise, exercises_folder
+from autograder.engine.exposure import HiddenChecksRefused, require_hidden
 from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation, available_isolation
 from autograder.nbgrader_bridge.course_folder import NbgraderError
@@ -58,6 +59,11 @@ def grade(
     except NoSubmissions as error:
         raise ended(console, error, UNUSABLE) from error
     isolation = available_isolation()
+    try:
+        if isolation.trusted:  # otherwise they could read it anywhere
+            require_hidden([exercises_folder(), submitted, out])
+    except HiddenChecksRefused as error:
+        raise ended(console, error, COULD_NOT) from error
     if not isolation.trusted:
         console.print(
             f"No isolation: {isolation.reason}. Only visible checks are made and the grades are marked untrusted; run "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 
 import pytest
 
@@ -47,7 +48,7 @@ for folder in (".", "/tmp", "/dev/shm"):
 if os.fork() == 0:
     os.setsid()
     if os.fork() == 0:
-        for number in set(signal.Signals) - {signal.SIGKILL, signal.SIGSTOP}:
+        for number in set(signal.Signals) - {signal.SIGKILL, signal.SIGSTOP, signal.SIGCHLD}:
             signal.signal(number, signal.SIG_IGN)
         server = socket.socket(socket.AF_UNIX)
         server.bind("\\0trace")
@@ -139,6 +140,63 @@ while time.process_time() < 0.5:
             usage = run(code, arenas, cold=cold).first(ev.NodeUsage)
             assert usage.cpu >= 0.4
             assert usage.peak_memory_mib >= 190
+
+
+@pytest.mark.parametrize("cold", [True, False], ids=["cold", "warm"])
+def test_what_children_use_is_counted_whoever_buries_them(cold):
+    code = """
+import os, signal, time
+try:
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # then the kernel would bury them, and count nothing
+except PermissionError:
+    print("refused", flush=True)
+for _ in range(6):
+    if os.fork() == 0:
+        if os.fork() == 0:  # an orphan, so the sandbox's first process buries it
+            while time.process_time() < 0.2:
+                pass
+            os._exit(0)
+        while time.process_time() < 0.1:
+            pass
+        os._exit(0)
+try:
+    while True:
+        os.wait()
+except ChildProcessError:
+    time.sleep(1)
+"""
+    with SubmissionArenas(QUIZ.scenario_file) as arenas:
+        recorded = run(code, arenas, cold=cold)
+    assert printed(recorded) == ["refused"]
+    assert recorded.first(ev.NodeUsage).cpu >= 6 * 0.3 - 0.2
+
+
+@pytest.mark.parametrize(
+    ("code", "reason"),
+    [
+        (
+            "from itertools import count\nfor n in count(): open(f'/tmp/{n}', 'w').close()",
+            r"it made .* files",
+        ),
+        (
+            "import os, socket, time\nfor _ in range(3): os.fork()\n"
+            "held = [socket.socketpair() for _ in range(100)]\ntime.sleep(60)",
+            r"there were .* sockets",
+        ),
+        (
+            "import socket, time\nserver = socket.create_server(('127.0.0.1', 0))\n"
+            "held = [socket.create_connection(server.getsockname()) for _ in range(40)]\n"
+            "held += [server.accept() for _ in range(40)]\ntime.sleep(60)",
+            r"there were .* TCP sockets",
+        ),
+    ],
+    ids=["files", "sockets", "TCP"],
+)
+def test_what_the_kernel_has_no_limit_for_is_limited(code, reason):
+    with SubmissionArenas(QUIZ.scenario_file) as arenas:
+        killed = run(code, arenas, cold=False).first(ev.NodeKilled)
+    assert killed, reason
+    assert re.search(reason, killed.reason)
 
 
 def test_a_warm_program_is_ended_above_its_memory():

@@ -56,6 +56,7 @@ class Student:
     paths: list[str] = field(default_factory=list)
     arena_env: dict[str, str] = field(default_factory=dict)
     warm: bool = False  # it becomes what an interpreter waits for
+    builds: bool = False  # it runs CMake
 
     def spec(self, limits: ArenaLimits) -> ArenaSpec:
         """The arena to run it in."""

@@ -40,6 +40,7 @@ def start() -> StudentProcess:
         read_only_paths=task["paths"],
         limits=StudentLimits(**task["limits"]),
         interpreter=interpreter,
+        builds=task["builds"],
         on_line=on_line,
         on_exit=codes.append,
     )

@@ -35,6 +35,7 @@ def test_it_builds_and_a_process_beside_it_imports_it(namespaces: Kind) -> None:
         env={**ros_environment(), "PYTHONPATH": str(runtime.parent)},
         arena_env=ros_environment(),
         paths=[str(runtime)],
+        builds=True,
     )
     status, types, printed, complaints = run_student(student, namespaces, deadline_s=600.0).json()
     assert (status, types, complaints) == (0, ["my_interfaces/srv/Ask"], "")

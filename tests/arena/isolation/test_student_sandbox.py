@@ -35,16 +35,29 @@ def test_it_sees_no_file_of_the_host_and_nothing_of_the_grader(namespaces: Kind,
     assert run.json() == [str(tmp_path / "shown")]
 
 
-def test_it_sees_its_own_processes_only_and_no_path_of_the_host_in_them(namespaces: Kind) -> None:
+def test_it_sees_its_own_processes_only_and_nothing_of_the_sandboxs_first(namespaces: Kind) -> None:
     code = """
 import json, os
 pids = [int(name) for name in os.listdir("/proc") if name.isdigit()]
-print(json.dumps([len(pids), os.getpid(), os.getppid(), open("/proc/1/cmdline").read()]))
+print(json.dumps([len(pids), os.getpid(), os.getppid(), os.listdir("/proc/1")]))
 """
-    count, pid, parent, command = run_student(Student(code), namespaces).json()
+    count, pid, parent, known = run_student(Student(code), namespaces).json()
     assert (count, pid, parent) == (2, 2, 1)
-    assert str(REPOSITORY / "autograder") not in command
-    assert "ro-bind" not in command
+    assert known == []  # neither its command line, which has paths of the host, nor its memory
+
+
+def test_memory_that_no_size_shows_cannot_be_had(namespaces: Kind) -> None:
+    code = """
+import errno, json, mmap, os
+refused = []
+for descriptor in (-1, os.open("/dev/zero", os.O_RDWR)):
+    try:
+        mmap.mmap(descriptor, 4096)
+    except OSError as error:
+        refused.append(errno.errorcode[error.errno])
+print(json.dumps([refused, open("/dev/zero", "rb").read(3).hex()]))
+"""
+    assert run_student(Student(code), namespaces).json() == [["ENOMEM", "ENODEV"], "000000"]
 
 
 def test_it_inherits_no_open_file(namespaces: Kind) -> None:

@@ -1,5 +1,6 @@
 """How verdicts follow from given transcripts: dependencies, infrastructure failures, overload."""
 
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from autograder.authoring.transcript import Transcript
 from autograder.engine import grading
 from autograder.engine.arena_run import NotGraded
 from autograder.engine.exercise import Exercise
+from autograder.engine.exposure import HiddenChecksRefused
 from autograder.engine.submission import Submission
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
@@ -259,12 +261,24 @@ def test_hidden_checks_are_refused_without_isolation(monkeypatch):
         """Secret"""
 
     ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
-    with pytest.raises(grading.HiddenChecksRefused, match="no namespaces here"):
+    with pytest.raises(HiddenChecksRefused, match="no namespaces here"):
         grading.grade(
             SUBMISSION,
             exercise(replace(secret, hidden=True)),
             isolation=Isolation(Kind.NONE, "no namespaces here"),
         )
+    assert ran == []
+
+
+def test_hidden_checks_are_refused_where_a_sandbox_would_show_them(monkeypatch):
+    @check(points=1, on=FIRST)
+    def secret(run):
+        """Secret"""
+
+    ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
+    shown = replace(exercise(replace(secret, hidden=True)), folder=Path(sys.prefix, "share/course/secrets"))
+    with pytest.raises(HiddenChecksRefused, match=r"secrets lies in .*, which students' programs can read"):
+        grading.grade(SUBMISSION, shown, isolation=ISOLATED)
     assert ran == []
 
 

@@ -20,7 +20,8 @@ ANSWERED = ev.ServiceAnswered(t=2.1, call="first", response=Trigger.Response(suc
 RAISED = ev.NodeOutput(t=3.0, stream="stderr", text="RuntimeError: no motors")
 EXITED = ev.NodeExited(t=3.1, returncode=1)
 GIVEN_UP = ev.Unanswered(t=7.0, what="call", id="first", waited=5.0)
-BUSY = ev.NodeUsage(t=9.0, cpu=9.0, wall=9.5, peak_memory_mib=30)
+BUSY = ev.NodeUsage(t=9.0, cpu=9.0, wall=9.5, peak_memory_mib=30, cpu_in_time=8.0, in_time=9.0)
+AT_ONCE = replace(BUSY, cpu_in_time=1.2, burst=1.9)
 REFUSED = ev.RobotRefused(
     t=4.0,
     topic="joint_trajectory",
@@ -122,7 +123,8 @@ def test_the_sentence_says_what_was_unseen_and_why():
     failure = unseen(transcript(BUSY), "nobody pressed Ctrl-C")
     assert isinstance(failure, Failure)
     assert failure.observed == (
-        "nobody pressed Ctrl-C, because your program kept the processors busy: 9.0 s of processor time in 9.5 s"
+        "nobody pressed Ctrl-C, because your program, with all it started, used more than 4.7 processor-seconds in "
+        "9.0 s: 8.0"
     )
 
 
@@ -139,7 +141,38 @@ def test_a_robot_whose_time_stands_still_is_not_judged():
     require_whole(transcript(robot_until=4.0), WITHOUT)
 
 
-@pytest.mark.parametrize("reason", [REFUSED, BUSY])
+@pytest.mark.parametrize(
+    ("reason", "help"),
+    [
+        ("it used 900 MiB of memory; 700 MiB are allowed", "list that grows"),
+        ("it made 11,045 files; 10,000 are allowed", "files that are made in a callback"),
+        ("with it there were 80 TCP sockets; 64 are allowed", "connections that are made in a callback"),
+    ],
+)
+def test_each_limit_has_a_remedy_of_its_own(reason, help):
+    with pytest.raises(Missing) as missing:
+        transcript(ASKED, ev.NodeKilled(t=3.0, reason=reason)).call("second")
+    assert f"had been ended at 3.0 s: {reason}" in missing.value.observed
+    assert help in missing.value.help
+
+
+def test_a_sound_program_on_a_busy_machine_is_not_to_blame():
+    """It has used no more than on an idle one, although it took longer, and started while it waited for others."""
+    slow_start = replace(BUSY, cpu=3.5, wall=3.6, cpu_in_time=1.9, in_time=1.0, burst=1.2)
+    for usage in (slow_start, replace(slow_start, cpu_in_time=4.0, in_time=30.0)):
+        with pytest.raises(CannotBeJudged):
+            require_whole(transcript(usage, robot_until=4.0), WITH_ROBOT)
+
+
+def test_more_processors_may_be_busy_where_the_clock_is_fast():
+    at_five = replace(transcript(replace(AT_ONCE, burst=1.45), robot_until=4.0), scale=5.0)
+    with pytest.raises(CannotBeJudged):
+        require_whole(at_five, WITH_ROBOT)
+
+
+@pytest.mark.parametrize(
+    "reason", [REFUSED, BUSY, AT_ONCE, ev.ArenaOverfull(memory_mib=3100, limit_mib=1536)]
+)
 def test_a_submission_that_holds_the_robot_up_fails(reason):
     with pytest.raises(Failure, match="time stood still"):
         require_whole(transcript(reason, robot_until=4.0), WITH_ROBOT)

@@ -1,0 +1,142 @@
+"""What a student's process may do, as the kernel tells it about the process from outside, and what is promised of it.
+
+`docs/grading.md` has the promises as a table, which `promise_table` makes; a test looks at real processes.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from autograder.isolation.limits import StudentLimits
+from ros_runtime.workarounds.warm_start.confinement import NICER, OOM_SCORE
+
+_CAPABILITIES = ("CapInh", "CapPrm", "CapEff", "CapBnd", "CapAmb")
+_OWN = ("ipc", "mnt", "pid", "user", "uts")
+_LIMITS = {
+    "Max open files": 1,
+    "Max file size": 2**20,
+    "Max address space": 2**20,
+    "Max core file size": 1,
+    "Max processes": 1,
+}
+_ALLOWED = StudentLimits()
+
+PROMISES: Mapping[str, tuple[str, str]] = {
+    "capabilities": ("none", "not even root's rights in its own sandbox"),
+    "new privileges": ("never", "no setuid program gives it any"),
+    "system calls": ("filtered", "`isolation/seccomp_filter.py` says which are refused"),
+    "own namespaces": (
+        ", ".join(_OWN),
+        "it sees no user, process, file or shared memory of others, nor of the grader",
+    ),
+    "network": ("the arena's", "it has `lo` alone, and only robot and grader are there"),
+    "user": ("1000 alone", "no other user of the machine can be named"),
+    "writable": (
+        f"/dev/shm {_ALLOWED.shared_memory_mib} MiB, /tmp {_ALLOWED.tmp_mib} MiB",
+        f"gone at its end; {_ALLOWED.files:,} files in both",
+    ),
+    "setuid files": ("without effect", "on every mount"),
+    "descriptors": ("3 pipes", "stdin, stdout and stderr; nothing is inherited"),
+    "limits": (
+        f"{_ALLOWED.open_files} descriptors, files of {_ALLOWED.file_mib} MiB, {_ALLOWED.address_space_mib} MiB of "
+        f"address space, no core file, {_ALLOWED.processes} processes",
+        f"beside {_ALLOWED.memory_mib} MiB of memory and {_ALLOWED.sockets} sockets, which are watched",
+    ),
+    "scheduling": (
+        f"batch, nice +{NICER}",
+        "robot and grader go first; what it uses is measured, and too much is a failure that says how much",
+    ),
+    "out of memory": (f"score {OOM_SCORE}", "it is ended before anything else of the machine"),
+    "first process": ("hidden", "it cannot write to the memory of its sandbox's init"),
+}
+
+
+def promise_table() -> str:
+    """Return the promises as a Markdown table."""
+    rows = [f"| {what} | {value} | {meaning} |" for what, (value, meaning) in PROMISES.items()]
+    return "\n".join(["| | | |", "|---|---|---|", *rows])
+
+
+def posture(pid: int) -> dict[str, str]:
+    """Return what the kernel says of a process and all its threads, in the words of the promises.
+
+    Call it in the arena, beside the sandbox of the process, so that it can be compared with its surroundings.
+    """
+    threads = [_fields(f"/proc/{pid}/task/{thread}/status") for thread in os.listdir(f"/proc/{pid}/task")]
+    mounts = [line.split(" - ") for line in Path(f"/proc/{pid}/mountinfo").read_text().splitlines()]
+    return {
+        "capabilities": _only({int(of[name], 16) for of in threads for name in _CAPABILITIES}, {0: "none"}),
+        "new privileges": _only({of["NoNewPrivs"] for of in threads}, {"1": "never"}),
+        "system calls": _only({of["Seccomp"] for of in threads}, {"2": "filtered"}),
+        "own namespaces": ", ".join(name for name in _OWN if _namespace(pid, name) != _namespace(None, name)),
+        "network": "the arena's" if _namespace(pid, "net") == _namespace(None, "net") else "another",
+        "user": _only({_mapping(pid, "uid"), _mapping(pid, "gid")}, {"1000 1000 1": "1000 alone"}),
+        "writable": ", ".join(sorted(filter(None, (_writable(*mount) for mount in mounts)))),
+        "setuid files": "without effect" if all("nosuid" in mount[0] for mount in mounts) else "with effect",
+        "descriptors": _descriptors(pid),
+        "limits": _limits(pid),
+        "scheduling": _scheduling(pid),
+        "out of memory": f"score {Path(f'/proc/{pid}/oom_score_adj').read_text().strip()}",
+        "first process": "seen" if os.listdir(f"/proc/{pid}/root/proc/1") else "hidden",
+    }
+
+
+def _fields(status: str) -> dict[str, str]:
+    lines = Path(status).read_text().splitlines()
+    return {name: value.strip() for name, _, value in (line.partition(":") for line in lines)}
+
+
+def _only(seen: set, words: Mapping) -> str:
+    """Return the word for what all threads have in common, or everything that was seen."""
+    one = next(iter(seen)) if len(seen) == 1 else None
+    return words.get(one, f"{sorted(map(str, seen))}")
+
+
+def _namespace(pid: int | None, name: str) -> str:
+    return os.readlink(f"/proc/{pid or 'self'}/ns/{name}")
+
+
+def _mapping(pid: int, kind: str) -> str:
+    return " ".join(Path(f"/proc/{pid}/{kind}_map").read_text().split())
+
+
+def _writable(where: str, what: str) -> str:
+    """Return a mount with its size if programs can write files to it: not /proc, nor single devices."""
+    place, options = where.split()[4:6]
+    kind, _, limits = what.split()[:3]
+    if "rw" not in options.split(",") or kind in ("proc", "devpts", "devtmpfs"):
+        return ""
+    sizes = [option[5:] for option in limits.split(",") if option.startswith("size=")]
+    return f"{place} {int(sizes[0].rstrip('k')) // 1024} MiB" if sizes else place
+
+
+def _descriptors(pid: int) -> str:
+    targets = [
+        os.readlink(f"/proc/{pid}/fd/{number}").split(":")[0] for number in os.listdir(f"/proc/{pid}/fd")
+    ]
+    return f"{len(targets)} pipes" if set(targets) == {"pipe"} else ", ".join(sorted(targets))
+
+
+def _limits(pid: int) -> str:
+    lines = Path(f"/proc/{pid}/limits").read_text().splitlines()
+    values = {}
+    for line in lines:
+        for name, unit in _LIMITS.items():
+            if line.startswith(name):
+                soft, hard = line[26:].split()[:2]
+                values[name] = (
+                    str(int(hard) // unit) if soft == hard and hard.isdigit() else f"{soft} to {hard}"
+                )
+    descriptors, size, space, core, processes = (values[name] for name in _LIMITS)
+    core = "no core file" if core == "0" else f"core files of {core}"
+    files = f"{descriptors} descriptors, files of {size} MiB"
+    return f"{files}, {space} MiB of address space, {core}, {processes} processes"
+
+
+def _scheduling(pid: int) -> str:
+    names = {os.SCHED_BATCH: "batch", os.SCHED_OTHER: "other", os.SCHED_IDLE: "idle"}
+    nicer = os.getpriority(os.PRIO_PROCESS, pid) - os.getpriority(os.PRIO_PROCESS, 0)
+    kind = os.sched_getscheduler(pid)
+    return f"{names.get(kind, str(kind))}, nice {nicer:+d}"

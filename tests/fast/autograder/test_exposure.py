@@ -1,0 +1,59 @@
+"""Nothing is graded where a sandbox would show solutions, hidden checks or other students' work."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+import typer
+
+from autograder.engine.exposure import HiddenChecksRefused, require_hidden
+from autograder.isolation.arena_spec import Kind
+from autograder.isolation.availability import Isolation
+from course_cli.commands import grade
+from ros_runtime.project import PROJECT
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "/usr",
+        "/usr/src/course/solutions",
+        "/usr/local/../src/course/solutions",
+        "/bin/solutions",
+        "/lib/course",
+        f"{sys.prefix}/graded",
+        str(PROJECT / "ros_runtime/submitted"),
+    ],
+)
+def test_what_lies_in_a_shown_folder_is_refused(path: str) -> None:
+    with pytest.raises(HiddenChecksRefused, match=r"nothing is graded: .* lies in .*; move it"):
+        require_hidden([Path("/srv/course"), Path(path)])
+
+
+def test_what_lies_beside_or_around_it_is_not(tmp_path: Path) -> None:
+    require_hidden([PROJECT, PROJECT / "solutions", tmp_path, Path("/usr2/src"), Path("/srv/usr/src")])
+
+
+def test_a_link_is_followed_on_both_sides(tmp_path: Path) -> None:
+    (tmp_path / "shown/solutions").mkdir(parents=True)
+    (tmp_path / "link").symlink_to(tmp_path / "shown")
+    for hidden, shown in (("link/solutions", "shown"), ("shown/solutions", "link")):
+        with pytest.raises(HiddenChecksRefused):
+            require_hidden([tmp_path / hidden], [tmp_path / shown])
+
+
+def test_the_command_refuses_and_writes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    work = tmp_path / "ada" / "battery_service.py"
+    work.parent.mkdir()
+    work.write_text("print()")
+    monkeypatch.setattr(grade, "available_isolation", lambda: Isolation(Kind.NAMESPACES, "it is said"))
+    out = Path(sys.prefix, "graded")
+    with pytest.raises(typer.Exit) as ended:
+        grade.grade(tmp_path, out=out)
+    assert ended.value.exit_code == 1
+    assert "nothing is graded" in capsys.readouterr().out
+    assert not out.exists()

@@ -1,0 +1,55 @@
+"""An arena that a submission fills faster than it can be ended is its failure, and not "not graded"."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+
+import pytest
+
+from autograder.arena.events import NodeReady, NodeStarted
+from autograder.authoring.checks import Scenario
+from autograder.authoring.failure import Failure
+from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
+from autograder.engine.exercise import Exercise, exercises_folder
+from autograder.engine.submission_arena import ArenaEnded
+from autograder.engine.wholeness import require_whole
+from autograder.isolation.arena_process import ArenaReport, Ended, Kind
+from autograder.isolation.captured_output import CapturedOutput
+from ros_runtime.record.event import to_line
+
+SCENARIO = Scenario("ask_once")
+RUN = ArenaRun(
+    Exercise("battery_service", exercises_folder() / "battery_service", (), False),
+    {"battery_service.py": b""},
+    SCENARIO,
+)
+EVENTS = b"".join(map(to_line, (NodeStarted(t=10.0), NodeReady(t=12.0, waited=1.0)))) + b'{"kind": "cut of'
+
+
+class _EndedArenas:
+    """Arenas that end as they are told."""
+
+    def __init__(self, ended: Ended) -> None:
+        output = CapturedOutput(1)
+        self.kind = Kind.NAMESPACES
+        self._report = ArenaReport(ended, 137, 3.0, 3100.0, True, output, output)
+
+    @contextmanager
+    def one(self):
+        yield self
+
+    def carry_out(self, spec, deadline, stop):
+        raise ArenaEnded(self._report, EVENTS)
+
+
+def test_it_is_graded_and_says_how_much_was_taken():
+    record = run_in_arena(RUN, arenas=_EndedArenas(Ended.MEMORY))
+    with pytest.raises(Failure) as failure:
+        require_whole(record, SCENARIO)
+    assert "filled the arena: 3100 MiB of memory at 2.0 s; 1536 MiB are there" in failure.value.observed
+
+
+@pytest.mark.parametrize("ended", [Ended.DEADLINE, Ended.EXIT, Ended.KILLED])
+def test_any_other_end_is_nobodys_failure(ended):
+    with pytest.raises(NotGraded):
+        run_in_arena(RUN, arenas=_EndedArenas(ended))

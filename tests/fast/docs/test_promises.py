@@ -1,0 +1,11 @@
+"""What docs/grading.md promises of students' processes is what the posture test compares them with."""
+
+from __future__ import annotations
+
+from autograder.isolation.posture import promise_table
+from ros_runtime.project import PROJECT
+
+
+def test_the_page_has_the_promises_as_they_are_tested() -> None:
+    page = (PROJECT / "docs/grading.md").read_text()
+    assert promise_table() in page, f"put this into docs/grading.md:\n{promise_table()}"
