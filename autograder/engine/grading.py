@@ -7,7 +7,6 @@ slower clocks, before the check counts as not graded.
 
 from __future__ import annotations
 
-import threading
 from collections import Counter
 from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
@@ -20,6 +19,7 @@ from autograder.engine.clock_scale import ClockScale
 from autograder.engine.exercise import Exercise
 from autograder.engine.judging import judge, verdict_on
 from autograder.engine.lateness import OVERLOADED, STRAINED, lateness
+from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckStatus, CheckVerdict, Grade
@@ -53,6 +53,7 @@ def grade(
     arenas: SubmissionArenas | None = None,
     first_alone: bool = False,
     at_first_look: Collection[str] = (),
+    stop: Stop | None = None,
 ) -> Grade:
     """Grade a submission.
 
@@ -70,8 +71,10 @@ def grade(
         arenas: of this submission, if one was opened ahead; they are closed at the end.
         first_alone: run nothing beside the first scenario, as somebody waits for the first verdict.
         at_first_look: the checks (ids) whose first failure counts, where no points can be lost: in an audit.
+        stop: when it is set, the arenas are ended at once.
 
     Raises:
+        Stopped: `stop` was set before the last verdict.
         HiddenChecksRefused: there are hidden checks, and arenas cannot be isolated here.
     """
     isolation = isolation or available_isolation()
@@ -90,6 +93,7 @@ def grade(
         running,
         arenas,
         at_first_look,
+        stop,
     )
     return session.run(jobs, first_alone)
 
@@ -110,6 +114,7 @@ class _Session:
         running: Running,
         arenas: SubmissionArenas,
         at_first_look: Collection[str],
+        stop: Stop | None,
     ) -> None:
         self._submission = submission
         self._exercise = exercise
@@ -123,7 +128,7 @@ class _Session:
         self._arenas = arenas
         self._at_first_look = at_first_look
         self._scenarios = list(dict.fromkeys(scenario for check in exercise.checks for scenario in check.on))
-        self._stop = threading.Event()
+        self._stop = Stop(stop)
         self._verdicts: dict[str, CheckVerdict] = {}
         self._runs: list[Runs] = [{} for _ in range(max(MOST_ATTEMPTS.values()))]  # by attempt
         self._attempts: Counter[str] = Counter()  # that did not settle a check, by its id
@@ -132,6 +137,8 @@ class _Session:
         with self._arenas, ThreadPoolExecutor(jobs) as pool:
             try:
                 while len(self._verdicts) < len(self._exercise.checks):
+                    if self._stop.is_set():
+                        raise Stopped
                     self._settle()
                     alone = first_alone and not any(run.done() for run in self._runs[0].values())
                     running = self._start(pool, 1 if alone else jobs)
@@ -140,7 +147,9 @@ class _Session:
             finally:
                 self._stop.set()
         verdicts = [self._verdicts[check.id] for check in self._exercise.checks]
-        return Grade(self._exercise.name, self._submission.student, self._isolation.label, verdicts)
+        return Grade(
+            self._exercise.name, self._submission.student, self._isolation.label, verdicts, seed=self._seed
+        )
 
     def _settle(self) -> None:
         """Give a verdict on every check that can be judged now."""
@@ -239,6 +248,8 @@ class _Session:
         try:
             transcripts = [self._runs[attempt][scenario].result() for scenario in check.on]
         except NotGraded as error:
+            if self._stop.is_set():
+                raise Stopped from None
             self._conclude(verdict_on(check, "error", help=f"Not graded: {error}"))
             return
         verdict = judge(check, transcripts)

@@ -17,6 +17,7 @@ from autograder.batch.cache import GradeCache
 from autograder.batch.collection import Collection, NoSubmissions, collect
 from autograder.batch.records import GRADES, write_grades
 from autograder.batch.runner import BatchRunner, Graded
+from autograder.batch.seeds import Seeds
 from autograder.engine.exercise import UnusableExercise, exercises_folder
 from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation, available_isolation
@@ -110,10 +111,10 @@ def _grade_all(
     with _progress(console) as progress:
         task = progress.add_task("checks", total=None)
         runner = BatchRunner(
-            GradeCache(out / "cache", seed, isolation),
+            GradeCache(out / "cache", isolation),
             isolation,
             jobs=jobs,
-            seed=seed,
+            seeds=Seeds(seed),
             resume=resume,
             report=lambda verdict: progress.advance(task),
         )
