@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Sequence
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -15,9 +16,17 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from autograder.batch.cache import GradeCache
 from autograder.batch.collection import Collection, NoSubmissions, collect
-from autograder.batch.records import GRADES, write_grades
+from autograder.batch.folder_lock import FolderInUse, locked
+from autograder.batch.records import GRADES, read_grades, write_grades
 from autograder.batch.runner import BatchRunner, Graded
 from autograder.batch.seeds import Seeds
+from autograder.batch.selection import (
+    NothingSelected,
+    OtherSeed,
+    require_seed,
+    select,
+    with_others,
+)
 from autograder.engine.exercise import UnusableExercise, exercises_folder
 from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation, available_isolation
@@ -48,13 +57,58 @@ def grade(
     json_file: Annotated[
         Path | None, typer.Option("--json", help="write all verdicts to this file as well")
     ] = None,
+    student: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--student", help="grade only this student's; repeat it for several. Others keep their grades"
+        ),
+    ] = None,
+    exercise: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--exercise", help="grade only this exercise; repeat it for several. Others keep their grades"
+        ),
+    ] = None,
     course: CourseOption = None,
 ) -> None:
     """Grade a batch of submissions."""
     console = Console(highlight=False)
     try:
         collection = collect(submitted)
-    except NoSubmissions as error:
+        works = select(collection.works, student or [], exercise or [])
+    except (NoSubmissions, NothingSelected) as error:
+        raise ended(console, error, UNUSABLE) from error
+    try:
+        with locked(out):
+            _grade_into(
+                console,
+                replace(collection, works=works),
+                out,
+                jobs,
+                resume,
+                seed,
+                json_file,
+                bool(student or exercise),
+            )
+    except FolderInUse as error:
+        raise ended(console, error, COULD_NOT) from error
+
+
+def _grade_into(
+    console: Console,
+    collection: Collection,
+    out: Path,
+    jobs: int,
+    resume: bool,
+    seed: int,
+    json_file: Path | None,
+    keep_others: bool,
+) -> None:
+    """Grade the collection and write everything; raises typer.Exit with the command's status."""
+    before = read_grades(out / GRADES) if keep_others else []
+    try:
+        require_seed(before, seed)
+    except OtherSeed as error:
         raise ended(console, error, UNUSABLE) from error
     isolation = available_isolation()
     if not isolation.trusted:
@@ -68,9 +122,9 @@ def grade(
         results = _grade_all(console, collection, out, isolation, jobs, seed, resume)
     except UnusableExercise as error:
         raise ended(console, error, UNUSABLE) from error
-    grades = [result.grade for result in results]
-    write_grades(out / GRADES, grades)
+    write_grades(out / GRADES, with_others([result.grade for result in results], before))
     unentered, grades = _enter_all(console, results, out)
+    grades = with_others(grades, before)
     write_grades(out / GRADES, grades)  # again, with the points that a person has given for essays
     if json_file:
         write_grades(json_file, grades)
