@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
-from contextlib import closing
+from contextlib import closing, nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
@@ -16,6 +16,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from autograder.batch.cache import GradeCache
 from autograder.batch.collection import Collection, NoSubmissions, collect
+from autograder.batch.crew import Workers
+from autograder.batch.dask_workers import Cluster, NoCluster, dask_cluster
 from autograder.batch.folder_lock import FolderInUse, locked
 from autograder.batch.records import GRADES, read_grades, write_grades
 from autograder.batch.runner import BatchRunner, Graded
@@ -57,6 +59,12 @@ def grade(
     json_file: Annotated[
         Path | None, typer.Option("--json", help="write all verdicts to this file as well")
     ] = None,
+    dask: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ADDRESS", help="grade on the workers of this Dask scheduler, such as tcp://10.0.0.1:8786"
+        ),
+    ] = None,
     student: Annotated[
         list[str] | None,
         typer.Option(
@@ -79,7 +87,7 @@ def grade(
     except (NoSubmissions, NothingSelected) as error:
         raise ended(console, error, UNUSABLE) from error
     try:
-        with locked(out):
+        with locked(out), dask_cluster(dask) if dask else nullcontext() as cluster:
             _grade_into(
                 console,
                 replace(collection, works=works),
@@ -89,8 +97,9 @@ def grade(
                 seed,
                 json_file,
                 bool(student or exercise),
+                cluster,
             )
-    except FolderInUse as error:
+    except (FolderInUse, NoCluster) as error:
         raise ended(console, error, COULD_NOT) from error
 
 
@@ -103,6 +112,7 @@ def _grade_into(
     seed: int,
     json_file: Path | None,
     keep_others: bool,
+    cluster: Cluster | None,
 ) -> None:
     """Grade the collection and write everything; raises typer.Exit with the command's status."""
     before = read_grades(out / GRADES) if keep_others else []
@@ -110,7 +120,11 @@ def _grade_into(
         require_seed(before, seed)
     except OtherSeed as error:
         raise ended(console, error, UNUSABLE) from error
-    isolation = available_isolation()
+    isolation = cluster.isolation if cluster else available_isolation()
+    if cluster:
+        console.print(f"{cluster.size} workers, isolation: {isolation.label}", style="dim")
+        for line in cluster.left_out:
+            console.print(line, style="yellow", markup=False)
     if not isolation.trusted:
         console.print(
             f"No isolation: {isolation.reason}. Only visible checks are made and the grades are marked untrusted; run "
@@ -119,7 +133,9 @@ def _grade_into(
             markup=False,
         )
     try:
-        results = _grade_all(console, collection, out, isolation, jobs, seed, resume)
+        results = _grade_all(
+            console, collection, out, isolation, jobs, seed, resume, cluster.workers if cluster else None
+        )
     except UnusableExercise as error:
         raise ended(console, error, UNUSABLE) from error
     write_grades(out / GRADES, with_others([result.grade for result in results], before))
@@ -160,6 +176,7 @@ def _grade_all(
     jobs: int,
     seed: int,
     resume: bool,
+    workers: Workers | None,
 ) -> list[Graded]:
     """Grade in parallel and return the results in the order of the submissions."""
     with _progress(console) as progress:
@@ -170,6 +187,7 @@ def _grade_all(
             jobs=jobs,
             seeds=Seeds(seed),
             resume=resume,
+            workers=workers,
             report=lambda verdict: progress.advance(task),
         )
         progress.update(task, total=sum(runner.count(work.exercise) for work in collection.works))
