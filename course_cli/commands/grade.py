@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Sequence
 from contextlib import closing, nullcontext
 from dataclasses import replace
@@ -12,10 +11,9 @@ from typing import Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from autograder.batch.cache import GradeCache
-from autograder.batch.collection import Collection, NoSubmissions, collect
+from autograder.batch.collection import Collection, NoSubmissions, Work, collect
 from autograder.batch.crew import Workers
 from autograder.batch.dask_workers import Cluster, NoCluster, dask_cluster
 from autograder.batch.folder_lock import FolderInUse, locked
@@ -29,18 +27,14 @@ from autograder.batch.selection import (
     select,
     with_others,
 )
-from autograder.engine.exercise import UnusableExercise, exercises_folder
-from autograder.engine.verdict import Grade
+from autograder.batch.shards import SHARD, Shard, write_shard
+from autograder.engine.exercise import UnusableExercise
 from autograder.isolation.availability import Isolation, available_isolation
-from autograder.nbgrader_bridge.course_folder import NbgraderError
-from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
-from autograder.nbgrader_bridge.rebuild_submission import NoSolutionCell
-from autograder.report.class_table import class_table, progress_line
+from autograder.report.class_table import progress_line
+from course_cli.class_output import bar, enter_all, tell_the_end
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 from course_cli.jobs_option import JobsOption
-
-LOG = "nbgrader.log"
 
 
 def grade(
@@ -65,6 +59,12 @@ def grade(
             metavar="ADDRESS", help="grade on the workers of this Dask scheduler, such as tcp://10.0.0.1:8786"
         ),
     ] = None,
+    shard: Annotated[
+        str | None,
+        typer.Option(
+            metavar="K/N", help="grade part K of N, without a gradebook; `course merge` joins the parts"
+        ),
+    ] = None,
     student: Annotated[
         list[str] | None,
         typer.Option(
@@ -84,8 +84,15 @@ def grade(
     try:
         collection = collect(submitted)
         works = select(collection.works, student or [], exercise or [])
-    except (NoSubmissions, NothingSelected) as error:
+        part = Shard.parse(shard) if shard else None
+        if part and (student or exercise or json_file):
+            raise ValueError(
+                "--shard takes a part of the whole class: leave out --student, --exercise and --json"
+            )
+    except (NoSubmissions, NothingSelected, ValueError) as error:
         raise ended(console, error, UNUSABLE) from error
+    if part:
+        works = part.part(works)
     try:
         with locked(out), dask_cluster(dask) if dask else nullcontext() as cluster:
             _grade_into(
@@ -98,6 +105,8 @@ def grade(
                 json_file,
                 bool(student or exercise),
                 cluster,
+                part,
+                collection.works,
             )
     except (FolderInUse, NoCluster) as error:
         raise ended(console, error, COULD_NOT) from error
@@ -113,6 +122,8 @@ def _grade_into(
     json_file: Path | None,
     keep_others: bool,
     cluster: Cluster | None,
+    shard: Shard | None,
+    whole_class: Sequence[Work],
 ) -> None:
     """Grade the collection and write everything; raises typer.Exit with the command's status."""
     before = read_grades(out / GRADES) if keep_others else []
@@ -138,33 +149,20 @@ def _grade_into(
         )
     except UnusableExercise as error:
         raise ended(console, error, UNUSABLE) from error
+    if shard:
+        write_grades(out / GRADES, [result.grade for result in results])
+        write_shard(out, shard, seed, whole_class, results)
+        not_graded = _tell_what_is_left(console, collection, results)
+        console.print(f"{out / SHARD}; join all of them with `course merge`", style="dim", markup=False)
+        raise typer.Exit(COULD_NOT if not_graded or collection.refused else 0)
     write_grades(out / GRADES, with_others([result.grade for result in results], before))
-    unentered, grades = _enter_all(console, results, out)
+    unentered, grades = enter_all(console, results, out)
     grades = with_others(grades, before)
     write_grades(out / GRADES, grades)  # again, with the points that a person has given for essays
     if json_file:
         write_grades(json_file, grades)
-    console.print(class_table(grades))
-    for line in collection.ignored:
-        console.print(f"left aside: {line}", style="yellow", markup=False)
-    for line in collection.refused:
-        console.print(f"not graded: {line}", style="red", markup=False)
-    for line in unentered:
-        console.print(f"not in the gradebook: {line}", style="red", markup=False)
-    to_mark = [grade for grade in grades if grade.status == "to mark"]
-    if to_mark:
-        console.print(
-            f"{len(to_mark)} to be marked by hand, in formgrader; then run this again, and the points are in {GRADES}",
-            style="cyan",
-        )
-    not_graded = [result for result in results if result.grade.status == "not graded"]
-    if not_graded:
-        console.print(f"{len(not_graded)} not graded; try those again with --resume", style="magenta")
-    console.print(f"{out / GRADES}, {out / 'gradebook.db'}, {out / 'feedback'}/", style="dim", markup=False)
-    jupyter = Path(sys.executable).with_name("jupyter")
-    console.print(
-        f"to look at them in nbgrader: cd {out} && {jupyter} lab, then Nbgrader > Formgrader", style="dim"
-    )
+    tell_the_end(console, grades, unentered, out)
+    not_graded = _tell_what_is_left(console, collection, results)
     raise typer.Exit(COULD_NOT if unentered or not_graded or collection.refused else 0)
 
 
@@ -179,7 +177,7 @@ def _grade_all(
     workers: Workers | None,
 ) -> list[Graded]:
     """Grade in parallel and return the results in the order of the submissions."""
-    with _progress(console) as progress:
+    with bar(console) as progress:
         task = progress.add_task("checks", total=None)
         runner = BatchRunner(
             GradeCache(out / "cache", isolation),
@@ -203,38 +201,13 @@ def _grade_all(
     return [results[work] for work in collection.works]
 
 
-def _enter_all(console: Console, results: Sequence[Graded], out: Path) -> tuple[list[str], list[Grade]]:
-    """Enter the grades into nbgrader's gradebook one by one.
-
-    Returns a sentence for each that failed, and the grades with what a person has given there.
-    """
-    problems: list[str] = []
-    grades: list[Grade] = []
-    logs: list[str] = []
-    with _progress(console) as progress:
-        task = progress.add_task("gradebook", total=len(results))
-        gradebook = CourseGradebook(out, exercises_folder())
-        for result in results:
-            try:
-                gradebook.enter(Entry(result.grade, result.sources, result.problem, result.work.timestamp))
-                grades.append(gradebook.as_marked(result.grade))
-            except (NbgraderError, NoSolutionCell, OSError) as error:
-                grades.append(result.grade)
-                problems.append(f"{result.work.student}'s {result.work.exercise}: {error}")
-                if isinstance(error, NbgraderError):
-                    logs.append(f"{problems[-1]}\n{error.log}")
-            progress.advance(task)
-    if logs:
-        (out / LOG).write_text("\n\n".join(logs))
-        problems.append(f"what nbgrader said about it is in {out / LOG}")
-    return problems, grades
-
-
-def _progress(console: Console) -> Progress:
-    return Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(elapsed_when_finished=True),
-        console=console,
-    )
+def _tell_what_is_left(console: Console, collection: Collection, results: Sequence[Graded]) -> int:
+    """Name what has no grade; return how many submissions the grader failed to judge."""
+    for line in collection.ignored:
+        console.print(f"left aside: {line}", style="yellow", markup=False)
+    for line in collection.refused:
+        console.print(f"not graded: {line}", style="red", markup=False)
+    not_graded = sum(result.grade.status == "not graded" for result in results)
+    if not_graded:
+        console.print(f"{not_graded} not graded; try those again with --resume", style="magenta")
+    return not_graded

@@ -15,7 +15,6 @@ from nbgrader.api import Gradebook
 STUDENTS = [f"student{number}" for number in range(4)]
 ROUNDS = [
     ("cache/*/*.json", 1),
-    ("cache/*/*.json", 3),
     ("gradebook.db", 1),
     ("autograded/*/*", 2),
     ("feedback/*/*/*.html", 3),
