@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from autograder.batch.collection import Work
+from autograder.batch.seeds import Seeds
 from autograder.engine.verdict import Grade
 
 
@@ -39,13 +40,13 @@ def select(works: Sequence[Work], students: Sequence[str], exercises: Sequence[s
     return selected
 
 
-def require_seed(before: Sequence[Grade], seed: int) -> None:
-    """Require that grades that stay beside new ones were given with the same seed; raises OtherSeed."""
-    other = next((grade for grade in before if grade.seed not in (None, seed)), None)
+def require_seed(before: Sequence[Grade], seeds: Seeds) -> None:
+    """Require that grades that stay beside new ones were given with the same seeds; raises OtherSeed."""
+    other = next((grade for grade in before if grade.seed not in (None, seeds.of(grade.student))), None)
     if other:
         raise OtherSeed(
-            f"the grades there were given with --seed {other.seed} ({other.student}'s {other.exercise}), and this run "
-            f"has --seed {seed}; give --seed {other.seed}, or grade the whole class again"
+            f"{other.student}'s {other.exercise} has a grade with seed {other.seed}, and this run gives it seed "
+            f"{seeds.of(other.student)}; give --seed and --seed-per-student as before, or grade the whole class again"
         )
 
 

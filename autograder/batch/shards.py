@@ -12,6 +12,7 @@ from typing import Any
 from autograder.atomic_file import write_atomically
 from autograder.batch.collection import Work
 from autograder.batch.runner import Graded
+from autograder.batch.seeds import Seeds
 from autograder.batch.version import checks_version
 from autograder.engine.exercise import exercises_folder
 from autograder.engine.verdict import Grade
@@ -45,13 +46,13 @@ class Shard:
 
 
 def write_shard(
-    folder: Path, shard: Shard, seed: int, works: Sequence[Work], results: Sequence[Graded]
+    folder: Path, shard: Shard, seeds: Seeds, works: Sequence[Work], results: Sequence[Graded]
 ) -> None:
     """Write what a merge needs: the grades with what was handed in, and what the whole class handed in."""
     exercises = sorted({work.exercise for work in works})
     record = {
         "shard": f"{shard.number}/{shard.of}",
-        "seed": seed,
+        "seed": [seeds.batch, seeds.per_student],
         "versions": {name: checks_version(exercises_folder() / name) for name in exercises},
         "submissions": [[work.student, work.exercise] for work in works],
         "graded": [
@@ -85,7 +86,7 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
     (first, given), *others = shards.items()
     for folder, record in others:
         for what, advice in (
-            ("seed", "grade all shards with one --seed"),
+            ("seed", "grade all shards with one --seed, and all or none with --seed-per-student"),
             ("versions", "bring all clones to one commit and grade with --resume"),
         ):
             if record[what] != given[what]:

@@ -50,6 +50,10 @@ def grade(
     seed: Annotated[
         int, typer.Option(help="seed of the inputs of hidden checks, which are the same for all students")
     ] = 0,
+    seed_per_student: Annotated[
+        bool,
+        typer.Option("--seed-per-student", help="other inputs for each student, made of --seed and the name"),
+    ] = False,
     json_file: Annotated[
         Path | None, typer.Option("--json", help="write all verdicts to this file as well")
     ] = None,
@@ -101,7 +105,7 @@ def grade(
                 out,
                 jobs,
                 resume,
-                seed,
+                Seeds(seed, seed_per_student),
                 json_file,
                 bool(student or exercise),
                 cluster,
@@ -118,7 +122,7 @@ def _grade_into(
     out: Path,
     jobs: int,
     resume: bool,
-    seed: int,
+    seeds: Seeds,
     json_file: Path | None,
     keep_others: bool,
     cluster: Cluster | None,
@@ -128,7 +132,7 @@ def _grade_into(
     """Grade the collection and write everything; raises typer.Exit with the command's status."""
     before = read_grades(out / GRADES) if keep_others else []
     try:
-        require_seed(before, seed)
+        require_seed(before, seeds)
     except OtherSeed as error:
         raise ended(console, error, UNUSABLE) from error
     isolation = cluster.isolation if cluster else available_isolation()
@@ -145,13 +149,13 @@ def _grade_into(
         )
     try:
         results = _grade_all(
-            console, collection, out, isolation, jobs, seed, resume, cluster.workers if cluster else None
+            console, collection, out, isolation, jobs, seeds, resume, cluster.workers if cluster else None
         )
     except UnusableExercise as error:
         raise ended(console, error, UNUSABLE) from error
     if shard:
         write_grades(out / GRADES, [result.grade for result in results])
-        write_shard(out, shard, seed, whole_class, results)
+        write_shard(out, shard, seeds, whole_class, results)
         not_graded = _tell_what_is_left(console, collection, results)
         console.print(f"{out / SHARD}; join all of them with `course merge`", style="dim", markup=False)
         raise typer.Exit(COULD_NOT if not_graded or collection.refused else 0)
@@ -172,7 +176,7 @@ def _grade_all(
     out: Path,
     isolation: Isolation,
     jobs: int,
-    seed: int,
+    seeds: Seeds,
     resume: bool,
     workers: Workers | None,
 ) -> list[Graded]:
@@ -183,7 +187,7 @@ def _grade_all(
             GradeCache(out / "cache", isolation),
             isolation,
             jobs=jobs,
-            seeds=Seeds(seed),
+            seeds=seeds,
             resume=resume,
             workers=workers,
             report=lambda verdict: progress.advance(task),

@@ -6,6 +6,7 @@ import pytest
 
 from autograder.batch.collection import Work
 from autograder.batch.records import read_grades, write_grades
+from autograder.batch.seeds import Seeds
 from autograder.batch.selection import NothingSelected, OtherSeed, require_seed, select, with_others
 from autograder.engine.verdict import CheckVerdict, Grade
 
@@ -51,6 +52,14 @@ def test_others_keep_their_rows_and_the_selected_has_the_new_one(tmp_path):
 
 
 def test_grades_of_another_seed_do_not_stand_beside_new_ones():
-    require_seed([grade("anna", "patterns", seed=3)], 3)
-    with pytest.raises(OtherSeed, match="--seed 3"):
-        require_seed([grade("anna", "patterns", seed=3)], 0)
+    require_seed([grade("anna", "patterns", seed=3)], Seeds(3))
+    with pytest.raises(OtherSeed, match=r"with seed 3, .* seed 0;"):
+        require_seed([grade("anna", "patterns", seed=3)], Seeds(0))
+
+
+def test_each_student_has_a_seed_that_depends_on_nothing_but_the_batch_and_the_name():
+    seeds = Seeds(5, per_student=True)
+    assert len({seeds.of(student) for student in ("anna", "bert", "carl")}) == 3
+    assert seeds.of("anna") == Seeds(5, per_student=True).of("anna") != Seeds(6, per_student=True).of("anna")
+    assert Seeds(5).of("anna") == Seeds(5).of("bert") == 5
+    require_seed([grade("anna", "patterns", seed=seeds.of("anna"))], seeds)

@@ -8,6 +8,7 @@ import pytest
 
 from autograder.batch.collection import Work
 from autograder.batch.runner import Graded
+from autograder.batch.seeds import ONE_FOR_ALL, Seeds
 from autograder.batch.shards import SHARD, CannotMerge, Shard, merge_shards, write_shard
 from autograder.engine.verdict import CheckVerdict, Grade
 
@@ -27,7 +28,7 @@ def graded(work, isolation="namespaces"):
 
 def make(folder, number, of=3, seed=0, isolation="namespaces"):
     shard = Shard(number, of)
-    write_shard(folder, shard, seed, WORKS, [graded(work, isolation) for work in shard.part(WORKS)])
+    write_shard(folder, shard, Seeds(seed), WORKS, [graded(work, isolation) for work in shard.part(WORKS)])
     return folder
 
 
@@ -79,7 +80,11 @@ def test_what_is_not_one_batch_is_refused(tmp_path, change, message):
 def test_an_essay_stands_beside_grades_without_isolation(tmp_path):
     work = Work("zoe", "arm_architecture", None)
     write_shard(
-        tmp_path, Shard(1, 1), 0, [work, WORKS[0]], [graded(work, "by hand"), graded(WORKS[0], "untrusted")]
+        tmp_path,
+        Shard(1, 1),
+        ONE_FOR_ALL,
+        [work, WORKS[0]],
+        [graded(work, "by hand"), graded(WORKS[0], "untrusted")],
     )
     assert len(merge_shards([tmp_path]).results) == 2
 
