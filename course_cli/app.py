@@ -71,6 +71,7 @@ COMMANDS: dict[str, Command] = {
         forwards_arguments=True,
     ),
     "grade": Command("course_cli.commands.grade:grade", "Grade a batch of submissions."),
+    "merge": Command("course_cli.commands.merge:merge", "Join the parts of a class that were graded apart."),
     "new": Command("course_cli.commands.new:new", "Make the folder of a new exercise."),
     "release": Command("course_cli.commands.release:release", "Write the students' archive."),
     "audit": Command("course_cli.commands.audit:audit", "Grade submissions with known faults."),

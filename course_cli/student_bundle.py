@@ -44,10 +44,11 @@ KEPT_BACK = (
     "autograder/nbgrader_bridge",
     "autograder/new_exercise",
     "autograder/report/classroom",
+    "course_cli/class_output.py",
     "course_cli/student_bundle.py",
     *(
         f"course_cli/commands/{name}.py"
-        for name in ("audit", "bench", "book", "demo", "grade", "new", "rehearse", "release", "test")
+        for name in ("audit", "bench", "book", "demo", "grade", "merge", "new", "rehearse", "release", "test")
     ),
 )
 _DATED = (2026, 1, 1, 0, 0, 0)  # a fixed date makes the archive reproducible

@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
-import dataclasses
+import os
 import threading
-import traceback
-from collections.abc import Callable, Generator, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache, partial
 
 from autograder.batch.cache import GradeCache
 from autograder.batch.collection import Work
+from autograder.batch.crew import Crew, Workers, threads
+from autograder.batch.job import GradingJob, Live, carry_out
+from autograder.batch.seeds import ONE_FOR_ALL, Seeds
+from autograder.batch.special_grades import unreadable
+from autograder.batch.version import checks_version
 from autograder.engine.essay import left_to_a_person, load_essay
-from autograder.engine.exercise import Exercise, essay_names, load_exercise
-from autograder.engine.grading import Evidence, Report, grade
-from autograder.engine.submission import Submission, UnusableSubmission
-from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.engine.exercise import FOLDER_VARIABLE, Exercise, essay_names, load_exercise
+from autograder.engine.grading import Report
+from autograder.engine.stop import Stop
+from autograder.engine.submission import UnusableSubmission
+from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation
+from autograder.report.classroom.drawings import Drawings
 
-EvidenceOf = Callable[[str, Mapping[str, str]], Evidence]
+Running = Callable[[Sequence[GradingJob]], None]
 
 
 @dataclass(frozen=True)
@@ -32,15 +38,19 @@ class Graded:
     cached: bool = False
 
 
-class _Interrupted(Exception):
-    """The batch was stopped while this submission was being graded."""
-
-
 class BatchRunner:
-    """Grades submissions in `jobs` arenas in parallel; without trusted isolation only with the visible checks.
+    """Grades submissions; without trusted isolation only with the visible checks.
 
-    `report` is called with each verdict as soon as it is known, on any thread, and what `evidence` returns for an
-    exercise and its sources with each verdict and the transcripts it was judged on.
+    Args:
+        cache: gets every grade as soon as there is one.
+        isolation: of the workers.
+        jobs: how many arenas run in parallel here.
+        seeds: of the scenarios' inputs.
+        resume: take grades from the cache.
+        report: gets each verdict as soon as it is known, on any thread; from other machines with the grade.
+        running: gets the jobs that run in this process, whenever they change, on any thread.
+        drawings: keeps those of failed checks.
+        workers: where the work is done; None: `jobs` threads of this process.
     """
 
     def __init__(
@@ -49,138 +59,114 @@ class BatchRunner:
         isolation: Isolation,
         *,
         jobs: int,
-        seed: int = 0,
+        seeds: Seeds = ONE_FOR_ALL,
         resume: bool = False,
         report: Report = lambda verdict: None,
-        evidence: EvidenceOf = lambda exercise, sources: lambda verdict, transcripts: None,
+        running: Running = lambda jobs: None,
+        drawings: Drawings | None = None,
+        workers: Workers | None = None,
     ) -> None:
         self._cache = cache
         self._isolation = isolation
         self._jobs = jobs
-        self._seed = seed
+        self._seeds = seeds
         self._resume = resume
         self._report = report
-        self._evidence = evidence
-        self._stop = threading.Event()
-
-    def exercise(self, name: str) -> Exercise:
-        """Return an exercise with the checks that this batch makes."""
-        return load_exercise(name, hidden=self._isolation.trusted)
+        self._running = running
+        self._drawings = drawings
+        self._workers = workers
+        self._stop = Stop()
+        self._now_running: list[GradingJob] = []
+        self._lock = threading.Lock()
+        self.exercise = lru_cache(self._load)  # an exercise with the checks that this batch makes, by name
 
     def count(self, name: str) -> int:
         """Return how many verdicts this batch gives on a submission for an exercise."""
         return len(load_essay(name).criteria if name in essay_names() else self.exercise(name).checks)
 
     def run(self, works: Sequence[Work]) -> Generator[Graded, None, None]:
-        """Yield each submission as soon as it is graded.
+        """Yield each submission as soon as it is graded, each once.
 
-        Leaving the loop early, for example by Ctrl-C, ends the running arenas; finished grades stay in the cache.
+        Leaving the loop early, for example by Ctrl-C, ends the running arenas at once; finished grades stay in the
+        cache.
         """
-        jobs_each = max(1, self._jobs // max(1, len(works)))
-        with ThreadPoolExecutor(max_workers=max(1, self._jobs // jobs_each)) as pool:
-            futures: list[Future[Graded]] = [pool.submit(self._grade, work, jobs_each) for work in works]
-            try:
-                for future in as_completed(futures):
-                    yield future.result()
-            finally:
-                self._stop.set()
-                pool.shutdown(wait=True, cancel_futures=True)
-
-    def _grade(self, work: Work, jobs: int) -> Graded:
-        if work.exercise in essay_names():
-            return self._leave_to_a_person(work)
-        exercise = self.exercise(work.exercise)
+        arenas = 1 if self._workers else max(1, self._jobs // max(1, len(works)))
+        workers = self._workers or threads(max(1, self._jobs // arenas))
+        crew = Crew(workers, partial(carry_out, live=self._live() if workers.share_memory else None))
+        handed_over: dict[tuple[str, str], Work] = {}
         try:
-            submission = work.read()
-        except UnusableSubmission as problem:
-            unread = unreadable(work, exercise, self._isolation, str(problem))
-            for verdict in unread.checks:
-                self._report(verdict)
-            return Graded(work, unread, None, str(problem))
-        if self._resume and (known := self._cache.get(submission, exercise)):
-            for verdict in known.checks:
-                self._report(verdict)
-            return Graded(work, known, submission.sources, cached=True)
-        result = self._grade_in_arenas(submission, exercise, jobs)
-        self._cache.put(submission, exercise, result)
-        return Graded(work, result, submission.sources)
+            for work in works:
+                prepared = self._prepare(work, arenas)
+                if isinstance(prepared, Graded):
+                    for verdict in prepared.grade.checks:
+                        self._report(verdict)
+                    yield prepared
+                    continue
+                while not crew.has_room:
+                    yield from self._finish(crew, handed_over)
+                handed_over[work.student, work.exercise] = work
+                crew.give(prepared)
+            while crew.is_busy:
+                yield from self._finish(crew, handed_over)
+        finally:
+            self._stop.set()
+            crew.close()
 
-    def _leave_to_a_person(self, work: Work) -> Graded:
-        """Read an essay; also of one that cannot be read a person decides what it is worth."""
-        waiting = left_to_a_person(load_essay(work.exercise), work.student)
-        for verdict in waiting.checks:
-            self._report(verdict)
+    def _load(self, name: str) -> Exercise:
+        return load_exercise(name, hidden=self._isolation.trusted)
+
+    def _prepare(self, work: Work, arenas: int) -> Graded | GradingJob:
+        """Return what needs no arena with its grade, and of the rest a job."""
         try:
-            return Graded(work, waiting, work.read().sources)
-        except UnusableSubmission as problem:
-            return Graded(work, waiting, None, str(problem))
+            submission, problem = work.read(), ""
+        except UnusableSubmission as error:
+            submission, problem = None, str(error)
+        sources = submission.sources if submission else None
+        if (
+            work.exercise in essay_names()
+        ):  # of one that cannot be read a person decides, too, what it is worth
+            waiting = left_to_a_person(load_essay(work.exercise), work.student)
+            return Graded(work, waiting, sources, problem)
+        exercise, seed = self.exercise(work.exercise), self._seeds.of(work.student)
+        if submission is None:
+            grade = unreadable(work.student, exercise, self._isolation.label, seed, problem)
+            return Graded(work, grade, None, problem)
+        if self._resume and (known := self._cache.get(submission, exercise, seed)):
+            return Graded(work, known, sources, cached=True)
+        return GradingJob(
+            work.student,
+            work.exercise,
+            dict(submission.sources),
+            seed,
+            self._isolation.trusted,
+            checks_version(exercise.folder),
+            arenas,
+            os.environ.get(FOLDER_VARIABLE),
+        )
 
-    def _grade_in_arenas(self, submission: Submission, exercise: Exercise, jobs: int) -> Grade:
-        try:
-            return with_reason(
-                grade(
-                    submission,
-                    exercise,
-                    seed=self._seed,
-                    jobs=jobs,
-                    isolation=self._isolation,
-                    report=self._report_or_stop,
-                    evidence=self._evidence(exercise.name, submission.sources),
-                )
-            )
-        except _Interrupted:
-            raise
-        except Exception:  # whatever goes wrong here is the grader's fault and may not end the batch
-            return Grade(
-                exercise.name,
-                submission.student,
-                self._isolation.label,
-                reason=f"the grader itself failed:\n{traceback.format_exc()}",
-            )
+    def _finish(self, crew: Crew, handed_over: dict[tuple[str, str], Work]) -> Iterator[Graded]:
+        """Wait for outcomes, and cache them all before anybody can interrupt the loop."""
+        finished = []
+        for job, outcome in crew.wait():
+            work = handed_over.pop((job.student, job.exercise))
+            self._cache.put(job.submission, self.exercise(job.exercise), job.seed, outcome.grade)
+            if self._drawings:
+                self._drawings.keep_all(outcome.grade, job.sources, outcome.drawn)
+            finished.append(Graded(work, outcome.grade, job.sources))
+            if self._workers and not self._workers.share_memory:
+                for verdict in outcome.grade.checks:
+                    self._report(verdict)
+        yield from finished
 
-    def _report_or_stop(self, verdict: CheckVerdict) -> None:
-        """Once the batch was stopped, raise at the next verdict of a submission; `grade` then ends its arenas."""
-        if self._stop.is_set():
-            raise _Interrupted
-        self._report(verdict)
+    def _live(self) -> Live:
+        return Live(self._isolation, self._stop, self._report, self._begins, self._ends)
 
+    def _begins(self, job: GradingJob) -> None:
+        with self._lock:
+            self._now_running.append(job)
+            self._running(list(self._now_running))
 
-def unreadable(work: Work, exercise: Exercise, isolation: Isolation, problem: str) -> Grade:
-    """Return the grade of an unreadable submission: no points, and the reason at its first check."""
-    first, *others = exercise.checks
-    names = " and ".join(exercise.file_names)
-    verdicts = [
-        CheckVerdict(
-            first.id,
-            first.title,
-            "failed",
-            0,
-            first.points,
-            expected=f"{names}, or a notebook with cells that begin '%%writefile {exercise.file_names[0]}'",
-            observed=problem,
-            help="Open the file you handed in, put this right and hand it in again.",
-        ),
-        *(
-            CheckVerdict(
-                check.id,
-                check.title,
-                "not run",
-                0,
-                check.points,
-                help="The submission could not be read.",
-                hidden=check.hidden,
-            )
-            for check in others
-        ),
-    ]
-    return Grade(exercise.name, work.student, isolation.label, verdicts)
-
-
-def with_reason(grade: Grade) -> Grade:
-    """Return the grade with the first cause of a check that could not be judged as its reason."""
-    if grade.status == "graded" or grade.reason:
-        return grade
-    broken = next((verdict for verdict in grade.checks if verdict.status == "error"), None)
-    return dataclasses.replace(
-        grade, reason=f"{broken.id}: {broken.help}" if broken else "no check was judged"
-    )
+    def _ends(self, job: GradingJob) -> None:
+        with self._lock:
+            self._now_running.remove(job)
+            self._running(list(self._now_running))

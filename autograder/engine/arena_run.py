@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +12,7 @@ from autograder.authoring.checks import Scenario
 from autograder.authoring.transcript import Transcript
 from autograder.engine.clock_scale import USUAL, scale_of
 from autograder.engine.exercise import Exercise
+from autograder.engine.stop import Stop
 from autograder.engine.submission_arena import LIMITS, ArenaEnded, student_paths
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.isolation.arena_process import ArenaReport, Ended, Kind
@@ -50,7 +50,7 @@ class ArenaRun:
 
 
 def run_in_arena(
-    run: ArenaRun, stop: threading.Event | None = None, arenas: SubmissionArenas | None = None
+    run: ArenaRun, stop: Stop | None = None, arenas: SubmissionArenas | None = None
 ) -> Transcript:
     """Carry out the scenario in one of the submission's `arenas`, or in one for it alone.
 

@@ -7,7 +7,6 @@ slower clocks, before the check counts as not graded.
 
 from __future__ import annotations
 
-import threading
 from collections import Counter
 from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
@@ -21,6 +20,7 @@ from autograder.engine.exercise import Exercise, exercises_folder
 from autograder.engine.exposure import HiddenChecksRefused, require_hidden
 from autograder.engine.judging import judge, verdict_on
 from autograder.engine.lateness import OVERLOADED, STRAINED, lateness
+from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckStatus, CheckVerdict, Grade
@@ -50,6 +50,7 @@ def grade(
     arenas: SubmissionArenas | None = None,
     first_alone: bool = False,
     at_first_look: Collection[str] = (),
+    stop: Stop | None = None,
 ) -> Grade:
     """Grade a submission.
 
@@ -67,8 +68,10 @@ def grade(
         arenas: of this submission, if one was opened ahead; they are closed at the end.
         first_alone: run nothing beside the first scenario, as somebody waits for the first verdict.
         at_first_look: the checks (ids) whose first failure counts, where no points can be lost: in an audit.
+        stop: when it is set, the arenas are ended at once.
 
     Raises:
+        Stopped: `stop` was set before the last verdict.
         HiddenChecksRefused: there are hidden checks, and arenas cannot be isolated here, or would show them.
     """
     isolation = isolation or available_isolation()
@@ -89,6 +92,7 @@ def grade(
         running,
         arenas,
         at_first_look,
+        stop,
     )
     return session.run(jobs, first_alone)
 
@@ -109,6 +113,7 @@ class _Session:
         running: Running,
         arenas: SubmissionArenas,
         at_first_look: Collection[str],
+        stop: Stop | None,
     ) -> None:
         self._submission = submission
         self._exercise = exercise
@@ -122,7 +127,7 @@ class _Session:
         self._arenas = arenas
         self._at_first_look = at_first_look
         self._scenarios = list(dict.fromkeys(scenario for check in exercise.checks for scenario in check.on))
-        self._stop = threading.Event()
+        self._stop = Stop(stop)
         self._verdicts: dict[str, CheckVerdict] = {}
         self._runs: list[Runs] = [{} for _ in range(max(MOST_ATTEMPTS.values()))]  # by attempt
         self._attempts: Counter[str] = Counter()  # that did not settle a check, by its id
@@ -131,6 +136,8 @@ class _Session:
         with self._arenas, ThreadPoolExecutor(jobs) as pool:
             try:
                 while len(self._verdicts) < len(self._exercise.checks):
+                    if self._stop.is_set():
+                        raise Stopped
                     self._settle()
                     alone = first_alone and not any(run.done() for run in self._runs[0].values())
                     running = self._start(pool, 1 if alone else jobs)
@@ -139,7 +146,9 @@ class _Session:
             finally:
                 self._stop.set()
         verdicts = [self._verdicts[check.id] for check in self._exercise.checks]
-        return Grade(self._exercise.name, self._submission.student, self._isolation.label, verdicts)
+        return Grade(
+            self._exercise.name, self._submission.student, self._isolation.label, verdicts, seed=self._seed
+        )
 
     def _settle(self) -> None:
         """Give a verdict on every check that can be judged now."""
@@ -238,6 +247,8 @@ class _Session:
         try:
             transcripts = [self._runs[attempt][scenario].result() for scenario in check.on]
         except NotGraded as error:
+            if self._stop.is_set():
+                raise Stopped from None
             self._conclude(verdict_on(check, "error", help=f"Not graded: {error}"))
             return
         verdict = judge(check, transcripts)

@@ -10,7 +10,6 @@ import os
 import select
 import socket
 import sys
-import threading
 import time
 from collections.abc import Sequence
 from contextlib import suppress
@@ -18,6 +17,7 @@ from pathlib import Path
 
 from autograder.arena.orders import DONE, send_order
 from autograder.arena.scenario_spec import ScenarioSpec
+from autograder.engine.stop import Stop
 from autograder.isolation.arena_process import ArenaReport, ArenaSpec, Kind, start_arena
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.python_paths import python_read_only_paths
@@ -77,7 +77,7 @@ class SubmissionArena:
         self.kind = self._process.kind
         self.scenarios = 0  # so far
 
-    def carry_out(self, spec: ScenarioSpec, deadline: float, stop: threading.Event | None) -> bytes:
+    def carry_out(self, spec: ScenarioSpec, deadline: float, stop: Stop | None) -> bytes:
         """Carry out a scenario and return its events, one JSON object a line.
 
         Args:
@@ -100,7 +100,7 @@ class SubmissionArena:
             finally:
                 os.close(write_end)
             report = self._read(events.fileno(), stop)
-        self._await_the_end_of_its_processes(report)
+        self._await_the_end_of_its_processes(report, stop)
         self._process.allow(IDLE)
         return report
 
@@ -109,7 +109,7 @@ class SubmissionArena:
         self._orders.close()
         self._process.kill()
 
-    def _read(self, fd: int, stop: threading.Event | None) -> bytes:
+    def _read(self, fd: int, stop: Stop | None) -> bytes:
         """Read events until the scenario is over."""
         report = bytearray()
         while len(report) < REPORT_LIMIT:
@@ -125,9 +125,9 @@ class SubmissionArena:
             report += chunk
         raise ArenaEnded(self._process.kill())
 
-    def _await_the_end_of_its_processes(self, report: bytes) -> None:
+    def _await_the_end_of_its_processes(self, report: bytes, stop: Stop | None) -> None:
         deadline = time.monotonic() + _SWEEPING
-        while time.monotonic() < deadline:
+        while time.monotonic() < deadline and not (stop and stop.is_set()):
             if self._process.poll():
                 raise ArenaEnded(self._process.wait(), report)
             if _is_readable(self._orders.fileno(), _LOOK):

@@ -42,13 +42,17 @@ class CheckVerdict:
 
 @dataclass(frozen=True)
 class Grade:
-    """Every verdict on one submission. One check that could not be judged makes the whole not graded."""
+    """Every verdict on one submission. One check that could not be judged makes the whole not graded.
+
+    `seed` drew the inputs of its scenarios; None for an essay, and in records of an earlier version.
+    """
 
     exercise: str
     student: str
     isolation: str
     checks: list[CheckVerdict] = field(default_factory=list)
     reason: str = ""
+    seed: int | None = None
 
     @property
     def status(self) -> GradeStatus:
@@ -80,6 +84,7 @@ class Grade:
             "student": self.student,
             "status": self.status,
             "isolation": self.isolation,
+            "seed": self.seed,
             "score": self.score,
             "max_score": self.max_score,
             "reason": self.reason,
@@ -90,4 +95,11 @@ class Grade:
     def from_json(cls, record: dict[str, Any]) -> Grade:
         """Read back what `to_json` returned."""
         checks = [CheckVerdict(**check) for check in record["checks"]]
-        return cls(record["exercise"], record["student"], record["isolation"], checks, record["reason"])
+        return cls(
+            record["exercise"],
+            record["student"],
+            record["isolation"],
+            checks,
+            record["reason"],
+            record.get("seed"),
+        )

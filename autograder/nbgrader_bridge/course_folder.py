@@ -16,6 +16,8 @@ from nbgrader.converters import Autograde, GenerateAssignment
 from nbgrader.preprocessors import SaveCells
 from traitlets.config import Config
 
+from autograder.atomic_file import write_atomically
+
 CONFIG_FILE = "nbgrader_config.py"
 RECORDS = "records"  # the folder with one JSON file a student, which VerdictOutputs reads
 
@@ -119,7 +121,7 @@ def write_config_file(folder: Path) -> None:
             *lines,
         ]
     )
-    (folder / CONFIG_FILE).write_text(text + "\n")
+    write_atomically(folder / CONFIG_FILE, text + "\n")
 
 
 def _last_error(text: str) -> str:

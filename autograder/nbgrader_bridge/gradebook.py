@@ -11,6 +11,7 @@ from typing import Any
 
 import nbformat
 
+from autograder.atomic_file import write_atomically
 from autograder.engine.exercise import file_names
 from autograder.engine.verdict import Grade
 from autograder.nbgrader_bridge.course_folder import (
@@ -67,7 +68,7 @@ class CourseGradebook:
         is_entered = not self._is_new and self._holds(grade, submission)
         if grade.status == "to mark":
             return self._leave_to_a_person(grade, submission, page, is_entered)
-        if page.exists() and is_entered:
+        if is_entered and _is_whole(page):
             return page
         page.unlink(missing_ok=True)  # it would show a grade that is not entered completely
         self._autograde(grade, submission)
@@ -139,7 +140,7 @@ class CourseGradebook:
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         for name, text in submission.items():
-            (folder / name).write_text(text, encoding="utf-8")
+            write_atomically(folder / name, text)
 
     def _submitted(self, grade: Grade) -> Path:
         """Where nbgrader looks for submissions."""
@@ -150,13 +151,17 @@ class CourseGradebook:
         return self._folder / "autograded" / grade.student / grade.exercise
 
 
+def _is_whole(page: Path) -> bool:
+    """Whether nbgrader came to the end of a page: it writes in place, and may have been killed."""
+    return page.exists() and page.read_bytes().rstrip().endswith(b"</html>")
+
+
 def record(folder: Path, grade: Grade) -> None:
     """Write a grade to the student's JSON file; it replaces an earlier one for the same exercise."""
     others = [record for record in _records(folder, grade.student) if record["exercise"] != grade.exercise]
     grades = sorted([*others, grade.to_json()], key=lambda record: record["exercise"])
     path = folder / RECORDS / f"{grade.student}.json"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(grades, indent=2) + "\n")
+    write_atomically(path, json.dumps(grades, indent=2) + "\n")
 
 
 def _records(folder: Path, student: str) -> list[dict[str, Any]]:

@@ -21,6 +21,8 @@ FOLDER = Path("cache/drawings")
 DRAWN = ("failed", "error")
 MOST_RUNS = 3  # drawn of one check
 
+DrawnRuns = Mapping[str, Sequence[str]]  # SVG of the runs that a check was judged on, by the check's id
+
 
 @dataclass(frozen=True)
 class Drawings:
@@ -28,20 +30,11 @@ class Drawings:
 
     batch: Path
 
-    def evidence(
-        self, exercise: str, sources: Sources
-    ) -> Callable[[CheckVerdict, Sequence[Transcript]], None]:
-        """Return what `grade` calls with each verdict of a submission and the transcripts it was judged on."""
-
-        def keep(verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
-            if verdict.status not in DRAWN:
-                return
-            try:
-                self.keep(exercise, sources, verdict, draw(transcripts))
-            except Exception:  # a drawing that fails may cost nobody a grade
-                logging.getLogger(__name__).exception("no drawing of %s, %s", exercise, verdict.id)
-
-        return keep
+    def keep_all(self, grade: Grade, sources: Sources, drawn: DrawnRuns) -> None:
+        """Keep the drawings of a grade, by the check's id."""
+        for verdict in grade.checks:
+            if verdict.id in drawn:
+                self.keep(grade.exercise, sources, verdict, drawn[verdict.id])
 
     def of(self, grade: Grade, sources: Sources | None) -> dict[str, list[str]]:
         """Return the drawings (SVG) of a grade by the check's id, of those checks that have some."""
@@ -71,6 +64,22 @@ class Drawings:
     def _path(self, exercise: str, sources: Sources, verdict: CheckVerdict) -> Path:
         key = json.dumps([dict(sources), asdict(verdict)], sort_keys=True)
         return self.batch / FOLDER / exercise / f"{hashlib.sha256(key.encode()).hexdigest()}.json"
+
+
+def drawing_into(
+    drawn: dict[str, Sequence[str]],
+) -> Callable[[CheckVerdict, Sequence[Transcript]], None]:
+    """Return what `grade` calls with each verdict and the transcripts it was judged on: it draws those that failed."""
+
+    def add(verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
+        if verdict.status not in DRAWN:
+            return
+        try:
+            drawn[verdict.id] = draw(transcripts)
+        except Exception:  # a drawing that fails may cost nobody a grade
+            logging.getLogger(__name__).exception("no drawing of %s", verdict.id)
+
+    return add
 
 
 def draw(transcripts: Sequence[Transcript]) -> list[str]:

@@ -78,15 +78,28 @@ def write_submission_pages(folder: Path, grade: Grade, drawings: DrawingsOf) -> 
 
 
 def write_pages(
-    folder: Path, grades: Sequence[Grade], sources: Sequence[Sources | None], left_out: Sequence[str] = ()
+    folder: Path,
+    grades: Sequence[Grade],
+    sources: Mapping[tuple[str, str], Sources | None],
+    *,
+    batches: Sequence[Path] = (),
+    left_out: Sequence[str] = (),
 ) -> Path:
-    """Write all pages of a batch into its output folder, where its drawings are, and return the class page's path.
+    """Write the pages of a batch into its output folder, and return the class page's path.
 
-    `sources` are those of each grade's submission; None: it could not be read.
+    Args:
+        folder: the output folder.
+        grades: of the whole class.
+        sources: the programs of those that get pages anew, by student and exercise; None: it could not be read.
+        batches: the output folders where their drawings are; by default `folder`.
+        left_out: sentences on what could not become a submission at all.
     """
-    drawings = Drawings(folder)
-    for grade, its in zip(grades, sources, strict=True):
-        write_submission_pages(folder, grade, drawings.of(grade, its))
+    for grade in grades:
+        if (key := (grade.student, grade.exercise)) in sources:
+            drawings: dict[str, Sequence[str]] = {}
+            for batch in batches or (folder,):
+                drawings |= Drawings(batch).of(grade, sources[key])
+            write_submission_pages(folder, grade, drawings)
     return write_class_page(folder, grades, left_out)
 
 

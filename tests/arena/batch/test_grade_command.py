@@ -164,3 +164,34 @@ def test_a_folder_with_an_unusable_name_is_named_and_the_others_are_graded(tmp_p
     assert ran.returncode == 1
     assert "'a*'" in ran.stdout
     assert len(json.loads((tmp_path / "graded/grades.json").read_text())) == 1
+
+
+def test_shards_are_merged_into_one_gradebook_and_an_absent_one_is_named(tmp_path):
+    for student in ("anna", "bert", "carl"):
+        hand_in(tmp_path / "submitted", student, b"not a notebook")
+    shards = [tmp_path / "shard1", tmp_path / "shard2"]
+    for number, shard in enumerate(shards, 1):
+        ran = course(
+            *("grade", tmp_path / "submitted", "--out", shard, "--shard", f"{number}/2"),
+            COURSE_ISOLATION="none",
+        )
+        assert ran.returncode == 0, ran.stdout + ran.stderr
+        assert not (shard / "gradebook.db").exists()
+
+    out = tmp_path / "graded"
+    ran = course("merge", *shards, "--out", out, COURSE_ISOLATION="none")
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert [grade["student"] for grade in json.loads((out / "grades.json").read_text())] == [
+        "anna",
+        "bert",
+        "carl",
+    ]
+    assert {student: score for student, (score, _) in scores(out).items()} == dict.fromkeys(
+        ("anna", "bert", "carl"), 0
+    )
+
+    partly = course("merge", shards[0], "--out", tmp_path / "partly")
+    assert partly.returncode == 1
+    assert "missing: shard 2/2 is not among the folders" in partly.stdout
+    assert "bert's battery_service has no grade" in partly.stdout
+    assert course("merge", *shards, shards[0], "--out", out).returncode == 0  # the same folder twice is one

@@ -49,7 +49,7 @@ def notebook(work: str) -> str:
 
 def run_batch(folder: Path, reported: list[CheckVerdict]):
     isolation = Isolation(Kind.NAMESPACES, "as a test says")
-    cache = GradeCache(folder / "cache", 0, isolation)
+    cache = GradeCache(folder / "cache", isolation)
     runner = BatchRunner(cache, isolation, jobs=1, report=reported.append)
     (graded,) = runner.run(collect(folder / "submitted").works)
     assert len(reported) == runner.count(NAME)

@@ -14,6 +14,7 @@ from autograder.engine import grading
 from autograder.engine.arena_run import NotGraded
 from autograder.engine.exercise import Exercise
 from autograder.engine.exposure import HiddenChecksRefused
+from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
@@ -292,4 +293,17 @@ def test_where_no_points_can_be_lost_the_first_failure_may_count(monkeypatch, tw
     ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
     grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, jobs=1, at_first_look=["base"])
     assert statuses(grade) == {"base": "failed", "above": "not run"}
+    assert [name for name, _ in ran] == ["first"]
+
+
+def test_a_stop_ends_the_grading_without_a_grade_and_starts_no_other_arena(monkeypatch, two_checks):
+    stop = Stop()
+
+    def ended(scenario, scale):
+        stop.set()
+        raise NotGraded("the arena was ended on request")
+
+    ran = arenas(monkeypatch, ended)
+    with pytest.raises(Stopped):
+        grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, jobs=1, stop=stop)
     assert [name for name, _ in ran] == ["first"]

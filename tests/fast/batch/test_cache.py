@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from autograder.batch import cache as module
-from autograder.batch.cache import GradeCache, checks_version
+from autograder.batch import version as module
+from autograder.batch.cache import GradeCache
+from autograder.batch.version import checks_version
 from autograder.engine.exercise import load_exercise
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import CheckVerdict, Grade
@@ -26,33 +27,34 @@ def passed(submission, status="passed"):
 
 @pytest.fixture
 def cache(tmp_path):
-    cache = GradeCache(tmp_path, 0, ISOLATED)
-    cache.put(ANNA, EXERCISE, passed(ANNA))
+    cache = GradeCache(tmp_path, ISOLATED)
+    cache.put(ANNA, EXERCISE, 0, passed(ANNA))
     return cache
 
 
 def test_the_same_work_has_the_same_grade(cache):
-    assert cache.get(ANNA, EXERCISE) == passed(ANNA)
+    assert cache.get(ANNA, EXERCISE, 0) == passed(ANNA)
 
 
 def test_the_same_source_by_another_student_has_it_in_that_students_name(cache):
     bert = Submission("battery_service", "bert", ANNA.sources)
-    assert cache.get(bert, EXERCISE) == passed(bert)
+    assert cache.get(bert, EXERCISE, 0) == passed(bert)
 
 
 def test_another_source_seed_isolation_or_set_of_checks_is_graded_anew(cache, tmp_path):
     assert (
-        cache.get(Submission("battery_service", "anna", {"battery_service.py": "x = 2\n"}), EXERCISE) is None
+        cache.get(Submission("battery_service", "anna", {"battery_service.py": "x = 2\n"}), EXERCISE, 0)
+        is None
     )
-    assert GradeCache(tmp_path, 1, ISOLATED).get(ANNA, EXERCISE) is None
-    assert GradeCache(tmp_path, 0, Isolation(Kind.NONE, "")).get(ANNA, EXERCISE) is None
-    assert cache.get(ANNA, load_exercise("battery_service", hidden=False)) is None
+    assert cache.get(ANNA, EXERCISE, 1) is None
+    assert GradeCache(tmp_path, Isolation(Kind.NONE, "")).get(ANNA, EXERCISE, 0) is None
+    assert cache.get(ANNA, load_exercise("battery_service", hidden=False), 0) is None
 
 
 def test_what_was_not_graded_is_not_cached(tmp_path):
-    cache = GradeCache(tmp_path, 0, ISOLATED)
-    cache.put(ANNA, EXERCISE, passed(ANNA, status="error"))
-    assert cache.get(ANNA, EXERCISE) is None
+    cache = GradeCache(tmp_path, ISOLATED)
+    cache.put(ANNA, EXERCISE, 0, passed(ANNA, status="error"))
+    assert cache.get(ANNA, EXERCISE, 0) is None
 
 
 @pytest.mark.parametrize(

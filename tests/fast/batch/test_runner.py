@@ -7,11 +7,12 @@ from contextlib import closing
 
 import pytest
 
-from autograder.batch import runner as module
+from autograder.batch import job as module
 from autograder.batch.cache import GradeCache
 from autograder.batch.collection import Work
 from autograder.batch.runner import BatchRunner
 from autograder.engine.exercise import load_exercise
+from autograder.engine.stop import Stopped
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
@@ -48,7 +49,7 @@ def works(tmp_path):
 
 
 def batch(tmp_path, isolation=ISOLATED, **options):
-    return BatchRunner(GradeCache(tmp_path / "cache", 0, isolation), isolation, jobs=2, **options)
+    return BatchRunner(GradeCache(tmp_path / "cache", isolation), isolation, jobs=2, **options)
 
 
 def test_infrastructure_failures_are_not_graded_and_bad_submissions_are_zero(tmp_path, works, monkeypatch):
@@ -97,14 +98,15 @@ def test_leaving_early_ends_what_runs_and_starts_nothing_more(tmp_path, works, m
     started = []
     second_is_running = threading.Event()
 
-    def until_stopped(submission, exercise, *, report, **options):
+    def until_stopped(submission, exercise, *, report, stop, **options):
         started.append(submission.student)
         if submission.student == "anna":
             assert second_is_running.wait(10)
             return grade_by_content(submission, exercise, report=report, **options)
         second_is_running.set()
-        while True:  # ends when the report refuses a verdict of a batch that has been stopped
-            report(CheckVerdict("id", "title", "passed", 1, 1))
+        while not stop.is_set():
+            pass
+        raise Stopped
 
     monkeypatch.setattr(module, "grade", until_stopped)
     blocked = [works[0], *(Work(name, "battery_service", works[3].path) for name in ("fred", "gina", "hans"))]

@@ -61,7 +61,8 @@ def grade(student, *checks, exercise="walk_to", **more):
 
 
 def pages_of(folder: Path, *grades: Grade, left_out=()) -> Path:
-    return write_pages(folder, grades, [None] * len(grades), left_out)
+    sources = {(grade.student, grade.exercise): None for grade in grades}
+    return write_pages(folder, grades, sources, left_out=left_out)
 
 
 def read(path: Path) -> BeautifulSoup:

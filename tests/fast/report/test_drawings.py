@@ -10,7 +10,7 @@ from geometry_msgs.msg import PoseStamped
 from autograder.authoring import events as ev
 from autograder.authoring.transcript import Transcript
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.report.classroom.drawings import Drawings
+from autograder.report.classroom.drawings import Drawings, drawing_into
 from autograder.report.classroom.motion import motion_svgs
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
@@ -79,8 +79,10 @@ def test_a_robot_that_stays_has_no_plot_and_a_goal_that_is_nowhere_no_place():
 
 
 def test_a_failed_check_has_its_drawings_under_its_own_submission_and_verdict_only(tmp_path):
-    Drawings(tmp_path).evidence("walk_to", SOURCES)(FAILED, [walk()])
     grade = Grade("walk_to", "anna", "namespaces", [FAILED])
+    drawn = {}
+    drawing_into(drawn)(FAILED, [walk()])
+    Drawings(tmp_path).keep_all(grade, SOURCES, drawn)
     kept = Drawings(tmp_path).of(grade, SOURCES)
     assert [said(svg)[0] for svg in kept["walks"]] == [
         "walk ahead",
@@ -93,13 +95,14 @@ def test_a_failed_check_has_its_drawings_under_its_own_submission_and_verdict_on
     assert Drawings(tmp_path).of(grade, None) == {}
 
 
-def test_what_passed_is_not_drawn_and_what_cannot_be_drawn_costs_nobody_a_grade(tmp_path, caplog):
-    keep = Drawings(tmp_path).evidence("walk_to", SOURCES)
-    keep(CheckVerdict("walks", "It walks", "passed", 2, 2), [walk()])
-    assert not list(tmp_path.rglob("*.json"))
+def test_what_passed_is_not_drawn_and_what_cannot_be_drawn_costs_nobody_a_grade(caplog):
+    drawn = {}
+    judged = drawing_into(drawn)
+    judged(CheckVerdict("walks", "It walks", "passed", 2, 2), [walk()])
     nothing_to_draw = Transcript.from_events("walk", {}, [ev.ScenarioEnded(t=1.0)])
-    keep(FAILED, [nothing_to_draw])
-    assert "no drawing of walk_to, walks" in caplog.text
+    judged(FAILED, [nothing_to_draw])
+    assert drawn == {}
+    assert "no drawing of walks" in caplog.text
 
 
 def test_a_plot_needs_points_that_are_finite():

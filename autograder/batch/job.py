@@ -1,0 +1,139 @@
+"""One unit of a batch's work: a submission to grade, which can be sent to another machine, and what comes back."""
+
+from __future__ import annotations
+
+import os
+import socket
+import traceback
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from autograder.batch.special_grades import not_graded, with_reason
+from autograder.batch.version import checks_version
+from autograder.engine.exercise import FOLDER_VARIABLE, load_exercise
+from autograder.engine.grading import Report, grade
+from autograder.engine.stop import Stop, Stopped
+from autograder.engine.submission import Submission
+from autograder.engine.verdict import Grade
+from autograder.isolation.availability import Isolation, available_isolation
+from autograder.report.classroom.drawings import DrawnRuns, drawing_into
+
+
+@dataclass(frozen=True)
+class GradingJob:
+    """What a worker needs to grade one submission. It can be pickled, and the sources travel with it.
+
+    Attributes:
+        student, exercise, sources: the submission.
+        seed: draws the inputs of its scenarios.
+        trusted: make the hidden checks too, which only an isolated worker may do.
+        version: of the checks and the engine (`checks_version`) that the batch is graded with.
+        arenas: how many of this submission run at a time.
+        course: the folder of exercises, if it is not the clone's own.
+    """
+
+    student: str
+    exercise: str
+    sources: Mapping[str, str]
+    seed: int
+    trusted: bool
+    version: str
+    arenas: int = 1
+    course: str | None = None
+
+    @property
+    def submission(self) -> Submission:
+        """The submission as the engine takes it."""
+        return Submission(self.exercise, self.student, self.sources)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a job.
+
+    Attributes:
+        grade: the verdicts.
+        isolation: the label of what the worker had; "" if no worker answered.
+        drawn: SVG of the runs that failed checks were judged on, by the check's id.
+    """
+
+    grade: Grade
+    isolation: str
+    drawn: DrawnRuns = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Live:
+    """What a worker thread shares with the batch: a worker in another process has none of it.
+
+    Attributes:
+        isolation: of this machine.
+        stop: ends what runs.
+        report: gets each verdict.
+        begins, ends: get each job.
+    """
+
+    isolation: Isolation
+    stop: Stop
+    report: Report
+    begins: Callable[[GradingJob], None]
+    ends: Callable[[GradingJob], None]
+
+
+def carry_out(job: GradingJob, live: Live | None = None) -> Outcome:
+    """Grade a submission; whatever goes wrong is the reason of a grade "not graded".
+
+    Raises:
+        Stopped: the batch was stopped.
+    """
+    if live is None:
+        return _graded(job, available_isolation(), Stop(), lambda verdict: None)
+    if live.stop.is_set():
+        raise Stopped
+    live.begins(job)
+    try:
+        return _graded(job, live.isolation, live.stop, live.report)
+    finally:
+        live.ends(job)
+
+
+def _graded(job: GradingJob, isolation: Isolation, stop: Stop, report: Report) -> Outcome:
+    try:
+        if problem := _why_not_here(job, isolation):
+            return Outcome(not_graded(job.exercise, job.student, isolation.label, problem), isolation.label)
+        exercise = load_exercise(job.exercise, hidden=job.trusted)
+        drawn: dict[str, Sequence[str]] = {}
+        found = grade(
+            job.submission,
+            exercise,
+            seed=job.seed,
+            jobs=job.arenas,
+            isolation=isolation,
+            report=report,
+            evidence=drawing_into(drawn),
+            stop=stop,
+        )
+        return Outcome(with_reason(found), isolation.label, drawn)
+    except Stopped:
+        raise
+    except Exception:  # whatever goes wrong here is the grader's fault and may not end the batch
+        reason = f"the grader itself failed:\n{traceback.format_exc()}"
+        return Outcome(not_graded(job.exercise, job.student, isolation.label, reason), isolation.label)
+
+
+def _why_not_here(job: GradingJob, isolation: Isolation) -> str:
+    """Why this worker must not grade the job, or ""."""
+    here = socket.gethostname()
+    if job.trusted and not isolation.trusted:
+        return (
+            f"the worker on {here} has no isolation ({isolation.reason}), and hidden checks need it; take it out of "
+            "the cluster, or let it have namespaces, and grade again with --resume"
+        )
+    if job.course:
+        os.environ[FOLDER_VARIABLE] = job.course
+    if checks_version(load_exercise(job.exercise, hidden=False).folder) != job.version:
+        return (
+            f"the worker on {here} has other checks or another engine than the batch; bring its clone to the same "
+            "commit, start it again, and grade again with --resume"
+        )
+    return ""

@@ -1,0 +1,135 @@
+"""A class in parts: each is graded on a machine of its own, and a merge joins them without loss or doubles."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from autograder.atomic_file import write_atomically
+from autograder.batch.collection import Work
+from autograder.batch.runner import Graded
+from autograder.batch.seeds import Seeds
+from autograder.batch.version import checks_version
+from autograder.engine.exercise import exercises_folder
+from autograder.engine.verdict import Grade
+
+SHARD = "shard.json"
+
+
+class CannotMerge(Exception):
+    """The folders do not make one batch; the message says why, and what to do."""
+
+
+@dataclass(frozen=True)
+class Shard:
+    """Part `number` of `of`, counted from 1."""
+
+    number: int
+    of: int
+
+    @classmethod
+    def parse(cls, text: str) -> Shard:
+        """Read "K/N"; raises ValueError unless 1 ≤ K ≤ N."""
+        match = re.fullmatch(r"([1-9]\d*)/([1-9]\d*)", text)
+        if not match or int(match[1]) > int(match[2]):
+            raise ValueError(f"{text!r} is no part of a class; expected K/N with K from 1 to N, such as 1/4")
+        return cls(int(match[1]), int(match[2]))
+
+    def part(self, works: Sequence[Work]) -> list[Work]:
+        """Return this part of the class: every N-th submission of each exercise, the same on every machine."""
+        in_order = sorted(works, key=lambda work: (work.exercise, work.student))
+        return in_order[self.number - 1 :: self.of]
+
+
+def write_shard(
+    folder: Path, shard: Shard, seeds: Seeds, works: Sequence[Work], results: Sequence[Graded]
+) -> None:
+    """Write what a merge needs: the grades with what was handed in, and what the whole class handed in."""
+    exercises = sorted({work.exercise for work in works})
+    record = {
+        "shard": f"{shard.number}/{shard.of}",
+        "seed": [seeds.batch, seeds.per_student],
+        "versions": {name: checks_version(exercises_folder() / name) for name in exercises},
+        "submissions": [[work.student, work.exercise] for work in works],
+        "graded": [
+            {
+                "grade": result.grade.to_json(),
+                "sources": None if result.sources is None else dict(result.sources),
+                "problem": result.problem,
+                "timestamp": result.work.timestamp,
+            }
+            for result in results
+        ],
+    }
+    write_atomically(folder / SHARD, json.dumps(record) + "\n")
+
+
+@dataclass(frozen=True)
+class Merged:
+    """The results of all shards in order of student and exercise, and a sentence on each submission without one."""
+
+    results: Sequence[Graded]
+    missing: Sequence[str]
+
+
+def merge_shards(folders: Sequence[Path]) -> Merged:
+    """Join what `write_shard` wrote.
+
+    Raises:
+        CannotMerge: a folder holds no shard, two hold the same submission, or seeds, versions or isolations differ.
+    """
+    shards = {folder: _read(folder) for folder in folders}
+    (first, given), *others = shards.items()
+    for folder, record in others:
+        for what, advice in (
+            ("seed", "grade all shards with one --seed, and all or none with --seed-per-student"),
+            ("versions", "bring all clones to one commit and grade with --resume"),
+        ):
+            if record[what] != given[what]:
+                raise CannotMerge(f"{first} and {folder} were graded with different {what}: {advice}")
+    results: dict[tuple[str, str], Graded] = {}
+    found_in: dict[tuple[str, str], Path] = {}
+    isolations: dict[bool, Path] = {}
+    for folder, record in shards.items():
+        for row in record["graded"]:
+            grade = Grade.from_json(row["grade"])
+            key = (grade.student, grade.exercise)
+            if key in results:
+                raise CannotMerge(
+                    f"{grade.student}'s {grade.exercise} is in {found_in[key]} and in {folder}: leave one of them out"
+                )
+            if grade.isolation in ("namespaces", "untrusted"):  # not an essay, nor what was lost
+                isolations.setdefault(grade.isolation == "untrusted", folder)
+            found_in[key] = folder
+            results[key] = Graded(Work(*key, None, row["timestamp"]), grade, row["sources"], row["problem"])
+    if len(isolations) == 2:
+        raise CannotMerge(
+            f"{isolations[True]} was graded without isolation and hidden checks, {isolations[False]} with both: "
+            "grade the first again where namespaces work"
+        )
+    return Merged([results[key] for key in sorted(results)], _missing(shards, set(results)))
+
+
+def _missing(shards: Mapping[Path, Mapping[str, Any]], found: set[tuple[str, str]]) -> list[str]:
+    expected = {
+        (student, exercise) for record in shards.values() for student, exercise in record["submissions"]
+    }
+    present = {record["shard"] for record in shards.values()}
+    wanted = {f"{k}/{shard.of}" for shard in map(Shard.parse, present) for k in range(1, shard.of + 1)}
+    sentences = [f"shard {name} is not among the folders" for name in sorted(wanted - present)]
+    return sentences + [
+        f"{student}'s {exercise} has no grade" for student, exercise in sorted(expected - found)
+    ]
+
+
+def _read(folder: Path) -> dict[str, Any]:
+    try:
+        return json.loads((folder / SHARD).read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise CannotMerge(
+            f"{folder} holds no finished shard (`course grade --shard K/N`): {error}"
+        ) from error

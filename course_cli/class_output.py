@@ -1,0 +1,85 @@
+"""What the commands that grade a class share: the gradebook, and what they print at the end."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from autograder.batch.records import GRADES
+from autograder.batch.runner import Graded
+from autograder.engine.exercise import exercises_folder
+from autograder.engine.verdict import Grade
+from autograder.nbgrader_bridge.course_folder import NbgraderError
+from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
+from autograder.nbgrader_bridge.rebuild_submission import NoSolutionCell
+from autograder.report.class_table import class_table
+
+LOG = "nbgrader.log"
+
+
+def enter_all(console: Console, results: Sequence[Graded], out: Path) -> tuple[list[str], list[Grade]]:
+    """Enter the grades into nbgrader's gradebook one by one.
+
+    Returns a sentence for each that failed, and the grades with what a person has given there.
+    """
+    problems: list[str] = []
+    grades: list[Grade] = []
+    logs: list[str] = []
+    with bar(console) as progress:
+        task = progress.add_task("gradebook", total=len(results))
+        gradebook = CourseGradebook(out, exercises_folder())
+        for result in results:
+            try:
+                gradebook.enter(Entry(result.grade, result.sources, result.problem, result.work.timestamp))
+                grades.append(gradebook.as_marked(result.grade))
+            except (NbgraderError, NoSolutionCell, OSError) as error:
+                grades.append(result.grade)
+                problems.append(f"{result.work.student}'s {result.work.exercise}: {error}")
+                if isinstance(error, NbgraderError):
+                    logs.append(f"{problems[-1]}\n{error.log}")
+            progress.advance(task)
+    if logs:
+        (out / LOG).write_text("\n\n".join(logs))
+        problems.append(f"what nbgrader said about it is in {out / LOG}")
+    return problems, grades
+
+
+def sources_of(results: Sequence[Graded]) -> dict[tuple[str, str], Mapping[str, str] | None]:
+    """Return the programs of what was graded now, by student and exercise; None: it could not be read."""
+    return {(result.work.student, result.work.exercise): result.sources for result in results}
+
+
+def tell_the_end(
+    console: Console, grades: Sequence[Grade], unentered: Sequence[str], out: Path, page: Path
+) -> None:
+    """Print the table of the class, what is not in the gradebook, and where everything lies."""
+    console.print(class_table(grades))
+    for line in unentered:
+        console.print(f"not in the gradebook: {line}", style="red", markup=False)
+    to_mark = [grade for grade in grades if grade.status == "to mark"]
+    if to_mark:
+        console.print(
+            f"{len(to_mark)} to be marked by hand, in formgrader; then run this again, and the points are in {GRADES}",
+            style="cyan",
+        )
+    console.print(f"to read first: {page}", markup=False, soft_wrap=True)
+    console.print(f"{out / GRADES}, {out / 'gradebook.db'}, {out / 'feedback'}/", style="dim", markup=False)
+    jupyter = Path(sys.executable).with_name("jupyter")
+    console.print(
+        f"to look at them in nbgrader: cd {out} && {jupyter} lab, then Nbgrader > Formgrader", style="dim"
+    )
+
+
+def bar(console: Console) -> Progress:
+    """Return a bar with a count and the time left."""
+    return Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(elapsed_when_finished=True),
+        console=console,
+    )

@@ -1,0 +1,54 @@
+"""`course merge`: join the parts of a class that `course grade --shard K/N` graded."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from autograder.batch.folder_lock import FolderInUse, locked
+from autograder.batch.records import GRADES, write_grades
+from autograder.batch.shards import CannotMerge, Merged, merge_shards
+from autograder.report.classroom.pages import write_pages
+from course_cli.class_output import enter_all, sources_of, tell_the_end
+from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.exercises_option import CourseOption
+
+
+def merge(
+    folders: Annotated[list[Path], typer.Argument(metavar="FOLDER...", help="output folders of the shards")],
+    out: Annotated[Path, typer.Option(help="folder for grades.json, gradebook.db and feedback/")] = Path(
+        "graded"
+    ),
+    course: CourseOption = None,
+) -> None:
+    """Join the shards of a class into one gradebook."""
+    console = Console(highlight=False)
+    try:
+        merged = merge_shards(folders)
+    except CannotMerge as error:
+        raise ended(console, error, UNUSABLE) from error
+    try:
+        with locked(out):
+            complete = _write(console, merged, folders, out)
+    except FolderInUse as error:
+        raise ended(console, error, COULD_NOT) from error
+    raise typer.Exit(0 if complete else COULD_NOT)
+
+
+def _write(console: Console, merged: Merged, folders: Sequence[Path], out: Path) -> bool:
+    """Write gradebook, grades and pages; return whether every submission of the class has a grade in both."""
+    write_grades(out / GRADES, [result.grade for result in merged.results])
+    unentered, grades = enter_all(console, merged.results, out)
+    write_grades(out / GRADES, grades)
+    page = write_pages(out, grades, sources_of(merged.results), batches=folders)
+    tell_the_end(console, grades, unentered, out, page)
+    for line in merged.missing:
+        console.print(f"missing: {line}", style="red", markup=False)
+    not_graded = sum(grade.status == "not graded" for grade in grades)
+    if not_graded:
+        console.print(f"{not_graded} not graded; grade their shards again with --resume", style="magenta")
+    return not (merged.missing or unentered or not_graded)

@@ -1,0 +1,68 @@
+"""Work that a killed worker or a broken executor had is done again once, and every job has one outcome."""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import Executor, ProcessPoolExecutor
+from functools import partial
+from multiprocessing import get_context
+from pathlib import Path
+
+import pytest
+
+from autograder.batch.crew import Crew, Workers
+from autograder.batch.job import GradingJob, Outcome
+from autograder.engine.verdict import CheckVerdict, Grade
+
+
+def new_pool() -> Executor:
+    return ProcessPoolExecutor(2, mp_context=get_context("spawn"))
+
+
+def job(student: str) -> GradingJob:
+    return GradingJob(student, "battery_service", {"battery_service.py": ""}, 0, True, "version")
+
+
+def passes(job: GradingJob) -> Grade:
+    return Grade(job.exercise, job.student, "namespaces", [CheckVerdict("id", "title", "passed", 1, 1)])
+
+
+def grade_or_die(folder: Path, job: GradingJob) -> Outcome:
+    """The first try of `once` and every try of `always` kill the worker's process."""
+    with (folder / job.student).open("a") as tries:
+        tries.write("x")
+    if job.student == "always" or (job.student == "once" and (folder / job.student).read_text() == "x"):
+        os._exit(9)
+    return Outcome(passes(job), "namespaces")
+
+
+def outcomes(crew: Crew, students: list[str]) -> list[tuple[str, str, str]]:
+    """Each outcome's student, status and reason, in order of the students."""
+    found = []
+    for student in students:
+        while not crew.has_room:
+            found += crew.wait()
+        crew.give(job(student))
+    while crew.is_busy:
+        found += crew.wait()
+    crew.close()
+    return sorted((done.student, outcome.grade.status, outcome.grade.reason) for done, outcome in found)
+
+
+def test_a_job_that_kills_its_worker_is_not_graded_and_takes_no_other_with_it(tmp_path: Path) -> None:
+    crew = Crew(Workers(new_pool, at_a_time=2), partial(grade_or_die, tmp_path))
+    students = ["always", "anna", "bert", "carl", "once"]
+    found = outcomes(crew, students)
+    assert [student for student, _, _ in found] == students
+    assert [status for _, status, _ in found] == ["not graded", *["graded"] * 4]
+    assert "lost twice" in found[0][2]
+    assert (tmp_path / "always").read_text() == "xx"
+    assert (tmp_path / "once").read_text() == "xx"
+
+
+def test_an_executor_that_cannot_be_opened_is_an_error_and_no_grade() -> None:
+    def unavailable() -> Executor:
+        raise OSError("no processes left")
+
+    with pytest.raises(OSError, match="no processes left"):
+        outcomes(Crew(Workers(unavailable, at_a_time=1), partial(grade_or_die, Path())), ["anna"])

@@ -1,0 +1,90 @@
+"""Jobs on a Dask cluster of two processes, of which one is killed in the middle."""
+
+from __future__ import annotations
+
+import os
+import signal
+from functools import partial
+from pathlib import Path
+
+import pytest
+from distributed import LocalCluster
+
+from autograder.batch import dask_workers as module
+from autograder.batch.crew import Crew
+from autograder.batch.dask_workers import NoCluster, dask_cluster
+from autograder.batch.job import GradingJob, Outcome, carry_out
+from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.isolation.arena_process import Kind
+from autograder.isolation.availability import Isolation
+
+STUDENTS = [f"student{number:02}" for number in range(20)]
+
+
+def job(student: str, trusted: bool = False) -> GradingJob:
+    return GradingJob(student, "battery_service", {"battery_service.py": ""}, 0, trusted, "version")
+
+
+def grade_once_the_killed_is_gone(folder: Path, job: GradingJob) -> Outcome:
+    """Say which process works, and hold the first job of each until one of them was killed."""
+    (folder / "workers" / str(os.getpid())).touch()
+    while not (folder / "killed").exists():
+        pass
+    verdicts = [CheckVerdict("id", "title", "passed", 1, 1)]
+    return Outcome(Grade(job.exercise, job.student, "untrusted", verdicts), "untrusted")
+
+
+def test_a_killed_worker_costs_no_grade_and_doubles_none(tmp_path, monkeypatch):
+    monkeypatch.setenv("COURSE_ISOLATION", "none")
+    (tmp_path / "workers").mkdir()
+    with (
+        LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as local,
+        dask_cluster(local.scheduler_address) as cluster,
+    ):
+        assert (cluster.size, cluster.isolation.label, cluster.left_out) == (2, "untrusted", ())
+        crew = Crew(cluster.workers, partial(grade_once_the_killed_is_gone, tmp_path))
+        for student in STUDENTS:
+            crew.give(job(student))
+        while len(working := list((tmp_path / "workers").iterdir())) < 2:
+            pass
+        os.kill(int(working[0].name), signal.SIGKILL)
+        (tmp_path / "killed").touch()
+        found = []
+        while crew.is_busy:
+            found += crew.wait()
+        crew.close()
+    assert sorted(each.student for each, _ in found) == STUDENTS
+    assert {outcome.grade.status for _, outcome in found} == {"graded"}
+
+
+def test_a_worker_without_isolation_grades_no_hidden_checks_and_says_so(monkeypatch):
+    monkeypatch.setenv("COURSE_ISOLATION", "none")
+    outcome = carry_out(job("anna", trusted=True))
+    assert (outcome.grade.status, outcome.isolation) == ("not graded", "untrusted")
+    assert "hidden checks need it" in outcome.grade.reason
+
+
+def test_a_worker_with_other_checks_does_not_grade(monkeypatch):
+    monkeypatch.setenv("COURSE_ISOLATION", "none")
+    outcome = carry_out(job("anna"))
+    assert outcome.grade.status == "not graded"
+    assert "other checks or another engine" in outcome.grade.reason
+
+
+def test_only_isolated_workers_are_chosen_where_there_are_any():
+    isolated, open_ = Isolation(Kind.NAMESPACES, "tried"), Isolation(Kind.NONE, "no bubblewrap")
+    cluster = module._cluster(object(), {"tcp://a": open_, "tcp://b": isolated})
+    assert (cluster.size, cluster.isolation) == (1, isolated)
+    assert "tcp://a has no isolation and gets no work: no bubblewrap" in cluster.left_out[0]
+
+
+def test_an_absent_scheduler_or_package_says_what_to_do(monkeypatch):
+    monkeypatch.setattr(module, "_PATIENCE", 0.5)
+    with pytest.raises(NoCluster, match="dask scheduler"), dask_cluster("tcp://127.0.0.1:1"):
+        pass
+    monkeypatch.setitem(__import__("sys").modules, "distributed", None)
+    with (
+        pytest.raises(NoCluster, match=r"pip install .* dask distributed"),
+        dask_cluster("tcp://127.0.0.1:1"),
+    ):
+        pass

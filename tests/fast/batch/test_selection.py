@@ -1,0 +1,65 @@
+"""Grading one student or one exercise leaves the grades of the others alone."""
+
+from __future__ import annotations
+
+import pytest
+
+from autograder.batch.collection import Work
+from autograder.batch.records import read_grades, write_grades
+from autograder.batch.seeds import Seeds
+from autograder.batch.selection import NothingSelected, OtherSeed, require_seed, select, with_others
+from autograder.engine.verdict import CheckVerdict, Grade
+
+WORKS = [
+    Work(student, exercise, None) for student in ("anna", "bert") for exercise in ("patterns", "walk_to")
+]
+
+
+def grade(student: str, exercise: str, points: float = 1, seed: int = 0) -> Grade:
+    return Grade(
+        exercise, student, "namespaces", [CheckVerdict("id", "title", "passed", points, 2)], seed=seed
+    )
+
+
+@pytest.mark.parametrize(
+    ("students", "exercises", "expected"),
+    [
+        ([], [], [0, 1, 2, 3]),
+        (["bert"], [], [2, 3]),
+        ([], ["walk_to"], [1, 3]),
+        (["anna", "bert"], ["patterns"], [0, 2]),
+    ],
+)
+def test_names_select(students, exercises, expected):
+    assert select(WORKS, students, exercises) == [WORKS[number] for number in expected]
+
+
+def test_a_name_without_a_submission_is_told_with_those_there_are():
+    with pytest.raises(NothingSelected, match=r"--student carl: .*anna, bert"):
+        select(WORKS, ["carl"], [])
+    with pytest.raises(NothingSelected, match=r"--exercise walk: .*patterns, walk_to"):
+        select(WORKS, [], ["walk"])
+    with pytest.raises(NothingSelected, match="anna handed in none of patterns"):
+        select(WORKS[1:3], ["anna"], ["patterns"])
+
+
+def test_others_keep_their_rows_and_the_selected_has_the_new_one(tmp_path):
+    before = [grade("anna", "patterns"), grade("bert", "patterns"), grade("bert", "walk_to")]
+    write_grades(tmp_path / "grades.json", before)
+    again = grade("bert", "patterns", points=2)
+    assert with_others([again], read_grades(tmp_path / "grades.json")) == [before[0], again, before[2]]
+    assert read_grades(tmp_path / "none.json") == []
+
+
+def test_grades_of_another_seed_do_not_stand_beside_new_ones():
+    require_seed([grade("anna", "patterns", seed=3)], Seeds(3))
+    with pytest.raises(OtherSeed, match=r"with seed 3, .* seed 0;"):
+        require_seed([grade("anna", "patterns", seed=3)], Seeds(0))
+
+
+def test_each_student_has_a_seed_that_depends_on_nothing_but_the_batch_and_the_name():
+    seeds = Seeds(5, per_student=True)
+    assert len({seeds.of(student) for student in ("anna", "bert", "carl")}) == 3
+    assert seeds.of("anna") == Seeds(5, per_student=True).of("anna") != Seeds(6, per_student=True).of("anna")
+    assert Seeds(5).of("anna") == Seeds(5).of("bert") == 5
+    require_seed([grade("anna", "patterns", seed=seeds.of("anna"))], seeds)
