@@ -72,6 +72,7 @@ class Crew:
         """Wait until something happens to a job; return those that are done."""
         if not self._running:
             self._alone = self._lost.popleft()
+            self._close_executor()  # it may be breaking still, and would take this job with it
             self.give(self._alone)
         done = wait(self._running, return_when=FIRST_COMPLETED).done
         outcomes = []
