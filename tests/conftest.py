@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -20,6 +21,11 @@ def tier_of(file: Path) -> str:
 
 
 def pytest_configure() -> None:
+    files = Counter(file.name for file in TESTS.rglob("test_*.py"))
+    if twice := sorted(name for name, times in files.items() if times > 1):
+        raise pytest.UsageError(
+            f"{', '.join(twice)}: pytest needs another name for each file, also across folders"
+        )
     stray = [str(file) for file in sorted(TESTS.rglob("test_*.py")) if tier_of(file) not in TIERS]
     if stray:
         folders = ", ".join(f"tests/{tier}" for tier in TIERS)

@@ -1,0 +1,54 @@
+"""What failed beside other tests runs once more, alone; a correct submission that lost a point is no such test."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from course_cli.commands.test import pass_alone, run_pytest
+
+FAILS_AT_FIRST = """
+from pathlib import Path
+
+def test_steady():
+    Path("steady.log").open("a").write("x")
+
+def test_at_first():
+    with Path("tries").open("a+") as tries:
+        tries.write("x")
+    assert len(Path("tries").read_text()) >= {needed}
+"""
+OF_A_CORRECT_ONE = """
+import pytest
+
+@pytest.mark.parametrize("known", ["walk_to/correct/plain"])
+def test_verdict(known):
+    assert not known
+"""
+
+
+@pytest.mark.parametrize(("needed", "passes"), [(2, True), (3, False)])
+def test_what_failed_runs_once_more_without_the_rest(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], needed: int, passes: bool
+) -> None:
+    (tmp_path / "test_some.py").write_text(FAILS_AT_FIRST.format(needed=needed))
+    assert not run_pytest([], tmp_path)
+    assert pass_alone([], tmp_path) is passes
+    assert (tmp_path / "tries").read_text() == "xx"
+    assert (tmp_path / "steady.log").read_text() == "x"
+    printed = capfd.readouterr().out
+    assert "1 failed beside others and run again, alone:\n  test_some.py::test_at_first" in printed
+    assert (
+        "passed alone, and should pass on a busy machine, too: test_some.py::test_at_first" in printed
+    ) is passes
+
+
+def test_a_point_that_a_correct_submission_lost_is_a_failure_at_once(tmp_path: Path) -> None:
+    (tmp_path / "test_audit.py").write_text(OF_A_CORRECT_ONE)
+    assert not run_pytest([], tmp_path)
+    assert not pass_alone([], tmp_path)
+
+
+def test_a_run_that_broke_before_any_test_is_a_failure(tmp_path: Path) -> None:
+    assert not pass_alone([], tmp_path)
