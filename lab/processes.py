@@ -64,12 +64,13 @@ class Process:
 
     def lines(self) -> list[tuple[float, str]]:
         """The lines of `output()` and `errors()`, each with the time (s, `time.monotonic()`) at which it arrived."""
-        streams = [self._output, *([self._errors] if self._errors else [])]
-        return sorted(line for stream in streams for line in stream.lines(complete=not self.is_running))
+        return sorted(
+            line for stream in self._streams() for line in stream.lines(complete=not self.is_running)
+        )
 
     def ended(self) -> float | None:
         """When it ended, as its closed output told (s, `time.monotonic()`); None while it runs."""
-        return None if self.is_running else self._output.closed()
+        return None if self.is_running else max(stream.closed() for stream in self._streams())
 
     def wait(self, timeout: float) -> bool:
         """Wait for its end; return whether it ended within `timeout` s."""
@@ -97,6 +98,9 @@ class Process:
         if self.is_running:
             with suppress(ProcessLookupError):
                 os.killpg(self._popen.pid, signal_number)
+
+    def _streams(self) -> list[_LastLines]:
+        return [self._output, *([self._errors] if self._errors else [])]
 
 
 class _LastLines:
