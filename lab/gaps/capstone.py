@@ -4,17 +4,13 @@ from __future__ import annotations
 
 import json
 import re
-import runpy
 import time
-import traceback
-from collections.abc import Callable
 from functools import partial
-from pathlib import Path
-from typing import Any
 
 from humanoid_interfaces.action import WalkTo
 from lab import trials
 from lab.gap import Gap, expect, not_yet
+from lab.gap_checks import asked, read_program
 from lab.goals import Goal, send_goal
 from lab.outcomes import Outcome
 from lab.student_nodes import StudentNode, run_node, stop_nodes
@@ -178,7 +174,7 @@ def _require_abort(outcome: Outcome, parent: StudentNode) -> None:
 
 def finds_the_way_out() -> str:
     """Ask for the way out of each step."""
-    program = _asked(lambda: runpy.run_path("way_out.py"), "way_out.py")
+    program = read_program("way_out.py")
     come, lift, carry, lower = program["STEPS"]
     empty = "the hand is empty: stop the legs, and nothing follows"
     cases: tuple[tuple[str, tuple[bool, list[str]], str], ...] = (
@@ -188,7 +184,7 @@ def finds_the_way_out() -> str:
         (lower, (False, []), "the glass is almost down: let the arm finish, and nothing follows"),
     )
     for step, wanted, reason in cases:
-        got = _asked(partial(program["way_out"], step), "way_out.py")
+        got = asked(partial(program["way_out"], step), "way_out.py")
         is_pair = isinstance(got, tuple | list) and len(got) == 2 and isinstance(got[1], tuple | list)
         expect(
             is_pair,
@@ -204,18 +200,6 @@ def finds_the_way_out() -> str:
             next=reason,
         )
     return "a way out of each of the four steps"
-
-
-def _asked(call: Callable[[], Any], file: str) -> Any:
-    """Call what the student wrote; an exception becomes an error that quotes its line."""
-    try:
-        return call()
-    except Exception as problem:
-        lines = [f for f in traceback.extract_tb(problem.__traceback__) if Path(f.filename).name == file]
-        where = f" in line {lines[-1].lineno}: {lines[-1].line}" if lines else ""
-        raise not_yet(
-            f"{type(problem).__name__}: {problem}{where}", "no exception", "mend what this error names"
-        ) from None
 
 
 def _start(file: str, how: str) -> tuple[StudentNode, StudentNode]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import hashlib
 import json
 import logging
-import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from autograder.atomic_file import write_atomically
 from autograder.authoring.transcript import Transcript
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.classroom.motion import motion_svgs
@@ -53,13 +53,7 @@ class Drawings:
 
     def keep(self, exercise: str, sources: Sources, verdict: CheckVerdict, drawn: Sequence[str]) -> None:
         """Keep the drawings (SVG) of one verdict."""
-        path = self._path(exercise, sources, verdict)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        unfinished = path.with_suffix(
-            f".{threading.get_ident()}"
-        )  # an interruption must not leave half a file
-        unfinished.write_text(json.dumps(drawn), encoding="utf-8")
-        unfinished.replace(path)
+        write_atomically(self._path(exercise, sources, verdict), json.dumps(drawn))
 
     def _path(self, exercise: str, sources: Sources, verdict: CheckVerdict) -> Path:
         key = json.dumps([dict(sources), asdict(verdict)], sort_keys=True)
