@@ -37,7 +37,8 @@ SWAYS = Scenario(
     "sway_before",
     lambda random: {
         "light": round(random.uniform(0.3, 0.45), 2),
-        "period": round(random.uniform(0.54, 0.66), 2),
+        "even": random.choice((2, 3)),
+        "uneven": random.choice((7, 8, 9)),
         "swings": 6,
     },
     robot=None,
@@ -55,7 +56,7 @@ FIDGETS = Scenario(
     lambda random: {
         "speed": 0.06,
         "tilt": round(random.choice((0.0, 0.1)), 2),
-        "calm": round(random.uniform(0.2, 0.3), 2),
+        "calm": round(random.uniform(0.1, 0.2), 2),
         "duration": 3.0,
     },
     robot=None,

@@ -20,6 +20,7 @@ from .reports import SHIFTING, told
 from .rising import CROUCHED, HEIGHT_SLACK, RISEN, require_accepted, require_success
 
 EVEN_TIME, CALM_TIME = 0.3, 0.5  # s
+EVEN_MOMENT = 0.2  # s, at most, until the next uneven load is published: far less than the time that counts
 TIME_SLACK = 0.15  # s, that messages and rounds may be apart
 TOLD = 0.5  # s for a change to show in the feedback
 UNREST = 0.03  # m/s
@@ -67,16 +68,16 @@ def require_even_for_a_while(run: Transcript, goal: Goal) -> None:
 
 
 def _require_swaying(run: Transcript, begin: float, end: float) -> None:
-    """Require that between two moments (s) the loads were even for less than 0.3 s in a row, and both ways uneven."""
+    """Require that between two moments (s) the loads were even for moments only, and uneven both ways."""
     shares = _shares(run, begin, end)
     if not any(share < UNEVEN for _, share in shares) or not any(share > 1 / UNEVEN for _, share in shares):
         raise unseen(run, "the weight did not swing from foot to foot")
     since = None
     for t, share in shares:
+        if since is not None and t - since > EVEN_MOMENT:
+            raise unseen(run, "the loads were even for too long")
         is_even = UNEVEN < share < 1 / UNEVEN
         since = (t if since is None else since) if is_even else None
-        if since is not None and t - since > EVEN_TIME - 0.02:
-            raise unseen(run, "the loads were even for too long")
 
 
 def _shares(run: Transcript, begin: float, end: float) -> list[tuple[float, float]]:

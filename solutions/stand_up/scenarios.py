@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import threading
 import time
+from collections import deque
 from collections.abc import Sequence
 
 from geometry_msgs.msg import Twist, WrenchStamped
@@ -163,25 +164,24 @@ def ask_before_anything_is_known(stage: Stage) -> None:
         stand_up.send_and_wait(as_="after")
 
 
-def sway_before(stage: Stage, light: float, period: float, swings: int) -> None:
+def sway_before(stage: Stage, light: float, even: int, uneven: int, swings: int) -> None:
     """Play a robot whose weight swings from foot to foot, then rests between them.
 
     Args:
         stage: the stage.
         light: what the lighter foot carries at the ends of a swing, as a share of the other's load.
-        period: of a swing, s; a third of it the loads are even.
+        even: how long the loads are even in the middle of each swing, in periods of its messages.
+        uneven: how long they are not, in periods.
         swings: from side to side.
     """
     with _PlayedRobot(stage, 0.45) as robot:
         stand_up = _open(stage)
         robot.change(share=light)
-        stage.wait(period)
+        stage.wait(SETTLING)
         goal = stand_up.send_and_wait(as_="rise")
         for swing in range(swings):
-            robot.change(share=1.0)
-            stage.wait(period / 3)
-            robot.change(share=1.0 / light if swing % 2 else light)
-            stage.wait(2 * period / 3)
+            robot.follow([1.0] * even + [1.0 / light if swing % 2 else light] * uneven)
+        stage.poll_until(lambda: robot.has_followed, SOON)
         robot.change("even", share=1.0)
         robot.live_until_the_end(goal)
 
@@ -294,6 +294,7 @@ class _PlayedRobot:
         self._odom = stage.offer_topic("odom", Odometry)
         self._feet = {side: stage.offer_topic(f"{side}_foot/wrench", WrenchStamped) for side in "lr"}
         self._cmd_vel: HeardTopic = stage.listen("cmd_vel", Twist)
+        self._shares: deque[float] = deque()  # of the rounds to come
         self._heard, self._silent, self._rounds = 0, 0, 0
         self._then = time.monotonic()
         self._changing = threading.Lock()
@@ -314,6 +315,15 @@ class _PlayedRobot:
                 setattr(self, name, value)
             if mark:
                 self._stage.mark(mark)
+
+    def follow(self, shares: Sequence[float]) -> None:
+        """Take these shares in the rounds to come, one in each: no other thread can make one of them last longer."""
+        with self._changing:
+            self._shares.extend(shares)
+
+    @property
+    def has_followed(self) -> bool:
+        return not self._shares
 
     def live_until_the_end(self, goal: Goal) -> None:
         """Wait until a goal ends, if it was accepted."""
@@ -350,6 +360,8 @@ class _PlayedRobot:
         climb = self._climb()
         self.z = min(STANCE, self.z + climb * passed)
         self._rounds += 1
+        if self._shares:
+            self.share = self._shares.popleft()
         speed, tilt = (0.0, 0.0) if self._is_calm() else (self.speed, self.tilt)
         self._x += speed * passed
         stamp = Clock().now().to_msg()

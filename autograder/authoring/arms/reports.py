@@ -59,10 +59,11 @@ def _require_true_error(goal: Goal, plan: Plan, event: ev.FeedbackReceived) -> N
         at=event.t,
     )
     seen = joints_between(goal.run, max(plan.begin, event.t - AGE), event.t)
+    at_the_ends = plan.at(event.t - AGE), plan.at(event.t)
     truths = [
-        largest(errors(report.positions, plan.at(moment)))[1]
+        largest(errors(report.positions, wanted))[1]
         for report in seen
-        for moment in (event.t - AGE, report.t, event.t)
+        for wanted in (*at_the_ends, plan.at(report.t))
     ]
     low, high = max(0.0, min(truths) - ERROR_SLACK), max(truths) + ERROR_SLACK
     expect(
