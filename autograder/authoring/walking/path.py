@@ -36,4 +36,4 @@ def walking_speed(run: RobotRecord, t: float) -> float:
 
 def _middle(run: RobotRecord, t: float) -> Point:
     robots = run.robot_between(t - STRIDE / 2, min(t + STRIDE / 2, run.ground_truth[-1].t))
-    return fmean(robot.x for robot in robots), fmean(robot.y for robot in robots)
+    return fmean([robot.x for robot in robots]), fmean([robot.y for robot in robots])
