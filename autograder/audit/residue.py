@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from autograder.isolation.memory_group import group_folders
 from autograder.isolation.process_tree import descendants
 
 _PR_SET_CHILD_SUBREAPER = 36
@@ -40,7 +41,7 @@ def residue(patience: float = 5.0) -> Iterator[list[str]]:
 
 
 def _seen() -> set[str]:
-    return {*_processes(), *_mounts(), *_files(), *_locks()}
+    return {*_processes(), *_mounts(), *_files(), *_locks(), *_groups()}
 
 
 def _processes() -> Iterator[str]:
@@ -66,6 +67,10 @@ def _files() -> Iterator[str]:
         yield from (f"file {path}" for path in folder.iterdir() if _is_ours(path.name))
     if _SHARED_MEMORY.is_dir():
         yield from (f"file {path}" for path in _SHARED_MEMORY.iterdir() if path.name.startswith(_MIDDLEWARES))
+
+
+def _groups() -> Iterator[str]:
+    yield from (f"control group {folder}" for folder in group_folders())
 
 
 def _is_ours(name: str) -> bool:

@@ -131,7 +131,7 @@ class ArenaProcess:
                 raise
 
     def _watch(self, running: RunningArena, began: float) -> ArenaReport:
-        limits, process = self.spec.limits, running.process
+        limits, process, group = self.spec.limits, running.process, running.memory_group
         out, err = CapturedOutput(limits.output_kib), CapturedOutput(limits.output_kib)
         assert process.stdout
         assert process.stderr
@@ -153,6 +153,8 @@ class ArenaProcess:
                 borne_for = now - memory_within_limit_at
                 if memory > 2 * limits.memory_mib or borne_for > limits.memory_grace_s:
                     ended = Ended.MEMORY
+                if group and group.was_exceeded():
+                    ended = Ended.MEMORY
             if ended is Ended.EXIT and now > self._deadline:
                 ended = Ended.DEADLINE
             if ended is Ended.EXIT and self._kill_requested.is_set():
@@ -161,6 +163,8 @@ class ArenaProcess:
                 break
         nothing_survives = running.end() if ended is not Ended.EXIT else running.has_ended()
         exit_code = process.wait()
+        if group and group.was_exceeded():  # what the kernel ended may have been all there was
+            ended, peak = Ended.MEMORY, max(peak, float(limits.most_memory_mib))
         pump.finish(_LAST_WORDS)
         process.stdout.close()
         process.stderr.close()

@@ -23,6 +23,7 @@ from autograder.isolation.bubblewrap import (
     StartedSandbox,
     same_paths,
 )
+from autograder.isolation.memory_group import MemoryGroup, make_memory_group
 from autograder.isolation.process_tree import ended_within
 from autograder.isolation.seccomp_filter import build_filter, student_filter
 from autograder.isolation.warm_interpreter import first_process
@@ -35,8 +36,16 @@ _END_TIMEOUT = 10.0  # s for the kernel, or the reaper, to end every process
 class RunningArena:
     """The processes of a started arena, as the watching thread needs to see them."""
 
-    def __init__(self, process: subprocess.Popen[bytes], root_pid: int, end_pidfd: int, gentle: bool) -> None:
+    def __init__(
+        self,
+        process: subprocess.Popen[bytes],
+        root_pid: int,
+        end_pidfd: int,
+        gentle: bool,
+        memory_group: MemoryGroup | None = None,
+    ) -> None:
         self.process = process  # ours to wait for
+        self.memory_group = memory_group  # of all processes
         self.root_pid = root_pid  # every process of the arena is this one or below it
         self.end_pidfd = end_pidfd  # readable when the root has ended, and with it everything below
         self._gentle = gentle
@@ -61,6 +70,9 @@ class RunningArena:
 def start_with_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
     """Start the arena in a sandbox; `stack` releases, after the end, what the start needed."""
     paths = same_paths(spec.read_only_paths)
+    memory_group = make_memory_group(spec.limits.most_memory_mib)
+    if memory_group:
+        stack.callback(memory_group.remove)
     with Sandbox() as sandbox:
         if os.geteuid() == 0:
             with _staging_folder() as staging:
@@ -68,13 +80,15 @@ def start_with_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
                     sandbox, spec, [(f"{staging}/{number}", path) for number, (_, path) in enumerate(paths)]
                 )
                 prefix = _as_another_user([source for source, _ in paths], staging)
-                started = _start(sandbox, spec, prefix)
+                started = _start(sandbox, spec, memory_group, prefix)
         else:
             _describe(sandbox, spec, paths)
-            started = _start(sandbox, spec)
+            started = _start(sandbox, spec, memory_group)
     stack.callback(os.close, started.init_pidfd)
     _write_stdin(started.process, spec.stdin)
-    return RunningArena(started.process, started.init_pid, started.init_pidfd, gentle=False)
+    return RunningArena(
+        started.process, started.init_pid, started.init_pidfd, gentle=False, memory_group=memory_group
+    )
 
 
 def start_without_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
@@ -121,11 +135,17 @@ def _describe(sandbox: Sandbox, spec: ArenaSpec, paths: list[tuple[str, str]]) -
     sandbox.add_environment(_sandbox_environment(spec) if spec.waiting_env is None else spec.waiting_env)
 
 
-def _start(sandbox: Sandbox, spec: ArenaSpec, prefix: Sequence[str] = ()) -> StartedSandbox:
+def _start(
+    sandbox: Sandbox, spec: ArenaSpec, memory_group: MemoryGroup | None, prefix: Sequence[str] = ()
+) -> StartedSandbox:
+    def bound(pid: int) -> None:
+        if memory_group:
+            memory_group.add(pid)
+
     if spec.waiting_env is None:
-        return sandbox.start(spec.command, prefix=prefix, pass_fds=spec.pass_fds)
+        return sandbox.start(spec.command, prefix=prefix, pass_fds=spec.pass_fds, prepare=bound)
     with first_process(spec.command, _sandbox_environment(spec)) as (command, descriptor):
-        return sandbox.start(command, prefix=prefix, pass_fds=[*spec.pass_fds, descriptor])
+        return sandbox.start(command, prefix=prefix, pass_fds=[*spec.pass_fds, descriptor], prepare=bound)
 
 
 def _sandbox_environment(spec: ArenaSpec) -> dict[str, str]:

@@ -20,6 +20,11 @@ class ArenaLimits:
     tmp_mib: int = 64
     shared_memory_mib: int = 64
 
+    @property
+    def most_memory_mib(self) -> int:
+        """What is never borne, not for a moment: twice the resident memory, and the files in memory."""
+        return 2 * self.memory_mib + self.tmp_mib + self.shared_memory_mib
+
 
 @dataclass(frozen=True)
 class StudentLimits:

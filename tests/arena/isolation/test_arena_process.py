@@ -16,6 +16,7 @@ from arenas import ENVIRONMENT
 from autograder.isolation.arena_process import ArenaReport, ArenaSpec, Ended, Kind, start_arena
 from autograder.isolation.bubblewrap import SandboxError
 from autograder.isolation.limits import ArenaLimits
+from autograder.isolation.memory_group import group_folders, make_memory_group
 from autograder.isolation.python_paths import python_read_only_paths
 
 REPOSITORY = Path(__file__).parents[3]
@@ -82,6 +83,21 @@ def test_memory_within_the_limit_is_measured_and_allowed(kind: Kind) -> None:
     report = run_python(code, kind, ArenaLimits(30, memory_mib=400))
     assert (report.ended, report.exit_code) == (Ended.EXIT, 0)
     assert 80 < report.peak_memory_mib < 400
+
+
+def test_memory_that_no_process_has_resident_is_counted_by_the_kernel(namespaces: Kind) -> None:
+    """Files in memory that nobody maps: together more than the arena may have for a moment."""
+    group = make_memory_group(64)
+    if group is None:
+        pytest.skip("only root can make control groups of memory, where the kernel has them")
+    group.remove()
+    hog = "import os, time\nfor _ in range(40): os.write(os.memfd_create('hog'), bytes(16 << 20))\ntime.sleep(60)"
+    limits = ArenaLimits(deadline_s=30, memory_mib=100)
+    report = run_python(hog, namespaces, limits)
+    assert report.ended is Ended.MEMORY
+    assert "may use 100 MiB" in report.explain(limits)
+    assert report.nothing_survives
+    assert group_folders() == []
 
 
 def test_a_caller_can_end_an_arena(kind: Kind) -> None:

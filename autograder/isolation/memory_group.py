@@ -1,0 +1,120 @@
+"""Bounds the memory of an arena as the kernel counts it: by a control group (cgroup), where we may make one.
+
+The kernel's count has what no process's resident size shows: shared mappings that nobody maps any more, files in
+memory, sockets' buffers. Without a group the resident sizes, the sizes of the file systems and the number of sockets
+are all that is looked at.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from contextlib import suppress
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+
+_numbers = count()
+
+
+@dataclass(frozen=True)
+class _Version:
+    """How one of the kernel's two kinds of control groups names things."""
+
+    place: Path  # where the groups are made
+    limits: tuple[str, ...]  # files for the limit in bytes; those after the first may be missing
+    no_swap: str  # file for how much may be swapped out
+    kills: str  # file with a line `oom_kill NUMBER`
+
+
+_VERSION_2 = _Version(
+    Path("/sys/fs/cgroup"), limits=("memory.max",), no_swap="memory.swap.max", kills="memory.events"
+)
+_VERSION_1 = _Version(
+    Path("/sys/fs/cgroup/memory"),
+    limits=("memory.limit_in_bytes", "memory.kmem.tcp.limit_in_bytes"),
+    no_swap="memory.swappiness",
+    kills="memory.oom_control",
+)
+
+
+class MemoryGroup:
+    """A control group with a limit of memory, for one process and all that it starts from then on."""
+
+    def __init__(self, folder: Path, kills: str) -> None:
+        self._folder = folder
+        self._kills = folder / kills
+
+    def add(self, pid: int) -> None:
+        """Put a process into the group; raises OSError when it is gone."""
+        (self._folder / "cgroup.procs").write_text(str(pid))
+
+    def was_exceeded(self) -> bool:
+        """Return whether the kernel has ended a process because the group was at its limit."""
+        for line in self._kills.read_text().splitlines():
+            name, _, number = line.partition(" ")
+            if name == "oom_kill":
+                return int(number) > 0
+        return False
+
+    def remove(self, patience: float = 2.0) -> None:
+        """Remove the group once its last process has ended, which may take `patience` s."""
+        deadline = time.monotonic() + patience
+        while True:
+            with suppress(FileNotFoundError):
+                try:
+                    self._folder.rmdir()
+                except OSError:
+                    if time.monotonic() < deadline:
+                        time.sleep(0.02)
+                        continue
+            return
+
+
+def make_memory_group(limit_mib: float) -> MemoryGroup | None:
+    """Make a group with a limit, or return None where the kernel or this user's rights do not allow it."""
+    for version in (_VERSION_1, _VERSION_2):
+        group = _make(version, int(limit_mib * 2**20))
+        if group:
+            return group
+    return None
+
+
+def group_folders() -> list[Path]:
+    """Return the groups of arenas that this process has made and not yet removed."""
+    return [
+        folder
+        for version in (_VERSION_1, _VERSION_2)
+        for folder in version.place.glob(f"arena-{os.getpid()}-*")
+    ]
+
+
+def _make(version: _Version, limit: int) -> MemoryGroup | None:
+    folder = version.place / f"arena-{os.getpid()}-{next(_numbers)}"
+    try:
+        _sweep(version.place)
+        folder.mkdir()
+    except OSError:
+        return None
+    try:
+        first, *others = (folder / name for name in version.limits)
+        with first.open("r+") as file:  # only where the kernel made it: a group may have no count of memory
+            file.write(str(limit))
+        for path, value in [*((path, limit) for path in others), (folder / version.no_swap, 0)]:
+            with suppress(OSError), path.open("r+") as file:
+                file.write(str(value))
+        group = MemoryGroup(folder, version.kills)
+        group.was_exceeded()  # can be read
+    except OSError:
+        folder.rmdir()
+        return None
+    return group
+
+
+def _sweep(place: Path) -> None:
+    """Remove the groups of graders that were ended by force."""
+    for folder in place.glob("arena-*-*"):
+        pid = folder.name.split("-")[1]
+        if pid.isdigit() and not Path(f"/proc/{pid}").exists():
+            with suppress(OSError):
+                folder.rmdir()
