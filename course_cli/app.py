@@ -72,6 +72,7 @@ COMMANDS: dict[str, Command] = {
     ),
     "grade": Command("course_cli.commands.grade:grade", "Grade a batch of submissions."),
     "merge": Command("course_cli.commands.merge:merge", "Join the parts of a class that were graded apart."),
+    "export": Command("course_cli.commands.export:export", "Write the grades for another platform."),
     "new": Command("course_cli.commands.new:new", "Make the folder of a new exercise."),
     "release": Command("course_cli.commands.release:release", "Write the students' archive."),
     "audit": Command("course_cli.commands.audit:audit", "Grade submissions with known faults."),

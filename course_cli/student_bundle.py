@@ -41,6 +41,7 @@ KEPT_BACK = (
     "autograder/audit",
     "autograder/authoring/standard_hidden.py",
     "autograder/batch",
+    "autograder/export",
     "autograder/nbgrader_bridge",
     "autograder/new_exercise",
     "autograder/report/classroom",
@@ -48,7 +49,19 @@ KEPT_BACK = (
     "course_cli/student_bundle.py",
     *(
         f"course_cli/commands/{name}.py"
-        for name in ("audit", "bench", "book", "demo", "grade", "merge", "new", "rehearse", "release", "test")
+        for name in (
+            "audit",
+            "bench",
+            "book",
+            "demo",
+            "export",
+            "grade",
+            "merge",
+            "new",
+            "rehearse",
+            "release",
+            "test",
+        )
     ),
 )
 _DATED = (2026, 1, 1, 0, 0, 0)  # a fixed date makes the archive reproducible
