@@ -12,8 +12,14 @@ from pathlib import Path
 from autograder.export.published import CannotSay, UnusableBatch, number, printable
 
 MOST_BYTES = 20_000_000  # of a roster
-_FORMULA = ("=", "+", "-", "@", "\N{FULLWIDTH EQUALS SIGN}", "\N{FULLWIDTH PLUS SIGN}")
-_FORMULA += ("\N{FULLWIDTH HYPHEN-MINUS}", "\N{FULLWIDTH COMMERCIAL AT}")
+# What begins a formula, also in the wide form that some spreadsheets take for the same.
+_FORMULA = (
+    *("=", "+", "-", "@"),
+    "\N{FULLWIDTH EQUALS SIGN}",
+    "\N{FULLWIDTH PLUS SIGN}",
+    "\N{FULLWIDTH HYPHEN-MINUS}",
+    "\N{FULLWIDTH COMMERCIAL AT}",
+)
 
 
 @dataclass(frozen=True)
