@@ -1,7 +1,8 @@
 """Canvas' gradebook import, one file an exercise: in a file with several, an empty cell would be a grade, too.
 
 Format: https://community.canvaslms.com, "How do I import grades in the Gradebook?". The roster is what the gradebook's
-own export writes.
+own export writes. Without one the folders' names are SIS login ids, and a column without an assignment's id is a new
+assignment: Canvas says so before it imports.
 """
 
 from __future__ import annotations
@@ -11,8 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from autograder.export.options import Options
-from autograder.export.published import CannotSay, Published, UnusableBatch
-from autograder.export.tables import Table, csv_text, is_number, key_cell, number_of, read_table, text_cell
+from autograder.export.published import Published, UnusableBatch
+from autograder.export.tables import Table, csv_text, is_number, key_cell, read_table, text_cell
 
 _BEFORE_ASSIGNMENTS = (
     "Student",
@@ -36,21 +37,32 @@ class Gradebook:
     assignments: dict[str, str]  # heading of the column by exercise
     points: dict[str, str]  # what Canvas says an assignment is worth, by exercise
 
+    def notes(self) -> list[str]:
+        """Say what Canvas will do that may not be meant."""
+        new = [exercise for exercise, title in self.assignments.items() if not _ASSIGNMENT.fullmatch(title)]
+        found = [
+            f"Canvas makes a new assignment {exercise}: --assignment {exercise}=ID names one that is there, where ID "
+            "ends the address of its page"
+            for exercise in new
+        ]
+        if self.students is None:
+            found.append(
+                "the folders' names are taken for SIS login ids: --roster FILE knows the students better"
+            )
+        return found
+
     def heading(self) -> list[str]:
         """Return the columns before the assignment's, in Canvas' order."""
         if self.students is None:
-            return ["Student", "ID", "Section"]
+            return ["Student", "ID", "SIS User ID", "SIS Login ID", "Section"]
         return [name for name in _BEFORE_ASSIGNMENTS if self.students.index(name) is not None]
 
     def cells(self, student: str) -> list[str]:
         """Return these columns for a student; raises `CannotSay` if Canvas does not know them."""
         if self.students is None:
-            if not (number := number_of(student)):
-                raise CannotSay("Canvas' number is not known: give the gradebook's export with --roster FILE")
-            return [text_cell(student), number, ""]
-        row = self.students.row_of(
-            student, [self.students.index(name) for name in _KEYS], [self.students.index("ID")]
-        )
+            return [text_cell(student), "", "", key_cell(student), ""]
+        index = self.students.index
+        row = self.students.row_of(student, [index(name) for name in _KEYS], index("ID"), index("Student"))
         cells = {name: row[self.students.index(name) or 0] for name in self.heading()}
         return [
             text_cell(cell) if name in ("Student", "Section") else key_cell(cell)
@@ -62,7 +74,7 @@ def open_gradebook(options: Options, exercises: Sequence[str]) -> Gradebook:
     """Find each exercise's column.
 
     Raises:
-        UnusableBatch: the roster is no export of a gradebook, or a column is not known.
+        UnusableBatch: the roster is no export of a gradebook, or an id is none.
     """
     table = read_table(options.roster) if options.roster else None
     titles: dict[str, str] = {}
@@ -82,10 +94,8 @@ def open_gradebook(options: Options, exercises: Sequence[str]) -> Gradebook:
     for exercise in exercises:
         number = options.assignments.get(exercise) or (titled.get(exercise) if table else None)
         if not number:
-            raise UnusableBatch(
-                f"which assignment of Canvas is {exercise}? Give --assignment {exercise}=ID, where ID ends the address "
-                "of its page, or a --roster whose column is called so; without it Canvas would make another one"
-            )
+            columns[exercise], points[exercise] = exercise, ""
+            continue
         if not number.isdigit():
             raise UnusableBatch(f"--assignment {exercise}={number}: expected a number as Canvas' id")
         columns[exercise] = f"{titles.get(number, exercise)} ({number})"

@@ -14,7 +14,6 @@ from autograder.engine.verdict import Grade
 from autograder.export.options import Options
 from autograder.export.published import (
     CannotSay,
-    UnusableBatch,
     number,
     printable,
     publish,
@@ -22,6 +21,7 @@ from autograder.export.published import (
 )
 
 FILE = "result.json"
+_CLASSROOM = "humanoid-course"  # where nobody says its name
 
 
 class Test(BaseModel):
@@ -57,12 +57,13 @@ class Result(BaseModel):
     tests: list[Test]
 
 
-def require_options(options: Options) -> None:
-    """Require the name of the classroom, which no grade knows; raises `UnusableBatch`."""
-    if not _classroom(options):
-        raise UnusableBatch(
-            "Classroom 50 wants the name of the classroom: --classroom NAME, or the variable CLASSROOM"
-        )
+def notes(options: Options) -> list[str]:
+    """Say what Classroom 50 may not take."""
+    if options.classroom or options.environment.get("CLASSROOM"):
+        return []
+    return [
+        f"Classroom 50 takes these files if the classroom is called {_CLASSROOM}: --classroom NAME says another"
+    ]
 
 
 def render(grade: Grade, options: Options) -> str:
@@ -107,7 +108,7 @@ def render(grade: Grade, options: Options) -> str:
 
 
 def _classroom(options: Options) -> str:
-    return options.classroom or options.environment.get("CLASSROOM", "")
+    return options.classroom or options.environment.get("CLASSROOM") or _CLASSROOM
 
 
 def _whole(points: float) -> int:

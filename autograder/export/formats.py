@@ -36,6 +36,7 @@ PER_SUBMISSION: Mapping[str, Any] = {
     "prairielearn": prairielearn,
     "junit": junit,
 }
+_Tables = tuple[dict[str, str], list["LeftOut"], list[str]]  # files, what is not in them, notes
 FORMATS = ("gradescope", "canvas", "moodle", "classroom50", "check50", "prairielearn", "junit", "csv")
 
 
@@ -54,11 +55,13 @@ class Export:
     """What an export made: the content of each file by its path in the folder, and what is not in them.
 
     `places` are the files that the same grades could have made: what an earlier export left there is out of date.
+    `notes` say what the platform may do that is not meant.
     """
 
     files: Mapping[str, str]
     left_out: Sequence[LeftOut]
     places: Sequence[str]
+    notes: Sequence[str] = ()
 
     def write(self, out: Path) -> None:
         """Write each file whole or not at all, and remove what an earlier export made of what is now left out."""
@@ -89,14 +92,12 @@ def export(name: str, grades: Sequence[Grade], options: Options) -> Export:
         return Export({grades_csv.FILE: grades_csv.table_text(rows)}, without, [grades_csv.FILE])
     exercises = sorted({grade.exercise for grade in grades})
     tables = _canvas_tables if name == "canvas" else _moodle_tables
-    files, unknown = tables(scored, options)
-    return Export(files, [*without, *unknown], [_table_file(exercise) for exercise in exercises])
+    files, unknown, notes = tables(scored, options)
+    return Export(files, [*without, *unknown], [_table_file(exercise) for exercise in exercises], notes)
 
 
 def _each(writer: Any, grades: Sequence[Grade], options: Options) -> Export:
     """A file for each submission; where the format has words for it, also for one that has no score."""
-    if require := getattr(writer, "require_options", None):
-        require(options)
     files: dict[str, str] = {}
     left_out: list[LeftOut] = []
     for grade in grades:
@@ -107,14 +108,15 @@ def _each(writer: Any, grades: Sequence[Grade], options: Options) -> Export:
             why = why or str(error)
         if why:
             left_out.append(LeftOut(grade.student, grade.exercise, why, not why_no_score(grade)))
-    return Export(files, left_out, [_place(writer, grade) for grade in grades])
+    notes = writer.notes(options) if hasattr(writer, "notes") else []
+    return Export(files, left_out, [_place(writer, grade) for grade in grades], notes)
 
 
 def _place(writer: Any, grade: Grade) -> str:
     return f"{grade.student}/{grade.exercise}/{writer.FILE}"
 
 
-def _canvas_tables(scored: Sequence[Published], options: Options) -> tuple[dict[str, str], list[LeftOut]]:
+def _canvas_tables(scored: Sequence[Published], options: Options) -> _Tables:
     files: dict[str, str] = {}
     left_out: list[LeftOut] = []
     by_exercise = dict(_by_exercise(scored))
@@ -124,10 +126,10 @@ def _canvas_tables(scored: Sequence[Published], options: Options) -> tuple[dict[
         left_out += unknown
         if rows:
             files[_table_file(exercise)] = canvas.table_text(gradebook, exercise, group[0].max_score, rows)
-    return files, left_out
+    return files, left_out, gradebook.notes()
 
 
-def _moodle_tables(scored: Sequence[Published], options: Options) -> tuple[dict[str, str], list[LeftOut]]:
+def _moodle_tables(scored: Sequence[Published], options: Options) -> _Tables:
     files: dict[str, str] = {}
     left_out: list[LeftOut] = []
     class_list = moodle.open_class(options, [published.student for published in scored])
@@ -136,7 +138,7 @@ def _moodle_tables(scored: Sequence[Published], options: Options) -> tuple[dict[
         left_out += unknown
         if rows:
             files[_table_file(exercise)] = moodle.table_text(class_list, exercise, rows)
-    return files, left_out
+    return files, left_out, []
 
 
 def _rows(

@@ -17,7 +17,6 @@ from autograder.export.tables import (
     csv_text,
     is_number,
     key_cell,
-    number_of,
     read_table,
     text_cell,
 )
@@ -45,8 +44,8 @@ class ClassList:
         """Return a student's row of the roster; raises `CannotSay` if there is none."""
         assert self.roster
         index = self.roster.index
-        named = [index("student"), index(*EMAIL), index(*ID_NUMBER), index("Full name")]
-        return self.roster.row_of(student, named, [index(_NUMBER)])
+        keys = [index("student"), index(*EMAIL), index(*ID_NUMBER), index(_NUMBER), index("Full name")]
+        return self.roster.row_of(student, keys, index(_NUMBER), index("Full name"))
 
 
 def open_class(options: Options, students: Sequence[str]) -> ClassList:
@@ -64,7 +63,7 @@ def open_class(options: Options, students: Sequence[str]) -> ClassList:
                 "(and student, if the folders are called otherwise), or the worksheet of a Moodle assignment"
             )
         if identifier is not None:
-            rows = [[*row, number_of(row[identifier].replace(" ", "-"))] for row in roster.rows]
+            rows = [[*row, row[identifier].strip().rpartition(" ")[2]] for row in roster.rows]
             roster = Table([*roster.heading, _NUMBER], rows)
         return ClassList("useridnumber" if roster.index(*EMAIL) is None else "useremail", roster)
     with_address = sum("@" in student for student in students)

@@ -7,6 +7,7 @@ import io
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from difflib import SequenceMatcher
 from pathlib import Path
 
 from autograder.export.published import CannotSay, UnusableBatch, number, printable
@@ -35,34 +36,32 @@ class Table:
         return next((lowered.index(name.lower()) for name in names if name.lower() in lowered), None)
 
     def row_of(
-        self, student: str, columns: Iterable[int | None], numbers: Iterable[int | None] = ()
+        self, student: str, columns: Iterable[int | None], numbers: int | None, names: int | None
     ) -> Sequence[str]:
         """Return the row in which one of the columns has the student's name.
 
-        `course collect` puts the platform's own number at the end of a name: it is looked for in `numbers`.
+        `course collect` puts the platform's own number at the end of a name. It is looked for in the column `numbers`;
+        then the rest of the name has to be like that in the column `names`, since a name may end so by chance.
 
         Raises:
-            CannotSay: there is none, or more than one.
+            CannotSay: there is none, or more than one, or it is somebody else's.
         """
         wanted = [(column, student) for column in columns if column is not None]
-        if its_number := number_of(student):
-            wanted += [(column, its_number) for column in numbers if column is not None]
+        name, its_number = _collected(student)
+        if its_number and numbers is not None:
+            wanted.append((numbers, its_number))
         for column, value in wanted:
             found = [row for row in self.rows if _cell_value(row[column]) == value]
             if len(found) > 1:
                 raise CannotSay(
                     f"{value} stands in {len(found)} rows of the roster, column {self.heading[column]}"
                 )
+            if found and value != student and names is not None and not _alike(name, found[0][names]):
+                raise CannotSay(f"number {value} is {found[0][names]}'s in the roster: enter it by hand")
             if found:
                 return found[0]
         looked_in = ", ".join(dict.fromkeys(self.heading[column] for column, _ in wanted))
         raise CannotSay(f"the roster has no such student (looked in {looked_in})")
-
-
-def number_of(student: str) -> str:
-    """Return the platform's number at the end of a collected student's name; "" if there is none."""
-    match = re.fullmatch(r"(?:.*-)?(\d+)", student)
-    return match[1] if match else ""
 
 
 def read_table(path: Path) -> Table:
@@ -127,3 +126,15 @@ def is_number(cell: str) -> bool:
 def _cell_value(cell: str) -> str:
     """What stands in a cell, without what keeps Excel from counting with it."""
     return cell.strip().removeprefix("'")
+
+
+def _collected(student: str) -> tuple[str, str]:
+    """Return the name and the platform's number of a student whom `course collect` called so; else "" twice."""
+    match = re.fullmatch(r"(.+)-(\d+)", student)
+    return (match[1], match[2]) if match else ("", "")
+
+
+def _alike(one: str, other: str) -> bool:
+    """Whether two ways to write a name have most of their letters in common, in any order."""
+    first, second = ("".join(sorted(filter(str.isalnum, name.casefold()))) for name in (one, other))
+    return SequenceMatcher(None, first, second).ratio() > 0.6

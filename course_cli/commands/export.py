@@ -74,7 +74,8 @@ def export(
             roster,
             _assignments(assignment or [], {grade.exercise for grade in grades}),
             classroom,
-            dict(os.environ) if len(grades) == 1 else {},
+            # In a job of Classroom 50, which grades one submission, they say which it is.
+            {name: value for name, value in os.environ.items() if len(grades) == 1 or name == "CLASSROOM"},
         )
         made = make_export(format_.value, grades, options)
     except UnusableBatch as error:
@@ -92,6 +93,8 @@ def export(
 
 def _tell(console: Console, made: Export, folder: Path) -> None:
     """Say what was written, and name each submission whose score is not there."""
+    for note in made.notes:
+        console.print(note, style="yellow", markup=False)
     for left in made.left_out:
         console.print(_sentence(left), style="red" if left.has_score else "magenta", markup=False)
     files = "1 file" if len(made.files) == 1 else f"{len(made.files)} files"

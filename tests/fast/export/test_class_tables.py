@@ -82,26 +82,28 @@ def test_canvas_gets_a_file_an_exercise_so_that_no_cell_is_empty(tmp_path: Path)
     assert whys(made) == {"cleo": "not graded"}
 
 
-def test_canvas_without_a_roster_takes_the_number_of_collected_names() -> None:
-    collected = [replace(ANNA, student="leeanna-101"), replace(SAME, student="102")]
-    made = export("canvas", [*collected, replace(ANNA, student="bert")], CANVAS_OPTIONS)
-    assert of_canvas(made.files["battery_service.csv"])[1] == {"101": 5.0, "102": 2.0}
-    assert "--roster" in whys(made)["bert"]
+def test_canvas_without_a_roster_takes_names_for_logins_and_says_so() -> None:
+    made = export("canvas", [ANNA, replace(SAME, student="bert-102")], OPTIONS)
+    heading, points, *students = rows(made.files["battery_service.csv"])
+    assert heading == ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "battery_service"]
+    assert (points[0], points[-1]) == ("    Points Possible", "5")
+    assert students == [["anna", "", "", "anna", "", "5"], ["bert-102", "", "", "bert-102", "", "2"]]
+    assert "--assignment battery_service=ID" in made.notes[0]
+    assert "--roster FILE" in made.notes[1]
+    named = export("canvas", [ANNA], CANVAS_OPTIONS)
+    assert rows(named.files["battery_service.csv"])[0][-1] == "battery_service (4711)"
+    with pytest.raises(UnusableBatch, match="expected a number"):
+        export("canvas", [ANNA], replace(OPTIONS, assignments={"battery_service": "hw1"}))
 
 
 def test_canvas_students_are_found_by_the_number_of_their_download(tmp_path: Path) -> None:
     options = replace(OPTIONS, roster=roster(tmp_path, CANVAS))
-    made = export(
-        "canvas", [replace(ANNA, student="leeanna-101"), replace(ANNA, student="nobody-999")], options
-    )
+    names = ["leeanna-101", "nobody-999", "kimcleo-101"]
+    made = export("canvas", [replace(ANNA, student=name) for name in names], options)
     assert of_canvas(made.files["battery_service.csv"])[1] == {"101": 5.0}
-    assert made.left_out[0].has_score
+    assert all(left.has_score for left in made.left_out)
     assert "no such student" in whys(made)["nobody-999"]
-
-
-def test_canvas_would_make_an_assignment_of_an_unknown_title_so_an_id_is_asked_for() -> None:
-    with pytest.raises(UnusableBatch, match="--assignment battery_service=ID"):
-        export("canvas", [ANNA], OPTIONS)
+    assert "number 101 is Lee, Anna's" in whys(made)["kimcleo-101"]
 
 
 def test_another_number_of_points_on_the_platform_is_refused(tmp_path: Path) -> None:
@@ -176,7 +178,7 @@ def test_a_name_that_is_a_formula_stays_text_in_the_table() -> None:
     [
         ("", "is empty"),
         ("Name,Mail\nanna,a@x\n", "expected the export of Canvas"),
-        ("Student,ID,Section\nanna,1\0", "battery_service"),
+        ("Student,ID\nanna,1\n", "with Student, ID and Section"),
     ],
 )
 def test_a_roster_that_is_none_is_refused(tmp_path: Path, text: str, said: str) -> None:

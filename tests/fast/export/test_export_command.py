@@ -72,7 +72,7 @@ def test_the_file_of_a_self_check_is_exported_too(tmp_path: Path) -> None:
         (("--format", "csv", "--from", "nowhere"), "grade first"),
         (("--format", "blackboard"), "blackboard"),
         (("--format", "canvas", "--assignment", "nothing=1"), "expected EXERCISE=ID"),
-        (("--format", "canvas"), "--assignment"),
+        (("--format", "canvas", "--roster", "nowhere.csv"), "nowhere.csv"),
         (("--format", "csv", "--hidden", "maybe"), "maybe"),
     ],
 )

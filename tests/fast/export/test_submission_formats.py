@@ -175,8 +175,9 @@ def test_classroom50_takes_its_jobs_variables_and_otherwise_says_that_a_person_e
     assert [in_a_job[key] for key in ("classroom", "assignment", "submission", "owner", "commit", "review")] == [
         "other", "hw1", "submit/2026-x", "anna-gh", "https://c", "https://c",
     ]  # fmt: skip
-    with pytest.raises(UnusableBatch, match="--classroom NAME"):
-        export("classroom50", [ANNA], replace(OPTIONS, classroom=""))
+    unnamed = export("classroom50", [ANNA], replace(OPTIONS, classroom=""))
+    assert "--classroom NAME" in unnamed.notes[0]
+    assert '"classroom": "humanoid-course"' in unnamed.files["anna/battery_service/result.json"]
 
 
 @pytest.mark.parametrize("student", ["../anna", "a/b", "", "-rf", "anna\n", ".hidden"])
