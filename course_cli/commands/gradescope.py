@@ -9,9 +9,9 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.engine.exercise import exercises_folder
 from autograder.on_gradescope.container import CannotGrade, Container, isolation_here
 from course_cli.ending import COULD_NOT, ended
+from ros_runtime.project import PROJECT
 
 
 def gradescope(
@@ -32,7 +32,7 @@ def gradescope(
     container = Container(root)
     container.forget_results()
     try:
-        container.close_to_others(exercises_folder())
+        container.close_to_others(PROJECT / "checks")
         isolation = isolation_here()
         console.print(f"isolation: {isolation.label} ({isolation.reason})", markup=False)
         results = grade_upload(container, exercise, isolation)
