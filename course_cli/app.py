@@ -70,8 +70,18 @@ COMMANDS: dict[str, Command] = {
         "The ros2 commands: topic, service, action, node, param, interface.",
         forwards_arguments=True,
     ),
+    "collect": Command(
+        "course_cli.commands.collect:collect", "Read submissions from what a platform lets you download."
+    ),
     "grade": Command("course_cli.commands.grade:grade", "Grade a batch of submissions."),
     "merge": Command("course_cli.commands.merge:merge", "Join the parts of a class that were graded apart."),
+    "export": Command("course_cli.commands.export:export", "Write the grades for another platform."),
+    "package": Command(
+        "course_cli.commands.package:package", "Make an autograder that another platform runs."
+    ),
+    "gradescope": Command(
+        "course_cli.commands.gradescope:gradescope", "In Gradescope's container: grade the upload."
+    ),
     "new": Command("course_cli.commands.new:new", "Make the folder of a new exercise."),
     "release": Command("course_cli.commands.release:release", "Write the students' archive."),
     "audit": Command("course_cli.commands.audit:audit", "Grade submissions with known faults."),

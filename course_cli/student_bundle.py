@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import stat
 import tempfile
-import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from autograder.engine.exercise import all_names, exercise_names, exercises_folder, file_names, load_exercise
 from autograder.nbgrader_bridge.release import generate_release
+from course_cli.archive import write_archive
 
 TOP = "humanoid-course"  # the folder the archive unpacks to
 README = "docs/for_students.md"  # becomes their README.md; the clone's own is for instructors
@@ -41,17 +40,35 @@ KEPT_BACK = (
     "autograder/audit",
     "autograder/authoring/standard_hidden.py",
     "autograder/batch",
+    "autograder/collect",
+    "autograder/export",
     "autograder/nbgrader_bridge",
     "autograder/new_exercise",
+    "autograder/on_gradescope",
     "autograder/report/classroom",
+    "course_cli/archive.py",
     "course_cli/class_output.py",
+    "course_cli/gradescope_package.py",
     "course_cli/student_bundle.py",
     *(
         f"course_cli/commands/{name}.py"
-        for name in ("audit", "bench", "book", "demo", "grade", "merge", "new", "rehearse", "release", "test")
+        for name in (
+            "audit",
+            "bench",
+            "book",
+            "demo",
+            "export",
+            "grade",
+            "gradescope",
+            "merge",
+            "new",
+            "package",
+            "rehearse",
+            "release",
+            "test",
+        )
     ),
 )
-_DATED = (2026, 1, 1, 0, 0, 0)  # a fixed date makes the archive reproducible
 
 
 class Leak(Exception):
@@ -66,16 +83,13 @@ def write_bundle(root: Path, archive: Path) -> int:
     with tempfile.TemporaryDirectory() as temporary:
         exercises = Path(temporary) / "exercises"
         generate_release(exercises_folder(), exercises)
-        files = {path.relative_to(root).as_posix(): path for path in _files_of(root)}
-        files |= dict(_visible_checks())
+        files = {path.relative_to(root).as_posix(): path for path in files_of(root, PARTS, KEPT_BACK)}
+        files |= dict(visible_checks())
         # Freshly generated, because trying an exercise leaves a solution beside its notebook.
         files |= {path.relative_to(temporary).as_posix(): path for path in exercises.rglob("*.ipynb")}
         files["README.md"] = root / README
         require_no_leak(files)
-        archive.parent.mkdir(parents=True, exist_ok=True)
-        with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as bundle:
-            for name in sorted(files):
-                _add(bundle, name, files[name])
+        write_archive(archive, {f"{TOP}/{name}": path for name, path in files.items()})
     return len(files)
 
 
@@ -98,30 +112,23 @@ def hidden_check_ids() -> list[str]:
     return [check.id for check in checks if check.hidden and check.id not in shown]
 
 
-def _visible_checks() -> Iterator[tuple[str, Path]]:
-    """The modules with visible checks or a rubric, by the path at which a student's engine looks for them."""
+def visible_checks() -> Iterator[tuple[str, Path]]:
+    """Yield the modules with visible checks or a rubric, by the path at which a student's engine looks for them."""
     for exercise in all_names():
         for path in sorted((exercises_folder() / exercise).glob("*.py")):
             if path.name != "hidden.py" and path.name not in file_names(exercise):
                 yield f"checks/{exercise}/{path.name}", path
 
 
-def _files_of(root: Path) -> Iterator[Path]:
-    for place in (place for part in PARTS for place in root.glob(part)):
+def files_of(root: Path, parts: Sequence[str], kept_back: Sequence[str]) -> Iterator[Path]:
+    """Yield the files of these parts of a clone, without what is derived and without those kept back."""
+    for place in (place for part in parts for place in root.glob(part)):
         candidates = sorted(place.rglob("*")) if place.is_dir() else [place]
-        yield from (path for path in candidates if path.is_file() and not _kept_back(path.relative_to(root)))
+        for path in candidates:
+            name = path.relative_to(root)
+            if path.is_file() and not _is_derived(name) and not name.as_posix().startswith(tuple(kept_back)):
+                yield path
 
 
-def _kept_back(path: Path) -> bool:
-    derived = (
-        any(part == "__pycache__" or part.startswith(".") for part in path.parts) or path.suffix == ".pyc"
-    )
-    return derived or path.as_posix().startswith(KEPT_BACK)
-
-
-def _add(bundle: zipfile.ZipFile, name: str, path: Path) -> None:
-    entry = zipfile.ZipInfo(f"{TOP}/{name}", date_time=_DATED)
-    executable = path.stat().st_mode & stat.S_IXUSR
-    entry.external_attr = (stat.S_IFREG | (0o755 if executable else 0o644)) << 16
-    entry.compress_type = zipfile.ZIP_DEFLATED
-    bundle.writestr(entry, path.read_bytes())
+def _is_derived(path: Path) -> bool:
+    return any(part == "__pycache__" or part.startswith(".") for part in path.parts) or path.suffix == ".pyc"

@@ -86,7 +86,7 @@ def collect(folder: Path) -> Collection:
                 f"the folder {student.name!r}: rename it to letters, digits and . , _ - @ + ' only"
             )
         else:
-            found = list(_works_of(student))
+            found = list(works_of(student))
             if not found:
                 ignored.append(f"{student.name} handed in none of {', '.join(all_names())}")
             works |= {(work.student, work.exercise): work for work in found}
@@ -95,8 +95,11 @@ def collect(folder: Path) -> Collection:
     return Collection([works[key] for key in sorted(works)], ignored, refused)
 
 
-def _works_of(student: Path) -> Iterator[Work]:
-    """Prefer a folder for the exercise to a file beside it, and a notebook to the file it writes when run."""
+def works_of(student: Path) -> Iterator[Work]:
+    """Yield what one student's folder holds, by exercise.
+
+    A folder for the exercise comes before a file beside it, and a notebook before the file it writes when run.
+    """
     for exercise in all_names():
         folder = student / exercise
         home = folder if folder.is_dir() else student

@@ -102,8 +102,9 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
                 raise CannotMerge(
                     f"{grade.student}'s {grade.exercise} is in {found_in[key]} and in {folder}: leave one of them out"
                 )
-            if grade.isolation in ("namespaces", "untrusted"):  # not an essay, nor what was lost
-                isolations.setdefault(grade.isolation == "untrusted", folder)
+            # not an essay, nor what was lost
+            if grade.isolation in ("namespaces", "another-user", "untrusted"):
+                isolations.setdefault(grade.isolation != "namespaces", folder)
             found_in[key] = folder
             results[key] = Graded(Work(*key, None, row["timestamp"]), grade, row["sources"], row["problem"])
     if len(isolations) == 2:

@@ -31,7 +31,7 @@ class SubmissionArenas:
 
     def open_ahead(self) -> None:
         """Begin to open an isolated arena in the background, unless isolation is switched off."""
-        if os.environ.get(ISOLATION_VARIABLE) == Kind.NONE:
+        if os.environ.get(ISOLATION_VARIABLE) in (Kind.NONE, Kind.ANOTHER_USER):
             return
         with ThreadPoolExecutor(1) as pool:
             self._ahead = pool.submit(SubmissionArena, self._scenario_file, Kind.NAMESPACES)
@@ -64,7 +64,7 @@ class SubmissionArenas:
             arena.close()
 
     def _take(self) -> SubmissionArena | None:
-        if self._kind is not Kind.NONE:
+        if self._kind in (None, Kind.NAMESPACES):
             self._take_the_one_ahead()
         with self._lock:
             return self._idle.pop() if self._idle else None

@@ -117,10 +117,12 @@ class ArenaProcess:
 
     def _run(self) -> ArenaReport:
         began = time.monotonic()
-        start = start_with_namespaces if self.kind is Kind.NAMESPACES else start_without_namespaces
         with ExitStack() as stack:
             try:
-                running = start(self.spec, stack)
+                if self.kind is Kind.NAMESPACES:
+                    running = start_with_namespaces(self.spec, stack)
+                else:
+                    running = start_without_namespaces(self.spec, stack, self.kind)
             except OSError as error:  # no descriptors, processes or disk left
                 raise SandboxError(f"an arena could not be started: {error}") from error
             self._started.set_result(None)

@@ -16,6 +16,9 @@ class Kind(str, Enum):
     """What keeps an arena apart from the rest of the machine."""
 
     NAMESPACES = "namespaces"
+    ANOTHER_USER = (
+        "another-user"  # the student's program alone: root of a container without namespaces steps down
+    )
     NONE = "none"
 
 

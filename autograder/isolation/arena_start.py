@@ -30,6 +30,8 @@ from autograder.isolation.warm_interpreter import first_process
 from ros_runtime.project import PROJECT
 from ros_runtime.ros_domain import NoDomainLeft, ReservedDomain
 
+# Shared memory of two sandboxes, or of two users, cannot be shared, and nodes would choose it.
+_UDP_ONLY = {"FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
 _END_TIMEOUT = 10.0  # s for the kernel, or the reaper, to end every process
 
 
@@ -91,7 +93,7 @@ def start_with_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
     )
 
 
-def start_without_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
+def start_without_namespaces(spec: ArenaSpec, stack: ExitStack, kind: Kind = Kind.NONE) -> RunningArena:
     """Start the arena as ordinary processes under a reaper, on a ROS domain of its own."""
     folder = Path(tempfile.mkdtemp(prefix=f"arena-{os.getpid()}-"))
     stack.callback(shutil.rmtree, folder, ignore_errors=True)
@@ -101,6 +103,9 @@ def start_without_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
         raise SandboxError(f"{error}: run fewer arenas at once") from error
     stack.callback(domain.release)
     network = {"ROS_DOMAIN_ID": str(domain.domain_id)}
+    if kind is Kind.ANOTHER_USER:
+        folder.chmod(0o711)  # the student's folder lies in it
+        network |= _UDP_ONLY
     ready, tell = os.pipe()
     reaper = [sys.executable, "-S", "-E", "-m", "autograder.isolation.reaper", str(os.getpid()), str(tell)]
     try:
@@ -110,7 +115,7 @@ def start_without_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             pass_fds=(*spec.pass_fds, tell),
-            env=_environment(spec, Kind.NONE, str(folder), network),
+            env=_environment(spec, kind, str(folder), network),
             cwd=PROJECT,
         )
     finally:
@@ -149,8 +154,7 @@ def _start(
 
 
 def _sandbox_environment(spec: ArenaSpec) -> dict[str, str]:
-    # Shared memory between two sandboxes' own /dev/shm cannot work, and nodes would choose it: UDP only.
-    return _environment(spec, Kind.NAMESPACES, "/tmp", {"FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"})
+    return _environment(spec, Kind.NAMESPACES, "/tmp", _UDP_ONLY)
 
 
 @contextmanager

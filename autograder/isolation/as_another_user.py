@@ -51,7 +51,7 @@ def main() -> None:
 
 
 def _step_down(paths: list[str], staging: str) -> None:
-    user = _unused_id()
+    user = unused_id()
     try:
         _check(_libc.unshare(_CLONE_NEWNS), "unshare")
     except PermissionError:  # root of a container: what this user cannot read stays hidden
@@ -64,7 +64,7 @@ def _step_down(paths: list[str], staging: str) -> None:
     _check(_libc.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0), "prctl")
 
 
-def _unused_id() -> int:
+def unused_id() -> int:
     """Return an unused user id: this process's id, in a range that no system assigns.
 
     The kernel counts some resources by user, and a user may signal its own processes: no two arenas share

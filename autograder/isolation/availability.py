@@ -12,6 +12,7 @@ from autograder.isolation.arena_spec import ISOLATION_VARIABLE, ArenaSpec, Kind
 from autograder.isolation.bubblewrap import STUDENT_FILTER, SandboxError, bwrap_path
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.python_paths import python_read_only_paths
+from autograder.isolation.seccomp_filter import student_filter
 
 _PROBE_DEADLINE = 20.0  # s
 _APPARMOR_SWITCH = Path("/proc/sys/kernel/apparmor_restrict_unprivileged_userns")
@@ -32,21 +33,36 @@ class Isolation:
 
     @property
     def label(self) -> str:
-        """Return the word for reports: 'namespaces' or 'untrusted'."""
-        return self.kind.value if self.trusted else "untrusted"
+        """Return the word for reports: 'namespaces', 'another-user' or 'untrusted'."""
+        return "untrusted" if self.kind is Kind.NONE else self.kind.value
 
 
 def available_isolation() -> Isolation:
-    """Return the best this machine offers, found out once a process; COURSE_ISOLATION=none asks for none.
+    """Return namespaces or nothing, as the machine has them, found out once a process.
 
-    Raises ValueError for any other value of that variable.
+    COURSE_ISOLATION=none asks for none; COURSE_ISOLATION=another-user for what root of a container can do without
+    namespaces, which is not enough for hidden checks. Raises ValueError for any other value of that variable.
     """
     wish = os.environ.get(ISOLATION_VARIABLE, "")
     if wish == Kind.NONE:
         return _without(f"{ISOLATION_VARIABLE}=none asks for no isolation")
+    if wish == Kind.ANOTHER_USER:
+        return with_another_user()
     if wish not in ("", Kind.NAMESPACES):
-        raise ValueError(f"{ISOLATION_VARIABLE} is {wish!r}; it can be 'namespaces', 'none' or unset")
+        kinds = ", ".join(repr(kind.value) for kind in Kind)
+        raise ValueError(f"{ISOLATION_VARIABLE} is {wish!r}; it can be {kinds} or unset")
     return try_namespaces()
+
+
+def with_another_user() -> Isolation:
+    """Return what root can do without namespaces: run students' programs as users who own nothing."""
+    if os.geteuid() != 0:
+        return _without("only root can run a student's program as another user")
+    try:
+        student_filter()
+    except SandboxError as error:
+        return _without(str(error))
+    return Isolation(Kind.ANOTHER_USER, "students' programs run as users of their own, without namespaces")
 
 
 @lru_cache(maxsize=1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import resource
 import shutil
@@ -17,6 +18,7 @@ from autograder.isolation.arena_spec import ISOLATION_VARIABLE, Kind
 from autograder.isolation.bubblewrap import BUILD_FILTER, STUDENT_FILTER, Sandbox, SandboxError, same_paths
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.running_program import ChildProgram, EnteredProgram, RunningProgram
+from autograder.isolation.seccomp_filter import build_filter, student_filter
 from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.workarounds.scaled_clock.clock import PAGE_VARIABLE
 from ros_runtime.workarounds.warm_start.confinement import stand_back
@@ -40,8 +42,8 @@ class Program:
 
 def start_program(program: Program, stack: ExitStack) -> RunningProgram:
     """Start the program as this arena allows. `stack` releases, after the end, what the start needed."""
-    if os.environ.get(ISOLATION_VARIABLE) != Kind.NAMESPACES:
-        return _start_bare(program, stack)
+    if (kind := os.environ.get(ISOLATION_VARIABLE)) != Kind.NAMESPACES:
+        return _start_bare(program, stack, as_lone_user=kind == Kind.ANOTHER_USER)
     if program.interpreter:
         with suppress(SandboxError):  # not every kernel lets a process enter: a new interpreter does as well
             return _start_warm(program, program.interpreter, stack)
@@ -112,15 +114,17 @@ def _describe(sandbox: Sandbox, program: Program) -> None:
     sandbox.add_data("--seccomp", Path(BUILD_FILTER if program.builds else STUDENT_FILTER).read_bytes())
 
 
-def _start_bare(program: Program, stack: ExitStack) -> ChildProgram:
+def _start_bare(program: Program, stack: ExitStack, as_lone_user: bool) -> ChildProgram:
     folder = Path(tempfile.mkdtemp(prefix="work-"))
     stack.callback(shutil.rmtree, folder, ignore_errors=True)
     for name, content in program.workdir_files.items():
         file = folder / name
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_bytes(content)
+    stepping_down, filter_fds = _as_lone_user(program, folder, stack) if as_lone_user else ([], [])
     process = subprocess.Popen(
-        [*_limited(program.limits), "--", sys.executable, *program.arguments],
+        [*stepping_down, *_limited(program.limits), "--", sys.executable, *program.arguments],
+        pass_fds=filter_fds,
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -132,6 +136,21 @@ def _start_bare(program: Program, stack: ExitStack) -> ChildProgram:
     with suppress(ProcessLookupError):  # it has ended already
         stand_back(process.pid)
     return ChildProgram(process, process.pid)
+
+
+def _as_lone_user(program: Program, folder: Path, stack: ExitStack) -> tuple[list[str], list[int]]:
+    """Return the command that steps down from root and then becomes the next one, and the descriptor it reads."""
+    descriptor = os.memfd_create("filter")
+    stack.callback(os.close, descriptor)
+    os.write(descriptor, build_filter() if program.builds else student_filter())
+    plan = {
+        "parent": os.getpid(),
+        "folder": str(folder),
+        "filter": descriptor,
+        "processes": program.limits.processes,
+    }
+    script = Path(__file__).with_name("lone_user.py")
+    return [sys.executable, "-I", "-S", str(script), json.dumps(plan)], [descriptor]
 
 
 def _limited(limits: StudentLimits) -> list[str]:

@@ -14,9 +14,9 @@ from traitlets import Unicode
 
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.nbgrader_bridge.cell_names import HIDDEN_HELP, cell_names
+from autograder.report.verdict_text import verdict_text
 
 UNJUDGED = "unjudged_cells"  # resources["nbgrader"] key: grade_ids that have no verdict
-LONGEST_TEXT = 8000  # characters of one cell's output
 
 
 class NotGradedError(Exception):
@@ -85,17 +85,4 @@ def _text(verdict: CheckVerdict | None) -> str:
         return "Not checked automatically."
     if verdict.hidden:
         return "Passed." if verdict.status == "passed" else HIDDEN_HELP
-    lines = [verdict.status.capitalize() + "."]
-    for label, text in (
-        ("Expected", verdict.expected),
-        ("Observed", verdict.observed),
-        ("Next", verdict.help),
-    ):
-        if text:
-            lines.append(f"{label}: {text}")
-    if verdict.robot_time is not None:
-        lines.append(f"At {verdict.robot_time:.1f} s.")
-    if verdict.log and verdict.status != "passed":
-        lines.append(f"What the node printed:\n{verdict.log}")
-    text = "\n".join(lines)
-    return text if len(text) <= LONGEST_TEXT else f"{text[:LONGEST_TEXT]}\n… cut here"
+    return verdict_text(verdict)

@@ -47,7 +47,7 @@ _OPTIONS: dict[str, Any] = {
     "GenerateFeedback.preprocessors": FEEDBACK_PREPROCESSORS,
     "GenerateFeedback.exporter_class": f"{_BRIDGE}.feedback_page.FeedbackPage",
     "SanitizeHTML.enabled": True,
-    "ExportApp.plugin_class": f"{_BRIDGE}.marked_export.MarkedCsvExport",
+    "ExportApp.plugin_class": f"{_BRIDGE}.class_export.ClassExport",
 }
 
 

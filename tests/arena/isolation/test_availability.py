@@ -25,6 +25,19 @@ def test_people_can_ask_for_no_isolation_and_the_grade_is_labelled(monkeypatch: 
     assert "COURSE_ISOLATION=none" in isolation.reason
 
 
+def test_root_can_ask_for_another_user_which_is_not_enough_for_hidden_checks(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("COURSE_ISOLATION", "another-user")
+    monkeypatch.setattr("os.geteuid", lambda: 0)
+    isolation = available_isolation()
+    assert (isolation.kind, isolation.trusted, isolation.label) == (Kind.ANOTHER_USER, False, "another-user")
+    monkeypatch.setattr("os.geteuid", lambda: 1000)
+    refused = available_isolation()
+    assert (refused.kind, refused.label) == (Kind.NONE, "untrusted")
+    assert "only root" in refused.reason
+
+
 def test_an_unknown_wish_is_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COURSE_ISOLATION", "docker")
     with pytest.raises(ValueError, match="COURSE_ISOLATION is 'docker'; it can be"):

@@ -11,9 +11,9 @@ from made_up_grades import SOLUTIONS, grade_of
 from nbgrader.api import Gradebook
 
 from autograder.engine.essay import left_to_a_person, load_essay
+from autograder.nbgrader_bridge.class_export import ClassExport
 from autograder.nbgrader_bridge.course_folder import call, open_course
 from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
-from autograder.nbgrader_bridge.marked_export import MarkedCsvExport
 
 NAME = "arm_architecture"
 ESSAY = load_essay(NAME)
@@ -132,9 +132,9 @@ def test_an_export_leaves_out_what_is_not_marked_yet(gradebook, course, tmp_path
     gradebook.enter(Entry(grade_of("anna"), {"battery_service.py": "print()\n"}))
     mark(course, "bert", FULL_MARKS | {"graph": 1.0})
     with database(course) as db:
-        MarkedCsvExport(to=str(tmp_path / "grades.csv")).export(db)
+        ClassExport(to=str(tmp_path / "grades.csv")).export(db)
     with (tmp_path / "grades.csv").open() as file:
         rows = {(row["assignment"], row["student_id"]): row["score"] for row in csv.DictReader(file)}
     assert (NAME, "anna") not in rows
-    assert rows[NAME, "bert"] == "19.0"
+    assert rows[NAME, "bert"] == "19"
     assert float(rows["battery_service", "anna"]) == grade_of("anna").score

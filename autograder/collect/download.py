@@ -1,0 +1,167 @@
+"""A download as a list of files, from a zip or a folder: nothing is unpacked, and everything is read with bounds.
+
+What is in it was made by students. Names in a zip are never used as paths; links, devices and names that lead
+elsewhere are refused, and no more of a file is read than a submission can have, whatever the zip says of its size.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+import zipfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from typing import BinaryIO
+
+MOST_FILES = 200_000
+MOST_BYTES = 4 * 2**30  # read of one download
+_JUNK = ("__MACOSX", ".git", ".ipynb_checkpoints", "__pycache__", ".DS_Store")
+
+
+class UnusableDownload(Exception):
+    """The download cannot be read as one of the platform; the message says what was found and what is expected."""
+
+
+class Refused(Exception):
+    """One file of the download is not read; the message says why."""
+
+
+@dataclass(frozen=True)
+class File:
+    """One file of a download: where it lies there, and how it is opened."""
+
+    path: PurePosixPath
+    open: Callable[[], BinaryIO]
+    budget: Budget
+
+    def read(self, limit: int) -> bytes:
+        """Return its content.
+
+        Raises:
+            Refused: it has more than `limit` bytes, cannot be read, or the download has too much in it.
+        """
+        try:
+            with self.open() as file:
+                content = file.read(limit + 1)
+        except (
+            OSError,
+            RuntimeError,
+            NotImplementedError,
+            EOFError,
+            ValueError,
+            zipfile.BadZipFile,
+        ) as error:
+            raise Refused(f"{self.path} cannot be read: {error}") from error
+        except Exception as error:  # each way of compression has errors of its own
+            raise Refused(f"{self.path} cannot be unpacked: {error}") from error
+        if len(content) > limit:
+            raise Refused(f"{self.path} has more than {limit:,} bytes, and no submission has as many")
+        self.budget.spend(len(content))
+        return content
+
+
+@dataclass
+class Budget:
+    """The bytes that may still be read of a download."""
+
+    left: int = MOST_BYTES
+
+    def spend(self, count: int) -> None:
+        """Take so many bytes off; raises `UnusableDownload` when there are not as many."""
+        self.left -= count
+        if self.left < 0:
+            raise UnusableDownload(
+                f"the download holds more than {MOST_BYTES // 2**30} GiB; collect it in parts"
+            )
+
+
+@dataclass(frozen=True)
+class Download:
+    """The ordinary files of a download, in order of their paths, and a sentence for each that is none."""
+
+    files: list[File]
+    refused: list[str]
+
+
+@contextmanager
+def open_download(path: Path) -> Iterator[Download]:
+    """Open a zip file or a folder.
+
+    Raises:
+        UnusableDownload: it is neither, or has too many files.
+    """
+    budget = Budget()
+    if path.is_dir():
+        yield _sorted(_from_folder(path, budget))
+        return
+    try:
+        archive = zipfile.ZipFile(path)
+    except (OSError, zipfile.BadZipFile, ValueError) as error:
+        raise UnusableDownload(f"{path} is neither a folder nor a zip file: {error}") from error
+    with archive:
+        yield _sorted(_from_zip(archive, budget))
+
+
+def _sorted(found: Iterator[File | str]) -> Download:
+    files: list[File] = []
+    refused: list[str] = []
+    for one in found:
+        if isinstance(one, str):
+            refused.append(one)
+        else:
+            files.append(one)
+        if len(files) + len(refused) > MOST_FILES:
+            raise UnusableDownload(f"the download holds more than {MOST_FILES:,} files; collect it in parts")
+    return Download(sorted(files, key=lambda file: file.path), refused)
+
+
+def _from_zip(archive: zipfile.ZipFile, budget: Budget) -> Iterator[File | str]:
+    seen: set[str] = set()
+    for entry in archive.infolist():
+        path = PurePosixPath(entry.filename)
+        kind = stat.S_IFMT(entry.external_attr >> 16)
+        if entry.is_dir() or _is_junk(path):
+            continue
+        if path.is_absolute() or ".." in path.parts or "\\" in entry.filename or ":" in path.parts[0][1:2]:
+            yield f"{entry.filename!r} leads out of the download"
+        elif kind not in (0, stat.S_IFREG):
+            yield f"{entry.filename!r} is a link or a device"
+        elif entry.flag_bits & 1:
+            yield f"{entry.filename!r} is encrypted"
+        elif entry.filename in seen:
+            yield f"{entry.filename!r} is there twice"
+        else:
+            seen.add(entry.filename)
+            yield File(path, _opener(archive, entry), budget)
+
+
+def _opener(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Callable[[], BinaryIO]:
+    return lambda: archive.open(entry)  # type: ignore[return-value]
+
+
+def _from_folder(folder: Path, budget: Budget) -> Iterator[File | str]:
+    for place, folders, names in os.walk(folder):
+        inside = PurePosixPath(Path(place).relative_to(folder).as_posix())
+        links = [name for name in folders if os.path.islink(os.path.join(place, name))]
+        folders[:] = sorted(name for name in folders if name not in _JUNK and name not in links)
+        for name in sorted([*links, *names]):
+            path = inside / name
+            if _is_junk(path):
+                continue
+            if stat.S_ISREG(os.lstat(os.path.join(place, name)).st_mode):
+                yield File(path, _plain_opener(Path(place) / name), budget)
+            else:
+                yield f"{str(path)!r} is a link or a device"
+
+
+def _plain_opener(path: Path) -> Callable[[], BinaryIO]:
+    def opened() -> BinaryIO:
+        return os.fdopen(os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK), "rb")
+
+    return opened
+
+
+def _is_junk(path: PurePosixPath) -> bool:
+    return not path.parts or path.name.startswith("._") or any(part in _JUNK for part in path.parts)

@@ -1,0 +1,129 @@
+"""Canvas' gradebook import, one file an exercise: in a file with several, an empty cell would be a grade, too.
+
+Format: https://community.canvaslms.com, "How do I import grades in the Gradebook?". The roster is what the gradebook's
+own export writes. Without one the folders' names are SIS login ids, and a column without an assignment's id is a new
+assignment: Canvas says so before it imports.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from autograder.export.options import Options
+from autograder.export.published import Published, UnusableBatch
+from autograder.export.tables import Table, csv_text, is_number, key_cell, read_table, text_cell
+
+_BEFORE_ASSIGNMENTS = (
+    "Student",
+    "ID",
+    "SIS User ID",
+    "SIS Login ID",
+    "Integration ID",
+    "Root Account",
+    "Section",
+)
+_KEYS = ("SIS Login ID", "SIS User ID", "ID", "Student")
+_POINTS = "Points Possible"
+_ASSIGNMENT = re.compile(r"(?P<title>.+) \((?P<id>\d+)\)")
+
+
+@dataclass(frozen=True)
+class Gradebook:
+    """What is known of the class: whom Canvas knows, and which column is an exercise's."""
+
+    students: Table | None  # without the row of the points
+    assignments: dict[str, str]  # heading of the column by exercise
+    points: dict[str, str]  # what Canvas says an assignment is worth, by exercise
+
+    def notes(self) -> list[str]:
+        """Say what Canvas will do that may not be meant."""
+        new = [exercise for exercise, title in self.assignments.items() if not _ASSIGNMENT.fullmatch(title)]
+        found = [
+            f"Canvas makes a new assignment {exercise}: --assignment {exercise}=ID names one that is there, where ID "
+            "ends the address of its page"
+            for exercise in new
+        ]
+        if self.students is None:
+            found.append(
+                "the folders' names are taken for SIS login ids: --roster FILE knows the students better"
+            )
+        return found
+
+    def heading(self) -> list[str]:
+        """Return the columns before the assignment's, in Canvas' order."""
+        if self.students is None:
+            return ["Student", "ID", "SIS User ID", "SIS Login ID", "Section"]
+        return [name for name in _BEFORE_ASSIGNMENTS if self.students.index(name) is not None]
+
+    def cells(self, student: str) -> list[str]:
+        """Return these columns for a student; raises `CannotSay` if Canvas does not know them."""
+        if self.students is None:
+            return [text_cell(student), "", "", key_cell(student), ""]
+        index = self.students.index
+        row = self.students.row_of(student, [index(name) for name in _KEYS], index("ID"), index("Student"))
+        cells = {name: row[self.students.index(name) or 0] for name in self.heading()}
+        return [
+            text_cell(cell) if name in ("Student", "Section") else key_cell(cell)
+            for name, cell in cells.items()
+        ]
+
+
+def open_gradebook(options: Options, exercises: Sequence[str]) -> Gradebook:
+    """Find each exercise's column.
+
+    Raises:
+        UnusableBatch: the roster is no export of a gradebook, or an id is none.
+    """
+    table = read_table(options.roster) if options.roster else None
+    titles: dict[str, str] = {}
+    students = None
+    if table:
+        if [table.index(name) for name in ("Student", "ID", "Section")].count(None):
+            raise UnusableBatch(
+                f"{options.roster} begins {', '.join(table.heading[:4])}; expected the export of Canvas' gradebook, "
+                "with Student, ID and Section"
+            )
+        found = [match for title in table.heading if (match := _ASSIGNMENT.fullmatch(title.strip()))]
+        titles = {match["id"]: match["title"] for match in found}
+        titled = {match["title"]: match["id"] for match in reversed(found)}
+        worth = next((row for row in table.rows if _POINTS in row[0]), [""] * len(table.heading))
+        students = Table(table.heading, [row for row in table.rows if _POINTS not in row[0]])
+    columns, points = {}, {}
+    for exercise in exercises:
+        number = options.assignments.get(exercise) or (titled.get(exercise) if table else None)
+        if not number:
+            columns[exercise], points[exercise] = exercise, ""
+            continue
+        if not number.isdigit():
+            raise UnusableBatch(f"--assignment {exercise}={number}: expected a number as Canvas' id")
+        columns[exercise] = f"{titles.get(number, exercise)} ({number})"
+        column = table.index(columns[exercise]) if table else None
+        points[exercise] = worth[column] if column is not None else ""
+    return Gradebook(students, columns, points)
+
+
+def cells_of(gradebook: Gradebook, published: Published) -> list[str | float]:
+    """Return the row of a submission.
+
+    Raises:
+        CannotSay: Canvas does not know the student.
+        UnusableBatch: in Canvas the assignment has other points.
+    """
+    worth = gradebook.points[published.exercise]
+    if is_number(worth) and float(worth) != published.max_score:  # 8 out of 12 would be 8 out of 100 there
+        raise UnusableBatch(
+            f"in Canvas {gradebook.assignments[published.exercise]} has {worth} points, and {published.exercise} "
+            f"{published.max_score}: set it to as many there, and export the gradebook again"
+        )
+    return [*gradebook.cells(published.student), published.score]
+
+
+def table_text(
+    gradebook: Gradebook, exercise: str, max_score: float, rows: Sequence[Sequence[str | float]]
+) -> str:
+    """Return the file's content for an exercise."""
+    heading = gradebook.heading()
+    points: list[str | float] = [f"    {_POINTS}", *[""] * (len(heading) - 1), max_score]
+    return csv_text([*heading, text_cell(gradebook.assignments[exercise])], [points, *rows])

@@ -1,0 +1,1 @@
+"""Inside Gradescope's container: what was handed in is graded there, with the visible checks."""

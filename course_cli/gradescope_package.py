@@ -1,0 +1,64 @@
+"""The zip that Gradescope takes as an autograder: its two scripts, and the part of the course that grades there.
+
+It holds visible checks alone: a student's program shares a container with them.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from course_cli.archive import write_archive
+from course_cli.student_bundle import files_of, require_no_leak, visible_checks
+
+TOP = "humanoid-course"  # the folder of /autograder/source in which the course lies
+PARTS = (
+    "LICENSE",
+    "course",
+    "pyproject.toml",
+    "requirements.lock",
+    "setup",
+    "humanoid_interfaces",
+    "ros_runtime",
+    "robot_sim",
+    "autograder",
+    "course_cli/*.py",
+    "course_cli/commands/__init__.py",
+    "course_cli/commands/check.py",
+    "course_cli/commands/gradescope.py",
+)
+KEPT_BACK = (
+    "autograder/audit",
+    "autograder/authoring/standard_hidden.py",
+    "autograder/collect",
+    "autograder/nbgrader_bridge",
+    "autograder/new_exercise",
+    "autograder/report/classroom",
+    "course_cli/class_output.py",
+    "course_cli/gradescope_package.py",
+    "course_cli/student_bundle.py",
+)
+_SETUP = f"""#!/usr/bin/env bash
+# Gradescope runs this once, as root, when it builds the image: the launcher makes the course's environment.
+export DEBIAN_FRONTEND=noninteractive
+exec "${{GRADESCOPE_ROOT:-/autograder}}/source/{TOP}/course" --help
+"""
+_RUN = f"""#!/usr/bin/env bash
+# Gradescope runs this for every upload, as root: the launcher grades what lies in submission/.
+root=${{GRADESCOPE_ROOT:-/autograder}}
+exec "$root/source/{TOP}/course" gradescope --root "$root"
+"""
+
+
+def write_package(root: Path, archive: Path, exercise: str = "") -> int:
+    """Write the package of the clone at `root`, for one exercise or for all; return how many files it holds.
+
+    Raises `Leak` when a file contains a solution or a hidden check.
+    """
+    files = {path.relative_to(root).as_posix(): path for path in files_of(root, PARTS, KEPT_BACK)}
+    files |= {name: path for name, path in visible_checks() if exercise in ("", path.parent.name)}
+    require_no_leak(files)
+    run = _RUN.rstrip("\n") + (f" --exercise {exercise}" if exercise else "") + "\n"
+    content: dict[str, Path | str] = {f"{TOP}/{name}": path for name, path in files.items()}
+    content |= {"setup.sh": _SETUP, "run_autograder": run}
+    write_archive(archive, content)
+    return len(content)

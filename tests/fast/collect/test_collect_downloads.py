@@ -1,0 +1,171 @@
+"""What `course collect` makes of each platform's download."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from downloads import ALL, CANVAS, CLASSROOM50, GRADESCOPE, MOODLE, PROGRAM, notebook, unpacked, zipped
+from typer.testing import CliRunner, Result
+
+from autograder.batch.collection import collect
+from course_cli.app import app
+
+WANTED = {
+    "canvas": {"leeanna-101": "second = 2\n", "oneilbert-102": PROGRAM},
+    "moodle": {"Anna Lee-9001": PROGRAM, "Zoë O'Neil-9002": PROGRAM},
+    "gradescope": {"2101": PROGRAM, "bert@x.org": "named = 1\n", "cleo@x.org": "named = 1\n"},
+    "classroom50": {"anna-lee": PROGRAM, "bert": PROGRAM},
+}
+
+
+def course(*arguments: object) -> Result:
+    return CliRunner().invoke(app("collect"), ["collect", *map(str, arguments)])
+
+
+def said(done: Result) -> str:
+    return re.sub(r"\s+", " ", done.output)
+
+
+def programs(submitted: Path) -> dict[str, str]:
+    """What `course grade` reads in the folder: the program of each student, all for battery_service."""
+    works = collect(submitted).works
+    assert {work.exercise for work in works} == {"battery_service"}
+    return {work.student: work.read().sources["battery_service.py"] for work in works}
+
+
+@pytest.mark.parametrize("packed", [zipped, unpacked])
+@pytest.mark.parametrize("platform", ALL)
+def test_every_download_becomes_what_grade_reads(tmp_path: Path, platform: str, packed) -> None:
+    download = packed(tmp_path / "download", ALL[platform])
+    done = course(download, "--from", platform, "--out", tmp_path / "submitted")
+    assert done.exit_code == 0, done.output
+    assert programs(tmp_path / "submitted") == WANTED[platform]
+
+
+@pytest.mark.parametrize("platform", ["canvas", "moodle", "classroom50"])
+def test_a_folder_around_everything_is_nobodys(tmp_path: Path, platform: str) -> None:
+    download = zipped(
+        tmp_path / "d.zip", {f"submissions/{name}": text for name, text in ALL[platform].items()}
+    )
+    course(download, "--from", platform, "--out", tmp_path / "submitted")
+    assert programs(tmp_path / "submitted") == WANTED[platform]
+
+
+@pytest.mark.parametrize(
+    ("platform", "lines"),
+    [
+        (
+            "canvas",
+            [
+                "question.html is of no exercise",
+                "was handed in again as",
+                "late, as the platform says: oneil",
+            ],
+        ),
+        ("moodle", ["onlinetext.html is not called as Moodle calls"]),
+        (
+            "gradescope",
+            ["submission_79/battery_service.py belongs to no submission", "my.ipynb is of no exercise"],
+        ),
+        ("classroom50", ["README.md is of no exercise", "walk_to.py is of walk_to, not of battery_service"]),
+    ],
+)
+def test_what_is_left_aside_is_named(tmp_path: Path, platform: str, lines: list[str]) -> None:
+    done = course(
+        zipped(tmp_path / "d.zip", ALL[platform]), "--from", platform, "--out", tmp_path / "submitted"
+    )
+    for line in lines:
+        assert line in said(done)
+
+
+def test_the_time_of_a_submission_comes_along(tmp_path: Path) -> None:
+    course(zipped(tmp_path / "d.zip", GRADESCOPE), "--from", "gradescope", "--out", tmp_path / "s")
+    assert {work.student: work.timestamp for work in collect(tmp_path / "s").works} == {
+        "2101": "2026-03-01 12:30:05 UTC",
+        "bert@x.org": "2026-03-01 10:00:00 UTC",
+        "cleo@x.org": "2026-03-01 10:00:00 UTC",
+    }
+
+
+def test_a_file_of_any_name_counts_where_the_exercise_is_given(tmp_path: Path) -> None:
+    files = {
+        "leeanna_1_5_final (2).ipynb": notebook(),
+        "kim_2_6_walk_to.py": PROGRAM,
+        "bo_3_7_notes.txt": "hm",
+    }
+    done = course(
+        zipped(tmp_path / "d.zip", files),
+        "--from",
+        "canvas",
+        "--exercise",
+        "battery_service",
+        "--out",
+        tmp_path / "s",
+    )
+    assert programs(tmp_path / "s") == {"leeanna-1": PROGRAM}
+    assert "walk_to.py is of walk_to, not of battery_service" in said(done)
+    assert "notes.txt is of no exercise" in said(done)
+
+
+def test_files_called_as_they_should_be_come_before_others(tmp_path: Path) -> None:
+    files = {"lee_1_5_battery_service.ipynb": notebook("right = 1\n"), "lee_1_9_scratch.ipynb": notebook()}
+    download = zipped(tmp_path / "d.zip", files)
+    course(download, "--from", "canvas", "--exercise", "battery_service", "--out", tmp_path / "s")
+    assert programs(tmp_path / "s") == {"lee-1": "right = 1\n"}
+
+
+def test_an_exercise_of_two_files_keeps_both(tmp_path: Path) -> None:
+    names = ["NavigateToPose.action", "GetBatteryStatus.srv"]
+    files = {f"lee_1_{i}_{name}": f"# {name}\n" for i, name in enumerate(names)}
+    course(zipped(tmp_path / "d.zip", files), "--from", "canvas", "--out", tmp_path / "s")
+    assert {path.name for path in (tmp_path / "s/lee-1/interfaces").iterdir()} == set(names)
+
+
+def test_classroom50_may_call_an_exercise_otherwise(tmp_path: Path) -> None:
+    files = {"robotics-hw-1-anna/battery_service.py": PROGRAM, "robotics-hw-1-bo-b/main.py": PROGRAM}
+    download = zipped(tmp_path / "d.zip", files)
+    told = ("--exercise", "battery_service", "--assignment", "hw-1")
+    assert course(download, "--from", "classroom50", "--out", tmp_path / "s").exit_code == 2
+    course(download, "--from", "classroom50", *told, "--out", tmp_path / "s")
+    assert programs(tmp_path / "s") == {"anna": PROGRAM, "bo-b": PROGRAM}
+
+
+def test_nothing_is_overwritten_without_being_asked(tmp_path: Path) -> None:
+    first = zipped(tmp_path / "1.zip", {"lee_1_5_battery_service.ipynb": notebook("old = 1\n")})
+    second = zipped(
+        tmp_path / "2.zip", {"lee_1_9_battery_service.py": "new = 1\n", "kim_2_9_battery_service.py": PROGRAM}
+    )
+    out = tmp_path / "s"
+    assert course(first, "--from", "canvas", "--out", out).exit_code == 0
+    again = course(first, "--from", "canvas", "--out", out)
+    assert again.exit_code == 0
+    assert "1 were there already" in said(again)
+    refused = course(second, "--from", "canvas", "--out", out)
+    assert refused.exit_code == 1
+    assert "--overwrite replaces it" in said(refused)
+    assert programs(out) == {"lee-1": "old = 1\n", "kim-2": PROGRAM}
+    assert course(second, "--from", "canvas", "--out", out, "--overwrite").exit_code == 0
+    assert programs(out)["lee-1"] == "new = 1\n"
+
+
+@pytest.mark.parametrize("platform", ALL)
+def test_the_download_of_another_platform_is_refused_with_what_is_expected(
+    tmp_path: Path, platform: str
+) -> None:
+    other = {"canvas": CLASSROOM50, "moodle": CANVAS, "gradescope": MOODLE, "classroom50": CANVAS}[platform]
+    done = course(zipped(tmp_path / "d.zip", other), "--from", platform, "--out", tmp_path / "s")
+    assert done.exit_code == 2
+    assert "expected" in said(done)
+    assert not (tmp_path / "s").exists()
+
+
+def test_unusable_arguments(tmp_path: Path) -> None:
+    download = zipped(tmp_path / "d.zip", CANVAS)
+    assert course(download, "--from", "blackboard").exit_code == 2
+    assert course(download, "--from", "canvas", "--exercise", "nothing").exit_code == 2
+    assert course(download, "--from", "classroom50", "--assignment", "hw1").exit_code == 2
+    (tmp_path / "text.zip").write_text("no zip")
+    assert course(tmp_path / "text.zip", "--from", "canvas").exit_code == 2
+    assert course(tmp_path / "missing.zip", "--from", "canvas").exit_code == 2

@@ -1,0 +1,94 @@
+"""`course export` as an instructor types it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from graded_class import ANNA, BERT, CLEO, DORA, graded_folder
+from typer.testing import CliRunner, Result
+
+from autograder.export.formats import FORMATS
+from course_cli.app import app
+
+
+def course(*arguments: object) -> Result:
+    return CliRunner().invoke(app("export"), ["export", *map(str, arguments)])
+
+
+def files(folder: Path) -> list[str]:
+    return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_every_format_is_written(tmp_path: Path, name: str) -> None:
+    graded = graded_folder(tmp_path / "graded", ANNA, BERT)
+    more = ["--classroom", "robotics", "--assignment", "battery_service=4711"]
+    (tmp_path / "roster.csv").write_text("Student,ID,SIS Login ID,Section\nAnna,1,anna,A\nBert,2,bert,A\n")
+    if name == "canvas":
+        more += ["--roster", str(tmp_path / "roster.csv")]
+    done = course("--format", name, "--from", graded, "--out", tmp_path / "out", *more)
+    assert done.exit_code == 0, done.output
+    assert len(files(tmp_path / "out")) == (1 if name in ("csv", "canvas", "moodle") else 2)
+
+
+def test_it_writes_beside_the_grades_and_names_what_has_no_score(tmp_path: Path) -> None:
+    graded = graded_folder(tmp_path / "graded")
+    done = course("--format", "csv", "--from", graded)
+    assert done.exit_code == 0
+    assert files(graded / "exports") == ["csv/grades.csv"]
+    assert "cleo's battery_service: not graded" in done.output
+    assert "emil's arm_architecture: not marked yet" in done.output
+
+
+def test_an_earlier_score_does_not_outlive_its_grade(tmp_path: Path) -> None:
+    graded = graded_folder(tmp_path / "graded", ANNA)
+    course("--format", "classroom50", "--classroom", "c", "--from", graded)
+    assert files(graded / "exports") == ["classroom50/anna/battery_service/result.json"]
+    graded_folder(graded, type(ANNA)("battery_service", "anna", "namespaces", reason="broken"))
+    done = course("--format", "classroom50", "--classroom", "c", "--from", graded)
+    assert done.exit_code == 1
+    assert files(graded / "exports") == []
+
+
+def test_what_a_platform_cannot_say_ends_with_status_1(tmp_path: Path) -> None:
+    done = course("--format", "classroom50", "--classroom", "c", "--from", graded_folder(tmp_path, DORA))
+    assert done.exit_code == 1
+    assert "dora's arm_architecture: 2.5 points" in done.output
+
+
+def test_the_file_of_a_self_check_is_exported_too(tmp_path: Path) -> None:
+    path = tmp_path / "verdicts.json"
+    path.write_text(json.dumps(CLEO.to_json()))
+    done = course("--format", "prairielearn", "--from", path, "--out", tmp_path / "out")
+    assert done.exit_code == 0
+    assert json.loads((tmp_path / "out/cleo/battery_service/results.json").read_text())["gradable"] is False
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--format", "csv", "--from", "nowhere"), "grade first"),
+        (("--format", "blackboard"), "blackboard"),
+        (("--format", "canvas", "--assignment", "nothing=1"), "expected EXERCISE=ID"),
+        (("--format", "canvas", "--roster", "nowhere.csv"), "nowhere.csv"),
+        (("--format", "csv", "--hidden", "maybe"), "maybe"),
+    ],
+)
+def test_unusable_arguments_are_refused_with_what_to_do(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], said: str
+) -> None:
+    graded_folder(tmp_path / "graded", ANNA)
+    monkeypatch.chdir(tmp_path)
+    done = course(*arguments)
+    assert done.exit_code == 2
+    assert said in done.output
+
+
+@pytest.mark.parametrize("content", ["", "[]", "[1]", '{"exercise": 1}', '[{"checks": 3}]'])
+def test_a_file_that_holds_no_grades_is_named(tmp_path: Path, content: str) -> None:
+    (tmp_path / "grades.json").write_text(content)
+    done = course("--format", "csv", "--from", tmp_path)
+    assert done.exit_code == 2
+    assert "grades.json" in done.output.replace("\n", "")
