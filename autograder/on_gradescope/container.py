@@ -42,10 +42,15 @@ class Container:
         self.results.unlink(missing_ok=True)
 
     def close_to_others(self, *more: Path) -> None:
-        """Let root alone into uploads, results and `more`."""
+        """Let root alone into uploads, results, what Gradescope tells of the submitters, and `more`."""
         for folder in (self.submission, self.results.parent, *more):
             if folder.is_dir():
                 os.chmod(folder, 0o700)
+        metadata = (
+            self.root / "submission_metadata.json"
+        )  # names, addresses, and the results of earlier uploads
+        if metadata.is_file():
+            os.chmod(metadata, 0o600)
 
     def write(self, results: Results) -> None:
         """Write what Gradescope reads, whole or not at all."""
