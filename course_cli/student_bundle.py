@@ -44,7 +44,7 @@ KEPT_BACK = (
     "autograder/nbgrader_bridge",
     "autograder/new_exercise",
     "autograder/report/classroom",
-    "course_cli/class_output.py",
+    "course_cli/class_grading",
     "course_cli/student_bundle.py",
     *(
         f"course_cli/commands/{name}.py"

@@ -36,7 +36,7 @@ class Work:
             raise UnusableSubmission(
                 f"the folder {self.exercise} holds neither {self.exercise}.ipynb nor {names}"
             )
-        if any(path.is_symlink() or not path.is_file() for path in self._files()):
+        if any(path.is_symlink() or not path.is_file() for path in self.files()):
             raise UnusableSubmission(f"{self.path.name} is not an ordinary file")
         try:
             submission = read_submission(self.path, self.exercise, self.student)
@@ -51,9 +51,10 @@ class Work:
             ) from error
         return submission
 
-    def _files(self) -> list[Path]:
-        """The files that would be read."""
-        assert self.path is not None
+    def files(self) -> list[Path]:
+        """Return the files that would be read."""
+        if self.path is None:
+            return []
         if self.path.is_symlink() or not self.path.is_dir():
             return [self.path]
         return [place for name in file_names(self.exercise) if _is_there(place := self.path / name)]
