@@ -44,7 +44,8 @@ def tell_the_end(
     to_mark = [grade for grade in grades if grade.status == "to mark"]
     if to_mark:
         console.print(
-            f"{len(to_mark)} to be marked by hand, in formgrader; then run this again, and the points are in {GRADES}",
+            f"{len(to_mark)} to be marked by hand, in formgrader; then run this again with --resume, and {GRADES} has "
+            "the points",
             style="cyan",
         )
     console.print(f"to read first: {page}", markup=False, soft_wrap=True)

@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -85,6 +86,7 @@ def until(process: subprocess.Popen[str], happened: Callable[[], Any]) -> None:
     """Wait for an event, as long as the watcher lives."""
     while not happened():
         assert process.poll() is None, process.communicate()[0]
+        time.sleep(0.05)  # between two looks
 
 
 def hand_in(folder: Path, student: str, text: str) -> None:
@@ -127,7 +129,7 @@ def test_the_latest_of_what_is_handed_in_counts_and_a_second_run_goes_on(tmp_pat
         until(watcher, lambda: scores(tmp_path) == {"anna": 1.0, "bert": 1.0})
         assert record(tmp_path)["state"] == "running"
         refused = subprocess.run(
-            [*map(str, watcher.args[:6]), tmp_path / "another", tmp_path],  # type: ignore[index]
+            [*map(str, watcher.args[:6]), "--out", tmp_path / "another", tmp_path],  # type: ignore[index]
             capture_output=True,
             text=True,
         )
