@@ -9,7 +9,7 @@ from pathlib import Path
 def commit_of(folder: Path) -> str:
     """Return the commit of a folder's repository, with a note on files that differ from it; "" outside of one."""
     commit = _git(folder, "rev-parse", "HEAD")
-    if commit and _git(folder, "status", "--porcelain", "--", "."):
+    if commit and _git(folder, "status", "--porcelain", "--untracked-files=no", "--", "."):
         return f"{commit} with changes that are not committed"
     return commit
 

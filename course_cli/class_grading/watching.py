@@ -18,15 +18,15 @@ from autograder.batch.selection import with_others
 from autograder.batch.source_files import write_base_code, write_sources
 from autograder.batch.watched_folder import WatchedFolder, only_watcher
 from autograder.nbgrader_bridge.course_folder import RELEASE
-from autograder.report.classroom.pages import write_pages
+from autograder.report.classroom.drawings import Drawings
+from autograder.report.classroom.pages import write_class_page, write_submission_pages
 from course_cli.class_grading.entering import Entering
 from course_cli.class_grading.once import tell_what_is_left
-from course_cli.class_grading.output import sources_of
 from course_cli.class_grading.progress import BatchProgress
 from course_cli.class_grading.setting import Setting, prepared
 
 BETWEEN_LOOKS = 1.0  # s at least
-SHARE_OF_TIME = 0.1  # that looking may take at most, in a large folder or on a slow file system
+SHARE_OF_TIME = 0.1  # that looking may take at most, and as much for files on the whole class
 _STEP = 0.2  # s
 
 
@@ -55,6 +55,8 @@ class _Watch:
         self._grades = list(setting.before)
         self._record = setting.record
         self._results: dict[tuple[str, str], Graded] = {}
+        self._is_written = True  # what is on the whole class
+        self._next_writing = 0.0  # s, monotonic
 
     def run(self) -> bool:
         setting, request = self._setting, self._setting.request
@@ -77,7 +79,7 @@ class _Watch:
             left_aside=self._folder.collection.ignored,
             refused=self._folder.collection.refused,
         ).closed("interrupted" if self._folder.unfinished else "ended")
-        write_batch(request.out, self._record)
+        self._write_class()
         return self._tell_the_end()
 
     def _works(self) -> Iterator[Work | None]:
@@ -91,24 +93,42 @@ class _Watch:
             next_look = time.monotonic() + max(BETWEEN_LOOKS, self._folder.seconds / SHARE_OF_TIME)
             while time.monotonic() < next_look:
                 yield None
+                self._write_class_when_due()
                 time.sleep(_STEP)
 
     def _keep(self, result: Graded) -> None:
-        """Bring grades, gradebook, pages and record up to date with a result."""
-        out, request = self._setting.request.out, self._setting.request
+        """Enter a result into the gradebook, write its pages and its program; the class follows when it is due."""
+        out = self._setting.request.out
         grade = self._entering.enter(result)
         self._grades = with_others([grade], self._grades)
         self._record = self._record.with_results([result]).with_points([grade])
         self._results[grade.student, grade.exercise] = result
-        write_grades(out / GRADES, self._grades)
-        if request.json_file:
-            write_grades(request.json_file, self._grades)
+        write_submission_pages(out, grade, Drawings(out).of(grade, result.sources))
         write_sources(out, [result])
         write_base_code(out, [grade.exercise], out / RELEASE)
-        write_batch(out, self._record)
-        refused = self._folder.collection.refused
-        write_pages(out, self._grades, sources_of([result]), left_out=refused, batch=self._record.in_words())
         self._folder.is_graded(result.work)
+        self._is_written = False
+        self._write_class_when_due()
+
+    def _write_class_when_due(self) -> None:
+        """Write the files on the whole class at once, unless that would take most of the time in a large class."""
+        began = time.monotonic()
+        if self._is_written or began < self._next_writing:
+            return
+        self._write_class()
+        now = time.monotonic()
+        self._next_writing = now + (now - began) / SHARE_OF_TIME
+
+    def _write_class(self) -> None:
+        request = self._setting.request
+        write_grades(request.out / GRADES, self._grades)
+        if request.json_file:
+            write_grades(request.json_file, self._grades)
+        write_batch(request.out, self._record)
+        write_class_page(
+            request.out, self._grades, self._folder.collection.refused, batch=self._record.in_words()
+        )
+        self._is_written = True
 
     def _tell_the_end(self) -> bool:
         console, problems = self._setting.console, self._entering.problems()

@@ -98,11 +98,14 @@ def grade(
             json_file=json_file,
             watch=watch is not None,
         )
+    except ValueError as error:  # of a shard, or of options that do not go together
+        raise ended(console, error, UNUSABLE) from error
+    try:
         complete = watch_and_grade(console, request) if request.watch else grade_once(console, request)
     except KeyboardInterrupt:
         console.print("Interrupted. Add --resume to go on where it stopped.", style="yellow")
         raise typer.Exit(COULD_NOT) from None
-    except (NoSubmissions, NothingSelected, OtherSeed, UnusableExercise, ValueError) as error:
+    except (NoSubmissions, NothingSelected, OtherSeed, UnusableExercise) as error:
         raise ended(console, error, UNUSABLE) from error
     except (FolderInUse, HiddenChecksRefused, NoCluster) as error:
         raise ended(console, error, COULD_NOT) from error
