@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -76,6 +76,7 @@ def collect(folder: Path) -> Collection:
     """Find all submissions in the folder; raises `NoSubmissions` when there is none."""
     if not folder.is_dir():
         raise NoSubmissions(f"{folder} is not a folder; expected {LAYOUT}")
+    files = {exercise: file_names(exercise) for exercise in all_names()}
     works: dict[tuple[str, str], Work] = {}
     ignored: list[str] = []
     refused: list[str] = []
@@ -87,28 +88,27 @@ def collect(folder: Path) -> Collection:
                 f"the folder {student.name!r}: rename it to letters, digits and . , _ - @ + ' only"
             )
         else:
-            found = list(_works_of(student))
+            found = list(_works_of(student, files))
             if not found:
-                ignored.append(f"{student.name} handed in none of {', '.join(all_names())}")
+                ignored.append(f"{student.name} handed in none of {', '.join(files)}")
             works |= {(work.student, work.exercise): work for work in found}
     if not works and not refused:
         raise NoSubmissions(f"found nothing to grade in {folder}; expected {LAYOUT}")
     return Collection([works[key] for key in sorted(works)], ignored, refused)
 
 
-def _works_of(student: Path) -> Iterator[Work]:
+def _works_of(student: Path, files: Mapping[str, tuple[str, ...]]) -> Iterator[Work]:
     """Prefer a folder for the exercise to a file beside it, and a notebook to the file it writes when run."""
-    for exercise in all_names():
+    for exercise, names in files.items():
         folder = student / exercise
         home = folder if folder.is_dir() else student
-        path = next((place for place in _places(home, exercise) if _is_there(place)), None)
+        path = next((place for place in _places(home, exercise, names) if _is_there(place)), None)
         if path is not None or folder.is_dir():
             yield Work(student.name, exercise, path, _timestamp(folder))
 
 
-def _places(folder: Path, exercise: str) -> list[Path]:
+def _places(folder: Path, exercise: str, names: tuple[str, ...]) -> list[Path]:
     """Where a submission may be: the notebook, then the program, or the folder of an exercise with several files."""
-    names = file_names(exercise)
     written = [folder / name for name in names]
     if len(names) > 1:
         written = [folder] if any(map(_is_there, written)) else []
