@@ -39,6 +39,8 @@ def test_each_batch_has_a_seed_of_its_own_and_what_goes_on_keeps_it():
         assert choose_seeds(goes_on, RECORD, (), ()) == Seeds(77)
         each = replace(RECORD, seed_per_student=True)
         assert choose_seeds(goes_on, each, (), ()) == Seeds(77, per_student=True)
+        watched = replace(RECORD, seed_per_submission=True)
+        assert choose_seeds(goes_on, watched, (), ()) == Seeds(77, per_submission=True)
 
 
 def test_a_seed_that_is_given_is_taken_and_one_of_an_earlier_version_found_in_its_grades():
