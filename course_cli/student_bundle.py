@@ -47,7 +47,7 @@ KEPT_BACK = (
     "autograder/on_gradescope",
     "autograder/report/classroom",
     "course_cli/archive.py",
-    "course_cli/class_output.py",
+    "course_cli/class_grading",
     "course_cli/gradescope_package.py",
     "course_cli/student_bundle.py",
     *(

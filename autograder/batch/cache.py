@@ -5,14 +5,24 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
+from dataclasses import dataclass
 from pathlib import Path
 
 from autograder.atomic_file import write_atomically
+from autograder.batch.effort import Effort
 from autograder.batch.version import checks_version
 from autograder.engine.exercise import Exercise
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation
+
+
+@dataclass(frozen=True)
+class Known:
+    """A grade that was given before, with what it took then."""
+
+    grade: Grade
+    effort: Effort
 
 
 class GradeCache:
@@ -25,24 +35,28 @@ class GradeCache:
         self._folder = folder
         self._isolation = isolation
 
-    def get(self, submission: Submission, exercise: Exercise, seed: int) -> Grade | None:
+    def get(self, submission: Submission, exercise: Exercise, seed: int) -> Known | None:
         """Return the cached grade of a submission with the same sources, under this student's name."""
         path = self._path(submission, exercise, seed)
         if not path.exists():
             return None
-        return dataclasses.replace(Grade.from_json(json.loads(path.read_text())), student=submission.student)
+        record = json.loads(path.read_text())
+        grade = dataclasses.replace(Grade.from_json(record["grade"]), student=submission.student)
+        return Known(grade, Effort(**record["effort"]))
 
-    def put(self, submission: Submission, exercise: Exercise, seed: int, grade: Grade) -> None:
+    def put(self, submission: Submission, exercise: Exercise, seed: int, known: Known) -> None:
         """Cache a grade."""
-        if grade.status != "graded":
+        if known.grade.status != "graded":
             return
         path = self._path(submission, exercise, seed)
-        write_atomically(path, json.dumps(grade.to_json()))
+        record = {"grade": known.grade.to_json(), "effort": dataclasses.asdict(known.effort)}
+        write_atomically(path, json.dumps(record))
 
     def _path(self, submission: Submission, exercise: Exercise, seed: int) -> Path:
         key = hashlib.sha256(
             json.dumps(
                 [
+                    "with effort",
                     dict(submission.sources),
                     checks_version(exercise.folder),
                     [check.id for check in exercise.checks],

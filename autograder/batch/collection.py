@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -36,7 +36,7 @@ class Work:
             raise UnusableSubmission(
                 f"the folder {self.exercise} holds neither {self.exercise}.ipynb nor {names}"
             )
-        if any(path.is_symlink() or not path.is_file() for path in self._files()):
+        if any(path.is_symlink() or not path.is_file() for path in self.files()):
             raise UnusableSubmission(f"{self.path.name} is not an ordinary file")
         try:
             submission = read_submission(self.path, self.exercise, self.student)
@@ -51,9 +51,10 @@ class Work:
             ) from error
         return submission
 
-    def _files(self) -> list[Path]:
-        """The files that would be read."""
-        assert self.path is not None
+    def files(self) -> list[Path]:
+        """Return the files that would be read."""
+        if self.path is None:
+            return []
         if self.path.is_symlink() or not self.path.is_dir():
             return [self.path]
         return [place for name in file_names(self.exercise) if _is_there(place := self.path / name)]
@@ -75,6 +76,7 @@ def collect(folder: Path) -> Collection:
     """Find all submissions in the folder; raises `NoSubmissions` when there is none."""
     if not folder.is_dir():
         raise NoSubmissions(f"{folder} is not a folder; expected {LAYOUT}")
+    files = files_of_exercises()
     works: dict[tuple[str, str], Work] = {}
     ignored: list[str] = []
     refused: list[str] = []
@@ -86,31 +88,35 @@ def collect(folder: Path) -> Collection:
                 f"the folder {student.name!r}: rename it to letters, digits and . , _ - @ + ' only"
             )
         else:
-            found = list(works_of(student))
+            found = list(works_of(student, files))
             if not found:
-                ignored.append(f"{student.name} handed in none of {', '.join(all_names())}")
+                ignored.append(f"{student.name} handed in none of {', '.join(files)}")
             works |= {(work.student, work.exercise): work for work in found}
     if not works and not refused:
         raise NoSubmissions(f"found nothing to grade in {folder}; expected {LAYOUT}")
     return Collection([works[key] for key in sorted(works)], ignored, refused)
 
 
-def works_of(student: Path) -> Iterator[Work]:
+def files_of_exercises() -> Mapping[str, tuple[str, ...]]:
+    """Return the names of each exercise's files."""
+    return {exercise: file_names(exercise) for exercise in all_names()}
+
+
+def works_of(student: Path, files: Mapping[str, tuple[str, ...]]) -> Iterator[Work]:
     """Yield what one student's folder holds, by exercise.
 
     A folder for the exercise comes before a file beside it, and a notebook before the file it writes when run.
     """
-    for exercise in all_names():
+    for exercise, names in files.items():
         folder = student / exercise
         home = folder if folder.is_dir() else student
-        path = next((place for place in _places(home, exercise) if _is_there(place)), None)
+        path = next((place for place in _places(home, exercise, names) if _is_there(place)), None)
         if path is not None or folder.is_dir():
             yield Work(student.name, exercise, path, _timestamp(folder))
 
 
-def _places(folder: Path, exercise: str) -> list[Path]:
+def _places(folder: Path, exercise: str, names: tuple[str, ...]) -> list[Path]:
     """Where a submission may be: the notebook, then the program, or the folder of an exercise with several files."""
-    names = file_names(exercise)
     written = [folder / name for name in names]
     if len(names) > 1:
         written = [folder] if any(map(_is_there, written)) else []

@@ -68,13 +68,13 @@ class Crew:
             future = self._executor.submit(self._work, job)
         self._running[future] = job
 
-    def wait(self) -> Sequence[tuple[GradingJob, Outcome]]:
-        """Wait until something happens to a job; return those that are done."""
+    def wait(self, patience: float | None = None) -> Sequence[tuple[GradingJob, Outcome]]:
+        """Wait until something happens to a job, or for `patience` s; return those that are done."""
         if not self._running:
             self._alone = self._lost.popleft()
             self._close_executor()  # it may be breaking still, and would take this job with it
             self.give(self._alone)
-        done = wait(self._running, return_when=FIRST_COMPLETED).done
+        done = wait(self._running, timeout=patience, return_when=FIRST_COMPLETED).done
         outcomes = []
         for future in done:
             job = self._running.pop(future)

@@ -8,12 +8,14 @@ import traceback
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from autograder.batch.effort import Effort, utc_now
 from autograder.batch.special_grades import not_graded, with_reason
 from autograder.batch.version import checks_version
 from autograder.engine.exercise import FOLDER_VARIABLE, load_exercise
 from autograder.engine.grading import Report, grade
 from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
+from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation, available_isolation
 from autograder.report.classroom.drawings import DrawnRuns, drawing_into
@@ -55,11 +57,13 @@ class Outcome:
         grade: the verdicts.
         isolation: the label of what the worker had; "" if no worker answered.
         drawn: SVG of the runs that failed checks were judged on, by the check's id.
+        effort: what it took; None if no worker answered.
     """
 
     grade: Grade
     isolation: str
     drawn: DrawnRuns = field(default_factory=dict)
+    effort: Effort | None = None
 
 
 @dataclass(frozen=True)
@@ -98,27 +102,39 @@ def carry_out(job: GradingJob, live: Live | None = None) -> Outcome:
 
 
 def _graded(job: GradingJob, isolation: Isolation, stop: Stop, report: Report) -> Outcome:
+    began, arenas = utc_now(), None
+    drawn: dict[str, Sequence[str]] = {}
     try:
         if problem := _why_not_here(job, isolation):
-            return Outcome(not_graded(job.exercise, job.student, isolation.label, problem), isolation.label)
-        exercise = load_exercise(job.exercise, hidden=job.trusted)
-        drawn: dict[str, Sequence[str]] = {}
-        found = grade(
-            job.submission,
-            exercise,
-            seed=job.seed,
-            jobs=job.arenas,
-            isolation=isolation,
-            report=report,
-            evidence=drawing_into(drawn),
-            stop=stop,
-        )
-        return Outcome(with_reason(found), isolation.label, drawn)
+            found = not_graded(job.exercise, job.student, isolation.label, problem)
+        else:
+            exercise = load_exercise(job.exercise, hidden=job.trusted)
+            arenas = SubmissionArenas(exercise.scenario_file, isolation.kind)
+            found = grade(
+                job.submission,
+                exercise,
+                seed=job.seed,
+                jobs=job.arenas,
+                isolation=isolation,
+                report=report,
+                evidence=drawing_into(drawn),
+                arenas=arenas,
+                stop=stop,
+            )
     except Stopped:
         raise
     except Exception:  # whatever goes wrong here is the grader's fault and may not end the batch
         reason = f"the grader itself failed:\n{traceback.format_exc()}"
-        return Outcome(not_graded(job.exercise, job.student, isolation.label, reason), isolation.label)
+        found = not_graded(job.exercise, job.student, isolation.label, reason)
+    return Outcome(with_reason(found), isolation.label, drawn, _effort(began, arenas))
+
+
+def _effort(began: str, arenas: SubmissionArenas | None) -> Effort:
+    here = socket.gethostname()
+    if arenas is None:
+        return Effort(began, utc_now(), here)
+    used = arenas.used
+    return Effort(began, utc_now(), here, round(used.processor_seconds, 2), used.arenas, used.scenarios)
 
 
 def _why_not_here(job: GradingJob, isolation: Isolation) -> str:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence, Sized
 from dataclasses import dataclass
 from functools import lru_cache, partial
 
-from autograder.batch.cache import GradeCache
+from autograder.batch.cache import GradeCache, Known
 from autograder.batch.collection import Work
 from autograder.batch.crew import Crew, Workers, threads
+from autograder.batch.effort import Effort, without_arena
 from autograder.batch.job import GradingJob, Live, carry_out
 from autograder.batch.seeds import ONE_FOR_ALL, Seeds
 from autograder.batch.special_grades import unreadable
@@ -24,18 +25,24 @@ from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation
 from autograder.report.classroom.drawings import Drawings
 
+PATIENCE = 0.5  # s to wait for results before it is looked again for new submissions
+
 Running = Callable[[Sequence[GradingJob]], None]
 
 
 @dataclass(frozen=True)
 class Graded:
-    """A submission with its grade. If it could not be read, `sources` is None and `problem` says why."""
+    """A submission with its grade. If it could not be read, `sources` is None and `problem` says why.
+
+    `effort` is what the grade took when it was given; None if a worker was lost.
+    """
 
     work: Work
     grade: Grade
     sources: Mapping[str, str] | None
     problem: str = ""
     cached: bool = False
+    effort: Effort | None = None
 
 
 class BatchRunner:
@@ -84,18 +91,26 @@ class BatchRunner:
         """Return how many verdicts this batch gives on a submission for an exercise."""
         return len(load_essay(name).criteria if name in essay_names() else self.exercise(name).checks)
 
-    def run(self, works: Sequence[Work]) -> Generator[Graded, None, None]:
+    def run(self, works: Iterable[Work | None]) -> Generator[Graded, None, None]:
         """Yield each submission as soon as it is graded, each once.
+
+        `works` may be endless: None says that there is nothing to grade at present, so that results are taken. A work
+        may come again when its result is there.
 
         Leaving the loop early, for example by Ctrl-C, ends the running arenas at once; finished grades stay in the
         cache.
         """
-        arenas = 1 if self._workers else max(1, self._jobs // max(1, len(works)))
+        at_a_time = len(works) if isinstance(works, Sized) else self._jobs
+        arenas = 1 if self._workers else max(1, self._jobs // max(1, at_a_time))
         workers = self._workers or threads(max(1, self._jobs // arenas))
         crew = Crew(workers, partial(carry_out, live=self._live() if workers.share_memory else None))
         handed_over: dict[tuple[str, str], Work] = {}
         try:
             for work in works:
+                if work is None:
+                    if crew.is_busy:
+                        yield from self._finish(crew, handed_over, PATIENCE)
+                    continue
                 prepared = self._prepare(work, arenas)
                 if isinstance(prepared, Graded):
                     for verdict in prepared.grade.checks:
@@ -126,13 +141,13 @@ class BatchRunner:
             work.exercise in essay_names()
         ):  # of one that cannot be read a person decides, too, what it is worth
             waiting = left_to_a_person(load_essay(work.exercise), work.student)
-            return Graded(work, waiting, sources, problem)
-        exercise, seed = self.exercise(work.exercise), self._seeds.of(work.student)
+            return Graded(work, waiting, sources, problem, effort=without_arena())
+        exercise, seed = self.exercise(work.exercise), self._seeds.of(work.student, sources or {})
         if submission is None:
             grade = unreadable(work.student, exercise, self._isolation.label, seed, problem)
-            return Graded(work, grade, None, problem)
+            return Graded(work, grade, None, problem, effort=without_arena())
         if self._resume and (known := self._cache.get(submission, exercise, seed)):
-            return Graded(work, known, sources, cached=True)
+            return Graded(work, known.grade, sources, cached=True, effort=known.effort)
         return GradingJob(
             work.student,
             work.exercise,
@@ -144,15 +159,19 @@ class BatchRunner:
             os.environ.get(FOLDER_VARIABLE),
         )
 
-    def _finish(self, crew: Crew, handed_over: dict[tuple[str, str], Work]) -> Iterator[Graded]:
+    def _finish(
+        self, crew: Crew, handed_over: dict[tuple[str, str], Work], patience: float | None = None
+    ) -> Iterator[Graded]:
         """Wait for outcomes, and cache them all before anybody can interrupt the loop."""
         finished = []
-        for job, outcome in crew.wait():
+        for job, outcome in crew.wait(patience):
             work = handed_over.pop((job.student, job.exercise))
-            self._cache.put(job.submission, self.exercise(job.exercise), job.seed, outcome.grade)
+            if outcome.effort:
+                known = Known(outcome.grade, outcome.effort)
+                self._cache.put(job.submission, self.exercise(job.exercise), job.seed, known)
             if self._drawings:
                 self._drawings.keep_all(outcome.grade, job.sources, outcome.drawn)
-            finished.append(Graded(work, outcome.grade, job.sources))
+            finished.append(Graded(work, outcome.grade, job.sources, effort=outcome.effort))
             if self._workers and not self._workers.share_memory:
                 for verdict in outcome.grade.checks:
                     self._report(verdict)

@@ -42,11 +42,13 @@ def select(works: Sequence[Work], students: Sequence[str], exercises: Sequence[s
 
 def require_seed(before: Sequence[Grade], seeds: Seeds) -> None:
     """Require that grades that stay beside new ones were given with the same seeds; raises OtherSeed."""
-    other = next((grade for grade in before if grade.seed not in (None, seeds.of(grade.student))), None)
+    if seeds.per_submission:
+        return
+    other = next((grade for grade in before if grade.seed not in (None, seeds.of(grade.student, {}))), None)
     if other:
         raise OtherSeed(
             f"{other.student}'s {other.exercise} has a grade with seed {other.seed}, and this run gives it seed "
-            f"{seeds.of(other.student)}; give --seed and --seed-per-student as before, or grade the whole class again"
+            f"{seeds.of(other.student, {})}; give --seed and --seed-per-student as then, or grade the whole class"
         )
 
 

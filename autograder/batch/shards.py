@@ -52,7 +52,7 @@ def write_shard(
     exercises = sorted({work.exercise for work in works})
     record = {
         "shard": f"{shard.number}/{shard.of}",
-        "seed": [seeds.batch, seeds.per_student],
+        "seed": [seeds.batch, seeds.per_student, seeds.per_submission],
         "versions": {name: checks_version(exercises_folder() / name) for name in exercises},
         "submissions": [[work.student, work.exercise] for work in works],
         "graded": [

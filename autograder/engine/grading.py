@@ -32,6 +32,7 @@ OnRetry = Callable[[Check], None]
 Runs = dict[Scenario, Future[Transcript]]
 Evidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
 
+VISIBLE_SEED = 0  # of what visible checks are judged on: the same inputs in a self-check and in every batch
 MOST_ATTEMPTS: dict[CheckStatus, int] = {"passed": 1, "failed": 2, "not run": 1, "error": 4}
 
 
@@ -57,7 +58,7 @@ def grade(
     Args:
         submission: what is graded.
         exercise: its checks, visible and hidden.
-        seed: draws the inputs of the scenarios.
+        seed: draws the inputs of the scenarios that only hidden checks judge.
         jobs: how many arenas run at a time.
         scale: of every arena's clock; None: what the machine can bear.
         isolation: of the arenas; None: the best this machine has.
@@ -127,6 +128,7 @@ class _Session:
         self._arenas = arenas
         self._at_first_look = at_first_look
         self._scenarios = list(dict.fromkeys(scenario for check in exercise.checks for scenario in check.on))
+        self._visible = {scenario for check in exercise.checks if not check.hidden for scenario in check.on}
         self._stop = Stop(stop)
         self._verdicts: dict[str, CheckVerdict] = {}
         self._runs: list[Runs] = [{} for _ in range(max(MOST_ATTEMPTS.values()))]  # by attempt
@@ -219,7 +221,7 @@ class _Session:
                 self._exercise,
                 self._submission.files,
                 scenario,
-                self._seed,
+                VISIBLE_SEED if scenario in self._visible else self._seed,
                 attempt_scale,
                 self._isolation.kind,
                 cold,

@@ -104,10 +104,10 @@ class SubmissionArena:
         self._process.allow(IDLE)
         return report
 
-    def close(self) -> None:
-        """End the arena with everything in it; do nothing if it has ended."""
+    def close(self) -> ArenaReport:
+        """End the arena with everything in it, if it has not ended, and return how it ended."""
         self._orders.close()
-        self._process.kill()
+        return self._process.kill()
 
     def _read(self, fd: int, stop: Stop | None) -> bytes:
         """Read events until the scenario is over."""

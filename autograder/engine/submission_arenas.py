@@ -7,6 +7,7 @@ import threading
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
@@ -14,6 +15,15 @@ from autograder.engine.submission_arena import SubmissionArena
 from autograder.isolation.arena_spec import ISOLATION_VARIABLE, Kind
 from autograder.isolation.availability import available_isolation
 from autograder.isolation.bubblewrap import SandboxError
+
+
+@dataclass(frozen=True)
+class ArenasUsed:
+    """What the closed arenas of a submission cost together."""
+
+    arenas: int = 0
+    scenarios: int = 0
+    processor_seconds: float = 0.0
 
 
 class SubmissionArenas:
@@ -28,6 +38,7 @@ class SubmissionArenas:
         self._idle: list[SubmissionArena] = []
         self._ahead: Future[SubmissionArena] | None = None
         self._lock = threading.Lock()
+        self._used = ArenasUsed()
 
     def open_ahead(self) -> None:
         """Begin to open an isolated arena in the background, unless isolation is switched off."""
@@ -45,8 +56,13 @@ class SubmissionArenas:
     ) -> None:
         self._take_the_one_ahead()
         for arena in self._idle:
-            arena.close()
+            self._close(arena)
         self._idle.clear()
+
+    @property
+    def used(self) -> ArenasUsed:
+        """What the arenas that are closed by now have cost."""
+        return self._used
 
     @contextmanager
     def one(self) -> Iterator[SubmissionArena]:
@@ -55,13 +71,13 @@ class SubmissionArenas:
         try:
             yield arena
         except BaseException:
-            arena.close()
+            self._close(arena)
             raise
         if arena.kind is Kind.NAMESPACES:
             with self._lock:
                 self._idle.append(arena)
         else:
-            arena.close()
+            self._close(arena)
 
     def _take(self) -> SubmissionArena | None:
         if self._kind in (None, Kind.NAMESPACES):
@@ -75,3 +91,12 @@ class SubmissionArenas:
             ahead, self._ahead = self._ahead, None
             if ahead:
                 self._idle.append(ahead.result())
+
+    def _close(self, arena: SubmissionArena) -> None:
+        report = arena.close()
+        with self._lock:
+            self._used = ArenasUsed(
+                self._used.arenas + 1,
+                self._used.scenarios + arena.scenarios,
+                self._used.processor_seconds + report.processor_seconds,
+            )

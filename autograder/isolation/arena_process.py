@@ -21,7 +21,7 @@ from autograder.isolation.arena_start import RunningArena, start_with_namespaces
 from autograder.isolation.bubblewrap import SandboxError
 from autograder.isolation.captured_output import CapturedOutput, OutputPump
 from autograder.isolation.limits import ArenaLimits
-from autograder.isolation.process_tree import descendants, resident_mib
+from autograder.isolation.process_tree import cpu_seconds, descendants, resident_mib
 
 __all__ = ["ArenaProcess", "ArenaReport", "ArenaSpec", "Ended", "Kind", "start_arena"]
 
@@ -51,6 +51,7 @@ class ArenaReport:
     exit_code: int  # the command's; 128 + n when signal n ended it
     seconds: float  # wall time from start to end
     peak_memory_mib: float  # resident, all processes together, seen by polling
+    processor_seconds: float  # seen by polling: without what processes used that were ended by force
     nothing_survives: bool
     stdout: CapturedOutput
     stderr: CapturedOutput
@@ -139,7 +140,7 @@ class ArenaProcess:
         assert process.stderr
         pump = OutputPump({process.stdout.fileno(): out, process.stderr.fileno(): err})
         pump.watch(running.end_pidfd)
-        ended, peak = Ended.EXIT, 0.0
+        ended, peak, used = Ended.EXIT, 0.0, 0.0
         next_look = next_look_at_memory = began
         memory_within_limit_at = began
         while running.end_pidfd not in pump.poll(max(0.0, min(_POLL, next_look - time.monotonic()))):
@@ -148,7 +149,8 @@ class ArenaProcess:
             next_look = now + _POLL
             if now >= next_look_at_memory:
                 next_look_at_memory = now + _MEMORY_PERIOD
-                memory = resident_mib([running.root_pid, *descendants(running.root_pid)])
+                processes = [running.root_pid, *descendants(running.root_pid)]
+                memory, used = resident_mib(processes), max(used, cpu_seconds(processes))
                 peak = max(peak, memory)
                 if memory <= limits.memory_mib:
                     memory_within_limit_at = now
@@ -162,6 +164,7 @@ class ArenaProcess:
             if ended is Ended.EXIT and self._kill_requested.is_set():
                 ended = Ended.KILLED
             if ended is not Ended.EXIT:
+                used = max(used, cpu_seconds([running.root_pid, *descendants(running.root_pid)]))
                 break
         nothing_survives = running.end() if ended is not Ended.EXIT else running.has_ended()
         exit_code = process.wait()
@@ -172,5 +175,12 @@ class ArenaProcess:
         process.stderr.close()
         seconds = time.monotonic() - began
         return ArenaReport(
-            ended, exit_code if exit_code >= 0 else 128 - exit_code, seconds, peak, nothing_survives, out, err
+            ended,
+            exit_code if exit_code >= 0 else 128 - exit_code,
+            seconds,
+            peak,
+            used,
+            nothing_survives,
+            out,
+            err,
         )

@@ -19,6 +19,7 @@ from traitlets.config import Config
 from autograder.atomic_file import write_atomically
 
 CONFIG_FILE = "nbgrader_config.py"
+RELEASE = "release"  # the folder of what students were given
 RECORDS = "records"  # the folder with one JSON file a student, which VerdictOutputs reads
 
 _BRIDGE = "autograder.nbgrader_bridge"
@@ -40,7 +41,7 @@ FEEDBACK_PREPROCESSORS = [
 ]
 _OPTIONS: dict[str, Any] = {
     "CourseDirectory.source_directory": "source",
-    "CourseDirectory.release_directory": "release",
+    "CourseDirectory.release_directory": RELEASE,
     # Given back in place of nbgrader's NotImplementedError, so that the starter code runs and its checks can speak.
     "ClearSolutions.code_stub": {"python": "# YOUR CODE HERE"},
     "Autograde.autograde_preprocessors": AUTOGRADE_PREPROCESSORS,
@@ -101,6 +102,8 @@ def call(action: Callable[..., dict[str, Any]], *names: str) -> None:
         outcome = action(*names, force=True)
     if not outcome["success"]:
         error, log = outcome.get("error", "").strip(), outcome.get("log", "")
+        if error.endswith("KeyboardInterrupt"):  # nbgrader takes Ctrl-C for a failure of its own
+            raise KeyboardInterrupt
         raise NbgraderError(
             f"nbgrader's {action.__name__}: {_last_error(log) or _last_error(error)}", f"{error}\n{log}"
         )

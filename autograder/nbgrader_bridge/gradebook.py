@@ -16,6 +16,7 @@ from autograder.engine.exercise import file_names
 from autograder.engine.verdict import Grade
 from autograder.nbgrader_bridge.course_folder import (
     RECORDS,
+    RELEASE,
     NbgraderError,
     call,
     open_course,
@@ -120,7 +121,7 @@ class CourseGradebook:
     def _submission(self, entry: Entry) -> dict[str, str]:
         """The files that nbgrader reads: the rebuilt notebook and the time it was handed in."""
         name = entry.grade.exercise
-        release = nbformat.read(self._folder / "release" / name / f"{name}.ipynb", as_version=4)
+        release = nbformat.read(self._folder / RELEASE / name / f"{name}.ipynb", as_version=4)
         notebook = rebuild_submission(release, file_names(name), entry.sources, entry.problem)
         files = {f"{name}.ipynb": nbformat.writes(notebook) + "\n"}
         return files | ({TIMESTAMP: entry.timestamp} if entry.timestamp else {})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from datetime import datetime, timezone
 
-from autograder.batch.collection import Work, works_of
+from autograder.batch.collection import Work, files_of_exercises, works_of
 from autograder.batch.special_grades import unreadable
 from autograder.engine.exercise import Exercise, file_names, load_exercise
 from autograder.engine.grading import grade
@@ -29,7 +29,8 @@ def grade_upload(container: Container, exercise: str, isolation: Isolation) -> R
         exercise: of the assignment; "" if the upload's file names say which it is.
         isolation: of the student's program.
     """
-    works = [work for work in works_of(container.submission) if exercise in ("", work.exercise)]
+    found_works = works_of(container.submission, files_of_exercises())
+    works = [work for work in found_works if exercise in ("", work.exercise)]
     if not exercise and len(works) != 1:
         found = f"found {', '.join(work.exercise for work in works)}" if works else "found none"
         return Results(

@@ -9,11 +9,14 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from autograder.batch.batch_record import merged_record, write_batch
 from autograder.batch.folder_lock import FolderInUse, locked
 from autograder.batch.records import GRADES, write_grades
 from autograder.batch.shards import CannotMerge, Merged, merge_shards
+from autograder.batch.source_files import write_base_code, write_sources
+from autograder.nbgrader_bridge.course_folder import RELEASE
 from autograder.report.classroom.pages import write_pages
-from course_cli.class_output import enter_all, sources_of, tell_the_end
+from course_cli.class_grading.output import enter_all, sources_of, tell_the_end
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 
@@ -44,7 +47,19 @@ def _write(console: Console, merged: Merged, folders: Sequence[Path], out: Path)
     write_grades(out / GRADES, [result.grade for result in merged.results])
     unentered, grades = enter_all(console, merged.results, out)
     write_grades(out / GRADES, grades)
-    page = write_pages(out, grades, sources_of(merged.results), batches=folders)
+    record = merged_record(folders)
+    if record:
+        record = record.with_points(grades)
+        write_batch(out, record)
+    write_sources(out, merged.results)
+    write_base_code(out, [result.work.exercise for result in merged.results], out / RELEASE)
+    page = write_pages(
+        out,
+        grades,
+        sources_of(merged.results),
+        batches=folders,
+        batch=record.in_words() if record else None,
+    )
     tell_the_end(console, grades, unentered, out, page)
     for line in merged.missing:
         console.print(f"missing: {line}", style="red", markup=False)

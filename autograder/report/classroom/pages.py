@@ -22,8 +22,17 @@ UP = "../.."  # from a submission's page to the folder of the class page
 DrawingsOf = Mapping[str, Sequence[str]]
 
 
-def write_class_page(folder: Path, grades: Sequence[Grade], left_out: Sequence[str] = ()) -> Path:
-    """Write the page on the whole class; `left_out` are sentences on what could not become a submission at all."""
+def write_class_page(
+    folder: Path,
+    grades: Sequence[Grade],
+    left_out: Sequence[str] = (),
+    batch: Mapping[str, str] | None = None,
+) -> Path:
+    """Write the page on the whole class.
+
+    `left_out` are sentences on what could not become a submission at all, `batch` says when and with what it was
+    graded.
+    """
     students: dict[str, dict[str, Grade]] = {}
     for grade in sorted(grades, key=lambda grade: grade.student):
         students.setdefault(grade.student, {})[grade.exercise] = grade
@@ -42,6 +51,7 @@ def write_class_page(folder: Path, grades: Sequence[Grade], left_out: Sequence[s
         not_graded=by_status["not graded"],
         to_mark=by_status["to mark"],
         left_out=left_out,
+        batch=batch or {},
         needs_help=who_needs_help(grades),
         threshold=NEEDS_HELP,
         cause=cause,
@@ -84,6 +94,7 @@ def write_pages(
     *,
     batches: Sequence[Path] = (),
     left_out: Sequence[str] = (),
+    batch: Mapping[str, str] | None = None,
 ) -> Path:
     """Write the pages of a batch into its output folder, and return the class page's path.
 
@@ -93,14 +104,15 @@ def write_pages(
         sources: the programs of those that get pages anew, by student and exercise; None: it could not be read.
         batches: the output folders where their drawings are; by default `folder`.
         left_out: sentences on what could not become a submission at all.
+        batch: when and with what it was graded, in words.
     """
     for grade in grades:
         if (key := (grade.student, grade.exercise)) in sources:
             drawings: dict[str, Sequence[str]] = {}
-            for batch in batches or (folder,):
-                drawings |= Drawings(batch).of(grade, sources[key])
+            for output in batches or (folder,):
+                drawings |= Drawings(output).of(grade, sources[key])
             write_submission_pages(folder, grade, drawings)
-    return write_class_page(folder, grades, left_out)
+    return write_class_page(folder, grades, left_out, batch)
 
 
 def _write(folder: Path, grade: Grade, drawings: DrawingsOf, *, for_student: bool) -> None:

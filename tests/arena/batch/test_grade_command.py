@@ -63,6 +63,22 @@ def assert_pages(out: Path, right: dict, wrong: dict) -> None:
     assert not [check for check in wrong["checks"] if check["hidden"] and escape(check["title"]) in page]
 
 
+def assert_recorded(out: Path, first: dict, anna: dict, bert: dict) -> None:
+    """The second run went on with the seed of the first, and its record has what the first run found of both."""
+    second = json.loads((out / "batch.json").read_text())
+    assert second["seed"] == first["seed"] == anna["seed"] == bert["seed"]
+    assert second["submissions"][:2] == first["submissions"]
+    assert (second["state"], second["counts"]) == ("ended", {"graded": 3})
+    if anna["isolation"] == "namespaces":
+        assert first["arenas"] >= 2
+        assert first["processor_seconds"] > 1
+    given = (out / "sources/_base/battery_service/battery_service.py").read_text()
+    assert given == (out / "sources/battery_service/bert/battery_service.py").read_text()
+    assert given != (out / "sources/battery_service/anna/battery_service.py").read_text()
+    assert not (out / "sources/battery_service/carl").exists()
+    assert str(second["seed"]) in (out / "class.html").read_text()
+
+
 def scores(folder: Path) -> dict[str, tuple[float, float]]:
     """Each student's points and the points there are, from nbgrader's database."""
     with Gradebook(f"sqlite:///{folder / 'gradebook.db'}") as db:
@@ -97,6 +113,7 @@ def test_the_reference_gets_full_marks_the_starter_some_and_a_second_run_goes_on
     assert "YOUR CODE HERE" in page
     assert_pages(out, anna, bert)
 
+    kept = json.loads((out / "batch.json").read_text())
     hand_in(submitted, "carl", b"not a notebook")
     second = course("grade", submitted, "--out", out, "--resume")
     assert second.returncode == 0, second.stdout + second.stderr
@@ -104,6 +121,7 @@ def test_the_reference_gets_full_marks_the_starter_some_and_a_second_run_goes_on
     assert_pages(out, anna, bert)
     assert "is not a notebook" in (out / "pages/carl" / PAGE).read_text()
     assert json.loads((out / "grades.json").read_text())[:2] == [anna, bert]
+    assert_recorded(out, kept, anna, bert)
     carl = json.loads((out / "grades.json").read_text())[2]
     assert (carl["status"], carl["score"]) == ("graded", 0)
     assert "is not a notebook" in carl["checks"][0]["observed"]
@@ -192,6 +210,9 @@ def test_shards_are_merged_into_one_gradebook_and_an_absent_one_is_named(tmp_pat
 
     partly = course("merge", shards[0], "--out", tmp_path / "partly")
     assert partly.returncode == 1
+    records = [json.loads((folder / "batch.json").read_text()) for folder in (*shards, out)]
+    assert len({record["seed"] for record in records}) == 1
+    assert [len(record["submissions"]) for record in records] == [2, 1, 3]
     assert "missing: shard 2/2 is not among the folders" in partly.stdout
     assert "bert's battery_service has no grade" in partly.stdout
     assert course("merge", *shards, shards[0], "--out", out).returncode == 0  # the same folder twice is one

@@ -32,7 +32,7 @@ class _EndedArenas:
     def __init__(self, ended: Ended) -> None:
         output = CapturedOutput(1)
         self.kind = Kind.NAMESPACES
-        self._report = ArenaReport(ended, 137, 3.0, 3100.0, True, output, output)
+        self._report = ArenaReport(ended, 137, 3.0, 3100.0, 2.0, True, output, output)
 
     @contextmanager
     def one(self):

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from autograder.batch import version as module
-from autograder.batch.cache import GradeCache
+from autograder.batch.cache import GradeCache, Known
+from autograder.batch.effort import Effort
 from autograder.batch.version import checks_version
 from autograder.engine.exercise import load_exercise
 from autograder.engine.submission import Submission
@@ -15,6 +16,7 @@ from autograder.isolation.availability import Isolation
 
 ISOLATED = Isolation(Kind.NAMESPACES, "as a test says")
 EXERCISE = load_exercise("battery_service", hidden=True)
+TOOK = Effort("2026-03-01T12:00:00+00:00", "2026-03-01T12:00:40+00:00", "a-host", 21.5, 2, 9)
 ANNA = Submission("battery_service", "anna", {"battery_service.py": "x = 1\n"})
 
 
@@ -28,17 +30,17 @@ def passed(submission, status="passed"):
 @pytest.fixture
 def cache(tmp_path):
     cache = GradeCache(tmp_path, ISOLATED)
-    cache.put(ANNA, EXERCISE, 0, passed(ANNA))
+    cache.put(ANNA, EXERCISE, 0, Known(passed(ANNA), TOOK))
     return cache
 
 
-def test_the_same_work_has_the_same_grade(cache):
-    assert cache.get(ANNA, EXERCISE, 0) == passed(ANNA)
+def test_the_same_work_has_the_same_grade_and_what_it_took(cache):
+    assert cache.get(ANNA, EXERCISE, 0) == Known(passed(ANNA), TOOK)
 
 
 def test_the_same_source_by_another_student_has_it_in_that_students_name(cache):
     bert = Submission("battery_service", "bert", ANNA.sources)
-    assert cache.get(bert, EXERCISE, 0) == passed(bert)
+    assert cache.get(bert, EXERCISE, 0) == Known(passed(bert), TOOK)
 
 
 def test_another_source_seed_isolation_or_set_of_checks_is_graded_anew(cache, tmp_path):
@@ -53,7 +55,7 @@ def test_another_source_seed_isolation_or_set_of_checks_is_graded_anew(cache, tm
 
 def test_what_was_not_graded_is_not_cached(tmp_path):
     cache = GradeCache(tmp_path, ISOLATED)
-    cache.put(ANNA, EXERCISE, 0, passed(ANNA, status="error"))
+    cache.put(ANNA, EXERCISE, 0, Known(passed(ANNA, status="error"), TOOK))
     assert cache.get(ANNA, EXERCISE, 0) is None
 
 

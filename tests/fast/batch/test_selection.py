@@ -59,7 +59,8 @@ def test_grades_of_another_seed_do_not_stand_beside_new_ones():
 
 def test_each_student_has_a_seed_that_depends_on_nothing_but_the_batch_and_the_name():
     seeds = Seeds(5, per_student=True)
-    assert len({seeds.of(student) for student in ("anna", "bert", "carl")}) == 3
-    assert seeds.of("anna") == Seeds(5, per_student=True).of("anna") != Seeds(6, per_student=True).of("anna")
-    assert Seeds(5).of("anna") == Seeds(5).of("bert") == 5
-    require_seed([grade("anna", "patterns", seed=seeds.of("anna"))], seeds)
+    assert len({seeds.of(student, {}) for student in ("anna", "bert", "carl")}) == 3
+    assert seeds.of("anna", {}) == seeds.of("anna", {"walk_to.py": "x"})
+    assert seeds.of("anna", {}) != Seeds(6, per_student=True).of("anna", {})
+    assert Seeds(5).of("anna", {}) == Seeds(5).of("bert", {"walk_to.py": "x"}) == 5
+    require_seed([grade("anna", "patterns", seed=seeds.of("anna", {}))], seeds)

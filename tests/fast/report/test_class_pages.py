@@ -265,3 +265,13 @@ def test_a_name_that_leads_elsewhere_is_refused(tmp_path, name):
     with pytest.raises(ValueError, match="cannot be the name of a folder"):
         write_submission_pages(tmp_path / "out", grade(name, check("a")), {})
     assert not list(tmp_path.rglob("*.html"))
+
+
+def test_the_class_page_says_how_it_was_graded_and_no_student_reads_the_seed(tmp_path):
+    batch = {"seed of hidden checks": "314159", "isolation": MARKUP}
+    graded = grade("anna", failed(), seed=314159)
+    page = read(write_pages(tmp_path, [graded], {("anna", "walk_to"): None}, batch=batch))
+    assert "314159" in words(page)
+    assert MARKUP in words(page)
+    assert "314159" not in (tmp_path / "pages/anna/walk_to.html").read_text()
+    assert "How it was graded" not in words(read(pages_of(tmp_path, graded)))

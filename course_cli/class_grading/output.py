@@ -11,14 +11,9 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from autograder.batch.records import GRADES
 from autograder.batch.runner import Graded
-from autograder.engine.exercise import exercises_folder
 from autograder.engine.verdict import Grade
-from autograder.nbgrader_bridge.course_folder import NbgraderError
-from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
-from autograder.nbgrader_bridge.rebuild_submission import NoSolutionCell
 from autograder.report.class_table import class_table
-
-LOG = "nbgrader.log"
+from course_cli.class_grading.entering import Entering
 
 
 def enter_all(console: Console, results: Sequence[Graded], out: Path) -> tuple[list[str], list[Grade]]:
@@ -26,26 +21,12 @@ def enter_all(console: Console, results: Sequence[Graded], out: Path) -> tuple[l
 
     Returns a sentence for each that failed, and the grades with what a person has given there.
     """
-    problems: list[str] = []
+    entering = Entering(out)
     grades: list[Grade] = []
-    logs: list[str] = []
-    with bar(console) as progress:
-        task = progress.add_task("gradebook", total=len(results))
-        gradebook = CourseGradebook(out, exercises_folder())
-        for result in results:
-            try:
-                gradebook.enter(Entry(result.grade, result.sources, result.problem, result.work.timestamp))
-                grades.append(gradebook.as_marked(result.grade))
-            except (NbgraderError, NoSolutionCell, OSError) as error:
-                grades.append(result.grade)
-                problems.append(f"{result.work.student}'s {result.work.exercise}: {error}")
-                if isinstance(error, NbgraderError):
-                    logs.append(f"{problems[-1]}\n{error.log}")
-            progress.advance(task)
-    if logs:
-        (out / LOG).write_text("\n\n".join(logs))
-        problems.append(f"what nbgrader said about it is in {out / LOG}")
-    return problems, grades
+    with _bar(console) as progress:
+        for result in progress.track(results, description="gradebook"):
+            grades.append(entering.enter(result))
+    return entering.problems(), grades
 
 
 def sources_of(results: Sequence[Graded]) -> dict[tuple[str, str], Mapping[str, str] | None]:
@@ -63,7 +44,8 @@ def tell_the_end(
     to_mark = [grade for grade in grades if grade.status == "to mark"]
     if to_mark:
         console.print(
-            f"{len(to_mark)} to be marked by hand, in formgrader; then run this again, and the points are in {GRADES}",
+            f"{len(to_mark)} to be marked by hand, in formgrader; then run this again with --resume, and {GRADES} has "
+            "the points",
             style="cyan",
         )
     console.print(f"to read first: {page}", markup=False, soft_wrap=True)
@@ -74,8 +56,7 @@ def tell_the_end(
     )
 
 
-def bar(console: Console) -> Progress:
-    """Return a bar with a count and the time left."""
+def _bar(console: Console) -> Progress:
     return Progress(
         TextColumn("{task.description}"),
         BarColumn(),

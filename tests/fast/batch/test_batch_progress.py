@@ -1,0 +1,118 @@
+"""What a batch shows while it runs, on a terminal and elsewhere; and how long it says the rest will take."""
+
+from __future__ import annotations
+
+import io
+
+import pytest
+from rich.console import Console
+
+from autograder.batch.collection import Work
+from autograder.batch.effort import Effort
+from autograder.batch.job import GradingJob
+from autograder.batch.pace import Pace, in_words
+from autograder.batch.runner import Graded
+from autograder.engine.verdict import CheckVerdict, Grade
+from course_cli.class_grading.progress import MOST_SHOWN, PERIOD, BatchProgress
+
+VERDICT = CheckVerdict("id", "title", "passed", 1, 1)
+
+
+class Clock:
+    """Time that passes when the test says so."""
+
+    now = 0.0
+
+    def __call__(self) -> float:
+        return self.now
+
+
+def job(student: str) -> GradingJob:
+    return GradingJob(student, "walk_to", {}, 0, True, "version")
+
+
+def result(student: str, cached: bool = False) -> Graded:
+    effort = Effort("", "", "here", 1.0, 1, 1)
+    grade = Grade("walk_to", student, "namespaces", [VERDICT])
+    return Graded(Work(student, "walk_to", None), grade, {}, cached=cached, effort=effort)
+
+
+@pytest.fixture
+def clock() -> Clock:
+    return Clock()
+
+
+def test_time_left_follows_what_was_measured_and_not_what_was_known(clock):
+    pace = Pace(40, clock)
+    assert pace.seconds_left() is None
+    pace.add(20)
+    pace.was_known(20)
+    clock.now = 10.0
+    assert pace.seconds_left() is None
+    pace.add(5)
+    assert pace.seconds_left() == 30.0
+    pace.add(15)
+    assert pace.seconds_left() == 0.0
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [
+        (None, "time left not known yet"),
+        (3, "about 10 s left"),
+        (47, "about 50 s left"),
+        (600, "about 10 min left"),
+        (8000, "about 2.2 h left"),
+    ],
+)
+def test_an_estimate_is_no_more_precise_than_it_can_be(seconds, words):
+    assert in_words(seconds) == words
+
+
+def test_without_a_terminal_there_are_lines_now_and_then_with_what_runs(clock):
+    console = Console(file=io.StringIO(), width=200)
+    with BatchProgress(console, clock=clock) as progress:
+        progress.expect(checks=3, submissions=3)
+        progress.running([job("anna"), job("bert")])
+        progress.verdict(VERDICT)
+        progress.graded(result("anna"), checks=1)
+        progress.running([job("bert")])
+        clock.now = PERIOD
+        progress.running([job("bert"), job("carl")])
+        progress.running([job("bert")])
+    lines = console.file.getvalue().splitlines()
+    assert lines[0].startswith("anna · walk_to")
+    assert lines[1:] == [
+        "… 1 of 3 submissions graded, about 1 min left; running: bert · walk_to, carl · walk_to"
+    ]
+
+
+def test_on_a_terminal_all_that_runs_is_shown_with_its_time(clock):
+    console = Console(file=io.StringIO(), width=200, force_terminal=True, color_system=None)
+    with BatchProgress(console, clock=clock, elsewhere=4) as progress:
+        progress.expect(checks=20, submissions=10)
+        progress.running([job("anna")])
+        clock.now = 75.0
+        progress.running([job("anna"), *(job(f"student{number}") for number in range(MOST_SHOWN))])
+        progress.graded(result("known", cached=True), checks=2)
+    shown = console.file.getvalue()
+    for words in (
+        "anna · walk_to",
+        "1:15",
+        "and 1 more",
+        "1 of 10 submissions",
+        "not known yet",
+        "4 workers",
+    ):
+        assert words in shown, words
+    assert "known · walk_to" in shown
+
+
+def test_a_submission_without_verdicts_is_counted_as_done(clock):
+    console = Console(file=io.StringIO(), width=200)
+    progress = BatchProgress(console, clock=clock)
+    progress.expect(checks=4, submissions=2)
+    clock.now = PERIOD
+    lost = Graded(Work("anna", "walk_to", None), Grade("walk_to", "anna", "", reason="lost"), {})
+    progress.graded(lost, checks=2)
+    assert progress._pace.done == 2
