@@ -71,6 +71,9 @@ COMMANDS: dict[str, Command] = {
         forwards_arguments=True,
     ),
     "grade": Command("course_cli.commands.grade:grade", "Grade a batch of submissions."),
+    "replay": Command(
+        "course_cli.commands.replay:replay", "Show a recorded arena: in the web view, as a film, as text."
+    ),
     "merge": Command("course_cli.commands.merge:merge", "Join the parts of a class that were graded apart."),
     "new": Command("course_cli.commands.new:new", "Make the folder of a new exercise."),
     "release": Command("course_cli.commands.release:release", "Write the students' archive."),

@@ -24,6 +24,7 @@ PARTS = (
     "ros_cli",
     "robot_sim",
     "lab",
+    "replay",
     "autograder",
     "course_cli",
     "chapters/*.ipynb",
@@ -33,6 +34,7 @@ PARTS = (
     "docs/cheat_sheet.md",
     "docs/glossary.md",
     "docs/images",
+    "docs/recordings.md",
     "docs/robot.md",
     "docs/ros2_commands.md",
 )

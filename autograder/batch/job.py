@@ -7,16 +7,22 @@ import socket
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
+from autograder.authoring.transcript import Transcript
 from autograder.batch.special_grades import not_graded, with_reason
 from autograder.batch.version import checks_version
-from autograder.engine.exercise import FOLDER_VARIABLE, load_exercise
+from autograder.engine.exercise import FOLDER_VARIABLE, Exercise, load_exercise
 from autograder.engine.grading import Report, grade
 from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
-from autograder.engine.verdict import Grade
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.availability import Isolation, available_isolation
+from autograder.recording.kept import Recordings
 from autograder.report.classroom.drawings import DrawnRuns, drawing_into
+
+if TYPE_CHECKING:
+    from autograder.recording.recorder import Recorder
 
 
 @dataclass(frozen=True)
@@ -30,6 +36,7 @@ class GradingJob:
         version: of the checks and the engine (`checks_version`) that the batch is graded with.
         arenas: how many of this submission run at a time.
         course: the folder of exercises, if it is not the clone's own.
+        recorded: make recordings of its scenarios.
     """
 
     student: str
@@ -40,6 +47,7 @@ class GradingJob:
     version: str
     arenas: int = 1
     course: str | None = None
+    recorded: bool = False
 
     @property
     def submission(self) -> Submission:
@@ -55,11 +63,13 @@ class Outcome:
         grade: the verdicts.
         isolation: the label of what the worker had; "" if no worker answered.
         drawn: SVG of the runs that failed checks were judged on, by the check's id.
+        recordings: MCAP files by name, if they were asked for.
     """
 
     grade: Grade
     isolation: str
     drawn: DrawnRuns = field(default_factory=dict)
+    recordings: Recordings = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -103,6 +113,14 @@ def _graded(job: GradingJob, isolation: Isolation, stop: Stop, report: Report) -
             return Outcome(not_graded(job.exercise, job.student, isolation.label, problem), isolation.label)
         exercise = load_exercise(job.exercise, hidden=job.trusted)
         drawn: dict[str, Sequence[str]] = {}
+        draw = drawing_into(drawn)
+        recorder = _recorder(exercise) if job.recorded else None
+
+        def keep_evidence(verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
+            draw(verdict, transcripts)
+            if recorder:
+                recorder.add(verdict, transcripts)
+
         found = grade(
             job.submission,
             exercise,
@@ -110,15 +128,23 @@ def _graded(job: GradingJob, isolation: Isolation, stop: Stop, report: Report) -
             jobs=job.arenas,
             isolation=isolation,
             report=report,
-            evidence=drawing_into(drawn),
+            evidence=keep_evidence,
+            recorded=job.recorded,
             stop=stop,
         )
-        return Outcome(with_reason(found), isolation.label, drawn)
+        recordings = recorder.files(found) if recorder else {}
+        return Outcome(with_reason(found), isolation.label, drawn, recordings)
     except Stopped:
         raise
     except Exception:  # whatever goes wrong here is the grader's fault and may not end the batch
         reason = f"the grader itself failed:\n{traceback.format_exc()}"
         return Outcome(not_graded(job.exercise, job.student, isolation.label, reason), isolation.label)
+
+
+def _recorder(exercise: Exercise) -> Recorder:
+    from autograder.recording.recorder import Recorder  # it loads ROS, which a grading does without
+
+    return Recorder(exercise, for_students=False)
 
 
 def _why_not_here(job: GradingJob, isolation: Isolation) -> str:

@@ -58,7 +58,7 @@ def class_of(type_name: str) -> Any:
     interface, _, part = name.partition("_")
     if kind == "msg" or not part:
         return message_type(type_name)
-    found = message_type(f"{package}/{kind}/{interface}")
+    found: Any = message_type(f"{package}/{kind}/{interface}")
     try:
         if part.startswith(_IN_IMPL):
             inner, _, last = part.partition("_")

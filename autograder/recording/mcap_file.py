@@ -58,10 +58,12 @@ class _File:
             self._schema(_type(entry.message))
         except Exception:  # a message that ROS cannot write is lost, and nothing else
             logging.getLogger(__name__).debug("left out: a message on %s", entry.topic, exc_info=True)
-            return self._leave_out(entry.t)
-        if not entry.essential and not self._fits(entry, len(data)):
-            return self._leave_out(entry.t)
-        self._write(entry, data)
+            self._leave_out(entry.t)
+            return
+        if entry.essential or self._fits(entry, len(data)):
+            self._write(entry, data)
+        else:
+            self._leave_out(entry.t)
 
     def finish(self) -> None:
         self._writer.finish()

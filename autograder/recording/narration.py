@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from rcl_interfaces.msg import Log
@@ -14,6 +14,7 @@ from ros_runtime.messages import is_message, to_dict
 INFO, WARN = Log.INFO, Log.WARN
 LONGEST = 300  # characters of a line
 _MOST_FIELDS = 12
+_MOST_ELEMENTS = 6
 
 
 def narrated(event: Any) -> tuple[int, str] | None:
@@ -23,23 +24,37 @@ def narrated(event: Any) -> tuple[int, str] | None:
 
 
 def brief(message: Any) -> str:
-    """Return the fields of a message that hold anything, in a line."""
+    """Return the fields of a message that hold anything in a line: plain ones first, of a pose only the position."""
     if not is_message(message):
         return ""
-    fields = list(_leaves(to_dict(message)))
+    fields = sorted(_leaves(to_dict(message)), key=lambda field: "." in field[0] or field[1].startswith("("))
     said = ", ".join(f"{name}={value}" for name, value in fields[:_MOST_FIELDS])
     return said + (", …" if len(fields) > _MOST_FIELDS else "")
 
 
 def _leaves(value: Any, name: str = "") -> Iterator[tuple[str, str]]:
+    match value:
+        case {"sec": seconds, "nanosec": nanoseconds}:
+            if name.rpartition(".")[2] != "stamp" and (seconds or nanoseconds):
+                yield name, f"{seconds + nanoseconds * 1e-9:.3g} s"
+        case {"position": {"x": x, "y": y, "z": z}, "orientation": _}:
+            yield name.removesuffix(".pose"), f"({x:.2f}, {y:.2f}, {z:.2f})"
+        case Mapping():
+            for key, inner in value.items():
+                yield from _leaves(inner, f"{name}.{key}" if name else key)
+        case [*elements]:
+            if elements:
+                shown = [_number(element) for element in elements[:_MOST_ELEMENTS]]
+                more = f", … {len(elements)} in all" if len(elements) > _MOST_ELEMENTS else ""
+                yield name, f"[{', '.join(shown)}{more}]"
+        case _ if value not in (0, "", False):
+            yield name, _number(value)
+
+
+def _number(value: Any) -> str:
     if isinstance(value, Mapping):
-        for key, inner in value.items():
-            yield from _leaves(inner, f"{name}.{key}" if name else key)
-    elif isinstance(value, Sequence) and not isinstance(value, str):
-        if value:
-            yield name, f"[{len(value)} of them]"
-    elif value not in (0, "", False):
-        yield name, f"{value:.4g}" if isinstance(value, float) else str(value)[:80]
+        return "…"
+    return f"{value:.4g}" if isinstance(value, float) else str(value)[:80]
 
 
 def _of_the_program(event: Any) -> tuple[int, str] | None:

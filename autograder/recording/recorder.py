@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import logging
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from autograder.authoring.checks import Scenario
 from autograder.authoring.transcript import Transcript
@@ -13,13 +13,12 @@ from autograder.engine.exercise import Exercise
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.recording.entry import About, Entry
 from autograder.recording.interface_messages import InterfaceMessages
+from autograder.recording.kept import Recordings
 from autograder.recording.log_messages import Judged, log_messages, verdict_messages
 from autograder.recording.mcap_file import mcap_file
 from autograder.recording.robot_messages import robot_messages, scene_of
 
 MOST_OF_A_SUBMISSION = 64 * 2**20  # bytes of all its recordings
-
-Recordings = Mapping[str, bytes]  # MCAP files by their names, such as walk.mcap
 
 
 class Recorder:

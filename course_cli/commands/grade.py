@@ -31,6 +31,7 @@ from autograder.batch.shards import SHARD, Shard, write_shard
 from autograder.engine.exercise import UnusableExercise, exercises_folder
 from autograder.engine.exposure import HiddenChecksRefused, require_hidden
 from autograder.isolation.availability import Isolation, available_isolation
+from autograder.recording.kept import FOLDER
 from autograder.report.class_table import progress_line
 from autograder.report.classroom.drawings import Drawings
 from autograder.report.classroom.pages import write_pages
@@ -84,6 +85,12 @@ def grade(
             "--exercise", help="grade only this exercise; repeat it for several. Others keep their grades"
         ),
     ] = None,
+    record: Annotated[
+        bool,
+        typer.Option(
+            "--record", help="keep an MCAP file of each scenario in OUT/recordings (`course replay`)"
+        ),
+    ] = False,
     course: CourseOption = None,
 ) -> None:
     """Grade a batch of submissions."""
@@ -116,6 +123,7 @@ def grade(
                 cluster,
                 part,
                 collection.works,
+                record,
             )
     except (FolderInUse, HiddenChecksRefused, NoCluster) as error:
         raise ended(console, error, COULD_NOT) from error
@@ -133,6 +141,7 @@ def _grade_into(
     cluster: Cluster | None,
     shard: Shard | None,
     whole_class: Sequence[Work],
+    record: bool,
 ) -> None:
     """Grade the collection and write everything; raises typer.Exit with the command's status."""
     before = read_grades(out / GRADES) if keep_others else []
@@ -154,10 +163,20 @@ def _grade_into(
         )
     try:
         results = _grade_all(
-            console, collection, out, isolation, jobs, seeds, resume, cluster.workers if cluster else None
+            console,
+            collection,
+            out,
+            isolation,
+            jobs,
+            seeds,
+            resume,
+            cluster.workers if cluster else None,
+            out / FOLDER if record else None,
         )
     except UnusableExercise as error:
         raise ended(console, error, UNUSABLE) from error
+    if record:
+        _tell_of_recordings(console, out / FOLDER, results)
     if shard:
         write_grades(out / GRADES, [result.grade for result in results])
         write_shard(out, shard, seeds, whole_class, results)
@@ -185,6 +204,7 @@ def _grade_all(
     seeds: Seeds,
     resume: bool,
     workers: Workers | None,
+    recordings: Path | None,
 ) -> list[Graded]:
     """Grade in parallel and return the results in the order of the submissions."""
     with bar(console) as progress:
@@ -198,6 +218,7 @@ def _grade_all(
             workers=workers,
             report=lambda verdict: progress.advance(task),
             drawings=Drawings(out),
+            recordings=recordings,
         )
         progress.update(task, total=sum(runner.count(work.exercise) for work in collection.works))
         results: dict[object, Graded] = {}
@@ -210,6 +231,22 @@ def _grade_all(
             console.print("Interrupted. Add --resume to go on where it stopped.", style="yellow")
             raise typer.Exit(COULD_NOT) from None
     return [results[work] for work in collection.works]
+
+
+def _tell_of_recordings(console: Console, folder: Path, results: Sequence[Graded]) -> None:
+    console.print(
+        f"recordings: {folder}/<student>/<exercise>/<scenario>.mcap, hidden checks included; look at one: "
+        "./course replay FILE",
+        style="dim",
+        markup=False,
+    )
+    cached = sum(result.cached for result in results)
+    if cached:
+        console.print(
+            f"{cached} grades are from an earlier run, and nothing was recorded of them now; grade without --resume to "
+            "record them",
+            style="yellow",
+        )
 
 
 def _tell_what_is_left(console: Console, collection: Collection, results: Sequence[Graded]) -> int:

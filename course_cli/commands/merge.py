@@ -12,6 +12,7 @@ from rich.console import Console
 from autograder.batch.folder_lock import FolderInUse, locked
 from autograder.batch.records import GRADES, write_grades
 from autograder.batch.shards import CannotMerge, Merged, merge_shards
+from autograder.recording.kept import FOLDER
 from autograder.report.classroom.pages import write_pages
 from course_cli.class_output import enter_all, sources_of, tell_the_end
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
@@ -46,6 +47,9 @@ def _write(console: Console, merged: Merged, folders: Sequence[Path], out: Path)
     write_grades(out / GRADES, grades)
     page = write_pages(out, grades, sources_of(merged.results), batches=folders)
     tell_the_end(console, grades, unentered, out, page)
+    if recorded := [folder / FOLDER for folder in folders if (folder / FOLDER).is_dir()]:
+        places = ", ".join(map(str, recorded))
+        console.print(f"recordings are not merged; they stay in {places}", style="dim", markup=False)
     for line in merged.missing:
         console.print(f"missing: {line}", style="red", markup=False)
     not_graded = sum(grade.status == "not graded" for grade in grades)
