@@ -142,7 +142,7 @@ def _graded(job: GradingJob, isolation: Isolation, stop: Stop, report: Report) -
 
 
 def _recorder(exercise: Exercise) -> Recorder:
-    from autograder.recording.recorder import Recorder  # it loads ROS, which a grading does without
+    from autograder.recording.recorder import Recorder  # what it imports, a grading does without
 
     return Recorder(exercise, for_students=False)
 

@@ -10,12 +10,9 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 from typing import Any
 
-from autograder.recording.transforms import TF_TYPE
+from autograder.recording.transforms import TF_TYPE, TFMessage
 from ros_runtime.messages import message_type
 
-_WRITTEN_HERE: Mapping[str, Mapping[str, str]] = {
-    TF_TYPE: {"transforms": "sequence<geometry_msgs/TransformStamped>"}
-}
 _SEPARATOR = "=" * 80
 _NAMES = {"boolean": "bool", "double": "float64", "float": "float32", "octet": "byte"}  # IDL's → .msg's
 _SEQUENCE = re.compile(r"sequence<(.+?)(?:, (\d+))?>")
@@ -53,6 +50,8 @@ def class_of(type_name: str) -> Any:
     Raises:
         ValueError: there is no such type.
     """
+    if type_name == TF_TYPE:
+        return TFMessage
     package, _, rest = type_name.partition("/")
     kind, _, name = rest.partition("/")
     interface, _, part = name.partition("_")
@@ -70,7 +69,7 @@ def class_of(type_name: str) -> Any:
 
 
 def _fields(type_name: str) -> Mapping[str, str]:
-    return _WRITTEN_HERE.get(type_name) or class_of(type_name).get_fields_and_field_types()
+    return class_of(type_name).get_fields_and_field_types()
 
 
 def _text(fields: Mapping[str, str]) -> str:

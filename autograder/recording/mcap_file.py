@@ -5,17 +5,15 @@ from __future__ import annotations
 import io
 import logging
 from collections.abc import Iterable, Mapping
-from typing import Any
 
 from mcap.well_known import MessageEncoding, SchemaEncoding
 from mcap.writer import CompressionType, Writer
 from rcl_interfaces.msg import Log
-from rclpy.serialization import serialize_message
 
+from autograder.recording.cdr import serialize
 from autograder.recording.definitions import definition
 from autograder.recording.entry import EVENTS, METADATA, Entry, as_nanoseconds
 from autograder.recording.log_messages import log
-from autograder.recording.transforms import TF_TYPE, Transforms
 from ros_runtime.messages import type_name
 
 LARGEST_MESSAGE = 2**18  # bytes, of one that is not essential
@@ -54,8 +52,8 @@ class _File:
 
     def add(self, entry: Entry) -> None:
         try:
-            data = _serialized(entry.message)
-            self._schema(_type(entry.message))
+            data = serialize(entry.message)
+            self._schema(type_name(entry.message))
         except Exception:  # a message that ROS cannot write is lost, and nothing else
             logging.getLogger(__name__).debug("left out: a message on %s", entry.topic, exc_info=True)
             self._leave_out(entry.t)
@@ -69,7 +67,7 @@ class _File:
         self._writer.finish()
 
     def _fits(self, entry: Entry, size: int) -> bool:
-        new_topic = (entry.topic, _type(entry.message)) not in self._channels
+        new_topic = (entry.topic, type_name(entry.message)) not in self._channels
         if (
             size > LARGEST_MESSAGE
             or self._rest + size > MOST_OF_THE_REST
@@ -84,10 +82,10 @@ class _File:
         if self._left_out == 1:
             text = "from here on messages are left out: they are too many, too large or cannot be written"
             message = log(t, Log.WARN, "recording", text)
-            self._write(Entry(t, EVENTS, message, essential=True), _serialized(message))
+            self._write(Entry(t, EVENTS, message, essential=True), serialize(message))
 
     def _write(self, entry: Entry, data: bytes) -> None:
-        channel = self._channel(entry.topic, _type(entry.message))
+        channel = self._channel(entry.topic, type_name(entry.message))
         self._sequence[channel] = self._sequence.get(channel, 0) + 1
         at = as_nanoseconds(entry.t)
         self._writer.add_message(channel, at, data, publish_time=at, sequence=self._sequence[channel])
@@ -105,11 +103,3 @@ class _File:
             text = definition(of_type).encode()
             self._schemas[of_type] = self._writer.register_schema(of_type, SchemaEncoding.ROS2, text)
         return self._schemas[of_type]
-
-
-def _type(message: Any) -> str:
-    return TF_TYPE if isinstance(message, Transforms) else type_name(message)
-
-
-def _serialized(message: Any) -> bytes:
-    return message.serialize() if isinstance(message, Transforms) else serialize_message(message)

@@ -13,7 +13,7 @@ from std_msgs.msg import Header
 from autograder.authoring import events as ev
 from autograder.authoring.transcript import Transcript
 from autograder.recording.entry import Entry, full_name, stamp
-from autograder.recording.transforms import TF, Transforms
+from autograder.recording.transforms import TF, transforms
 from humanoid_interfaces.msg import RobotState
 
 
@@ -69,7 +69,7 @@ def _messages(posture: ev.PostureTruth, body: ev.BodyDescribed) -> Iterator[tupl
     for name, place in zip(body.objects, posture.objects, strict=False):
         frames[name] = place
         yield f"objects/{name}/pose", PoseStamped(header=odom, pose=_pose(place))
-    yield TF, Transforms(at, "odom", frames)
+    yield TF, transforms(at, "odom", frames)
 
 
 def _states(transcript: Transcript, topic: str) -> Iterator[Entry]:

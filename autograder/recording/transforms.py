@@ -1,40 +1,37 @@
-"""Transforms for /tf. Their type, tf2_msgs/msg/TFMessage, is in no wheel, so its bytes are made here."""
+"""Transforms for /tf, whose type comes with a ROS of apt but is in no wheel."""
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from builtin_interfaces.msg import Time
+from geometry_msgs.msg import TransformStamped
 
 TF = "/tf"
 TF_TYPE = "tf2_msgs/msg/TFMessage"
-_LITTLE_ENDIAN = b"\x00\x01\x00\x00"  # the head of plain CDR
 
 
-@dataclass(frozen=True)
-class Transforms:
-    """Poses of frames in one other frame: x, y, z (m) and a quaternion (x, y, z, w) for each."""
+class TFMessage:
+    """The message tf2_msgs/msg/TFMessage, as far as it is needed to write one down."""
 
-    stamp: Time
-    frame: str
-    poses: Mapping[str, Sequence[float]]
+    __module__ = "tf2_msgs.msg._tf_message"  # where the generated class is
 
-    def serialize(self) -> bytes:
-        """Return a TFMessage as plain CDR, in which a number begins at a multiple of its size."""
-        data = bytearray(struct.pack("<I", len(self.poses)))
-        for child, pose in self.poses.items():
-            _align(data, 4)
-            data += struct.pack("<iI", self.stamp.sec, self.stamp.nanosec)
-            for name in (self.frame, child):
-                text = name.encode() + b"\0"
-                _align(data, 4)
-                data += struct.pack("<I", len(text)) + text
-            _align(data, 8)
-            data += struct.pack("<7d", *pose)
-        return _LITTLE_ENDIAN + bytes(data)
+    def __init__(self, transforms: Sequence[TransformStamped] = ()) -> None:
+        self.transforms = list(transforms)
+
+    @classmethod
+    def get_fields_and_field_types(cls) -> dict[str, str]:
+        """Return what a generated class returns."""
+        return {"transforms": "sequence<geometry_msgs/TransformStamped>"}
 
 
-def _align(data: bytearray, size: int) -> None:
-    data += bytes(-len(data) % size)
+def transforms(stamp: Time, frame: str, poses: Mapping[str, Sequence[float]]) -> TFMessage:
+    """Return the poses of frames in another one: x, y, z (m) and a quaternion (x, y, z, w) for each."""
+    message = TFMessage()
+    for child, pose in poses.items():
+        stamped = TransformStamped(child_frame_id=child)
+        stamped.header.stamp, stamped.header.frame_id = stamp, frame
+        moved, turned = stamped.transform.translation, stamped.transform.rotation
+        moved.x, moved.y, moved.z, turned.x, turned.y, turned.z, turned.w = map(float, pose)
+        message.transforms.append(stamped)
+    return message
