@@ -27,7 +27,7 @@ def brief(message: Any) -> str:
     """Return the fields of a message that hold anything in a line: plain ones first, of a pose only the position."""
     if not is_message(message):
         return ""
-    fields = sorted(_leaves(to_dict(message)), key=lambda field: "." in field[0] or field[1].startswith("("))
+    fields = sorted(_leaves(to_dict(message)), key=lambda field: (".header." in field[0], "." in field[0]))
     said = ", ".join(f"{name}={value}" for name, value in fields[:_MOST_FIELDS])
     return said + (", …" if len(fields) > _MOST_FIELDS else "")
 
