@@ -27,9 +27,16 @@ def brief(message: Any) -> str:
     """Return the fields of a message that hold anything in a line: plain ones first, of a pose only the position."""
     if not is_message(message):
         return ""
-    fields = sorted(_leaves(to_dict(message)), key=lambda field: (".header." in field[0], "." in field[0]))
+    fields = sorted(_leaves(to_dict(message)), key=_rank)
     said = ", ".join(f"{name}={value}" for name, value in fields[:_MOST_FIELDS])
     return said + (", …" if len(fields) > _MOST_FIELDS else "")
+
+
+def _rank(field: tuple[str, str]) -> int:
+    name, value = field
+    if ".header." in name:
+        return 2
+    return 1 if "." in name or value.startswith("(") else 0
 
 
 def _leaves(value: Any, name: str = "") -> Iterator[tuple[str, str]]:
