@@ -94,7 +94,7 @@ class Recorder:
             params=json.dumps(run.params),
             seed=str(grade.seed),
             scale=f"{run.scale:g}",
-            end=f"{run.end:.3f}",
+            end=f"{run.end:.6f}",
             scene=scene_of(run),
             shows_hidden_checks="yes" if self._shows_hidden else "no",
         )
