@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 import io
+import os
 import shutil
+import signal
+import subprocess
+import sys
+from itertools import count
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 from urllib.request import urlopen
 
@@ -19,6 +25,7 @@ from typer.testing import CliRunner
 from autograder.authoring import events as ev
 from autograder.recording.entry import METADATA
 from course_cli.app import app
+from replay import web
 from replay.body import RecordedBody
 from replay.captions import band_height
 from replay.film import RATE, film
@@ -26,7 +33,6 @@ from replay.moment import Kind, Moment
 from replay.recording import NoRecording, Recording
 from replay.span import Span, span_of
 from replay.text import time_line
-from replay.web import play
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.view import View
 
@@ -155,26 +161,78 @@ def test_what_a_program_printed_cannot_steer_the_terminal(tmp_path: Path) -> Non
     assert "\x07" not in shown
 
 
-def test_the_web_view_plays_it_and_tells_each_moment_once(fallen: Any) -> None:
+class Seen:
+    """Stands for the web view, of which a process can open one: notes what it is shown."""
+
+    url = "http://here/"
+
+    def __init__(self, robot: Any, port: int) -> None:
+        self.robot = robot
+        self.heights: list[float] = []
+        self.is_closed = False
+        seen.append(self)
+
+    def show(self) -> None:
+        self.heights.append(float(self.robot.data.qpos[2]))
+
+    def close(self) -> None:
+        self.is_closed = True
+
+
+seen: list[Seen] = []
+
+
+def test_the_web_view_shows_the_fall_and_tells_each_moment_once(
+    fallen: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
     recording = Recording.read(fallen[0])
-    addresses: list[str] = []
-    pages: list[int] = []
+    span = Span(FELL_AT - 0.3, FELL_AT + 0.1)
+    expected = [moment for moment in recording.moments if span.start <= moment.t <= span.end]
+    clock = count()  # each look at the clock is a frame of 0.04 s later
     told: list[Moment] = []
-
-    def ready(url: str) -> None:
-        addresses.append(url)
-        pages.append(urlopen(url, timeout=10).status)
-
-    play(
-        recording,
-        Span(0.0, 0.5),
-        0,
-        ready=ready,
-        tell=told.append,
-        goes_on=lambda: len(told) < 6,
+    monkeypatch.setattr(web, "WebView", Seen)
+    monkeypatch.setattr(
+        web, "time", SimpleNamespace(monotonic=lambda: next(clock) / 25, sleep=lambda _: None)
     )
-    assert pages == [200]
-    assert told == [moment for moment in recording.moments if moment.t <= 0.5][:6]
+    frames = iter(range(120))  # long enough to begin again
+    web.play(
+        recording,
+        span,
+        0,
+        ready=lambda url: None,
+        tell=told.append,
+        goes_on=lambda: next(frames, None) is not None,
+    )
+    (view,) = seen
+    assert told == expected
+    assert expected
+    assert view.is_closed
+    lowest = min(range(60), key=lambda frame: view.heights[frame])
+    assert view.heights[0] > view.heights[5] > view.heights[lowest]
+    assert max(view.heights[60:]) == pytest.approx(view.heights[0], abs=0.02)
+
+
+def test_the_command_serves_a_page_and_ctrl_c_ends_it(fallen: Any) -> None:
+    pytest.importorskip("mujoco.studio", reason="this MuJoCo is older than 4.0 and has no web viewer")
+    command = [Path(sys.executable).with_name("course"), "replay", fallen[0]]
+    with subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env={**os.environ, "COLUMNS": "200"},
+    ) as process:
+        assert process.stdout
+        said = []
+        for line in process.stdout:
+            said.append(line)
+            if line.startswith("view: "):
+                with urlopen(line.split()[1], timeout=10) as page:
+                    assert page.status == 200
+            if "failed: The robot stays upright" in line:
+                process.send_signal(signal.SIGINT)
+    assert process.returncode == 0, "".join(said)
+    assert any("goal “first”" in line for line in said)
 
 
 def test_the_command_writes_a_film_around_the_lost_point(fallen: Any, tmp_path: Path) -> None:
