@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+import random
 import shutil
 import signal
 import subprocess
@@ -275,6 +276,23 @@ def test_what_cannot_be_shown_is_refused_with_what_to_do(fallen: Any, tmp_path: 
         assert ran.exit_code == 2, (arguments, ran.output)
         assert words in " ".join(ran.output.split()), ran.output
     assert not film_file.exists()
+
+
+def test_a_damaged_file_is_read_or_refused_but_nothing_else(fallen: Any, tmp_path: Path) -> None:
+    whole = fallen[0].read_bytes()
+    path = tmp_path / "damaged.mcap"
+    refused = 0
+    for seed in range(60):
+        draw = random.Random(seed)
+        content = bytearray(whole)
+        for _ in range(draw.choice((1, 3, 30))):
+            content[draw.randrange(len(content))] = draw.randrange(256)
+        path.write_bytes(content[: draw.randrange(len(content))] if draw.random() < 0.3 else content)
+        try:
+            Recording.read(path)
+        except NoRecording as error:
+            refused += "is no recording of an arena, or a broken one" in str(error)
+    assert refused > 40
 
 
 def test_another_robot_is_refused(fallen: Any) -> None:
