@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,10 +21,17 @@ _OF_RCLPY = re.compile(r"\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[[\d.]+\] \[([^\]]*)
 
 @dataclass(frozen=True)
 class Judged:
-    """A verdict in the recording of a run; `elsewhere`: it was given on another run of the scenario."""
+    """A verdict in the recording of a run.
+
+    Attributes:
+        verdict: what the check found.
+        elsewhere: it was given on another run of the scenario.
+        beside: names of other scenarios that it was given on, too; its time is of one of them all.
+    """
 
     verdict: CheckVerdict
     elsewhere: bool = False
+    beside: Sequence[str] = ()
 
 
 def log_messages(transcript: Transcript, program: str) -> Iterator[Entry]:
@@ -63,11 +70,13 @@ def _printed(event: ev.NodeOutput, program: str) -> Any:
 
 def _sentence(judged: Judged) -> str:
     verdict = judged.verdict
-    parts = [f"{verdict.status}: {verdict.title} ({verdict.points:g}/{verdict.max_points})"]
+    parts = [f"{verdict.status}: {verdict.title} ({verdict.points:g}/{verdict.max_points}, {verdict.id})"]
     parts += [f"expected {verdict.expected}"] if verdict.expected else []
     parts += [f"observed {verdict.observed}"] if verdict.observed else []
     if verdict.status == "failed" and verdict.help:
         parts.append(verdict.help)
+    if judged.beside:
+        parts.append(f"judged on {', '.join(judged.beside)}, too, and the time may be of one of those")
     if judged.elsewhere:
         parts.append("judged on another run of this scenario, which is not this recording")
     return "; ".join(parts)

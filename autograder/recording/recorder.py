@@ -80,9 +80,7 @@ class Recorder:
     def _recording(self, scenario: Scenario, grade: Grade) -> bytes:
         run = self._runs[scenario]
         judged = [
-            Judged(
-                verdict, elsewhere=not any(run is other for other in self._judged_on.get(verdict.id, [run]))
-            )
+            self._judged(verdict, scenario, run)
             for verdict in grade.checks
             if verdict.id in self._checks and scenario in self._checks[verdict.id].on
         ]
@@ -99,6 +97,11 @@ class Recorder:
             shows_hidden_checks="yes" if self._shows_hidden else "no",
         )
         return mcap_file(self._entries(run, scenario, judged), about.to_metadata())
+
+    def _judged(self, verdict: CheckVerdict, scenario: Scenario, run: Transcript) -> Judged:
+        runs = self._judged_on.get(verdict.id, [run])
+        others = [other.name for other in self._checks[verdict.id].on if other is not scenario]
+        return Judged(verdict, elsewhere=not any(run is one for one in runs), beside=others)
 
     def _entries(self, run: Transcript, scenario: Scenario, judged: Sequence[Judged]) -> list[Entry]:
         interfaces = InterfaceMessages(scenario.namespace)

@@ -12,6 +12,7 @@ import pytest
 from falls import (
     FELL_AT,
     PUSH,
+    WALK,
     accepts,
     exercise,
     judged,
@@ -24,6 +25,7 @@ from falls import (
 from rosbags.highlevel import AnyReader
 
 from autograder.authoring import events as ev
+from autograder.authoring.failure import Failure
 from autograder.authoring.transcript import Transcript
 from autograder.engine.judging import judge
 from autograder.engine.verdict import Grade
@@ -174,6 +176,23 @@ def test_the_run_on_which_a_point_was_lost_is_kept_whatever_comes_after(tmp_path
         "accepts_again": True,
     }
     assert read(tmp_path, files["walk.mcap"])["/arena/events"][-1][0] == 3.0
+
+
+def test_a_verdict_on_two_scenarios_is_told_in_both_with_the_other_named(tmp_path: Path) -> None:
+    on_both = dataclasses.replace(stays_up, judge=fall_in_one_of_two, on=(WALK, PUSH))
+    runs = [walk(), walk()]
+    verdict = judged(on_both, *runs)
+    recorder = Recorder(exercise(on_both), for_students=True)
+    recorder.add(verdict, runs)
+    files = recorder.files(Grade("walk_to", "zoe", "namespaces", [verdict]))
+    for name, other in (("walk.mcap", "push_it"), ("push_it.mcap", "walk")):
+        lines = [line for _, _, line in read(tmp_path, files[name])["/rosout"] if line.function]
+        assert [line.level for line in lines] == [ERROR]
+        assert f"judged on {other}, too" in lines[0].msg
+
+
+def fall_in_one_of_two(first: Transcript, second: Transcript) -> None:
+    raise Failure(expected="two that stand", observed="a fall", help="Keep the motors on.", at=FELL_AT)
 
 
 def test_no_check_sees_whether_a_recording_was_asked_for() -> None:

@@ -131,9 +131,9 @@ def test_the_time_line_says_what_happened_in_order(fallen: Any) -> None:
         "accepted",
         "feedback of walk_to: distance_remaining=0.5",
         "walker: slow",
-        "failed: The robot stays upright (0/2)",
+        "failed: The robot stays upright (0/2, stays_up)",
         "result of “first”: ABORTED",
-        "passed: The goal is accepted (1/1)",
+        "passed: The goal is accepted (1/1, accepts)",
     ]
     places = [story.index(words) for words in wanted]
     assert places == sorted(places)
