@@ -112,6 +112,10 @@ def save_frames(
         rate: frames a second.
         last: s by which the last frame is shown longer.
     """
+    if kind == "GIF":  # by octree, so that the few letters in red stay red
+        frames = [
+            frame.quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE) for frame in frames
+        ]
     first, *others = frames
     durations = [round(1000 / rate)] * len(frames)
     durations[-1] += round(1000 * last)

@@ -243,6 +243,9 @@ def test_the_command_writes_a_film_around_the_lost_point(fallen: Any, tmp_path: 
     assert "from 1.2 to 1.6 s" in ran.output
     with Image.open(tmp_path / "film.gif") as moving:
         assert (moving.format, moving.n_frames) == ("GIF", 6)
+        moving.seek(5)
+        last = np.asarray(moving.convert("RGB")).astype(int)[-band_height() :]
+    assert ((last[:, :, 0] > 200) & (last[:, :, 2] < 150)).sum() > 40
 
 
 def test_what_cannot_be_shown_is_refused_with_what_to_do(fallen: Any, tmp_path: Path) -> None:
