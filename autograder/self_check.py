@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 
 from autograder.authoring.checks import Check
-from autograder.engine.exercise import file_names, load_exercise
+from autograder.engine.exercise import Exercise, file_names, load_exercise
 from autograder.engine.grading import grade
 from autograder.engine.submission import place_of_work, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.recording.kept import Recordings, keep
 from autograder.report.running import RunningLine
 from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict
 from ros_runtime.self_checks import keep_check
+
+if TYPE_CHECKING:
+    from autograder.recording.recorder import Recorder
 
 NOTEBOOK_WIDTH = 104  # characters; JupyterLab shows as many beside its file browser on 1280 pixels
 
@@ -52,29 +57,43 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
 
 
 def check_and_keep(
-    console: Console, path: Path, exercise: str, *, jobs: int = 2, arenas: SubmissionArenas | None = None
+    console: Console,
+    path: Path,
+    exercise: str,
+    *,
+    jobs: int = 2,
+    arenas: SubmissionArenas | None = None,
+    recordings: Path | None = None,
 ) -> Grade:
     """Check a student's file as `check_aloud` does, and keep how many checks passed for the page of progress.
 
     Raises `UnusableSubmission` and `UnknownExercise`.
     """
-    result = check_aloud(console, path, exercise, jobs=jobs, arenas=arenas)
+    result = check_aloud(console, path, exercise, jobs=jobs, arenas=arenas, recordings=recordings)
     if result.status == "graded":
         keep_check(exercise, sum(check.status == "passed" for check in result.checks), len(result.checks))
     return result
 
 
 def check_aloud(
-    console: Console, path: Path, exercise: str, *, jobs: int = 2, arenas: SubmissionArenas | None = None
+    console: Console,
+    path: Path,
+    exercise: str,
+    *,
+    jobs: int = 2,
+    arenas: SubmissionArenas | None = None,
+    recordings: Path | None = None,
 ) -> Grade:
     """Check a student's file with the visible checks; print each verdict as soon as it is known, then the table.
 
-    `arenas` are those of this submission, if one was opened ahead.
+    `arenas` are those of this submission, if one was opened ahead; `recordings` is a folder for recordings of the
+    scenarios, if they are wanted.
 
     Raises `UnusableSubmission` and `UnknownExercise`.
     """
     loaded = load_exercise(exercise, hidden=False)
     submission = read_submission(path, exercise)
+    recorder = _recorder(loaded) if recordings else None
     print_beginning(console, path, loaded)
     with RunningLine(console, in_notebook=Console().is_jupyter) as line:
 
@@ -95,10 +114,30 @@ def check_aloud(
             running=line.show,
             arenas=arenas,
             first_alone=True,
+            recorded=recorder is not None,
+            evidence=recorder.add if recorder else lambda verdict, transcripts: None,
         )
     console.print()
     console.print(grade_table(result))
+    if recordings and recorder:
+        _keep_recordings(console, recordings, recorder.files(result))
     return result
+
+
+def _recorder(exercise: Exercise) -> Recorder:
+    # imported when it is asked for, because the first verdict is waited for
+    from autograder.recording.recorder import Recorder
+
+    return Recorder(exercise, for_students=True)
+
+
+def _keep_recordings(console: Console, folder: Path, recordings: Recordings) -> None:
+    keep(folder, recordings)
+    console.print(
+        f"{len(recordings)} recordings in {folder}; look at one: ./course replay FILE", markup=False
+    )
+    for name in sorted(recordings):
+        console.print(f"  {folder / name}", style="dim", markup=False)
 
 
 def _console() -> Console:

@@ -25,6 +25,7 @@ PARTS = {
         "docs/for_instructors.md",
         "docs/grading.md",
         "docs/clusters.md",
+        "docs/recordings.md",
         "docs/write_an_exercise.md",
         "docs/coverage.md",
         "docs/architecture.md",

@@ -74,6 +74,9 @@ COMMANDS: dict[str, Command] = {
         "course_cli.commands.collect:collect", "Read submissions from what a platform lets you download."
     ),
     "grade": Command("course_cli.commands.grade:grade", "Grade a batch of submissions."),
+    "replay": Command(
+        "course_cli.commands.replay:replay", "Show a recorded arena: in the web view, as a film, as text."
+    ),
     "merge": Command("course_cli.commands.merge:merge", "Join the parts of a class that were graded apart."),
     "export": Command("course_cli.commands.export:export", "Write the grades for another platform."),
     "package": Command(

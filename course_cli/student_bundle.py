@@ -23,6 +23,7 @@ PARTS = (
     "ros_cli",
     "robot_sim",
     "lab",
+    "replay",
     "autograder",
     "course_cli",
     "chapters/*.ipynb",
@@ -32,6 +33,7 @@ PARTS = (
     "docs/cheat_sheet.md",
     "docs/glossary.md",
     "docs/images",
+    "docs/recordings.md",
     "docs/robot.md",
     "docs/ros2_commands.md",
 )

@@ -76,7 +76,7 @@ def _carry_out(
 ) -> None:
     simulator = None
     if spec.robot_options is not None:  # forked while this process has one thread
-        simulator = Simulator(log, robots, spec.namespace, spec.robot_options)
+        simulator = Simulator(log, robots, spec.namespace, spec.robot_options, postures=spec.recorded)
     student = Student(spec, log, clock, interpreter)
     try:
         if simulator:

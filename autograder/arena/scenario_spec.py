@@ -27,6 +27,7 @@ class ScenarioSpec:
         warm: an interpreter that waits may become the program.
         private_network: the arena has a network, and so all ROS domains, for itself.
         measured: record what each phase costs.
+        recorded: have the simulator report whole postures, for a film.
     """
 
     scenario_file: str
@@ -44,6 +45,7 @@ class ScenarioSpec:
     warm: bool
     private_network: bool
     measured: bool
+    recorded: bool
 
     def to_json(self) -> bytes:
         """Return it as it goes through a socket."""

@@ -24,7 +24,9 @@ class Simulator:
     Make it while this process has only one thread, then call `listen`.
     """
 
-    def __init__(self, log: ArenaLog, robots: Robots, namespace: str, options: Sequence[str]) -> None:
+    def __init__(
+        self, log: ArenaLog, robots: Robots, namespace: str, options: Sequence[str], *, postures: bool = False
+    ) -> None:
         truth_read, truth_write = os.pipe()
         control_read, self._control = os.pipe()
         self._log = log
@@ -35,6 +37,7 @@ class Simulator:
             str(truth_write),
             "--control-fd",
             str(control_read),
+            *(("--postures",) if postures else ()),
         )
         self.process = multiprocessing.get_context("fork").Process(
             target=_simulate, args=(robots, options, more)

@@ -13,6 +13,7 @@ from autograder.authoring import events as ev
 E = TypeVar("E")
 A = TypeVar("A", ev.GoalAnswered, ev.ResultReceived, ev.CancelAnswered, ev.ServiceAnswered)
 R = TypeVar("R", bound="Record")
+POSTURES = (ev.BodyDescribed, ev.PostureTruth)
 # What rclpy says beside a program's last words: of a task that it throws away at the end, and in its log.
 _ASIDE = re.compile(r"The following exception was never retrieved|\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[")
 
@@ -27,6 +28,8 @@ class Record:
         events: all events but the robot's samples.
         ground_truth: the simulator's state of the robot, at 50 Hz.
         scale: how much faster than real time the arena's clock ran.
+        postures: of the whole robot, if a recording was asked for; they are kept apart, so that no verdict can depend
+            on whether it was.
     """
 
     scenario: str
@@ -34,6 +37,7 @@ class Record:
     events: Sequence[Any]
     ground_truth: Sequence[ev.RobotTruth] = field(repr=False)
     scale: float = 1.0
+    postures: Sequence[ev.BodyDescribed | ev.PostureTruth] = field(default=(), repr=False)
 
     @classmethod
     def from_events(
@@ -41,11 +45,16 @@ class Record:
     ) -> R:
         """Put events in order of time, with the arena's start at 0 s."""
         ordered = sorted(events, key=lambda event: event.t)
-        origin = ordered[0].t if ordered else 0.0
-        shifted = [replace(event, t=event.t - origin) for event in ordered]
-        ground_truth = [event for event in shifted if isinstance(event, ev.RobotTruth)]
-        others = [event for event in shifted if not isinstance(event, ev.RobotTruth)]
-        return cls(scenario, dict(params), others, ground_truth, scale)
+        judged = [event for event in ordered if not isinstance(event, POSTURES)]
+        origin = judged[0].t if judged else 0.0
+        return cls(
+            scenario,
+            dict(params),
+            [_shifted(event, origin) for event in judged if not isinstance(event, ev.RobotTruth)],
+            [_shifted(event, origin) for event in judged if isinstance(event, ev.RobotTruth)],
+            scale,
+            [_shifted(event, origin) for event in ordered if isinstance(event, POSTURES)],
+        )
 
     def all(self, kind: type[E]) -> list[E]:
         """Return every event of one type, in order."""
@@ -101,3 +110,7 @@ class Record:
         if ended:
             return ended.t
         return self.events[-1].t if self.events else 0.0
+
+
+def _shifted(event: Any, origin: float) -> Any:
+    return replace(event, t=event.t - origin)

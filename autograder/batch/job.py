@@ -7,18 +7,24 @@ import socket
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
+from autograder.authoring.transcript import Transcript
 from autograder.batch.effort import Effort, utc_now
 from autograder.batch.special_grades import not_graded, with_reason
 from autograder.batch.version import checks_version
-from autograder.engine.exercise import FOLDER_VARIABLE, load_exercise
+from autograder.engine.exercise import FOLDER_VARIABLE, Exercise, load_exercise
 from autograder.engine.grading import Report, grade
 from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
 from autograder.engine.submission_arenas import SubmissionArenas
-from autograder.engine.verdict import Grade
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.availability import Isolation, available_isolation
+from autograder.recording.kept import Recordings
 from autograder.report.classroom.drawings import DrawnRuns, drawing_into
+
+if TYPE_CHECKING:
+    from autograder.recording.recorder import Recorder
 
 
 @dataclass(frozen=True)
@@ -32,6 +38,7 @@ class GradingJob:
         version: of the checks and the engine (`checks_version`) that the batch is graded with.
         arenas: how many of this submission run at a time.
         course: the folder of exercises, if it is not the clone's own.
+        recorded: make recordings of its scenarios.
     """
 
     student: str
@@ -42,6 +49,7 @@ class GradingJob:
     version: str
     arenas: int = 1
     course: str | None = None
+    recorded: bool = False
 
     @property
     def submission(self) -> Submission:
@@ -58,12 +66,14 @@ class Outcome:
         isolation: the label of what the worker had; "" if no worker answered.
         drawn: SVG of the runs that failed checks were judged on, by the check's id.
         effort: what it took; None if no worker answered.
+        recordings: MCAP files by name, if they were asked for.
     """
 
     grade: Grade
     isolation: str
     drawn: DrawnRuns = field(default_factory=dict)
     effort: Effort | None = None
+    recordings: Recordings = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -102,14 +112,22 @@ def carry_out(job: GradingJob, live: Live | None = None) -> Outcome:
 
 
 def _graded(job: GradingJob, isolation: Isolation, stop: Stop, report: Report) -> Outcome:
-    began, arenas = utc_now(), None
+    began, arenas, recorder = utc_now(), None, None
     drawn: dict[str, Sequence[str]] = {}
+    draw = drawing_into(drawn)
+
+    def keep_evidence(verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
+        draw(verdict, transcripts)
+        if recorder:
+            recorder.add(verdict, transcripts)
+
     try:
         if problem := _why_not_here(job, isolation):
             found = not_graded(job.exercise, job.student, isolation.label, problem)
         else:
             exercise = load_exercise(job.exercise, hidden=job.trusted)
             arenas = SubmissionArenas(exercise.scenario_file, isolation.kind)
+            recorder = _recorder(exercise) if job.recorded else None
             found = grade(
                 job.submission,
                 exercise,
@@ -117,7 +135,8 @@ def _graded(job: GradingJob, isolation: Isolation, stop: Stop, report: Report) -
                 jobs=job.arenas,
                 isolation=isolation,
                 report=report,
-                evidence=drawing_into(drawn),
+                evidence=keep_evidence,
+                recorded=job.recorded,
                 arenas=arenas,
                 stop=stop,
             )
@@ -126,7 +145,8 @@ def _graded(job: GradingJob, isolation: Isolation, stop: Stop, report: Report) -
     except Exception:  # whatever goes wrong here is the grader's fault and may not end the batch
         reason = f"the grader itself failed:\n{traceback.format_exc()}"
         found = not_graded(job.exercise, job.student, isolation.label, reason)
-    return Outcome(with_reason(found), isolation.label, drawn, _effort(began, arenas))
+    recordings = recorder.files(found) if recorder else {}
+    return Outcome(with_reason(found), isolation.label, drawn, _effort(began, arenas), recordings)
 
 
 def _effort(began: str, arenas: SubmissionArenas | None) -> Effort:
@@ -135,6 +155,12 @@ def _effort(began: str, arenas: SubmissionArenas | None) -> Effort:
         return Effort(began, utc_now(), here)
     used = arenas.used
     return Effort(began, utc_now(), here, round(used.processor_seconds, 2), used.arenas, used.scenarios)
+
+
+def _recorder(exercise: Exercise) -> Recorder:
+    from autograder.recording.recorder import Recorder  # what it imports, a grading does without
+
+    return Recorder(exercise, for_students=False)
 
 
 def _why_not_here(job: GradingJob, isolation: Isolation) -> str:

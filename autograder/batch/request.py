@@ -28,6 +28,7 @@ class BatchRequest:
         dask: address of a scheduler whose workers grade.
         json_file: gets all verdicts, too.
         watch: go on with what is handed in from now on.
+        record: keep an MCAP file of each scenario.
     """
 
     submitted: Path
@@ -42,6 +43,7 @@ class BatchRequest:
     dask: str | None = None
     json_file: Path | None = None
     watch: bool = False
+    record: bool = False
 
     def __post_init__(self) -> None:
         if self.shard and (self.students or self.exercises or self.json_file):

@@ -7,6 +7,7 @@ import threading
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence, Sized
 from dataclasses import dataclass
 from functools import lru_cache, partial
+from pathlib import Path
 
 from autograder.batch.cache import GradeCache, Known
 from autograder.batch.collection import Work
@@ -23,6 +24,7 @@ from autograder.engine.stop import Stop
 from autograder.engine.submission import UnusableSubmission
 from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation
+from autograder.recording.kept import keep
 from autograder.report.classroom.drawings import Drawings
 
 PATIENCE = 0.5  # s to wait for results before it is looked again for new submissions
@@ -57,6 +59,7 @@ class BatchRunner:
         report: gets each verdict as soon as it is known, on any thread; from other machines with the grade.
         running: gets the jobs that run in this process, whenever they change, on any thread.
         drawings: keeps those of failed checks.
+        recordings: folder in which they are kept, each in <student>/<exercise>/; None: none are made.
         workers: where the work is done; None: `jobs` threads of this process.
     """
 
@@ -71,6 +74,7 @@ class BatchRunner:
         report: Report = lambda verdict: None,
         running: Running = lambda jobs: None,
         drawings: Drawings | None = None,
+        recordings: Path | None = None,
         workers: Workers | None = None,
     ) -> None:
         self._cache = cache
@@ -81,6 +85,7 @@ class BatchRunner:
         self._report = report
         self._running = running
         self._drawings = drawings
+        self._recordings = recordings
         self._workers = workers
         self._stop = Stop()
         self._now_running: list[GradingJob] = []
@@ -157,6 +162,7 @@ class BatchRunner:
             checks_version(exercise.folder),
             arenas,
             os.environ.get(FOLDER_VARIABLE),
+            self._recordings is not None,
         )
 
     def _finish(
@@ -171,6 +177,8 @@ class BatchRunner:
                 self._cache.put(job.submission, self.exercise(job.exercise), job.seed, known)
             if self._drawings:
                 self._drawings.keep_all(outcome.grade, job.sources, outcome.drawn)
+            if self._recordings:
+                keep(self._recordings / job.student / job.exercise, outcome.recordings)
             finished.append(Graded(work, outcome.grade, job.sources, effort=outcome.effort))
             if self._workers and not self._workers.share_memory:
                 for verdict in outcome.grade.checks:

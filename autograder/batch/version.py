@@ -13,6 +13,7 @@ JUDGING = ("autograder", "robot_sim", "ros_runtime", "humanoid_interfaces")
 WITHOUT_INFLUENCE = (
     "batch",
     "nbgrader_bridge",
+    "recording",
     "report",
     "audit",
     "new_exercise",

@@ -37,6 +37,7 @@ class ArenaRun:
         kind: how the arena is isolated; None: as well as this machine can.
         cold: start the program in a new interpreter, as at home; otherwise a waiting one may become it.
         measured: record what each phase costs.
+        recorded: have the simulator report whole postures, for a film.
     """
 
     exercise: Exercise
@@ -47,6 +48,7 @@ class ArenaRun:
     kind: Kind | None = None
     cold: bool = True
     measured: bool = False
+    recorded: bool = False
 
 
 def run_in_arena(
@@ -99,6 +101,7 @@ def _specification(run: ArenaRun, params: dict[str, Any], scale: float, is_isola
         warm=not run.cold,
         private_network=is_isolated,
         measured=run.measured,
+        recorded=run.recorded,
     )
 
 

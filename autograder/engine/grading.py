@@ -49,6 +49,7 @@ def grade(
     evidence: Evidence = lambda verdict, transcripts: None,
     running: Running = lambda scenarios: None,
     arenas: SubmissionArenas | None = None,
+    recorded: bool = False,
     first_alone: bool = False,
     at_first_look: Collection[str] = (),
     stop: Stop | None = None,
@@ -67,6 +68,7 @@ def grade(
         evidence: gets the transcripts that a check was judged on.
         running: gets the scenarios that run, whenever they change.
         arenas: of this submission, if one was opened ahead; they are closed at the end.
+        recorded: have the transcripts hold whole postures of the robot, for recordings; no check sees them.
         first_alone: run nothing beside the first scenario, as somebody waits for the first verdict.
         at_first_look: the checks (ids) whose first failure counts, where no points can be lost: in an audit.
         stop: when it is set, the arenas are ended at once.
@@ -94,6 +96,7 @@ def grade(
         arenas,
         at_first_look,
         stop,
+        recorded,
     )
     return session.run(jobs, first_alone)
 
@@ -115,6 +118,7 @@ class _Session:
         arenas: SubmissionArenas,
         at_first_look: Collection[str],
         stop: Stop | None,
+        recorded: bool,
     ) -> None:
         self._submission = submission
         self._exercise = exercise
@@ -127,6 +131,7 @@ class _Session:
         self._running = running
         self._arenas = arenas
         self._at_first_look = at_first_look
+        self._recorded = recorded
         self._scenarios = list(dict.fromkeys(scenario for check in exercise.checks for scenario in check.on))
         self._visible = {scenario for check in exercise.checks if not check.hidden for scenario in check.on}
         self._stop = Stop(stop)
@@ -225,6 +230,7 @@ class _Session:
                 attempt_scale,
                 self._isolation.kind,
                 cold,
+                recorded=self._recorded,
             )
             try:
                 transcript = run_in_arena(run, self._stop, self._arenas)

@@ -18,7 +18,7 @@ from autograder.batch.shards import SHARD, write_shard
 from autograder.batch.source_files import write_base_code, write_sources
 from autograder.nbgrader_bridge.course_folder import RELEASE
 from autograder.report.classroom.pages import write_pages
-from course_cli.class_grading.output import enter_all, sources_of, tell_the_end
+from course_cli.class_grading.output import enter_all, sources_of, tell_of_recordings, tell_the_end
 from course_cli.class_grading.progress import BatchProgress
 from course_cli.class_grading.setting import Setting, prepared
 
@@ -44,6 +44,8 @@ def grade_once(console: Console, request: BatchRequest) -> bool:
         else:
             is_entered = _write_class(setting, collection, record, results)
     not_graded = tell_what_is_left(console, collection, results)
+    if request.record:
+        tell_of_recordings(console, request.out, results)
     if request.shard:
         console.print(
             f"{request.out / SHARD}; join all of them with `course merge`", style="dim", markup=False

@@ -12,6 +12,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from autograder.batch.records import GRADES
 from autograder.batch.runner import Graded
 from autograder.engine.verdict import Grade
+from autograder.recording.kept import FOLDER as RECORDINGS
 from autograder.report.class_table import class_table
 from course_cli.class_grading.entering import Entering
 
@@ -54,6 +55,23 @@ def tell_the_end(
     console.print(
         f"to look at them in nbgrader: cd {out} && {jupyter} lab, then Nbgrader > Formgrader", style="dim"
     )
+
+
+def tell_of_recordings(console: Console, out: Path, results: Sequence[Graded]) -> None:
+    """Say where the recordings are, and of which grades there are none."""
+    console.print(
+        f"recordings: {out / RECORDINGS}/<student>/<exercise>/<scenario>.mcap, hidden checks included; look at one: "
+        "./course replay FILE",
+        style="dim",
+        markup=False,
+    )
+    cached = sum(result.cached for result in results)
+    if cached:
+        console.print(
+            f"{cached} grades are from an earlier run, and nothing was recorded of them now; to record them, grade again "
+            "without --resume, with the --seed that batch.json names",
+            style="yellow",
+        )
 
 
 def _bar(console: Console) -> Progress:

@@ -25,6 +25,7 @@ from autograder.engine.exercise import exercises_folder
 from autograder.engine.exposure import require_hidden
 from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation, available_isolation
+from autograder.recording.kept import FOLDER as RECORDINGS
 from autograder.report.classroom.drawings import Drawings
 from course_cli.class_grading.progress import BatchProgress
 from ros_runtime.project import PROJECT
@@ -59,6 +60,7 @@ class Setting:
             report=progress.verdict,
             running=progress.running,
             drawings=Drawings(self.request.out),
+            recordings=self.request.out / RECORDINGS if self.request.record else None,
         )
 
 

@@ -34,6 +34,10 @@ def check(
         ),
     ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", help="write the verdicts to this file")] = None,
+    record: Annotated[
+        bool,
+        typer.Option("--record", help="keep an MCAP file of each scenario in recordings/EXERCISE/"),
+    ] = False,
     jobs: JobsOption = 2,
     course: CourseOption = None,
 ) -> None:
@@ -50,7 +54,8 @@ def check(
             # imported meanwhile, because the first verdict is waited for
             from autograder.self_check import check_and_keep
 
-            result = check_and_keep(console, path, exercise, jobs=jobs, arenas=arenas)
+            folder = Path("recordings") / exercise if record else None
+            result = check_and_keep(console, path, exercise, jobs=jobs, arenas=arenas, recordings=folder)
     except (UnknownExercise, UnusableExercise, UnusableSubmission) as error:
         raise ended(console, error, UNUSABLE) from error
     if json_file:

@@ -79,6 +79,12 @@ def grade(
             "--exercise", help="grade only this exercise; repeat it for several. Others keep their grades"
         ),
     ] = None,
+    record: Annotated[
+        bool,
+        typer.Option(
+            "--record", help="keep an MCAP file of each scenario in OUT/recordings (`course replay`)"
+        ),
+    ] = False,
     course: CourseOption = None,
 ) -> None:
     """Grade a batch of submissions."""
@@ -97,6 +103,7 @@ def grade(
             dask=dask,
             json_file=json_file,
             watch=watch is not None,
+            record=record,
         )
     except ValueError as error:  # of a shard, or of options that do not go together
         raise ended(console, error, UNUSABLE) from error

@@ -15,6 +15,7 @@ from autograder.batch.records import GRADES, write_grades
 from autograder.batch.shards import CannotMerge, Merged, merge_shards
 from autograder.batch.source_files import write_base_code, write_sources
 from autograder.nbgrader_bridge.course_folder import RELEASE
+from autograder.recording.kept import FOLDER as RECORDINGS
 from autograder.report.classroom.pages import write_pages
 from course_cli.class_grading.output import enter_all, sources_of, tell_the_end
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
@@ -61,6 +62,9 @@ def _write(console: Console, merged: Merged, folders: Sequence[Path], out: Path)
         batch=record.in_words() if record else None,
     )
     tell_the_end(console, grades, unentered, out, page)
+    if recorded := [folder / RECORDINGS for folder in folders if (folder / RECORDINGS).is_dir()]:
+        places = ", ".join(map(str, recorded))
+        console.print(f"recordings are not merged; they stay in {places}", style="dim", markup=False)
     for line in merged.missing:
         console.print(f"missing: {line}", style="red", markup=False)
     not_graded = sum(grade.status == "not graded" for grade in grades)

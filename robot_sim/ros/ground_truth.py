@@ -10,6 +10,7 @@ import numpy as np
 
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.side import Side
+from robot_sim.ros.posture import PostureReader
 from ros_runtime.record.event import Event, to_line
 from ros_runtime.record.ground_truth import (
     ArmReported,
@@ -29,6 +30,8 @@ from ros_runtime.record.ground_truth import (
 )
 
 GROUND_TRUTH_RATE = 50.0  # Hz, simulated
+STATES_A_POSTURE = 2  # states of the robot for one posture, where postures are asked for: 25 Hz
+MOST_POSTURES = 5000  # 200 s, longer than any scenario
 MOST_POWER_MESSAGES = 100  # that are written; a flood of them is no news
 DIGITS = 4  # behind the point, of joints, hands and objects: 0.1 mrad or mm, and records stay small
 
@@ -43,6 +46,8 @@ class GroundTruthWriter:
         self._feet_are_reported = False
         self._reported_hands: list[Side] = []
         self._reported_objects: list[str] = []
+        self._posture: PostureReader | None = None
+        self._states = 0
 
     def ready(self) -> None:
         """Write that the robot stands and its topics exist."""
@@ -72,6 +77,10 @@ class GroundTruthWriter:
                 battery=float(humanoid.battery.percentage),
             )
         )
+        if self._posture and self._states < STATES_A_POSTURE * MOST_POSTURES:
+            if self._states % STATES_A_POSTURE == 0:
+                self._write(self._posture.read())
+            self._states += 1
         if self._reported_joints:
             self._joints(humanoid)
         if self._feet_are_reported:
@@ -80,6 +89,11 @@ class GroundTruthWriter:
             self._hand(humanoid, side)
         for name in self._reported_objects:
             self._object(humanoid, name)
+
+    def report_postures(self, humanoid: Humanoid) -> None:
+        """Write where all of the robot is with every second of its states from now on, for a recording."""
+        self._posture = PostureReader(humanoid)
+        self._write(self._posture.description)
 
     def report_joints(self, humanoid: Humanoid, names: Sequence[str]) -> None:
         """Write where these joints are, now and with each state of the robot from now on."""

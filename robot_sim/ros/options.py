@@ -22,6 +22,7 @@ class RobotOptions:
         ground_truth_fd, control_fd: descriptors of the arena's pipes; with control_fd the robot is graded and /sim is
             absent.
         battery_sensor_unplugged, joint_sensors_unplugged, robot_state_unpublished: faults at the start.
+        postures: write the whole posture to the ground truth, too, for a recording.
         may_rest: physics is not integrated while the robot stands still without a command.
     """
 
@@ -38,6 +39,7 @@ class RobotOptions:
     battery_sensor_unplugged: bool = False
     joint_sensors_unplugged: bool = False
     robot_state_unpublished: bool = False
+    postures: bool = False
     may_rest: bool = False
 
 
@@ -72,6 +74,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--battery-sensor-unplugged", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--joint-sensors-unplugged", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--robot-state-unpublished", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--postures", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--may-rest", action="store_true", help=argparse.SUPPRESS)
     return parser
 

@@ -73,8 +73,10 @@ def serve_robot(
     if options.robot:
         return _show_other_robot(options.robot, options.port, goes_on)
     ground_truth = GroundTruthWriter(options.ground_truth_fd) if options.ground_truth_fd is not None else None
-    control = ScenarioControl(options.control_fd) if options.control_fd is not None else None
     humanoid = humanoid or build_humanoid(options)
+    if ground_truth and options.postures:
+        ground_truth.report_postures(humanoid)
+    control = ScenarioControl(options.control_fd) if options.control_fd is not None else None
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     node = HumanoidNode(humanoid, options.namespace, ground_truth)
     node.battery_sensor_connected = not options.battery_sensor_unplugged

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, Literal
 
 from PIL import Image
 
@@ -88,18 +88,36 @@ class Reel:
         """
         if not self._frames:
             raise ValueError("there are no frames to save; add() some first")
-        first, *others = self._frames
-        first.save(
-            file,
-            "WEBP",
-            save_all=True,
-            append_images=others,
-            duration=round(1000 / self._rate),
-            loop=0,
-            quality=QUALITY,
-            method=2,
-        )
+        save_frames(file, self._frames, "WEBP", self._rate)
 
     def close(self) -> None:
         """Free the OpenGL context."""
         self._view.close()
+
+
+def save_frames(
+    file: Path | str | BinaryIO,
+    frames: Sequence[Image.Image],
+    kind: Literal["WEBP", "GIF"],
+    rate: float,
+    *,
+    last: float = 0.0,
+) -> None:
+    """Write frames as a moving picture that plays again and again.
+
+    Args:
+        file: where to.
+        frames: at least one.
+        kind: "WEBP", or the larger and coarser "GIF", which older programs play, too.
+        rate: frames a second.
+        last: s by which the last frame is shown longer.
+    """
+    if kind == "GIF":  # by octree, so that the few letters in red stay red
+        frames = [
+            frame.quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE) for frame in frames
+        ]
+    first, *others = frames
+    durations = [round(1000 / rate)] * len(frames)
+    durations[-1] += round(1000 * last)
+    options = {"quality": QUALITY, "method": 2} if kind == "WEBP" else {"optimize": False, "disposal": 1}
+    first.save(file, kind, save_all=True, append_images=others, duration=durations, loop=0, **options)

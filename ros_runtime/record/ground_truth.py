@@ -37,6 +37,33 @@ class RobotTruth(Event):
 
 
 @dataclass(frozen=True, kw_only=True)
+class BodyDescribed(Event):
+    """What the postures of this robot are made of, where a recording is asked for.
+
+    `scene` is robot_sim's; `joints` and `objects` name what a PostureTruth places, in its order.
+    """
+
+    scene: str
+    joints: list[str]
+    objects: list[str]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PostureTruth(Event):
+    """Where every part of the robot is (25 Hz), where a recording is asked for: it is for films, no check sees it.
+
+    `base` is base_link in odom, as each of `objects` is: position (m) and quaternion (x, y, z, w); `twist` is in
+    base_link, linear m/s and angular rad/s; `positions` and `velocities` are of the joints, rad (fingers: m).
+    """
+
+    base: list[float]
+    twist: list[float]
+    positions: list[float]
+    velocities: list[float]
+    objects: list[list[float]]
+
+
+@dataclass(frozen=True, kw_only=True)
 class BatteryPublished(Event):
     """What the robot published on battery_state: percentage 0..1, voltage V, current A (negative: discharging)."""
 

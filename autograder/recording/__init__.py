@@ -1,0 +1,1 @@
+"""Judged transcripts as MCAP files, which Foxglove, PlotJuggler and `course replay` open."""

@@ -1,0 +1,96 @@
+"""The definition of a message type as MCAP files carry it: the .msg text of the type and of all types it is made of.
+
+It is made from the generated classes, because an action's feedback message and a service's event have no .msg file.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from functools import cache
+from typing import Any
+
+from autograder.recording.transforms import TF_TYPE, TFMessage
+from ros_runtime.messages import message_type
+
+_SEPARATOR = "=" * 80
+_NAMES = {"boolean": "bool", "double": "float64", "float": "float32", "octet": "byte"}  # IDL's → .msg's
+_SEQUENCE = re.compile(r"sequence<(.+?)(?:, (\d+))?>")
+_ARRAY = re.compile(r"(.+)\[(\d+)\]")
+_BOUNDED_TEXT = re.compile(r"(w?string)<(\d+)>")
+_IN_IMPL = ("FeedbackMessage", "SendGoal", "GetResult")  # what rclpy keeps in an action's `Impl`
+
+
+@cache
+def definition(type_name: str) -> str:
+    """Return the definition of a type such as 'nav_msgs/msg/Odometry', for MCAP's encoding "ros2msg".
+
+    Raises:
+        ValueError: there is no such type.
+    """
+    fields = _fields(type_name)
+    texts = [_text(fields)]
+    told: set[str] = set()
+    open_types = list(_nested(fields, type_name))
+    while open_types:
+        name = open_types.pop(0)
+        if name in told:
+            continue
+        told.add(name)
+        fields = _fields(name)
+        package, _, short = name.split("/")
+        texts.append(f"{_SEPARATOR}\nMSG: {package}/{short}\n{_text(fields)}")
+        open_types += _nested(fields, name)
+    return "\n".join(texts)
+
+
+def class_of(type_name: str) -> Any:
+    """Return the generated class of a type, also of those that a service or an action is made of.
+
+    Raises:
+        ValueError: there is no such type.
+    """
+    if type_name == TF_TYPE:
+        return TFMessage
+    package, _, rest = type_name.partition("/")
+    kind, _, name = rest.partition("/")
+    interface, _, part = name.partition("_")
+    if kind == "msg" or not part:
+        return message_type(type_name)
+    found: Any = message_type(f"{package}/{kind}/{interface}")
+    try:
+        if part.startswith(_IN_IMPL):
+            inner, _, last = part.partition("_")
+            found = getattr(found.Impl, inner if inner == "FeedbackMessage" else f"{inner}Service")
+            return getattr(found, last) if last else found
+        return getattr(found, part)
+    except AttributeError as error:
+        raise ValueError(f"there is no message type {type_name[:100]!r}: {error}") from error
+
+
+def _fields(type_name: str) -> Mapping[str, str]:
+    return class_of(type_name).get_fields_and_field_types()
+
+
+def _text(fields: Mapping[str, str]) -> str:
+    return "\n".join(f"{_type_text(declared)} {name}" for name, declared in fields.items())
+
+
+def _type_text(declared: str) -> str:
+    if match := _SEQUENCE.fullmatch(declared):
+        return f"{_type_text(match[1])}[{f'<={match[2]}' if match[2] else ''}]"
+    if match := _ARRAY.fullmatch(declared):
+        return f"{_type_text(match[1])}[{match[2]}]"
+    if match := _BOUNDED_TEXT.fullmatch(declared):
+        return f"{match[1]}<={match[2]}"
+    return _NAMES.get(declared, declared)
+
+
+def _nested(fields: Mapping[str, str], of: str) -> Iterator[str]:
+    """Name the types of the fields that are no primitives, with the part in the middle: 'std_msgs/msg/Header'."""
+    _, kind, _ = of.split("/")
+    for declared in fields.values():
+        plain = _type_text(declared).split("[")[0]
+        if "/" in plain:
+            package, name = plain.split("/")
+            yield f"{package}/{kind if '_' in name else 'msg'}/{name}"

@@ -1,0 +1,82 @@
+"""One message of a recording, and what is known of the recording as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from builtin_interfaces.msg import Time
+
+FORMAT = (
+    "1"  # of the metadata and channels; raised when `course replay` could no longer read what it wrote before
+)
+METADATA = "course_recording"
+
+EVENTS = "/arena/events"  # what happened, in words (rcl_interfaces/Log)
+ROSOUT = "/rosout"  # what the program printed, and the verdicts (rcl_interfaces/Log)
+CHECKS = "course.checks"  # name of the "logger" of verdicts
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A message on a topic.
+
+    Attributes:
+        t: s on the arena's clock, since the arena's start.
+        topic: its full name.
+        message: a ROS message.
+        essential: it is kept whatever the student's program sends: what the robot did, and the verdicts.
+    """
+
+    t: float
+    topic: str
+    message: Any
+    essential: bool = False
+
+
+@dataclass(frozen=True)
+class About:
+    """What a recording is of.
+
+    Attributes:
+        exercise, student, scenario: which run.
+        namespace: of robot and student.
+        params: the scenario's inputs.
+        seed: drew them.
+        scale: how much faster than real time the arena's clock ran.
+        end: s on that clock.
+        scene: of the robot; "": there was none.
+        shows_hidden_checks: it is not for students.
+    """
+
+    exercise: str
+    student: str
+    scenario: str
+    namespace: str
+    params: str
+    seed: str
+    scale: str
+    end: str
+    scene: str
+    shows_hidden_checks: str
+
+    def to_metadata(self) -> Mapping[str, str]:
+        """Return it as a metadata record of MCAP has it."""
+        return {"format": FORMAT, **vars(self)}
+
+
+def stamp(t: float) -> Time:
+    """Return a time on the arena's clock as a ROS message."""
+    nanoseconds = as_nanoseconds(t)
+    return Time(sec=nanoseconds // 10**9, nanosec=nanoseconds % 10**9)
+
+
+def as_nanoseconds(t: float) -> int:
+    """Return a time on the arena's clock as MCAP has it; a recording begins at 0."""
+    return min(max(0, round(t * 1e9)), 2**31 * 10**9 - 1)
+
+
+def full_name(namespace: str, name: str) -> str:
+    """Return the full name of a topic, service or action of a node in a namespace."""
+    return name if name.startswith("/") else f"{namespace.rstrip('/')}/{name}"

@@ -1,0 +1,87 @@
+"""Lines of logs (rcl_interfaces/Log): what happened, what the program printed, and every verdict at its time."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from rcl_interfaces.msg import Log
+
+from autograder.authoring import events as ev
+from autograder.authoring.transcript import Transcript
+from autograder.engine.verdict import CheckVerdict
+from autograder.recording.entry import CHECKS, EVENTS, ROSOUT, Entry, stamp
+from autograder.recording.narration import narrated
+
+LEVELS = {"DEBUG": Log.DEBUG, "INFO": Log.INFO, "WARN": Log.WARN, "ERROR": Log.ERROR, "FATAL": Log.FATAL}
+_OF_RCLPY = re.compile(r"\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[[\d.]+\] \[([^\]]*)\]: (.*)", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A verdict in the recording of a run.
+
+    Attributes:
+        verdict: what the check found.
+        elsewhere: it was given on another run of the scenario.
+        beside: names of other scenarios that it was given on, too; its time is of one of them all.
+    """
+
+    verdict: CheckVerdict
+    elsewhere: bool = False
+    beside: Sequence[str] = ()
+
+
+def log_messages(transcript: Transcript, program: str) -> Iterator[Entry]:
+    """Yield what happened (/arena/events) and what the program printed (/rosout)."""
+    for event in transcript.events:
+        if isinstance(event, ev.NodeOutput):
+            yield Entry(event.t, ROSOUT, _printed(event, program))
+        elif told := narrated(event):
+            yield Entry(event.t, EVENTS, log(event.t, told[0], "arena", told[1]))
+
+
+def verdict_messages(judged: Iterable[Judged], end: float) -> Iterator[Entry]:
+    """Yield each verdict: a failed check as an ERROR at its time, a passed one as INFO, one not made as WARN.
+
+    One that has no time, or was given on another run, is told at the end (s).
+    """
+    for each in judged:
+        verdict = each.verdict
+        at = end if verdict.robot_time is None or each.elsewhere else min(max(verdict.robot_time, 0.0), end)
+        level = {"failed": Log.ERROR, "passed": Log.INFO}.get(verdict.status, Log.WARN)
+        message = log(at, level, CHECKS, _sentence(each), function=verdict.id)
+        yield Entry(at, ROSOUT, message, essential=True)
+
+
+def log(t: float, level: int, name: str, text: str, function: str = "") -> Log:
+    """Return a line of a log."""
+    return Log(stamp=stamp(t), level=level, name=_text(name), msg=_text(text), function=_text(function))
+
+
+def _printed(event: ev.NodeOutput, program: str) -> Any:
+    """Return a line of output: with rclpy's own level and logger where it wrote them, else stderr as WARN."""
+    if match := _OF_RCLPY.fullmatch(event.text):
+        return log(event.t, LEVELS[match[1]], match[2], match[3])
+    return log(event.t, Log.INFO if event.stream == "stdout" else Log.WARN, program, event.text)
+
+
+def _sentence(judged: Judged) -> str:
+    verdict = judged.verdict
+    parts = [f"{verdict.status}: {verdict.title} ({verdict.points:g}/{verdict.max_points}, {verdict.id})"]
+    parts += [f"expected {verdict.expected}"] if verdict.expected else []
+    parts += [f"observed {verdict.observed}"] if verdict.observed else []
+    if verdict.status == "failed" and verdict.help:
+        parts.append(verdict.help)
+    if judged.beside:
+        parts.append(f"judged on {', '.join(judged.beside)}, too, and the time may be of one of those")
+    if judged.elsewhere:
+        parts.append("judged on another run of this scenario, which is not this recording")
+    return "; ".join(parts)
+
+
+def _text(text: str) -> str:
+    """Return text that UTF-8 and C strings can hold."""
+    return text.encode("utf-8", "replace").decode().replace("\0", "␀")

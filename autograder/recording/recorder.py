@@ -1,0 +1,124 @@
+"""Collects what the checks of one submission were judged on, and makes a recording of each scenario."""
+
+from __future__ import annotations
+
+import json
+import logging
+from collections import Counter
+from collections.abc import Sequence
+
+from autograder.authoring.checks import Scenario
+from autograder.authoring.transcript import Transcript
+from autograder.engine.exercise import Exercise
+from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.recording.entry import About, Entry
+from autograder.recording.interface_messages import InterfaceMessages
+from autograder.recording.kept import Recordings
+from autograder.recording.log_messages import Judged, log_messages, verdict_messages
+from autograder.recording.mcap_file import mcap_file
+from autograder.recording.robot_messages import robot_messages, scene_of
+
+MOST_OF_A_SUBMISSION = 64 * 2**20  # bytes of all its recordings
+
+
+class Recorder:
+    """Gets each verdict with the runs it was given on; makes one recording of each scenario.
+
+    A scenario may have run more than once. The recording is of the run on which a point was lost, if one was, else of
+    the last one a verdict was given on.
+
+    Args:
+        exercise: with the checks that are made.
+        for_students: keep scenarios of visible checks only, and tell the visible verdicts only.
+    """
+
+    def __init__(self, exercise: Exercise, *, for_students: bool) -> None:
+        self._exercise = exercise
+        self._checks = {check.id: check for check in exercise.checks if not (for_students and check.hidden)}
+        self._shows_hidden = any(check.hidden for check in self._checks.values())
+        self._runs: dict[Scenario, Transcript] = {}
+        self._lost: set[Scenario] = set()  # whose run is one on which a point was lost
+        self._judged_on: dict[str, Sequence[Transcript]] = {}
+
+    def add(self, verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
+        """Take a verdict and the transcripts it was given on, one for each scenario of the check."""
+        check = self._checks.get(verdict.id)
+        if check is None:
+            return
+        self._judged_on[verdict.id] = transcripts
+        is_lost = verdict.status != "passed"
+        for scenario, transcript in zip(check.on, transcripts, strict=True):
+            if is_lost or scenario not in self._lost:
+                self._runs[scenario] = transcript
+            if is_lost:
+                self._lost.add(scenario)
+
+    def files(self, grade: Grade) -> Recordings:
+        """Make the recordings; those with a lost point come first, should all together be too large.
+
+        One that cannot be made is left out, and logged: it may cost nobody a grade.
+        """
+        names = self._names()
+        made: dict[str, bytes] = {}
+        size = 0
+        for scenario in sorted(self._runs, key=lambda scenario: scenario not in self._lost):
+            name = f"{names[scenario]}.mcap"
+            try:
+                content = self._recording(scenario, grade)
+            except Exception:
+                logging.getLogger(__name__).exception("no recording %s", name)
+                continue
+            if size + len(content) > MOST_OF_A_SUBMISSION:
+                logging.getLogger(__name__).warning(
+                    "no recording %s: those of one submission are too large", name
+                )
+                continue
+            size += len(content)
+            made[name] = content
+        return made
+
+    def _recording(self, scenario: Scenario, grade: Grade) -> bytes:
+        run = self._runs[scenario]
+        judged = [
+            self._judged(verdict, scenario, run)
+            for verdict in grade.checks
+            if verdict.id in self._checks and scenario in self._checks[verdict.id].on
+        ]
+        about = About(
+            exercise=grade.exercise,
+            student=grade.student,
+            scenario=scenario.name,
+            namespace=scenario.namespace,
+            params=json.dumps(run.params),
+            seed=str(grade.seed),
+            scale=f"{run.scale:g}",
+            end=f"{run.end:.6f}",
+            scene=scene_of(run),
+            shows_hidden_checks="yes" if self._shows_hidden else "no",
+        )
+        return mcap_file(self._entries(run, scenario, judged), about.to_metadata())
+
+    def _judged(self, verdict: CheckVerdict, scenario: Scenario, run: Transcript) -> Judged:
+        runs = self._judged_on.get(verdict.id, [run])
+        others = [other.name for other in self._checks[verdict.id].on if other is not scenario]
+        return Judged(verdict, elsewhere=not any(run is one for one in runs), beside=others)
+
+    def _entries(self, run: Transcript, scenario: Scenario, judged: Sequence[Judged]) -> list[Entry]:
+        interfaces = InterfaceMessages(scenario.namespace)
+        return [
+            *robot_messages(run, scenario.namespace),
+            *(entry for event in run.events for entry in interfaces.of(event)),
+            *log_messages(run, self._exercise.name),
+            *verdict_messages(judged, run.end),
+        ]
+
+    def _names(self) -> dict[Scenario, str]:
+        """Name the scenarios of the exercise; those after the first of a name get a number: walk, walk-2."""
+        seen: Counter[str] = Counter()
+        names: dict[Scenario, str] = {}
+        for scenario in (scenario for check in self._exercise.checks for scenario in check.on):
+            if scenario not in names:
+                seen[scenario.name] += 1
+                number = seen[scenario.name]
+                names[scenario] = scenario.name if number == 1 else f"{scenario.name}-{number}"
+        return names

@@ -1,0 +1,99 @@
+"""What the robot did, from the simulator's word: postures at 25 Hz, its mode and its battery when they change."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from geometry_msgs.msg import Pose, PoseStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import BatteryState, JointState
+from std_msgs.msg import Header
+
+from autograder.authoring import events as ev
+from autograder.authoring.transcript import Transcript
+from autograder.recording.entry import Entry, full_name, stamp
+from autograder.recording.transforms import TF, transforms
+from humanoid_interfaces.msg import RobotState
+
+
+def robot_messages(transcript: Transcript, namespace: str) -> Iterator[Entry]:
+    """Yield odom, joint_states, objects' poses and tf (where there are postures), robot_state and battery_state."""
+    yield from _postures(transcript, namespace)
+    yield from _states(transcript, full_name(namespace, "robot_state"))
+    for event in transcript.all(ev.BatteryPublished):
+        message = BatteryState(
+            header=Header(stamp=stamp(event.t)),
+            voltage=event.voltage,
+            current=event.current,
+            percentage=event.percentage,
+            present=True,
+        )
+        yield Entry(event.t, full_name(namespace, "battery_state"), message, essential=True)
+
+
+def scene_of(transcript: Transcript) -> str:
+    """Return the scene of the robot, or "" if the record holds no postures."""
+    return next((event.scene for event in transcript.postures if isinstance(event, ev.BodyDescribed)), "")
+
+
+def _postures(transcript: Transcript, namespace: str) -> Iterator[Entry]:
+    body: ev.BodyDescribed | None = None
+    for event in transcript.postures:
+        if isinstance(event, ev.BodyDescribed):
+            body = event
+        elif body and len(event.base) == 7 and len(event.twist) == 6:
+            for name, message in _messages(event, body):
+                topic = name if name == TF else full_name(namespace, name)
+                yield Entry(event.t, topic, message, essential=True)
+
+
+def _messages(posture: ev.PostureTruth, body: ev.BodyDescribed) -> Iterator[tuple[str, Any]]:
+    at = stamp(posture.t)
+    odom = Header(stamp=at, frame_id="odom")
+    odometry = Odometry(header=odom, child_frame_id="base_link")
+    odometry.pose.pose = _pose(posture.base)
+    _set_xyz(odometry.twist.twist.linear, posture.twist[:3])
+    _set_xyz(odometry.twist.twist.angular, posture.twist[3:])
+    yield "odom", odometry
+    yield (
+        "joint_states",
+        JointState(
+            header=Header(stamp=at),
+            name=body.joints,
+            position=posture.positions,
+            velocity=posture.velocities,
+        ),
+    )
+    frames = {"base_link": posture.base}
+    for name, place in zip(body.objects, posture.objects, strict=False):
+        frames[name] = place
+        yield f"objects/{name}/pose", PoseStamped(header=odom, pose=_pose(place))
+    yield TF, transforms(at, "odom", frames)
+
+
+def _states(transcript: Transcript, topic: str) -> Iterator[Entry]:
+    last: tuple[int, bool, int] | None = None
+    for robot in transcript.ground_truth:
+        state = robot.mode, robot.motors_enabled, robot.steps
+        if state != last:
+            last = state
+            message = RobotState(
+                header=Header(stamp=stamp(robot.t)),
+                mode=robot.mode,
+                motors_enabled=robot.motors_enabled,
+                steps=robot.steps,
+            )
+            yield Entry(robot.t, topic, message, essential=True)
+
+
+def _pose(place: Sequence[float]) -> Pose:
+    pose = Pose()
+    _set_xyz(pose.position, place[:3])
+    _set_xyz(pose.orientation, place[3:6])
+    pose.orientation.w = float(place[6])
+    return pose
+
+
+def _set_xyz(vector: Any, numbers: Sequence[float]) -> None:
+    vector.x, vector.y, vector.z = map(float, numbers)

@@ -1,0 +1,80 @@
+"""`course replay`: a recorded arena again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from replay.film import film, require_known_format
+from replay.recording import NoRecording, Recording
+from replay.span import Span, require_postures, span_of
+from replay.text import line, time_line, title
+from ros_runtime.workarounds.gl_backend import NoOpenGLError
+
+
+def replay(
+    file: Annotated[
+        Path, typer.Argument(help="what `check --record` or `grade --record` wrote, an .mcap file")
+    ],
+    film_file: Annotated[
+        Path | None, typer.Option("--film", metavar="OUT", help="write a film, .webp or .gif, and end")
+    ] = None,
+    text: Annotated[bool, typer.Option("--text", help="print what happened when, and end")] = False,
+    around: Annotated[
+        str | None,
+        typer.Option(
+            metavar="CHECK",
+            help="show the seconds around the verdict of this check (default: the first that failed, else all)",
+        ),
+    ] = None,
+    seconds: Annotated[
+        float | None, typer.Option(help="how many seconds to show (around a check: 6)")
+    ] = None,
+    camera: Annotated[str, typer.Option(help="of the film: track, side or front")] = "track",
+    port: Annotated[int, typer.Option(help="of the web view (default: the first free from 8080 on)")] = 0,
+) -> None:
+    """Show a recorded arena: in the web view, as a film, or as text."""
+    console = Console(highlight=False)
+    try:
+        if film_file:
+            require_known_format(film_file)
+        recording = Recording.read(file)
+        span = span_of(recording, around, seconds)
+        console.print(title(recording), markup=False)
+        if text:
+            for each in time_line(recording):
+                console.print(each)
+            return
+        require_postures(recording)
+        console.print(f"from {span.start:.1f} to {span.end:.1f} s", style="dim")
+        if film_file:
+            frames = film(recording, span, film_file, camera=camera)
+            console.print(f"{film_file}: {frames} frames", markup=False)
+            return
+        _in_the_browser(console, recording, span, port)
+    except (NoRecording, ValueError) as error:
+        raise ended(console, error, UNUSABLE) from error
+    except (NoOpenGLError, OSError) as error:
+        raise ended(console, error, COULD_NOT) from error
+
+
+def _in_the_browser(console: Console, recording: Recording, span: Span, port: int) -> None:
+    from replay.web import play
+
+    try:
+        play(
+            recording,
+            span,
+            port,
+            ready=lambda url: console.print(f"view: {url}   (Ctrl-C ends it)", markup=False),
+            tell=lambda moment: console.print(line(moment)),
+        )
+    except ImportError as error:
+        reason = "the web view needs MuJoCo 4, which needs Python 3.11 or newer; use --film or --text"
+        raise ended(console, NoRecording(reason), COULD_NOT) from error
+    except KeyboardInterrupt:
+        return

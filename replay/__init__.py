@@ -1,0 +1,1 @@
+"""A recorded arena again: as text, as a film, in the web view."""

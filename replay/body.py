@@ -1,0 +1,61 @@
+"""The robot in a recorded posture."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+
+import mujoco
+import numpy as np
+
+from replay.recording import NoRecording, Posture, Recording
+from robot_sim.humanoid import Humanoid
+from robot_sim.model.scenes import SCENES
+
+
+class RecordedBody:
+    """A humanoid that takes the postures of a recording.
+
+    Raises:
+        NoRecording: the recorded robot is another one.
+    """
+
+    def __init__(self, recording: Recording) -> None:
+        scene = recording.about["scene"]
+        if scene not in SCENES:
+            raise NoRecording(f"{recording.path} has the scene {scene[:40]!r}; there are {', '.join(SCENES)}")
+        self.humanoid = Humanoid(scene)
+        model = self.humanoid.model
+        known = {model.joint(index).name for index in range(model.njnt)}
+        if other := sorted({*recording.joints, *recording.postures[0].objects} - known):
+            raise NoRecording(
+                f"{recording.path} was made with another robot: this one has no joint {other[0][:40]!r}; show it with "
+                "the version that made it"
+            )
+        self._places = np.array([model.joint(name).qposadr[0] for name in recording.joints], dtype=int)
+        self._postures = recording.postures
+        self._times = [posture.t for posture in recording.postures]
+
+    def show(self, t: float) -> None:
+        """Take the posture at a time (s); between two it is interpolated."""
+        after = bisect_right(self._times, t)
+        later = self._postures[min(after, len(self._postures) - 1)]
+        earlier = self._postures[max(after - 1, 0)]
+        gap = later.t - earlier.t
+        self._take(earlier, later, min(max((t - earlier.t) / gap, 0.0), 1.0) if gap > 0 else 0.0)
+
+    def _take(self, earlier: Posture, later: Posture, share: float) -> None:
+        data = self.humanoid.data
+        data.qpos[:7] = _between(earlier.base, later.base, share)
+        data.qpos[self._places] = (1 - share) * np.array(earlier.joints) + share * np.array(later.joints)
+        for name, place in earlier.objects.items():
+            data.joint(name).qpos[:] = _between(place, later.objects.get(name, place), share)
+        mujoco.mj_forward(self.humanoid.model, data)  # which also makes the quaternions units again
+
+
+def _between(earlier: object, later: object, share: float) -> np.ndarray:
+    """Return a pose between two, as MuJoCo has it: the w of the quaternion comes first."""
+    first, second = np.array(earlier, dtype=float), np.array(later, dtype=float)
+    if np.dot(first[3:], second[3:]) < 0:  # the same rotation, from the other side
+        second[3:] *= -1
+    pose = (1 - share) * first + share * second
+    return pose[[0, 1, 2, 6, 3, 4, 5]]

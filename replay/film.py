@@ -1,0 +1,65 @@
+"""A recorded arena as a film, with goals, feedback and verdicts below the picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Literal
+
+from PIL import Image
+
+from replay.body import RecordedBody
+from replay.captions import with_captions
+from replay.recording import Recording
+from replay.span import Span
+from robot_sim.views.film import save_frames
+from robot_sim.views.view import View
+
+RATE = 12.5  # frames a second
+LONGEST = 60.0  # s
+WIDTH, HEIGHT = 480, 360  # px of the picture without the text
+LAST_FRAME = 1.5  # s for which the end stands still, so that the verdict can be read
+FORMATS: Mapping[str, Literal["WEBP", "GIF"]] = {".webp": "WEBP", ".gif": "GIF"}
+
+
+def film(recording: Recording, span: Span, file: Path, *, camera: str = "track") -> int:
+    """Write a film of the robot in this span; return the number of its frames.
+
+    Raises:
+        ValueError: the ending of the file's name is not known, the span is too long, or there is no such camera.
+        NoRecording: the recorded robot is another one.
+        NoOpenGLError: this machine cannot draw.
+    """
+    require_known_format(file)
+    if span.end - span.start > LONGEST:
+        raise ValueError(
+            f"the film would last {span.end - span.start:.0f} s; at most {LONGEST:g} are filmed: choose with --seconds "
+            "and --around"
+        )
+    frames = _frames(recording, span, camera)
+    save_frames(file, frames, FORMATS[file.suffix.lower()], RATE, last=LAST_FRAME)
+    return len(frames)
+
+
+def require_known_format(file: Path) -> None:
+    """Require a name that ends as films here do."""
+    if file.suffix.lower() not in FORMATS:
+        raise ValueError(
+            f"{file.name} ends in {file.suffix or 'nothing'}; a film here ends in {' or '.join(FORMATS)} "
+            "(make others of it with ffmpeg)"
+        )
+
+
+def _frames(recording: Recording, span: Span, camera: str) -> list[Image.Image]:
+    body = RecordedBody(recording)
+    view = View(body.humanoid, WIDTH, HEIGHT, shadows=False)
+    frames = []
+    try:
+        for number in range(max(1, math.ceil((span.end - span.start) * RATE) + 1)):
+            t = min(span.start + number / RATE, span.end)
+            body.show(t)
+            frames.append(with_captions(view.picture(camera), t, recording.moments))
+    finally:
+        view.close()
+    return frames

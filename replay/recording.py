@@ -1,0 +1,194 @@
+"""A recording read back: where the robot was, what happened, and what the checks found."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from mcap.reader import make_reader
+from rcl_interfaces.msg import Log
+from rclpy.serialization import deserialize_message
+
+from autograder.recording.definitions import class_of
+from autograder.recording.entry import CHECKS, EVENTS, FORMAT, METADATA, ROSOUT
+from autograder.recording.narration import brief
+from replay.moment import Kind, Moment, Verdict, readable
+
+LARGEST_FILE = 128 * 2**20  # bytes
+MOST_MESSAGES = 500_000
+
+
+class NoRecording(Exception):
+    """The file cannot be shown; the message says what it is and what to do."""
+
+
+@dataclass(frozen=True)
+class Posture:
+    """Where all of the robot was at `t` (s): poses are x, y, z (m) and a quaternion (x, y, z, w), joints rad or m."""
+
+    t: float
+    base: Sequence[float]
+    joints: Sequence[float]
+    objects: Mapping[str, Sequence[float]]
+
+
+@dataclass(frozen=True)
+class Recording:
+    """What a file of `course grade --record` or `course check --record` holds.
+
+    Attributes:
+        path: of the file.
+        about: exercise, student, scenario, …: the metadata that was written.
+        joints: names of the joints of the postures.
+        postures: in order of time, 25 a second of the arena's clock; none where there was no robot.
+        moments: what happened, in order of time.
+        verdicts: of the checks that were judged on this run.
+    """
+
+    path: Path
+    about: Mapping[str, str]
+    joints: Sequence[str]
+    postures: Sequence[Posture] = field(repr=False)
+    moments: Sequence[Moment] = field(repr=False)
+    verdicts: Sequence[Verdict]
+
+    @classmethod
+    def read(cls, path: Path) -> Recording:
+        """Read a file.
+
+        Raises:
+            NoRecording: it is none, it is broken, or another version has written it.
+        """
+        _require_a_small_file(path)
+        try:
+            with path.open("rb") as file:
+                reader = make_reader(file, validate_crcs=True)
+                about = _metadata(path, reader.iter_metadata())
+                collected = _Collected(about["namespace"])
+                for number, (schema, channel, message) in enumerate(reader.iter_messages()):
+                    if number >= MOST_MESSAGES:
+                        raise NoRecording(f"{path} holds more than {MOST_MESSAGES:,} messages; no arena does")
+                    if schema:
+                        collected.add(message.log_time / 1e9, channel.topic, schema.name, message.data)
+        except NoRecording:
+            raise
+        except Exception as error:  # what three libraries raise about bytes that make no sense
+            raise NoRecording(
+                f"{path} is no recording of an arena, or a broken one ({type(error).__name__}: {error}); expected an "
+                "MCAP file that `course grade --record` or `course check --record` wrote"
+            ) from error
+        return cls(
+            path, about, collected.joints, list(collected.postures()), collected.moments, collected.verdicts
+        )
+
+    @property
+    def end(self) -> float:
+        """When the scenario ended, s."""
+        return float(self.about["end"])
+
+    @cached_property
+    def first_failed(self) -> Verdict | None:
+        """The failed check with the earliest time, or None."""
+        failed = [verdict for verdict in self.verdicts if verdict.failed]
+        return min(failed, key=lambda verdict: verdict.t, default=None)
+
+    def verdict(self, check: str) -> Verdict:
+        """Return the verdict of a check.
+
+        Raises:
+            NoRecording: it was not judged on this run; the message names those that were.
+        """
+        for verdict in self.verdicts:
+            if verdict.check == check:
+                return verdict
+        known = ", ".join(verdict.check for verdict in self.verdicts) or "none"
+        raise NoRecording(f"no check {check!r} was judged on this run; there are {known}")
+
+
+class _Collected:
+    """Sorts the messages of a file."""
+
+    def __init__(self, namespace: str) -> None:
+        self._own = f"{namespace.rstrip('/')}/"
+        self._odom: dict[float, Sequence[float]] = {}
+        self._positions: dict[float, Sequence[float]] = {}
+        self._objects: dict[float, dict[str, Sequence[float]]] = {}
+        self.joints: Sequence[str] = ()
+        self.moments: list[Moment] = []
+        self.verdicts: list[Verdict] = []
+
+    def add(self, t: float, topic: str, type_name: str, data: bytes) -> None:
+        """Take one message."""
+        own = topic.removeprefix(self._own)
+        if topic in (EVENTS, ROSOUT):
+            self._log(t, topic, deserialize_message(data, Log))
+        elif own == "odom" and type_name == "nav_msgs/msg/Odometry":
+            self._odom[t] = _place(deserialize_message(data, class_of(type_name)).pose.pose)
+        elif own == "joint_states" and type_name == "sensor_msgs/msg/JointState":
+            message = deserialize_message(data, class_of(type_name))
+            self.joints = self.joints or list(message.name)
+            if list(message.name) == self.joints:
+                self._positions[t] = list(message.position)
+        elif own.startswith("objects/") and type_name == "geometry_msgs/msg/PoseStamped":
+            message = deserialize_message(data, class_of(type_name))
+            self._objects.setdefault(t, {})[own.split("/")[1]] = _place(message.pose)
+        elif topic.endswith("/_action/feedback"):
+            feedback = deserialize_message(data, class_of(type_name)).feedback
+            action = own.removesuffix("/_action/feedback")
+            self.moments.append(
+                Moment(t, Kind.FEEDBACK, readable(f"feedback of {action}: {brief(feedback)}"))
+            )
+
+    def postures(self) -> Iterator[Posture]:
+        """Yield the postures of which all parts are there."""
+        for t, base in sorted(self._odom.items()):
+            joints = self._positions.get(t, ())
+            if len(joints) == len(self.joints):
+                yield Posture(t, base, joints, self._objects.get(t, {}))
+
+    def _log(self, t: float, topic: str, line: Log) -> None:
+        text = readable(line.msg)
+        if topic == EVENTS:
+            self.moments.append(Moment(t, Kind.EVENT if line.level < Log.WARN else Kind.TROUBLE, text))
+        elif line.name == CHECKS:
+            failed = line.level >= Log.ERROR
+            kind = Kind.FAILED if failed else Kind.PASSED if line.level < Log.WARN else Kind.TROUBLE
+            self.moments.append(Moment(t, kind, text))
+            self.verdicts.append(Verdict(t, line.function, text, failed))
+        else:
+            self.moments.append(Moment(t, Kind.OUTPUT, readable(f"{line.name}: {line.msg}")))
+
+
+def _place(pose: Any) -> Sequence[float]:
+    at, turned = pose.position, pose.orientation
+    return (at.x, at.y, at.z, turned.x, turned.y, turned.z, turned.w)
+
+
+def _require_a_small_file(path: Path) -> None:
+    try:
+        size = path.stat().st_size if path.is_file() else None
+    except OSError as error:
+        raise NoRecording(f"{path} cannot be read: {error}") from error
+    if size is None:
+        raise NoRecording(f"{path} is no file; name an .mcap file, such as recordings/walk_to/walk.mcap")
+    if size > LARGEST_FILE:
+        raise NoRecording(
+            f"{path} has {size / 2**20:.0f} MiB; a recording has at most {LARGEST_FILE // 2**20}"
+        )
+
+
+def _metadata(path: Path, records: Iterator[Any]) -> Mapping[str, str]:
+    about = next((record.metadata for record in records if record.name == METADATA), None)
+    if about is None:
+        raise NoRecording(
+            f"{path} is an MCAP file, but no recording of an arena; open it with Foxglove or another viewer"
+        )
+    if about.get("format") != FORMAT:
+        raise NoRecording(
+            f"{path} was written by another version (format {about.get('format', 'unknown')!s:.20}; this one reads "
+            f"{FORMAT}): show it with that version, or record it again"
+        )
+    return about

@@ -1,0 +1,58 @@
+"""What happened in a recorded arena, as lines for the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rich.text import Text
+
+from replay.moment import Kind, Moment
+from replay.recording import Recording
+
+COLOURS = {
+    Kind.EVENT: "",
+    Kind.FEEDBACK: "dim",
+    Kind.OUTPUT: "cyan",
+    Kind.PASSED: "green",
+    Kind.FAILED: "bold red",
+    Kind.TROUBLE: "yellow",
+}
+
+
+def title(recording: Recording) -> str:
+    """Say what the recording is of."""
+    about = recording.about
+    seed = f", seed {about['seed']}" if about["seed"] not in ("", "None") else ""
+    return (
+        f"{about['exercise']} · {about['student']} · scenario {about['scenario']}{seed}: {recording.end:.1f} s on the "
+        f"arena's clock, which ran {about['scale']} times as fast"
+    )
+
+
+def line(moment: Moment) -> Text:
+    """Return a moment as a line: its time, and what happened."""
+    return Text.assemble((f"{moment.t:8.2f} s  ", "dim"), (moment.text, COLOURS[moment.kind]))
+
+
+def time_line(recording: Recording) -> Iterator[Text]:
+    """Yield a line for each thing that happened; of feedback that follows feedback only how many there were."""
+    waiting: list[Moment] = []
+    for moment in recording.moments:
+        if moment.kind is Kind.FEEDBACK:
+            waiting.append(moment)
+            continue
+        yield from _feedback(waiting)
+        waiting = []
+        yield line(moment)
+    yield from _feedback(waiting)
+
+
+def _feedback(moments: list[Moment]) -> Iterator[Text]:
+    if not moments:
+        return
+    yield line(moments[0])
+    if len(moments) > 2:
+        rate = (len(moments) - 1) / max(moments[-1].t - moments[0].t, 1e-9)
+        yield Text(f"{'':12}… {len(moments) - 2} more, at {rate:.1f} Hz", COLOURS[Kind.FEEDBACK])
+    if len(moments) > 1:
+        yield line(moments[-1])

@@ -1,0 +1,312 @@
+"""A recording shown again: the robot where it was, and what happened beside it."""
+
+from __future__ import annotations
+
+import io
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+from itertools import count
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+from urllib.request import urlopen
+
+import mujoco
+import numpy as np
+import pytest
+from falls import FALL, FELL_AT, recorded_fall, recordings, simulated, walk
+from mcap.writer import Writer
+from PIL import Image, ImageSequence
+from typer.testing import CliRunner
+
+from autograder.authoring import events as ev
+from autograder.recording.entry import METADATA
+from course_cli.app import app
+from replay import web
+from replay.body import RecordedBody
+from replay.captions import band_height
+from replay.film import RATE, film
+from replay.moment import Kind, Moment
+from replay.recording import NoRecording, Recording
+from replay.span import Span, span_of
+from replay.text import time_line
+from robot_sim.humanoid import Humanoid
+from robot_sim.views.view import View
+
+NEAR = 1e-4
+
+
+@pytest.fixture(scope="module")
+def fallen(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[float, np.ndarray]]:
+    _, places = simulated("table")
+    return recorded_fall(tmp_path_factory.mktemp("recordings"), "table"), places
+
+
+def course(*arguments: object) -> Any:
+    return CliRunner().invoke(app("replay"), ["replay", *map(str, arguments)], env={"COLUMNS": "200"})
+
+
+def other_mcap(path: Path, metadata: dict[str, str] | None) -> Path:
+    out = io.BytesIO()
+    writer = Writer(out)
+    writer.start(profile="ros2")
+    if metadata is not None:
+        writer.add_metadata(METADATA, metadata)
+    writer.finish()
+    path.write_bytes(out.getvalue())
+    return path
+
+
+def test_the_body_takes_every_recorded_posture(fallen: Any) -> None:
+    path, places = fallen
+    recording = Recording.read(path)
+    body = RecordedBody(recording)
+    for posture, qpos in zip(recording.postures, places.values(), strict=True):
+        body.show(posture.t)
+        assert body.humanoid.data.qpos == pytest.approx(qpos, abs=NEAR)
+
+
+def test_between_two_postures_it_is_between_them(fallen: Any) -> None:
+    path, _ = fallen
+    recording = Recording.read(path)
+    body = RecordedBody(recording)
+    heights = []
+    first, second = (posture.t for posture in recording.postures[-11:-9])
+    for share in (0.0, 0.5, 1.0):
+        body.show(first + share * (second - first))
+        heights.append(body.humanoid.data.qpos[2])
+    assert heights[0] > heights[1] > heights[2]
+    assert heights[1] == pytest.approx((heights[0] + heights[2]) / 2)
+
+
+def test_a_film_shows_the_recorded_robot_and_tells_what_happened(fallen: Any, tmp_path: Path) -> None:
+    path, places = fallen
+    recording = Recording.read(path)
+    count = film(recording, Span(FALL, FELL_AT + 0.3), tmp_path / "fall.webp", camera="side")
+    with Image.open(tmp_path / "fall.webp") as moving:
+        frames = [np.asarray(frame.convert("RGB")).astype(int) for frame in ImageSequence.Iterator(moving)]
+    assert len(frames) == count == pytest.approx((FELL_AT + 0.3 - FALL) * RATE + 1, abs=1)
+    body = Humanoid("table")
+    view = View(body, 480, 360, shadows=False)
+    height = frames[0].shape[0] - band_height()
+    shown = {}
+    for name, t in (("upright", FALL), ("later", FALL + 8 / RATE)):
+        nearest = min(places, key=lambda at: abs(at - t))
+        body.data.qpos[:] = places[nearest]
+        mujoco.mj_forward(body.model, body.data)
+        shown[name] = view.picture("side").astype(int)
+    view.close()
+
+    def unlike(frame: np.ndarray, picture: np.ndarray) -> float:
+        return float((abs(frame[:height] - picture) > 40).any(axis=2).mean())
+
+    assert unlike(frames[0], shown["upright"]) < 0.01 < unlike(frames[0], shown["later"])
+    assert unlike(frames[8], shown["later"]) < 0.01 < unlike(frames[8], shown["upright"])
+    red = [((frame[height:, :, 0] > 200) & (frame[height:, :, 2] < 150)).sum() for frame in frames]
+    before = int((FELL_AT - FALL) * RATE)
+    assert max(red[:before]) < 10
+    assert min(red[before + 1 :]) > 40
+
+
+def test_the_first_lost_point_is_what_is_shown(fallen: Any) -> None:
+    recording = Recording.read(fallen[0])
+    assert span_of(recording, None, 0.6) == Span(pytest.approx(FELL_AT - 0.4), pytest.approx(FELL_AT + 0.2))
+    assert span_of(recording, "accepts", 0.6).end == recording.end
+    assert span_of(recording, "stays_up", None) == Span(0.0, recording.end)  # it lasted less than 6 s
+    with pytest.raises(NoRecording, match=r"no check 'walks'.*stays_up, accepts"):
+        span_of(recording, "walks", None)
+
+
+def test_the_time_line_says_what_happened_in_order(fallen: Any) -> None:
+    lines = [line.plain for line in time_line(Recording.read(fallen[0]))]
+    times = [float(line.split()[0]) for line in lines]
+    assert times == sorted(times)
+    story = "\n".join(lines)
+    wanted = [
+        "goal “first” of walk_to",
+        "accepted",
+        "feedback of walk_to: distance_remaining=0.5",
+        "walker: slow",
+        "failed: The robot stays upright (0/2, stays_up)",
+        "result of “first”: ABORTED",
+        "passed: The goal is accepted (1/1, accepts)",
+    ]
+    places = [story.index(words) for words in wanted]
+    assert places == sorted(places)
+
+
+def test_much_feedback_is_summed_up() -> None:
+    moments = [Moment(number / 10, Kind.FEEDBACK, f"feedback {number}") for number in range(11)]
+    recording = Recording(Path("x"), {}, (), (), [*moments, Moment(2.0, Kind.EVENT, "end")], ())
+    lines = [line.plain.strip() for line in time_line(recording)]
+    assert [line.split("  ")[-1] for line in lines] == [
+        "feedback 0",
+        "… 9 more, at 10.0 Hz",
+        "feedback 10",
+        "end",
+    ]
+
+
+def test_what_a_program_printed_cannot_steer_the_terminal(tmp_path: Path) -> None:
+    path = tmp_path / "walk.mcap"
+    run = walk(ev.NodeOutput(t=0.7, stream="stdout", text="\x1b[2Jgone\x07 [red]mark[/red]"))
+    path.write_bytes(recordings(run)["walk.mcap"])
+    shown = course(path, "--text").output
+    assert "gone" in shown
+    assert "[red]mark[/red]" in shown
+    assert "\x1b[2J" not in shown
+    assert "\x07" not in shown
+
+
+class Seen:
+    """Stands for the web view, of which a process can open one: notes what it is shown."""
+
+    url = "http://here/"
+
+    def __init__(self, robot: Any, port: int) -> None:
+        self.robot = robot
+        self.heights: list[float] = []
+        self.is_closed = False
+        seen.append(self)
+
+    def show(self) -> None:
+        self.heights.append(float(self.robot.data.qpos[2]))
+
+    def close(self) -> None:
+        self.is_closed = True
+
+
+seen: list[Seen] = []
+
+
+def test_the_web_view_shows_the_fall_and_tells_each_moment_once(
+    fallen: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    recording = Recording.read(fallen[0])
+    span = Span(FELL_AT - 0.3, FELL_AT + 0.1)
+    expected = [moment for moment in recording.moments if span.start <= moment.t <= span.end]
+    clock = count()  # each look at the clock is a frame of 0.04 s later
+    told: list[Moment] = []
+    monkeypatch.setattr(web, "WebView", Seen)
+    monkeypatch.setattr(
+        web, "time", SimpleNamespace(monotonic=lambda: next(clock) / 25, sleep=lambda _: None)
+    )
+    frames = iter(range(120))  # long enough to begin again
+    web.play(
+        recording,
+        span,
+        0,
+        ready=lambda url: None,
+        tell=told.append,
+        goes_on=lambda: next(frames, None) is not None,
+    )
+    (view,) = seen
+    assert told == expected
+    assert expected
+    assert view.is_closed
+    lowest = min(range(60), key=lambda frame: view.heights[frame])
+    assert view.heights[0] > view.heights[5] > view.heights[lowest]
+    assert max(view.heights[60:]) == pytest.approx(view.heights[0], abs=0.02)
+
+
+def test_the_command_serves_a_page_and_ctrl_c_ends_it(fallen: Any) -> None:
+    pytest.importorskip("mujoco.studio", reason="this MuJoCo is older than 4.0 and has no web viewer")
+    command = [Path(sys.executable).with_name("course"), "replay", fallen[0]]
+    with subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env={**os.environ, "COLUMNS": "200"},
+    ) as process:
+        assert process.stdout
+        said = []
+        for line in process.stdout:
+            said.append(line)
+            if line.startswith("view: "):
+                with urlopen(line.split()[1], timeout=10) as page:
+                    assert page.status == 200
+            if "failed: The robot stays upright" in line:
+                process.send_signal(signal.SIGINT)
+    assert process.returncode == 0, "".join(said)
+    assert any("goal “first”" in line for line in said)
+
+
+def test_the_command_writes_a_film_around_the_lost_point(fallen: Any, tmp_path: Path) -> None:
+    ran = course(fallen[0], "--film", tmp_path / "film.gif", "--seconds", "0.4")
+    assert ran.exit_code == 0, ran.output
+    assert "walk_to · zoe · scenario walk, seed 4" in ran.output
+    assert "from 1.2 to 1.6 s" in ran.output
+    with Image.open(tmp_path / "film.gif") as moving:
+        assert (moving.format, moving.n_frames) == ("GIF", 6)
+        moving.seek(5)
+        last = np.asarray(moving.convert("RGB")).astype(int)[-band_height() :]
+    assert ((last[:, :, 0] > 200) & (last[:, :, 2] < 150)).sum() > 40
+
+
+def test_what_cannot_be_shown_is_refused_with_what_to_do(fallen: Any, tmp_path: Path) -> None:
+    path = fallen[0]
+    text = tmp_path / "notes.mcap"
+    text.write_text("no recording at all")
+    cut = tmp_path / "cut.mcap"
+    cut.write_bytes(path.read_bytes()[:-3000])
+    flipped = tmp_path / "flipped.mcap"
+    shutil.copy(path, flipped)
+    with flipped.open("r+b") as file:
+        file.seek(2000)
+        file.write(b"\xff" * 400)
+    no_robot = tmp_path / "no_robot.mcap"
+    no_robot.write_bytes(recordings(walk())["walk.mcap"])
+    film_file = tmp_path / "film.webp"
+    for arguments, words in [
+        ((tmp_path / "missing.mcap",), "is no file"),
+        ((text,), "is no recording of an arena, or a broken one"),
+        ((cut,), "is no recording of an arena, or a broken one"),
+        ((flipped,), "is no recording of an arena, or a broken one"),
+        ((other_mcap(tmp_path / "bag.mcap", None),), "no recording of an arena; open it with Foxglove"),
+        ((other_mcap(tmp_path / "new.mcap", {"format": "99"}),), "another version (format 99"),
+        ((no_robot, "--film", film_file), "no robot was recorded in walk"),
+        ((path, "--around", "walks"), "no check 'walks'"),
+        ((path, "--film", tmp_path / "film.mp4"), "ends in .mp4; a film here ends in .webp or .gif"),
+        ((path, "--film", film_file, "--camera", "roof"), "'roof' is not known"),
+        ((path, "--seconds", "0"), "expected a positive number"),
+    ]:
+        ran = course(*arguments)
+        assert ran.exit_code == 2, (arguments, ran.output)
+        assert words in " ".join(ran.output.split()), ran.output
+    assert not film_file.exists()
+
+
+def test_a_damaged_file_is_read_or_refused_but_nothing_else(fallen: Any, tmp_path: Path) -> None:
+    whole = fallen[0].read_bytes()
+    path = tmp_path / "damaged.mcap"
+    refused = 0
+    for seed in range(60):
+        draw = random.Random(seed)
+        content = bytearray(whole)
+        for _ in range(draw.choice((1, 3, 30))):
+            content[draw.randrange(len(content))] = draw.randrange(256)
+        path.write_bytes(content[: draw.randrange(len(content))] if draw.random() < 0.3 else content)
+        try:
+            Recording.read(path)
+        except NoRecording as error:
+            refused += "is no recording of an arena, or a broken one" in str(error)
+    assert refused > 40
+
+
+def test_another_robot_is_refused(fallen: Any) -> None:
+    recording = Recording.read(fallen[0])
+    other = Recording(
+        recording.path,
+        recording.about,
+        ["third_arm", *recording.joints[1:]],
+        recording.postures,
+        recording.moments,
+        recording.verdicts,
+    )
+    with pytest.raises(NoRecording, match=r"another robot.*third_arm"):
+        RecordedBody(other)
