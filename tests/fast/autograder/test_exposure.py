@@ -11,6 +11,7 @@ import typer
 from autograder.engine.exposure import HiddenChecksRefused, require_hidden
 from autograder.isolation.arena_spec import Kind
 from autograder.isolation.availability import Isolation
+from course_cli.class_grading import setting
 from course_cli.commands import grade
 from ros_runtime.project import PROJECT
 
@@ -50,7 +51,7 @@ def test_the_command_refuses_and_writes_nothing(
     work = tmp_path / "ada" / "battery_service.py"
     work.parent.mkdir()
     work.write_text("print()")
-    monkeypatch.setattr(grade, "available_isolation", lambda: Isolation(Kind.NAMESPACES, "it is said"))
+    monkeypatch.setattr(setting, "available_isolation", lambda: Isolation(Kind.NAMESPACES, "it is said"))
     out = Path(sys.prefix, "graded")
     with pytest.raises(typer.Exit) as ended:
         grade.grade(tmp_path, out=out)
