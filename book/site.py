@@ -26,6 +26,7 @@ PARTS = {
         "docs/grading.md",
         "docs/clusters.md",
         "docs/recordings.md",
+        "docs/exports.md",
         "docs/write_an_exercise.md",
         "docs/coverage.md",
         "docs/architecture.md",

@@ -103,7 +103,9 @@ def test_an_outcome_can_be_sent_to_another_machine() -> None:
     import pickle
 
     job = GradingJob("anna", "walk_to", {}, 0, True, "1", recorded=True)
-    outcome = Outcome(Grade("walk_to", "anna", "namespaces"), "namespaces", {}, {"walk.mcap": b"\x89MCAP"})
+    outcome = Outcome(
+        Grade("walk_to", "anna", "namespaces"), "namespaces", recordings={"walk.mcap": b"\x89MCAP"}
+    )
     assert pickle.loads(pickle.dumps(job)).recorded
     assert pickle.loads(pickle.dumps(outcome)).recordings == {"walk.mcap": b"\x89MCAP"}
 
