@@ -56,6 +56,7 @@ KEPT_BACK = (
             "audit",
             "bench",
             "book",
+            "collect",
             "demo",
             "export",
             "grade",
