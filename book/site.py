@@ -24,6 +24,7 @@ PARTS = {
     "For instructors": (
         "docs/for_instructors.md",
         "docs/grading.md",
+        "docs/exports.md",
         "docs/write_an_exercise.md",
         "docs/coverage.md",
         "docs/architecture.md",
