@@ -20,23 +20,18 @@ PARTS = (
     "humanoid_interfaces",
     "ros_runtime",
     "robot_sim",
-    "autograder",
-    "course_cli/*.py",
-    "course_cli/commands/__init__.py",
-    "course_cli/commands/check.py",
-    "course_cli/commands/gradescope.py",
+    "autograder/*.py",
+    *(
+        f"autograder/{room}"
+        for room in ("arena", "authoring", "engine", "export", "isolation", "on_gradescope")
+    ),
+    *(f"autograder/batch/{name}.py" for name in ("__init__", "collection", "records", "special_grades")),
+    "autograder/report/*.py",
+    "autograder/report/templates",
+    *(f"course_cli/{name}.py" for name in ("__init__", "app", "ending", "exercises_option", "jobs_option")),
+    *(f"course_cli/commands/{name}.py" for name in ("__init__", "check", "gradescope")),
 )
-KEPT_BACK = (
-    "autograder/audit",
-    "autograder/authoring/standard_hidden.py",
-    "autograder/collect",
-    "autograder/nbgrader_bridge",
-    "autograder/new_exercise",
-    "autograder/report/classroom",
-    "course_cli/class_output.py",
-    "course_cli/gradescope_package.py",
-    "course_cli/student_bundle.py",
-)
+KEPT_BACK = ("autograder/authoring/standard_hidden.py",)
 _SETUP = f"""#!/usr/bin/env bash
 # Gradescope runs this once, as root, when it builds the image: the launcher makes the course's environment.
 export DEBIAN_FRONTEND=noninteractive

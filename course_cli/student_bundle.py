@@ -58,6 +58,7 @@ KEPT_BACK = (
             "audit",
             "bench",
             "book",
+            "collect",
             "demo",
             "export",
             "grade",

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
+import sys
 import zipfile
 from pathlib import Path
 
@@ -68,6 +70,31 @@ def test_it_holds_visible_checks_and_no_more(package: Path) -> None:
     assert not [name for name in names if "checks/" in name and "battery_service" not in name]
     assert [check for check in hidden_check_ids() if check.encode() in content] == []
     assert b"### BEGIN SOLUTION" not in content
+
+
+def test_its_modules_need_nothing_that_it_does_not_hold(package: Path, tmp_path: Path) -> None:
+    program = """
+import importlib, pkgutil
+import autograder, course_cli, robot_sim, ros_runtime
+assert autograder.__file__.startswith(HERE), autograder.__file__
+for package in (autograder, course_cli):
+    for module in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
+        importlib.import_module(module.name)
+from autograder.engine.exercise import exercise_names, load_exercise
+print(*[check.hidden for name in exercise_names() for check in load_exercise(name, hidden=True).checks])
+"""
+    with zipfile.ZipFile(package) as archive:
+        archive.extractall(tmp_path)
+    here = tmp_path / TOP
+    done = subprocess.run(
+        [sys.executable, "-c", f"HERE = {str(here)!r}\n{program}"],
+        cwd=here,
+        env={**os.environ, "PYTHONPATH": str(here), "PYTHONDONTWRITEBYTECODE": "1"},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    assert set(done.stdout.split()) == {"False"}
 
 
 def test_the_same_clone_makes_the_same_bytes(package: Path, tmp_path: Path) -> None:
