@@ -14,7 +14,11 @@ from autograder.nbgrader_bridge.release import generate_release
 TOP = "humanoid-course"  # the folder the archive unpacks to
 README = "docs/for_students.md"  # becomes their README.md; the clone's own is for instructors
 PARTS = (
+    ".devcontainer",
+    ".dockerignore",
+    "Dockerfile",
     "LICENSE",
+    "binder",
     "course",
     "pyproject.toml",
     "requirements.lock",
@@ -30,7 +34,9 @@ PARTS = (
     "chapters/README.md",
     "chapters/images",
     "start_here.ipynb",
+    "docs/any_machine.md",
     "docs/cheat_sheet.md",
+    "docs/ci",
     "docs/glossary.md",
     "docs/images",
     "docs/robot.md",
@@ -113,10 +119,9 @@ def _files_of(root: Path) -> Iterator[Path]:
 
 
 def _kept_back(path: Path) -> bool:
-    derived = (
-        any(part == "__pycache__" or part.startswith(".") for part in path.parts) or path.suffix == ".pyc"
-    )
-    return derived or path.as_posix().startswith(KEPT_BACK)
+    hidden = any(part.startswith(".") for part in path.parts) and path.parts[0] not in PARTS
+    derived = "__pycache__" in path.parts or path.suffix == ".pyc"
+    return hidden or derived or path.as_posix().startswith(KEPT_BACK)
 
 
 def _add(bundle: zipfile.ZipFile, name: str, path: Path) -> None:
