@@ -16,7 +16,7 @@ from bench.upstream.runs import NOT_RUN, FileRun, run_file
 # They count ticks of 10 and 1 ms. On a clock that runs five times as fast the kernel is five times as late, and no
 # exercise has such a period.
 TOO_FINE = re.compile(r"test_timer\.py::\w+\[0\.0\d+\]")
-ALONE = 3  # further runs, alone, of a test that did not pass beside others
+ALONE = 3  # further runs of the tests of a file that did not pass, with nothing beside them
 
 
 @dataclass(frozen=True)
@@ -109,12 +109,14 @@ def differing(runs: Sequence[FileRun]) -> list[Difference]:
 def _settled(path: Path, run: FileRun) -> FileRun:
     """The run, with how its failed tests went alone: the tests have deadlines, and the machine has other work."""
     outcomes, alone = dict(run.outcomes), []
-    for test in [test for test, outcome in outcomes.items() if outcome in ("failed", NOT_RUN)]:
-        for _ in range(ALONE):
-            if run_file(path, run.mode, [test]).outcomes.get(test) == "passed":
-                outcomes[test] = "passed"
-                alone.append(test)
-                break
+    for _ in range(ALONE):
+        failed = [test for test, outcome in outcomes.items() if outcome in ("failed", NOT_RUN)]
+        if not failed:
+            break
+        again = run_file(path, run.mode, failed).outcomes
+        passed = [test for test in failed if again.get(test) == "passed"]
+        outcomes.update(dict.fromkeys(passed, "passed"))
+        alone += passed
     return FileRun(run.file, run.mode, outcomes, run.reasons, run.wall_s, run.ended, alone)
 
 

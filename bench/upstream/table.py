@@ -44,7 +44,7 @@ def bench_upstream(console: Console, *, checkout: Path | None, json_file: Path |
 
         comparison = compare(files, modes, jobs, progress)
     if changed:
-        console.print(f"Not as in commit {COMMIT[:10]}: {', '.join(changed)}", markup=False)
+        console.print(f"Others than in commit {COMMIT[:10]}: {', '.join(changed)}", markup=False)
     console.print(_table(comparison, modes))
     for run in comparison.runs:
         if run.ended:

@@ -10,7 +10,6 @@ import os
 import shlex
 import shutil
 import subprocess
-import tarfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -21,9 +20,13 @@ from ros_runtime.project import PROJECT
 MIRROR = "http://deb.debian.org/debian"
 KEPT = PROJECT / "build/bare_machine"
 # Of this machine's environment, what says how to reach the network.
-NETWORK = {"PIP_CERT", "SSL_CERT_FILE", "PIP_INDEX_URL", "UV_INDEX_URL", "UV_DEFAULT_INDEX"}
+NETWORK = {"PIP_INDEX_URL", "UV_INDEX_URL", "UV_DEFAULT_INDEX"}
 NETWORK |= {name for name in os.environ if name.lower().endswith("_proxy")}
+CERTIFICATES = os.environ.get("SSL_CERT_FILE") or os.environ.get(
+    "PIP_CERT"
+)  # of a network that signs for itself
 COPIED = "/opt/course"
+CORRECT = min(path.name for path in (PROJECT / "solutions/patterns/known/correct").glob("*.py"))
 
 pytestmark = [
     pytest.mark.skipif(os.geteuid() != 0, reason="only root can make and enter another root folder"),
@@ -98,35 +101,26 @@ class Machine:
                 shutil.copy2(PROJECT / name, target)
 
 
+def do(*command: str | Path) -> None:
+    """Run a program of this machine, which must succeed."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=900)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr
+
+
 @pytest.fixture
 def machine(tmp_path: Path) -> Iterator[Machine]:
     root = tmp_path / "root"
     _, image = instructions()[0]
     release = {"debian:12": "bookworm"}[image]
     base = KEPT / f"{release}.tar"
-    if base.exists():
-        with tarfile.open(base) as archive:
-            archive.extractall(root, filter="fully_trusted")
-    else:
+    if not base.exists():
         (KEPT / "packages").mkdir(parents=True, exist_ok=True)
-        command = [
-            "debootstrap",
-            "--variant=minbase",
-            f"--cache-dir={KEPT / 'packages'}",
-            release,
-            root,
-            MIRROR,
-        ]
-        made = subprocess.run(command, capture_output=True, text=True, check=False, timeout=900)
-        assert made.returncode == 0, made.stdout[-3000:] + made.stderr
-        with tarfile.open(base.with_suffix(".part"), "w") as archive:
-            archive.add(root, arcname=".")
+        do("debootstrap", "--variant=minbase", f"--cache-dir={KEPT / 'packages'}", release, root, MIRROR)
+        do("tar", "-C", root, "-cf", base.with_suffix(".part"), ".")
         base.with_suffix(".part").rename(base)
-    certificates = os.environ.get("SSL_CERT_FILE") or os.environ.get("PIP_CERT")
-    if certificates:  # those of a network that signs for itself
-        target = root / certificates.lstrip("/")
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(certificates, target)
+    else:
+        root.mkdir()
+        do("tar", "-C", root, "-xf", base)
     yield Machine(root)
     shutil.rmtree(root)
 
@@ -151,6 +145,3 @@ def test_each_step_of_the_dockerfile_and_a_students_first_check(machine: Machine
     solution = f"{COPIED}/solutions/patterns/known/correct/{CORRECT}"
     checked = machine.run(f"{launcher} check patterns {solution}")
     assert checked.returncode == 0, checked.stdout + checked.stderr
-
-
-CORRECT = sorted(path.name for path in (PROJECT / "solutions/patterns/known/correct").glob("*.py"))[0]

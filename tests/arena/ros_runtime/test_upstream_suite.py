@@ -39,22 +39,20 @@ def test_fails_everywhere():
 def test_skipped(): ...
 
 
-def test_this_process_has_what_its_mode_says():
-    import rclpy.executors
-    from ros_runtime.workarounds.rclpy_repairs.hook import _Finder
-    repaired = not any(isinstance(finder, _Finder) for finder in __import__("sys").meta_path)
-    assert os.environ.get("RCLPY_REPAIRS") == "off" or repaired
+def test_this_process_is_repaired_as_its_mode_says():
+    from rclpy.executors import MultiThreadedExecutor
+    repaired = "ros_runtime" in MultiThreadedExecutor._spin_once_impl.__module__
+    assert repaired == (os.environ.get("RCLPY_REPAIRS") != "off")
 """
 SPOILT = """
-import ctypes, os, time
+import os, time
+from ros_runtime.workarounds.scaled_clock.clock import real_monotonic_ns
 
 
 def test_real_time_passes():
-    read = getattr(ctypes.CDLL(None), "scaled_clock_real_monotonic_ns", time.monotonic_ns)
-    read.restype = ctypes.c_int64
-    before = read()
+    before = real_monotonic_ns()
     time.sleep(0.4)
-    assert read() - before > 300_000_000
+    assert real_monotonic_ns() - before > 300_000_000
 
 
 def test_without_repairs():

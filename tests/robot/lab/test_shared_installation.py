@@ -5,8 +5,10 @@ from __future__ import annotations
 import os
 import shlex
 import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
+from shlex import quote
 
 import pytest
 
@@ -31,21 +33,23 @@ input()  # both have walked
 
 
 def as_student(user: int, home: Path, *command: str) -> list[str]:
-    """A command that runs as a user, to whom the project is read-only however its files are owned."""
-    project = shlex.quote(str(PROJECT))
-    locked = [path for path in reversed(PROJECT.parents) if not path.stat().st_mode & 0o001]
-    lines = ["set -e", "kept=$(mktemp -d)", f"mount --bind {project} $kept"]
-    if (
-        locked
-    ):  # the clone is in a folder that only root may enter: show the way to it, and nothing else there
-        lines += [f"mount -t tmpfs -o mode=755 none {shlex.quote(str(locked[0]))}", f"mkdir -p {project}"]
-    lines += [
-        f"mount --bind $kept {project}",
-        f"mount -o remount,bind,ro {project}",
-        "umount $kept",
-        "rmdir $kept",
-    ]
-    lines += [f"cd {shlex.quote(str(home))}"]
+    """A command that runs as a user, to whom the project and its Python are read-only however they are owned."""
+    shared = [PROJECT, Path(sys.base_prefix)]
+    lines = ["set -e", "kept=$(mktemp -d)", "mount -t tmpfs none $kept"]
+    for number, path in enumerate(shared):
+        lines += [f"mkdir $kept/{number}", f"mount --bind {quote(str(path))} $kept/{number}"]
+    # What lies in a folder that only root may enter: show the way to it, and nothing else there.
+    locked = {folder for path in shared for folder in path.parents if not folder.stat().st_mode & 0o001}
+    outermost = [folder for folder in locked if locked.isdisjoint(folder.parents)]
+    lines += [f"mount -t tmpfs -o mode=755 none {quote(str(folder))}" for folder in outermost]
+    for number, path in enumerate(shared):
+        place = quote(str(path))
+        lines += [
+            f"mkdir -p {place}",
+            f"mount --bind $kept/{number} {place}",
+            f"mount -o remount,bind,ro {place}",
+        ]
+    lines += ["umount -R $kept", "rmdir $kept", f"cd {quote(str(home))}"]
     step_down = ["setpriv", f"--reuid={user}", f"--regid={user}", "--clear-groups", "--no-new-privs"]
     lines += [f"exec {shlex.join([*step_down, 'env', f'HOME={home}', *command])}"]
     return ["unshare", "--mount", "sh", "-c", "\n".join(lines)]
