@@ -22,18 +22,17 @@ KEPT = PROJECT / "build/bare_machine"
 # Of this machine's environment, what says how to reach the network.
 NETWORK = {"PIP_INDEX_URL", "UV_INDEX_URL", "UV_DEFAULT_INDEX"}
 NETWORK |= {name for name in os.environ if name.lower().endswith("_proxy")}
-CERTIFICATES = os.environ.get("SSL_CERT_FILE") or os.environ.get(
-    "PIP_CERT"
-)  # of a network that signs for itself
+# Those of a network that signs for itself.
+CERTIFICATES = os.environ.get("SSL_CERT_FILE") or os.environ.get("PIP_CERT")
 COPIED = "/opt/course"
 CORRECT = min(path.name for path in (PROJECT / "solutions/patterns/known/correct").glob("*.py"))
 
+MISSING = [program for program in ("debootstrap", "bwrap") if not shutil.which(program)]
 pytestmark = [
     pytest.mark.skipif(os.geteuid() != 0, reason="only root can make and enter another root folder"),
     pytest.mark.skipif(
-        not shutil.which("debootstrap"), reason="debootstrap is missing: apt-get install debootstrap"
+        bool(MISSING), reason=f"missing: {', '.join(MISSING)}; root gets them from ./course test"
     ),
-    pytest.mark.skipif(not shutil.which("bwrap"), reason="bubblewrap, which enters that folder, is missing"),
 ]
 
 
@@ -54,18 +53,8 @@ class Machine:
     def run(self, line: str) -> subprocess.CompletedProcess[str]:
         """Run a shell line in it, with network, and with the caches of packages."""
         binds = {KEPT / "apt": "/var/cache/apt/archives", Path.home() / ".cache/uv": "/root/.cache/uv"}
-        command = [
-            "bwrap",
-            "--bind",
-            str(self.root),
-            "/",
-            "--proc",
-            "/proc",
-            "--dev",
-            "/dev",
-            "--unshare-pid",
-        ]
-        command += ["--die-with-parent", "--cap-add", "ALL"]
+        command = ["bwrap", "--bind", str(self.root), "/"]
+        command += ["--proc", "/proc", "--dev", "/dev", "--unshare-pid", "--die-with-parent", "--cap-add", "ALL"]
         for source, place in binds.items():
             source.mkdir(parents=True, exist_ok=True)
             command += ["--bind", str(source), place]
