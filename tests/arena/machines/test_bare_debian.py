@@ -54,16 +54,25 @@ class Machine:
         """Run a shell line in it, with network, and with the caches of packages."""
         binds = {KEPT / "apt": "/var/cache/apt/archives", Path.home() / ".cache/uv": "/root/.cache/uv"}
         command = ["bwrap", "--bind", str(self.root), "/"]
-        command += ["--proc", "/proc", "--dev", "/dev", "--unshare-pid", "--die-with-parent", "--cap-add", "ALL"]
+        command += [
+            "--proc",
+            "/proc",
+            "--dev",
+            "/dev",
+            "--unshare-pid",
+            "--die-with-parent",
+            "--cap-add",
+            "ALL",
+        ]
         for source, place in binds.items():
             source.mkdir(parents=True, exist_ok=True)
             command += ["--bind", str(source), place]
         command += ["--ro-bind", str(Path("/etc/resolv.conf").resolve()), "/etc/resolv.conf"]
         environment = {name: os.environ[name] for name in NETWORK if name in os.environ}
-        environment |= {
-            "PATH": "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin",
-            "HOME": self.home,
-        }
+        environment |= {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": self.home}
+        if CERTIFICATES:
+            command += ["--ro-bind", CERTIFICATES, "/network.crt"]
+            environment |= {"SSL_CERT_FILE": "/network.crt", "PIP_CERT": "/network.crt"}
         return subprocess.run(
             [*command, "--", *self.user, "/bin/sh", "-c", f"cd {shlex.quote(self.home)} && {line}"],
             env=environment,
