@@ -14,6 +14,7 @@ from autograder.engine.grading import grade
 from autograder.engine.submission import place_of_work, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.isolation.availability import available_isolation
 from autograder.recording.kept import Recordings, keep
 from autograder.report.running import RunningLine
 from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict
@@ -95,6 +96,9 @@ def check_aloud(
     submission = read_submission(path, exercise)
     recorder = _recorder(loaded) if recordings else None
     print_beginning(console, path, loaded)
+    if not (isolation := available_isolation()).trusted:
+        said = f"No isolation: {isolation.reason}. All visible checks are made; a grade made here is “untrusted”."
+        console.print(said, style="yellow", markup=False)
     with RunningLine(console, in_notebook=Console().is_jupyter) as line:
 
         def report(verdict: CheckVerdict) -> None:

@@ -13,7 +13,11 @@ from course_cli.archive import write_archive
 TOP = "humanoid-course"  # the folder the archive unpacks to
 README = "docs/for_students.md"  # becomes their README.md; the clone's own is for instructors
 PARTS = (
+    ".devcontainer",
+    ".dockerignore",
+    "Dockerfile",
     "LICENSE",
+    "binder",
     "course",
     "pyproject.toml",
     "requirements.lock",
@@ -30,7 +34,9 @@ PARTS = (
     "chapters/README.md",
     "chapters/images",
     "start_here.ipynb",
+    "docs/any_machine.md",
     "docs/cheat_sheet.md",
+    "docs/ci",
     "docs/glossary.md",
     "docs/images",
     "docs/recordings.md",
@@ -129,9 +135,11 @@ def files_of(root: Path, parts: Sequence[str], kept_back: Sequence[str]) -> Iter
         candidates = sorted(place.rglob("*")) if place.is_dir() else [place]
         for path in candidates:
             name = path.relative_to(root)
-            if path.is_file() and not _is_derived(name) and not name.as_posix().startswith(tuple(kept_back)):
+            is_hidden = name.parts[0] not in parts and any(part.startswith(".") for part in name.parts)
+            is_kept_back = name.as_posix().startswith(tuple(kept_back))
+            if path.is_file() and not (is_hidden or is_kept_back or _is_derived(name)):
                 yield path
 
 
 def _is_derived(path: Path) -> bool:
-    return any(part == "__pycache__" or part.startswith(".") for part in path.parts) or path.suffix == ".pyc"
+    return "__pycache__" in path.parts or path.suffix == ".pyc"

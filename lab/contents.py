@@ -6,9 +6,9 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from ros_runtime.project import PROJECT
+from ros_runtime.project import WORK
 
-CHAPTERS = PROJECT / "chapters"
+CHAPTERS = WORK / "chapters"
 _ROW = re.compile(
     r"^\| (?P<title>\w+ \[.+?\])\((?P<file>\w+\.ipynb)\) \| (?P<minutes>\d+) \| (?P<exercises>.*) \|$"
 )
@@ -25,7 +25,7 @@ class Exercise:
     @property
     def notebook(self) -> Path:
         """Where students work on it."""
-        return PROJECT / "exercises" / self.name / f"{self.name}.ipynb"
+        return WORK / "exercises" / self.name / f"{self.name}.ipynb"
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from dataclasses import asdict, dataclass
 from datetime import datetime
 from pathlib import Path
 
-from ros_runtime.project import PROJECT
+from ros_runtime.project import WORK
 
-FILE = PROJECT / "exercises" / ".progress.json"  # above the exercises' folders, so that nobody hands it in
+FILE = WORK / "exercises" / ".progress.json"  # above the exercises' folders, so that nobody hands it in
 KIND = "checks"
 
 

@@ -8,8 +8,9 @@ readonly log=$root/build/setup.log
 make_environment() {
     local started=$SECONDS
     if ! mkdir -p "$root/build" 2>/dev/null || [ ! -w "$root/build" ]; then
-        say "cannot write to $root/build as $(id -un): the environment is made inside the clone."
-        say "Next: clone the course into a folder of your own."
+        say "cannot write to $root/build as $(id -un 2>/dev/null || id -u): the environment is made inside the clone."
+        say "Next: clone the course into a folder of your own; or, if several people share it, ask whoever installed it"
+        say "to run $root/course --help once: it has changed since the environment was made."
         return 1
     fi
     exec 9>"$root/build/setup.lock"

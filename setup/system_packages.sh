@@ -4,7 +4,7 @@
 # apt-get; everyone else is told the line to type. Nothing here stops a command: what can work, works.
 
 readonly system_packages=(g++ bubblewrap libegl1 libopengl0 libgl1-mesa-dri)
-readonly test_packages=(chromium libosmesa6)
+readonly test_packages=(chromium libosmesa6 debootstrap)
 
 has_system_package() {
     case $1 in
@@ -14,7 +14,7 @@ has_system_package() {
         libegl1) has_library libEGL.so.1 || has_library libOSMesa.so.8 ;;
         libopengl0) has_library libOpenGL.so.0 || has_library libOSMesa.so.8 ;;
         libgl1-mesa-dri) has_library dri/swrast_dri.so || has_library libOSMesa.so.8 ;;
-        chromium) command -v chromium >/dev/null ;;
+        chromium | debootstrap) command -v "$1" >/dev/null ;;
         libosmesa6) has_library libOSMesa.so.8 ;;
         python3) command -v python3 >/dev/null ;;
         python3*-venv) "$python" -c 'import ensurepip' 2>/dev/null ;;
@@ -29,6 +29,7 @@ without_system_package() {
         libegl1 | libopengl0 | libgl1-mesa-dri) echo "no pictures of the robot" ;;
         chromium) echo "the robot's view is not tested in a browser" ;;
         libosmesa6) echo "pictures without EGL are not tested" ;;
+        debootstrap) echo "the set-up on a bare machine is not tested" ;;
         python3 | python3*-venv) echo "the environment cannot be made" ;;
         python3*-dev) echo "the ROS interfaces cannot be built: Python.h is missing" ;;
     esac

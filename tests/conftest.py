@@ -12,7 +12,13 @@ TIERS = ("fast", "arena", "robot", "browser")
 
 # The longest files begin first, and the short ones of the fast tier last, so that the workers end at about the same
 # time.
-FIRST = ("test_audit.py", "test_every_chapter.py", "test_notebooks_run.py", "test_starters.py")
+FIRST = (
+    "test_bare_debian.py",
+    "test_audit.py",
+    "test_every_chapter.py",
+    "test_notebooks_run.py",
+    "test_starters.py",
+)
 
 
 def tier_of(file: Path) -> str:

@@ -68,8 +68,8 @@ def tell_of_recordings(console: Console, out: Path, results: Sequence[Graded]) -
     cached = sum(result.cached for result in results)
     if cached:
         console.print(
-            f"{cached} grades are from an earlier run, and nothing was recorded of them now; to record them, grade again "
-            "without --resume, with the --seed that batch.json names",
+            f"{cached} grades are from an earlier run, and nothing was recorded of them now; to record them, grade "
+            "again without --resume, with the --seed that batch.json names",
             style="yellow",
         )
 

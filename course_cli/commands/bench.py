@@ -15,6 +15,8 @@ from bench.arena.processor_time import CannotBeMeasured
 from bench.arena.tables import bench_arenas
 from bench.overview import bench_overview
 from bench.robot.table import bench_robot
+from bench.upstream.source import NoTests
+from bench.upstream.table import bench_upstream
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.jobs_option import JobsOption
 
@@ -39,7 +41,7 @@ def bench(
         ),
     ] = None,
     json_file: Annotated[
-        Path | None, typer.Option("--json", help="write the costs of arenas to this file")
+        Path | None, typer.Option("--json", help="write the costs of arenas, or rclpy's tests, to this file")
     ] = None,
     runs: Annotated[
         int,
@@ -59,11 +61,35 @@ def bench(
         typer.Option(help="instead of all this, a trial of the robot in full (repeat it, or 'all')"),
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="with --trial: a few runs of each")] = False,
+    upstream: Annotated[
+        bool,
+        typer.Option(
+            "--upstream",
+            help="instead of all this, rclpy's own tests: as it is, repaired, and on the arena's clock at 1 and at 5",
+        ),
+    ] = False,
+    upstream_tests: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FOLDER",
+            exists=True,
+            file_okay=False,
+            help="with --upstream: a checkout of ros2/rclpy whose tests are run; by default they are downloaded",
+        ),
+    ] = None,
 ) -> None:
     """Print the performance table."""
     console = Console()
-    if (against or json_file) and not (arena or submission):
-        raise ended(console, "--against and --json go with --arena or --submission", UNUSABLE)
+    if against and not (arena or submission):
+        raise ended(console, "--against goes with --arena or --submission", UNUSABLE)
+    if json_file and not (arena or submission or upstream):
+        raise ended(console, "--json goes with --arena, --submission or --upstream", UNUSABLE)
+    if upstream:
+        try:
+            sound = bench_upstream(console, checkout=upstream_tests, json_file=json_file, jobs=jobs)
+        except NoTests as error:
+            raise ended(console, error, COULD_NOT) from error
+        raise typer.Exit(0 if sound else COULD_NOT)
     if not (arena or submission or checks_of or trial):
         bench_overview(console, runs=runs, scales=scale or [], jobs=jobs, with_robot=robot)
         return

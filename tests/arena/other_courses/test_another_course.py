@@ -130,6 +130,14 @@ def test_it_is_audited_graded_checked_and_released(repository):
     assert "Count from 1 to the first argument" in said
 
 
+def test_without_isolation_a_check_says_so_and_is_made(repository, monkeypatch):
+    monkeypatch.setenv("COURSE_ISOLATION", "none")
+    (repository / "counting.py").write_text(PROGRAM)
+    said = run("check", "counting", "--course", repository / "tasks", cwd=repository)
+    assert "No isolation: COURSE_ISOLATION=none asks for no isolation" in said
+    assert "All visible checks are made" in said
+
+
 def test_its_archive_has_the_visible_checks_alone(repository):
     run("release", "--out", "students.zip", "--course", repository / "tasks", cwd=repository)
     with zipfile.ZipFile(repository / "students.zip") as archive:
