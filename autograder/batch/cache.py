@@ -8,6 +8,7 @@ import json
 from pathlib import Path
 
 from autograder.atomic_file import write_atomically
+from autograder.batch.records import UNREADABLE
 from autograder.batch.version import checks_version
 from autograder.engine.exercise import Exercise
 from autograder.engine.submission import Submission
@@ -26,11 +27,20 @@ class GradeCache:
         self._isolation = isolation
 
     def get(self, submission: Submission, exercise: Exercise, seed: int) -> Grade | None:
-        """Return the cached grade of a submission with the same sources, under this student's name."""
+        """Return the cached grade of a submission with the same sources, under this student's name.
+
+        What is damaged counts as not there: it is graded again.
+        """
         path = self._path(submission, exercise, seed)
         if not path.exists():
             return None
-        return dataclasses.replace(Grade.from_json(json.loads(path.read_text())), student=submission.student)
+        try:
+            grade = Grade.from_json(json.loads(path.read_text(encoding="utf-8")))
+        except UNREADABLE:
+            return None
+        if grade.status != "graded" or grade.exercise != exercise.name:
+            return None
+        return dataclasses.replace(grade, student=submission.student)
 
     def put(self, submission: Submission, exercise: Exercise, seed: int, grade: Grade) -> None:
         """Cache a grade."""

@@ -99,9 +99,11 @@ def written_by(cell: str, name: str) -> str | None:
 
 
 def _read(path: Path, limit: int) -> str:
-    _require_at_most(limit, path.stat().st_size, str(path))
     try:
+        _require_at_most(limit, path.stat().st_size, str(path))
         return path.read_text(encoding="utf-8-sig")
+    except OSError as error:  # a folder of that name, or nobody may read it
+        raise UnusableSubmission(f"{path} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise UnusableSubmission(f"{path} is not UTF-8 text: {error}") from error
 

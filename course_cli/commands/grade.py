@@ -17,7 +17,7 @@ from autograder.batch.collection import Collection, NoSubmissions, Work, collect
 from autograder.batch.crew import Workers
 from autograder.batch.dask_workers import Cluster, NoCluster, dask_cluster
 from autograder.batch.folder_lock import FolderInUse, locked
-from autograder.batch.records import GRADES, read_grades, write_grades
+from autograder.batch.records import GRADES, UnusableRecord, read_grades, write_grades
 from autograder.batch.runner import BatchRunner, Graded
 from autograder.batch.seeds import Seeds
 from autograder.batch.selection import (
@@ -135,10 +135,10 @@ def _grade_into(
     whole_class: Sequence[Work],
 ) -> None:
     """Grade the collection and write everything; raises typer.Exit with the command's status."""
-    before = read_grades(out / GRADES) if keep_others else []
     try:
+        before = read_grades(out / GRADES) if keep_others else []
         require_seed(before, seeds)
-    except OtherSeed as error:
+    except (OtherSeed, UnusableRecord) as error:
         raise ended(console, error, UNUSABLE) from error
     isolation = cluster.isolation if cluster else available_isolation()
     if cluster:
