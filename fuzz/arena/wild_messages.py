@@ -8,7 +8,18 @@ from importlib import import_module
 from typing import Any
 
 ODD_FLOATS = (0.0, -0.0, 1.0, 1e308, -1e308, 5e-324, 3.4e38, float("nan"), float("inf"), float("-inf"))
-ODD_STRINGS = ("", "odom", "\x00", "\x1b[2J", "<script>alert(1)</script>", "é" * 40, "{}", "x" * 12_000, "\n")
+ODD_STRINGS = (
+    "",
+    "odom",
+    "\x00",
+    "\x1b[2J",
+    "<script>alert(1)</script>",
+    "é" * 40,
+    "{}",
+    "x" * 12_000,
+    "\n",
+    "9" * 5000,
+)
 BITS = {
     "int8": 7,
     "int16": 15,

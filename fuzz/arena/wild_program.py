@@ -21,7 +21,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from fuzz.arena.wild_messages import wild_message
 
 SEED = 0
-OFFERS: list = []  # what the exercise asks for, as (service or action, name, type); made up otherwise
+OFFERS = ()  # what the exercise asks for, as (service or action, name, type); made up otherwise
 
 CHANCE = random.Random(SEED)
 PERIODS = (0.001, 0.01, 0.1, 0.5)  # s between two acts

@@ -34,7 +34,7 @@ def test_a_seed_makes_one_program(name: str) -> None:
     namespace: dict[str, object] = {"__name__": "made_up"}
     exec(compile(source, "made_up.py", "exec"), namespace)
     assert callable(namespace["wild_message"])
-    assert namespace["OFFERS"] == list(TARGETS[name].offers)
+    assert namespace["OFFERS"] == TARGETS[name].offers
 
 
 def test_the_command_runs_one_seed_of_the_fuzzers_that_are_named() -> None:
