@@ -10,7 +10,7 @@ import time
 from fuzz.arena.targets import TARGETS
 from fuzz.finding import Finding
 
-EXAMPLES = 60  # of each reader
+EXAMPLES = 200  # of each reader, times its weight
 LONGEST_READER, LONGEST_ARENA = 180.0, 420.0  # s until a fuzzer is held to hang, and this process ends
 MEMORY = 6 * 2**30  # bytes of address space for the readers
 BEGINS, FOUND = "begins ", "found "  # how the lines for the parent begin

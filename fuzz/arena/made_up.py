@@ -27,7 +27,7 @@ def program(target: Target, seed: int) -> str:
     messages = MESSAGES.read_text(encoding="utf-8").partition("from __future__ import annotations\n")[2]
     return (
         source.replace("SEED = 0", f"SEED = {seed}", 1)
-        .replace("OFFERS = ()", f"OFFERS = {tuple(target.offers)!r}", 1)
+        .replace("OFFERS: tuple = ()", f"OFFERS = {tuple(target.offers)!r}", 1)
         .replace("from fuzz.arena.wild_messages import wild_message\n", messages, 1)
     )
 

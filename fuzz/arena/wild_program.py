@@ -3,6 +3,8 @@
 It runs as a student's. `fuzz.arena.made_up` puts in SEED, OFFERS and the text of wild_messages.py.
 """
 
+from __future__ import annotations
+
 import os
 import random
 import subprocess
@@ -21,7 +23,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from fuzz.arena.wild_messages import wild_message
 
 SEED = 0
-OFFERS = ()  # what the exercise asks for, as (service or action, name, type); made up otherwise
+OFFERS: tuple = ()  # what the exercise asks for, as (service or action, name, type); made up otherwise
 
 CHANCE = random.Random(SEED)
 PERIODS = (0.001, 0.01, 0.1, 0.5)  # s between two acts

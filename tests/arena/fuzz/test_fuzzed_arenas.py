@@ -22,7 +22,7 @@ def test_nothing_is_found_in_an_arena(name: str, seed: int) -> None:
 
 
 def test_nothing_is_found_in_recorded_runs_with_other_messages() -> None:
-    finding = READERS["answers-judged"].look(1, 20)
+    finding = READERS["answers-judged"].look(1, 60)
     assert finding is None, finding
 
 
