@@ -26,12 +26,15 @@ def parse_event(line: bytes | str) -> Event:
     Raises:
         ValueError: it is no event; a pydantic.ValidationError says which field is wrong.
     """
-    fields = json.loads(line, object_hook=_message_or_dict)
+    try:
+        fields = json.loads(line, object_hook=_message_or_dict)
+    except (RecursionError, OverflowError) as error:  # brackets by the thousand, a number that no field holds
+        raise ValueError(f"this is no event: {error}") from error
     if not isinstance(fields, dict) or "t" not in fields:
         raise ValueError(f"an event is an object with a time t, not {line[:200]!r}")
     kind = fields.pop("kind", None)
-    if kind not in KINDS:
-        raise ValueError(f"there is no kind of event {kind!r}")
+    if not isinstance(kind, str) or kind not in KINDS:
+        raise ValueError(f"there is no kind of event {str(kind)[:200]!r}")
     return _adapter(kind).validate_python(fields)
 
 
@@ -48,5 +51,5 @@ def _message_or_dict(value: dict[str, Any]) -> Any:
         return value
     try:
         return from_dict(message_type(value["ros_type"]), value["ros_fields"], strict=True)
-    except (AttributeError, AssertionError, TypeError) as error:
-        raise ValueError(f"this is no {value['ros_type']}: {error}") from error
+    except (AttributeError, AssertionError, TypeError, OverflowError) as error:
+        raise ValueError(f"this is no {str(value['ros_type'])[:200]}: {error}") from error

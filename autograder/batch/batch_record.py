@@ -6,12 +6,15 @@ import hashlib
 import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
+from pydantic import TypeAdapter
+
 from autograder.atomic_file import write_atomically
 from autograder.batch.effort import utc_now
+from autograder.batch.records import UNREADABLE
 from autograder.batch.runner import Graded
 from autograder.batch.seeds import Seeds
 from autograder.batch.version import checks_version
@@ -169,9 +172,11 @@ class BatchRecord:
 
     @classmethod
     def from_json(cls, record: Mapping[str, Any]) -> BatchRecord:
-        """Read back what `to_json` returned."""
-        own = {each.name: record[each.name] for each in fields(cls) if each.name in record}
-        return cls(**own, rows=[Row(**row) for row in record["submissions"]])
+        """Read back what `to_json` returned; raises ValueError or KeyError for anything else."""
+        return _RECORDS.validate_python({**record, "rows": record["submissions"]})
+
+
+_RECORDS = TypeAdapter(BatchRecord)
 
 
 def write_batch(folder: Path, record: BatchRecord) -> None:
@@ -183,7 +188,7 @@ def read_batch(folder: Path) -> BatchRecord | None:
     """Read batch.json; None if there is none, or none of this version."""
     try:
         return BatchRecord.from_json(json.loads((folder / BATCH).read_text(encoding="utf-8")))
-    except (OSError, ValueError, TypeError, KeyError):
+    except (*UNREADABLE, TypeError, KeyError):
         return None
 
 

@@ -8,13 +8,18 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
+from pydantic import TypeAdapter
+
 from autograder.atomic_file import write_atomically
 from autograder.batch.effort import Effort
+from autograder.batch.records import UNREADABLE
 from autograder.batch.version import checks_version
 from autograder.engine.exercise import Exercise
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation
+
+_EFFORTS = TypeAdapter(Effort)
 
 
 @dataclass(frozen=True)
@@ -36,13 +41,21 @@ class GradeCache:
         self._isolation = isolation
 
     def get(self, submission: Submission, exercise: Exercise, seed: int) -> Known | None:
-        """Return the cached grade of a submission with the same sources, under this student's name."""
+        """Return the cached grade of a submission with the same sources, under this student's name.
+
+        What is damaged counts as not there: it is graded again.
+        """
         path = self._path(submission, exercise, seed)
         if not path.exists():
             return None
-        record = json.loads(path.read_text())
-        grade = dataclasses.replace(Grade.from_json(record["grade"]), student=submission.student)
-        return Known(grade, Effort(**record["effort"]))
+        try:
+            record = json.loads(path.read_text(encoding="utf-8"))
+            grade, effort = Grade.from_json(record["grade"]), _EFFORTS.validate_python(record["effort"])
+        except (*UNREADABLE, KeyError, TypeError):
+            return None
+        if grade.status != "graded" or grade.exercise != exercise.name:
+            return None
+        return Known(dataclasses.replace(grade, student=submission.student), effort)
 
     def put(self, submission: Submission, exercise: Exercise, seed: int, known: Known) -> None:
         """Cache a grade."""

@@ -38,6 +38,10 @@ class Work:
             )
         if any(path.is_symlink() or not path.is_file() for path in self.files()):
             raise UnusableSubmission(f"{self.path.name} is not an ordinary file")
+        if self.path.parent.is_symlink():
+            raise UnusableSubmission(
+                f"the folder {self.path.parent.name} is a link; hand in the folder itself, with the files in it"
+            )
         try:
             submission = read_submission(self.path, self.exercise, self.student)
         except UnusableSubmission as error:
@@ -55,9 +59,11 @@ class Work:
         """Return the files that would be read."""
         if self.path is None:
             return []
-        if self.path.is_symlink() or not self.path.is_dir():
+        names = file_names(self.exercise)
+        is_their_folder = len(names) > 1 and self.path.suffix != ".ipynb" and self.path.is_dir()
+        if self.path.is_symlink() or not is_their_folder:
             return [self.path]
-        return [place for name in file_names(self.exercise) if _is_there(place := self.path / name)]
+        return [place for name in names if _is_there(place := self.path / name)]
 
 
 @dataclass(frozen=True)
@@ -88,7 +94,11 @@ def collect(folder: Path) -> Collection:
                 f"the folder {student.name!r}: rename it to letters, digits and . , _ - @ + ' only"
             )
         else:
-            found = list(works_of(student, files))
+            try:
+                found = list(works_of(student, files))
+            except OSError as error:
+                refused.append(f"the folder {student.name!r} cannot be read: {error.strerror}")
+                continue
             if not found:
                 ignored.append(f"{student.name} handed in none of {', '.join(files)}")
             works |= {(work.student, work.exercise): work for work in found}
@@ -134,7 +144,7 @@ def _visible(folder: Path) -> list[Path]:
 def _timestamp(folder: Path) -> str:
     """The time of submission from timestamp.txt, if nbgrader can parse it; otherwise ""."""
     path = folder / "timestamp.txt"
-    if path.is_symlink() or not path.is_file():
+    if folder.is_symlink() or path.is_symlink() or not path.is_file():
         return ""
     try:
         text = path.read_bytes()[:100].decode().strip()

@@ -10,6 +10,11 @@ from autograder.atomic_file import write_atomically
 from autograder.engine.verdict import Grade
 
 GRADES = "grades.json"
+UNREADABLE = (OSError, ValueError, RecursionError)  # what reading JSON that was damaged or nested raises
+
+
+class UnusableRecord(Exception):
+    """A file of grades cannot be read; the message says what was found, and what to do."""
 
 
 def write_grades(path: Path, grades: Sequence[Grade]) -> None:
@@ -18,5 +23,20 @@ def write_grades(path: Path, grades: Sequence[Grade]) -> None:
 
 
 def read_grades(path: Path) -> list[Grade]:
-    """Read back what `write_grades` wrote; no grades if there is no such file."""
-    return [Grade.from_json(record) for record in json.loads(path.read_text())] if path.exists() else []
+    """Read back what `write_grades` wrote; no grades if there is no such file.
+
+    Raises:
+        UnusableRecord: the file holds something else.
+    """
+    if not path.exists():
+        return []
+    try:
+        records = json.loads(path.read_text(encoding="utf-8"))
+        if not isinstance(records, list):
+            raise ValueError("it holds no list of grades")
+        return [Grade.from_json(record) for record in records]
+    except UNREADABLE as error:
+        raise UnusableRecord(
+            f"{path} is no file of grades ({str(error)[:500]}); put the one of the last batch back, or move it away "
+            "and grade the whole class again with --resume"
+        ) from error

@@ -7,10 +7,14 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, TypeAdapter
+from typing_extensions import TypedDict
 
 from autograder.atomic_file import write_atomically
 from autograder.batch.collection import Work
+from autograder.batch.records import UNREADABLE
 from autograder.batch.runner import Graded
 from autograder.batch.seeds import Seeds
 from autograder.batch.version import checks_version
@@ -68,6 +72,38 @@ def write_shard(
     write_atomically(folder / SHARD, json.dumps(record) + "\n")
 
 
+def _text(value: Any) -> Any:
+    """Return a text as it is: it may quote half a character, which pydantic's own check refuses."""
+    if not isinstance(value, str):
+        raise ValueError("expected a text")
+    return value
+
+
+_Text = Annotated[Any, AfterValidator(_text)]
+
+
+class _Row(TypedDict):
+    """One submission of a shard."""
+
+    grade: Any
+    sources: dict[_Text, _Text] | None
+    problem: _Text
+    timestamp: _Text
+
+
+class _Record(TypedDict):
+    """What a shard's file holds."""
+
+    shard: str
+    seed: list[int]
+    versions: dict[str, str]
+    submissions: list[tuple[str, str]]
+    graded: list[_Row]
+
+
+_RECORD = TypeAdapter(_Record)
+
+
 @dataclass(frozen=True)
 class Merged:
     """The results of all shards in order of student and exercise, and a sentence on each submission without one."""
@@ -89,14 +125,14 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
             ("seed", "grade all shards with one --seed, and all or none with --seed-per-student"),
             ("versions", "bring all clones to one commit and grade with --resume"),
         ):
-            if record[what] != given[what]:
+            if record[what] != given[what]:  # type: ignore[literal-required]
                 raise CannotMerge(f"{first} and {folder} were graded with different {what}: {advice}")
     results: dict[tuple[str, str], Graded] = {}
     found_in: dict[tuple[str, str], Path] = {}
     isolations: dict[bool, Path] = {}
     for folder, record in shards.items():
         for row in record["graded"]:
-            grade = Grade.from_json(row["grade"])
+            grade = _grade_of(row, folder)
             key = (grade.student, grade.exercise)
             if key in results:
                 raise CannotMerge(
@@ -115,7 +151,16 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
     return Merged([results[key] for key in sorted(results)], _missing(shards, set(results)))
 
 
-def _missing(shards: Mapping[Path, Mapping[str, Any]], found: set[tuple[str, str]]) -> list[str]:
+def _grade_of(row: _Row, folder: Path) -> Grade:
+    try:
+        return Grade.from_json(row["grade"])
+    except ValueError as error:
+        raise CannotMerge(
+            f"{folder} holds a grade that cannot be ({str(error)[:500]}); grade this shard again"
+        ) from error
+
+
+def _missing(shards: Mapping[Path, _Record], found: set[tuple[str, str]]) -> list[str]:
     expected = {
         (student, exercise) for record in shards.values() for student, exercise in record["submissions"]
     }
@@ -127,10 +172,12 @@ def _missing(shards: Mapping[Path, Mapping[str, Any]], found: set[tuple[str, str
     ]
 
 
-def _read(folder: Path) -> dict[str, Any]:
+def _read(folder: Path) -> _Record:
     try:
-        return json.loads((folder / SHARD).read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+        record = _RECORD.validate_python(json.loads((folder / SHARD).read_text(encoding="utf-8")))
+        Shard.parse(record["shard"])
+        return record
+    except UNREADABLE as error:
         raise CannotMerge(
-            f"{folder} holds no finished shard (`course grade --shard K/N`): {error}"
+            f"{folder} holds no finished shard (`course grade --shard K/N`): {str(error)[:500]}"
         ) from error

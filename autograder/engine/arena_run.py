@@ -107,7 +107,7 @@ def _specification(run: ArenaRun, params: dict[str, Any], scale: float, is_isola
 
 def _transcript(run: ArenaRun, params: dict[str, Any], scale: float, report: bytes) -> Transcript:
     """Read the events of a scenario that came to its end."""
-    events = _events(report)
+    events = read_events(report)
     failed = next((event for event in events if isinstance(event, ev.ScenarioFailed)), None)
     if failed:
         raise NotGraded(f"scenario {run.scenario.name}: {failed.reason}")
@@ -120,16 +120,16 @@ def _broken_off(
     run: ArenaRun, params: dict[str, Any], scale: float, report: bytes, ended: ArenaReport
 ) -> Transcript:
     """Read the events of a scenario whose arena was ended for its memory, which only the submission can take."""
-    events = _events(report)
+    events = read_events(report)
     last = max((event.t for event in events), default=0.0)
     events.append(ev.ArenaOverfull(t=last, memory_mib=ended.peak_memory_mib, limit_mib=LIMITS.memory_mib))
     return Transcript.from_events(run.scenario.name, params, events, scale)
 
 
-def _events(report: bytes) -> list[Any]:
+def read_events(report: bytes) -> list[Any]:
     """Read the events; a last line cut short by the end of a process is dropped."""
     *lines, _unfinished = report.split(b"\n")
     try:
         return [ev.parse_event(line) for line in lines]
     except ValueError as error:
-        raise NotGraded(f"the arena's report cannot be read: {error}") from error
+        raise NotGraded(f"the arena's report cannot be read: {str(error)[:2000]}") from error

@@ -10,6 +10,7 @@ from pathlib import Path
 from autograder.engine.exercise import file_names
 
 MAX_BYTES = 1_000_000  # of a file a student writes
+LONGEST_QUOTE = 500  # characters of why a notebook is none, which may quote all of it
 MAX_NOTEBOOK_BYTES = 50_000_000  # a notebook also holds pictures of the robot
 
 
@@ -82,7 +83,7 @@ def sources_from_notebook(text: str, names: tuple[str, ...], path: Path) -> dict
             if cell.get("cell_type") == "code" and isinstance(source := cell.get("source"), str)
         ]
     except Exception as error:  # a broken file fails in many ways: no JSON, no cells, cells that are none
-        raise UnusableSubmission(f"{path} is not a notebook: {error}") from error
+        raise UnusableSubmission(f"{path} is not a notebook: {str(error)[:LONGEST_QUOTE]}") from error
     found = {
         name: source for name in names for cell in cells if (source := written_by(cell, name)) is not None
     }
@@ -99,9 +100,11 @@ def written_by(cell: str, name: str) -> str | None:
 
 
 def _read(path: Path, limit: int) -> str:
-    _require_at_most(limit, path.stat().st_size, str(path))
     try:
+        _require_at_most(limit, path.stat().st_size, str(path))
         return path.read_text(encoding="utf-8-sig")
+    except OSError as error:  # a folder of that name, or nobody may read it
+        raise UnusableSubmission(f"{path} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise UnusableSubmission(f"{path} is not UTF-8 text: {error}") from error
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 CheckStatus = Literal["passed", "failed", "not run", "error", "to mark", "marked"]
 GradeStatus = Literal["graded", "not graded", "to mark"]
@@ -92,14 +92,47 @@ class Grade:
         }
 
     @classmethod
-    def from_json(cls, record: dict[str, Any]) -> Grade:
-        """Read back what `to_json` returned."""
-        checks = [CheckVerdict(**check) for check in record["checks"]]
-        return cls(
-            record["exercise"],
-            record["student"],
-            record["isolation"],
-            checks,
-            record["reason"],
-            record.get("seed"),
+    def from_json(cls, record: Any) -> Grade:
+        """Read back what `to_json` returned.
+
+        Raises:
+            ValueError: it is no such record, or one with points that cannot be.
+        """
+        try:
+            checks = [CheckVerdict(**check) for check in record["checks"]]
+            names = ("exercise", "student", "isolation", "reason")
+            exercise, student, isolation, reason = (_text(record[name]) for name in names)
+        except (KeyError, TypeError) as error:
+            raise ValueError(f"this is no grade: {type(error).__name__}: {error}") from error
+        for check in checks:
+            _require_sound(check)
+        seed = record.get("seed")
+        if seed is not None and not isinstance(seed, int):
+            raise ValueError(f"a seed is a whole number, not {str(seed)[:100]!r}")
+        return cls(exercise, student, isolation, checks, reason, seed)
+
+
+def _require_sound(check: CheckVerdict) -> None:
+    """Require the types and the points that a verdict can have; raises ValueError."""
+    for name in ("id", "title", "expected", "observed", "help", "log"):
+        _text(getattr(check, name))
+    if check.status not in get_args(CheckStatus):
+        raise ValueError(f"{check.id[:100]!r} has no status {str(check.status)[:100]!r}")
+    if not all(_is_number(each) for each in (check.points, check.max_points)) or not (
+        0 <= check.points <= check.max_points
+    ):
+        raise ValueError(
+            f"{check.id[:100]!r} cannot have {check.points!r} of {check.max_points!r} points"[:300]
         )
+    if not (check.robot_time is None or _is_number(check.robot_time)) or not isinstance(check.hidden, bool):
+        raise ValueError(f"{check.id[:100]!r} has a time or a mark of hidden checks that is none")
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str):
+        raise ValueError(f"expected a text, not {str(value)[:100]!r}")
+    return value
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)

@@ -73,6 +73,7 @@ def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> 
         HiddenChecksRefused: students could read the checks here.
         NoCluster: there is none at the address.
         OtherSeed: grades that are to stay were given with another seed.
+        UnusableRecord: those grades cannot be read.
     """
     if not request.dask and available_isolation().trusted:  # otherwise they could read it anywhere
         require_hidden([exercises_folder(), request.submitted, request.out])
@@ -80,8 +81,9 @@ def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> 
         locked(request.out),
         dask_cluster(request.dask) if request.dask else nullcontext() as cluster,
     ):
-        there = read_grades(request.out / GRADES)
         record = read_batch(request.out)
+        needs_grades = request.keeps_others or (request.goes_on and not record)
+        there = read_grades(request.out / GRADES) if needs_grades else []
         seeds = choose_seeds(request, record, there, works)
         before = there if request.keeps_others else []
         require_seed(before, seeds)

@@ -12,6 +12,7 @@ from rich.console import Console
 from autograder.batch.collection import NoSubmissions
 from autograder.batch.dask_workers import NoCluster
 from autograder.batch.folder_lock import FolderInUse
+from autograder.batch.records import UnusableRecord
 from autograder.batch.request import BatchRequest, UnusableRequest
 from autograder.batch.selection import NothingSelected, OtherSeed
 from autograder.batch.shards import Shard
@@ -112,7 +113,7 @@ def grade(
     except KeyboardInterrupt:
         console.print("Interrupted. Add --resume to go on where it stopped.", style="yellow")
         raise typer.Exit(COULD_NOT) from None
-    except (NoSubmissions, NothingSelected, OtherSeed, UnusableExercise) as error:
+    except (NoSubmissions, NothingSelected, OtherSeed, UnusableExercise, UnusableRecord) as error:
         raise ended(console, error, UNUSABLE) from error
     except (FolderInUse, HiddenChecksRefused, NoCluster) as error:
         raise ended(console, error, COULD_NOT) from error

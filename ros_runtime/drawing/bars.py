@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from html import escape
 
 from ros_runtime.drawing.svg import svg
+from ros_runtime.drawing.xml_text import escape
 
 BAR, GAP = 44, 8  # px, as all below
 LEFT, TOP, HEIGHT, BOTTOM = 44, 56, 120, 44

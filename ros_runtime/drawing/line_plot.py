@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from html import escape
 
 from ros_runtime.drawing.svg import svg
+from ros_runtime.drawing.xml_text import escape
 
 Point = tuple[float, float]
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from html import escape
 from typing import Literal
 
 from ros_runtime.drawing.svg import svg
+from ros_runtime.drawing.xml_text import escape
 
 Kind = Literal["request", "answer", "message"]
 

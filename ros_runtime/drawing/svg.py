@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from html import escape
+
+from ros_runtime.drawing.xml_text import escape
 
 
 def svg(parts: Iterable[str], *, width: int, height: int, title: str, words: str) -> str:

@@ -25,6 +25,7 @@ EARLY = 0.1  # s less than COLLECTING that pass: clocks are read at either end
 LATE = 1.5  # s more than there is work for; the task says 1 s
 MOST_SAMPLES = 1000  # a greater number in the message is no count
 MOST_NUMBERS = 20  # in the message
+LONGEST_COUNT = 12  # characters
 
 _NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
@@ -85,7 +86,7 @@ def require_calibrated(call: Call) -> None:
     )
     _require_three_seconds(call)
     require_bias_in_message(call, bias)
-    _require_count_in_message(call, len(imu_between(call, call.sent.t - EARLY, answered.t)))
+    require_count_in_message(call, len(imu_between(call, call.sent.t - EARLY, answered.t)))
 
 
 def true_bias(call: Call) -> Sequence[float]:
@@ -151,9 +152,10 @@ def require_bias_in_message(call: Call, bias: Sequence[float]) -> None:
     )
 
 
-def _require_count_in_message(call: Call, published: int) -> None:
+def require_count_in_message(call: Call, published: int) -> None:
+    """Require the number of samples in the message: not more than the robot published meanwhile."""
     message = call.response.message
-    integers = [int(number) for number in _NUMBER.findall(message) if number.lstrip("+-").isdigit()]
+    integers = whole_numbers(_NUMBER.findall(message))
     counts = [number for number in integers if FEWEST_SAMPLES <= number <= MOST_SAMPLES]
     if any(count <= published for count in counts):
         return
@@ -165,6 +167,12 @@ def _require_count_in_message(call: Call, published: int) -> None:
         else "Put the number of samples that you averaged into the message.",
         at=call.answered.t,
     )
+
+
+def whole_numbers(numbers: Sequence[str]) -> list[int]:
+    """Return the whole numbers among these; one of thousands of digits, which Python refuses to read, is no count."""
+    short = (number for number in numbers if len(number) <= LONGEST_COUNT)
+    return [int(number) for number in short if number.lstrip("+-").isdigit()]
 
 
 def require_bias_published(call: Call) -> None:
@@ -305,9 +313,8 @@ def _advice_on_failing(call: Call, published: int) -> str:
             f"get_status had answered, but not to you ({said}): its answer could not be handled while the callback "
             "waited. Give client and service a ReentrantCallbackGroup, or groups of their own and a second thread."
         )
-    if any(
-        FEWEST_SAMPLES <= int(number) <= published for number in re.findall(r"\d+", call.response.message)
-    ):
+    counts = whole_numbers(re.findall(r"\d+", call.response.message))
+    if any(FEWEST_SAMPLES <= count <= published for count in counts):
         return f"{FEWEST_SAMPLES} samples are enough, and you had more ({said}): some messages of a sensor are lost."
     if published >= FEWEST_SAMPLES and waited >= COLLECTING:
         return (

@@ -126,6 +126,13 @@ def require_side(reply: Reply, arm: TwoLinkArm = DEFAULT, twin: Reply | None = N
     if reply.target[0] < AHEAD:
         return
     is_above = _elbow_is_above(reply, arm)
+    if is_above is None:
+        raise Failure(
+            expected=f"two angles for {reply.question}",
+            observed=f"{reply.angles}, which is nowhere",
+            help="Look where a NaN or an infinite number comes from: a division by zero, or acos of more than 1.",
+            at=reply.at,
+        )
     observed = f"{reply.angles}: the elbow is {_side(is_above)} it"
     expect(
         is_above == reply.elbow_up,
@@ -145,7 +152,10 @@ def require_sides(answers: Sequence[Reply], arm: TwoLinkArm = DEFAULT) -> None:
         require_side(reply, arm, twins[0] if twins else None)
 
 
-def _elbow_is_above(reply: Reply, arm: TwoLinkArm) -> bool:
+def _elbow_is_above(reply: Reply, arm: TwoLinkArm) -> bool | None:
+    """Return the side of the elbow; None for an angle that is no number."""
+    if not math.isfinite(reply.shoulder_and_elbow[0]):
+        return None
     return arm.elbow_is_above(reply.shoulder_and_elbow[0], reply.target)
 
 

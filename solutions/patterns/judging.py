@@ -15,7 +15,7 @@ PATTERNS = ("topic", "service", "action")
 REASONS = "abc"
 SITUATIONS = range(1, 13)
 
-_LINE = re.compile(r"\s*(\d+)\W+(\w+)\W+(\w+)\s*")
+_LINE = re.compile(r"\s*(\d{1,4})\W+(\w+)\W+(\w+)\s*")
 
 
 @dataclass(frozen=True)

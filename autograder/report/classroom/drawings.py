@@ -45,11 +45,7 @@ class Drawings:
             for verdict in grade.checks
             if verdict.status in DRAWN
         }
-        return {
-            check: json.loads(path.read_text(encoding="utf-8"))
-            for check, path in paths.items()
-            if path.exists()
-        }
+        return {check: svgs for check, path in paths.items() if path.exists() and (svgs := _read(path))}
 
     def keep(self, exercise: str, sources: Sources, verdict: CheckVerdict, drawn: Sequence[str]) -> None:
         """Keep the drawings (SVG) of one verdict."""
@@ -58,6 +54,16 @@ class Drawings:
     def _path(self, exercise: str, sources: Sources, verdict: CheckVerdict) -> Path:
         key = json.dumps([dict(sources), asdict(verdict)], sort_keys=True)
         return self.batch / FOLDER / exercise / f"{hashlib.sha256(key.encode()).hexdigest()}.json"
+
+
+def _read(path: Path) -> list[str]:
+    """Read drawings that were kept; none if the file is damaged, for they only help to understand a verdict."""
+    try:
+        svgs = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return []
+    sound = isinstance(svgs, list) and all(isinstance(svg, str) for svg in svgs)
+    return svgs if sound else []
 
 
 def drawing_into(

@@ -11,10 +11,9 @@ from __future__ import annotations
 import sys
 from dataclasses import replace
 
-from recorded import FOLDER, scenarios_of, write
-
 from autograder.audit.known_submission import KnownSubmission, known_submission
 from autograder.audit.proof import enough_to_catch
+from autograder.audit.recorded import FOLDER, scenarios_of, write
 from autograder.authoring.transcript import Transcript
 from autograder.engine.arena_run import ArenaRun, run_in_arena
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise

@@ -12,9 +12,9 @@ from functools import cache
 
 import pytest
 from needed import ALWAYS, NEEDED
-from recorded import Case, cases
 
 from autograder.audit.known_submission import known_submissions
+from autograder.audit.recorded import Case, cases
 from autograder.authoring import events as ev
 from autograder.authoring.transcript import Transcript
 from autograder.engine.exercise import exercise_names, load_exercise

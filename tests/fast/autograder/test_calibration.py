@@ -78,3 +78,12 @@ def test_a_gap_is_explained_by_the_request_that_was_at_work(
     run = calibration("", *first, *beats(silence))
     failure = failure_of(HEARTBEAT.require_heartbeat, run, run.call("first"), "while it was at work")
     assert next_step in failure.help
+
+
+def test_a_number_of_thousands_of_digits_is_no_count() -> None:
+    call = calibration("mean 0.010 -0.008 0.012 of " + "9" * 5000).call("second")
+    assert "Put the number of samples" in failure_of(JUDGING.require_count_in_message, call, 300).help
+
+
+def test_whole_numbers_are_those_that_can_be_a_count() -> None:
+    assert JUDGING.whole_numbers(["150", "-2", "0.5", "9" * 5000]) == [150, -2]

@@ -47,6 +47,16 @@ def test_each_of_the_two_solutions_is_on_its_side():
         require_side(reply(SHOULDER, ELBOW, elbow_up=True))
 
 
+@pytest.mark.parametrize("shoulder", [math.inf, math.nan])
+def test_an_angle_that_is_none_has_no_side(shoulder):
+    for judged in (
+        lambda answer: require_side(answer),
+        lambda answer: JUDGING.require_sides([answer, reply(0.1, 0.2)]),
+    ):
+        with pytest.raises(Failure, match="which is nowhere"):
+            judged(reply(shoulder, ELBOW, elbow_up=True))
+
+
 def test_behind_the_shoulder_either_side_will_do():
     for elbow_up in (False, True):
         require_side(reply(math.pi - SHOULDER, -ELBOW, target=(-0.4, 0.3), elbow_up=elbow_up))

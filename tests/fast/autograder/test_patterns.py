@@ -65,3 +65,8 @@ def test_a_wrong_answer_is_told_what_speaks_against_it():
     seen = verdicts(*LINES[:8], "9 action c", "10 topic c", "11 service c", "12 action c")
     assert "Which part moves does not matter: being able to cancel does." in seen["situation_9"].help
     assert "what matters is the yes or no" in seen["situation_11"].help
+
+
+def test_a_number_of_thousands_of_digits_is_no_situation():
+    seen = verdicts(*LINES, "9" * 5000 + " topic a")
+    assert all(verdict.status == "passed" for verdict in seen.values())

@@ -86,3 +86,11 @@ def test_a_missing_file_is_refused(tmp_path):
 def test_a_program_that_was_not_written_yet_names_its_cell(tmp_path):
     with pytest.raises(UnusableSubmission, match="run the cell that begins %%writefile"):
         read_submission(tmp_path / "battery_service.py", "battery_service")
+
+
+def test_a_reason_quotes_little_of_a_notebook(tmp_path):
+    file = tmp_path / "work.ipynb"
+    file.write_text(json.dumps({"nbformat": "4" + "x" * 3_000_000, "cells": []}))
+    with pytest.raises(UnusableSubmission, match="Unsupported nbformat version 4xxx") as caught:
+        read_submission(file, "battery_service")
+    assert len(str(caught.value)) < 2000

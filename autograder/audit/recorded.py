@@ -18,7 +18,7 @@ from autograder.engine.exercise import load_exercise
 from ros_runtime.project import PROJECT
 from ros_runtime.record.event import to_line
 
-FOLDER = Path(__file__).parent / "transcripts"
+FOLDER = PROJECT / "tests/arena/autograder/transcripts"
 
 
 @dataclass(frozen=True, eq=False)

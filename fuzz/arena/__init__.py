@@ -1,0 +1,1 @@
+"""Made-up programs in arenas: legal ROS, and nothing that helps anybody."""

@@ -1,0 +1,78 @@
+"""Grades a made-up program, and after it a correct one, whose grade has to be what it always is."""
+
+from __future__ import annotations
+
+import traceback
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+from autograder.audit.known_submission import known_submission
+from autograder.audit.residue import residue
+from autograder.engine.exercise import Exercise, load_exercise
+from autograder.engine.grading import grade
+from autograder.engine.submission import Submission
+from autograder.engine.verdict import Grade
+from fuzz.arena.targets import TARGETS, Target
+from fuzz.finding import Finding
+
+PROGRAM = Path(__file__).with_name("wild_program.py")
+MESSAGES = Path(__file__).with_name("wild_messages.py")
+TRIES = 2  # what a busy machine did to a grading does not happen twice
+
+
+def program(target: Target, seed: int) -> str:
+    """Return the source of a made-up program."""
+    source = PROGRAM.read_text(encoding="utf-8")
+    messages = MESSAGES.read_text(encoding="utf-8").partition("from __future__ import annotations\n")[2]
+    return (
+        source.replace("SEED = 0", f"SEED = {seed}", 1)
+        .replace("OFFERS: tuple = ()", f"OFFERS = {tuple(target.offers)!r}", 1)
+        .replace("from fuzz.arena.wild_messages import wild_message\n", messages, 1)
+    )
+
+
+def look(name: str, seed: int) -> Finding | None:
+    """Grade the program of this seed and the correct one after it; return what was not as it has to be."""
+    target = TARGETS[name]
+    source = program(target, seed)
+    problem = ""
+    for _ in range(TRIES):
+        try:
+            problem = _problem(target, source, seed)
+        except Exception:  # whatever the grader raises is what is looked for
+            problem = traceback.format_exc()
+        if not problem:
+            return None
+    return Finding(name, seed, problem, source)
+
+
+def _problem(target: Target, source: str, seed: int) -> str:
+    """Return what was wrong, or ""."""
+    exercise = _exercise(target)
+    (file,) = exercise.file_names
+    with residue() as left:
+        submission = Submission(target.exercise, "wild", {file: source})
+        wild = grade(submission, exercise, seed=seed, jobs=1, at_first_look=target.checks)
+    if wild.status != "graded":
+        return f"the made-up program was not graded:\n{_in_words(wild)}"
+    if wild.all_passed:
+        return f"the made-up program has full marks:\n{_in_words(wild)}"
+    if left:
+        return f"it left behind: {', '.join(left)}"
+    with residue() as left:
+        correct = grade(known_submission(target.exercise, target.correct).read(), exercise, seed=seed, jobs=1)
+    if not correct.all_passed:
+        return f"the correct program after it lost points:\n{_in_words(correct)}"
+    return f"the correct program after it left behind: {', '.join(left)}" if left else ""
+
+
+@cache
+def _exercise(target: Target) -> Exercise:
+    exercise = load_exercise(target.exercise, hidden=True)
+    return replace(exercise, checks=[check for check in exercise.checks if check.id in target.checks])
+
+
+def _in_words(grade: Grade) -> str:
+    lines = [f"{each.id}: {each.status}: {each.observed or each.help}"[:1500] for each in grade.checks]
+    return "\n".join([*([grade.reason] if grade.reason else []), *lines])

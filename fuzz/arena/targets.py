@@ -1,0 +1,46 @@
+"""The exercises that made-up programs are handed in for: one of each kind."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Target:
+    """An exercise that a made-up program is handed in for.
+
+    Attributes:
+        exercise: its name.
+        checks: those that are made (ids), with what each needs among them.
+        offers: what the exercise asks for: (service, action or client, name, type).
+        correct: a known submission that passes them all.
+    """
+
+    exercise: str
+    checks: Sequence[str]
+    offers: Sequence[tuple[str, str, str]]
+    correct: str
+
+
+TARGETS: Mapping[str, Target] = {
+    "arena-service": Target(
+        "battery_service",
+        ("server_appears", "answers_with_the_last_message"),
+        (("service", "get_battery_status", "humanoid_interfaces/srv/GetBatteryStatus"),),
+        "correct/class_based",
+    ),
+    "arena-action": Target(
+        "cancellable_walk",
+        ("server_appears", "accepts_a_goal"),
+        (("action", "walk_to", "humanoid_interfaces/action/WalkTo"),),
+        "correct/threads_and_sleep",
+    ),
+    "arena-client": Target(
+        "walk_client",
+        ("sends_the_goal", "prints_the_feedback"),
+        (("client", "walk_to", "humanoid_interfaces/action/WalkTo"),),
+        "correct/one_loop",
+    ),
+    "arena-quiz": Target("patterns", ("answers_everything",), (), "correct/as_in_the_notebook"),
+}

@@ -1,0 +1,1 @@
+"""Fuzzers of what the controller reads, one reader at a time, in this process."""

@@ -1,0 +1,13 @@
+"""Texts in a drawing: students write some of them, and XML takes neither control characters nor half a character."""
+
+from __future__ import annotations
+
+import html
+import re
+
+_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")  # XML 1.0, 2.2
+
+
+def escape(text: str) -> str:
+    """Return a text as it stands in XML; a character that cannot stand there becomes U+FFFD."""
+    return html.escape(_NO_XML.sub("\ufffd", text))

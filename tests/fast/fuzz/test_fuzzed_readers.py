@@ -1,0 +1,171 @@
+"""Whatever a student sends, its reader makes a value of it or says why not; and what fuzzers found stays mended."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+from hypothesis import strategies as st
+
+pytest.importorskip("rclpy")
+
+from autograder.batch.collection import Work, collect
+from autograder.batch.records import GRADES, UnusableRecord, read_grades
+from autograder.batch.shards import SHARD, CannotMerge, merge_shards
+from autograder.engine.arena_run import NotGraded, read_events
+from autograder.engine.submission import UnusableSubmission
+from autograder.engine.verdict import Grade
+from autograder.report.classroom.drawings import Drawings
+from fuzz.fuzzer import Fuzzer
+from fuzz.readers import records
+from fuzz.readers.all import CHANNELS, READERS
+
+SEED, EXAMPLES = 1, 25
+IN_ARENAS = ("answers-judged",)  # it reads all recorded runs, which takes seconds: tests/arena/fuzz
+
+
+def refuse_large(number: int) -> None:
+    assert number < 1000
+
+
+@pytest.mark.parametrize("name", [name for name in READERS if name not in IN_ARENAS])
+def test_nothing_is_found(name: str) -> None:
+    finding = READERS[name].look(SEED, EXAMPLES)
+    assert finding is None, finding
+
+
+def test_every_channel_has_a_fuzzer() -> None:
+    assert {fuzzer.channel for fuzzer in READERS.values()} == set(CHANNELS)
+
+
+def test_a_finding_is_as_small_as_can_be_and_kept_with_the_command_that_shows_it_again(
+    tmp_path: Path,
+) -> None:
+    fuzzer = Fuzzer("some-numbers", "answers", st.integers(0, 10**9), refuse_large)
+    finding = fuzzer.look(3, 200)
+    assert finding is not None
+    assert finding.input == "1000"
+    assert fuzzer.look(3, 200) == finding
+    text = finding.keep(tmp_path).read_text()
+    assert "./course test --fuzz 0 --fuzz-only some-numbers --fuzz-seed 3" in text
+    assert "refuse_large" in text
+    assert text.rstrip().endswith("1000")
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        b"[" * 100_000,
+        b'{"t": 1, "kind": []}',
+        b'{"t": 1, "kind": {"a": 1}}',
+        b'{"t": 1, "kind": "node_output", "text": {"ros_type": "std_msgs/msg/Float64", "ros_fields": {"data": 1'
+        + b"0" * 400
+        + b"}}}",
+    ],
+    ids=["brackets", "a list for a kind", "an object for a kind", "a number that no field holds"],
+)
+def test_a_report_that_cannot_be_read_is_no_ground_for_a_grade(line: bytes) -> None:
+    with pytest.raises(NotGraded, match="cannot be read"):
+        read_events(line + b"\n")
+
+
+def test_the_folder_of_another_student_is_not_read_through_a_link(tmp_path: Path) -> None:
+    theirs = tmp_path / "zoe/battery_service"
+    theirs.mkdir(parents=True)
+    (theirs / "battery_service.py").write_text("zoe's work")
+    (tmp_path / "anna").mkdir()
+    (tmp_path / "anna/battery_service").symlink_to(theirs)
+    annas, zoes = collect(tmp_path).works
+    with pytest.raises(UnusableSubmission, match="is a link; hand in the folder itself"):
+        annas.read()
+    assert zoes.read().sources == {"battery_service.py": "zoe's work"}
+
+
+@pytest.mark.parametrize("name", ["battery_service.ipynb", "battery_service.py"])
+def test_a_folder_in_the_place_of_a_file_is_told(tmp_path: Path, name: str) -> None:
+    (tmp_path / "anna" / name).mkdir(parents=True)
+    (work,) = collect(tmp_path).works
+    with pytest.raises(UnusableSubmission, match="is not an ordinary file"):
+        work.read()
+
+
+def test_a_file_that_nobody_may_read_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "battery_service.py"
+    path.write_text("pass")
+
+    def refuse(*_: object, **__: object) -> str:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "read_text", refuse)
+    with pytest.raises(UnusableSubmission, match=r"battery_service\.py cannot be read: Permission denied"):
+        Work("anna", "battery_service", path).read()
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may read every folder")
+def test_a_folder_that_nobody_may_read_costs_nobody_else_a_grade(tmp_path: Path) -> None:
+    for student in ("anna", "zoe"):
+        (tmp_path / student).mkdir()
+        (tmp_path / student / "battery_service.py").write_text("pass")
+    (tmp_path / "anna").chmod(0)
+    try:
+        collection = collect(tmp_path)
+    finally:
+        (tmp_path / "anna").chmod(0o755)
+    assert [work.student for work in collection.works] == ["zoe"]
+    assert "'anna' cannot be read: Permission denied" in collection.refused[0]
+
+
+GRADE = records._GRADE.to_json()
+
+
+@pytest.mark.parametrize("content", ["", "{", "7", "[null]", json.dumps([GRADE | {"checks": None}])])
+def test_a_damaged_file_of_grades_says_what_to_do(tmp_path: Path, content: str) -> None:
+    (tmp_path / GRADES).write_text(content)
+    with pytest.raises(UnusableRecord, match="put the one of the last batch back"):
+        read_grades(tmp_path / GRADES)
+
+
+@pytest.mark.parametrize("points", [3, -1, float("nan")])
+def test_no_grade_has_points_that_cannot_be(points: float) -> None:
+    check = GRADE["checks"][0] | {"points": points}
+    with pytest.raises(ValueError, match="points"):
+        Grade.from_json(GRADE | {"checks": [check]})
+
+
+@pytest.mark.parametrize(
+    "change", [{"shard": None}, {"shard": "3/2"}, {"graded": [1]}, {"graded": {}}, {"submissions": [["a"]]}]
+)
+def test_a_damaged_shard_is_refused(tmp_path: Path, change: dict[str, object]) -> None:
+    record = json.loads(records._SHARDS[0]) | change
+    (tmp_path / SHARD).write_text(json.dumps(record))
+    with pytest.raises(CannotMerge, match=r"holds (no finished shard|a grade that cannot be)"):
+        merge_shards([tmp_path])
+
+
+def test_a_shard_with_half_a_character_is_merged(tmp_path: Path) -> None:
+    record = json.loads(records._SHARDS[0])
+    record["graded"][0]["problem"] = "\ud800"
+    (tmp_path / SHARD).write_text(json.dumps(record))
+    assert next(result.problem for result in merge_shards([tmp_path]).results) == "\ud800"
+
+
+def test_a_shard_with_a_grade_that_cannot_be_is_refused(tmp_path: Path) -> None:
+    record = json.loads(records._SHARDS[0])
+    record["graded"][0]["grade"]["checks"][0]["points"] = 100
+    (tmp_path / SHARD).write_text(json.dumps(record))
+    with pytest.raises(CannotMerge, match="grade this shard again"):
+        merge_shards([tmp_path])
+
+
+@pytest.mark.parametrize("content", [b"", b"[" * 100_000, b'[null, "<svg/>"]', b"{}", b"\xff"])
+def test_damaged_drawings_and_a_damaged_cache_are_as_if_not_there(content: bytes) -> None:
+    records.require_cached_or_none(content)
+    records.require_drawings_or_none(content)
+
+
+def test_drawings_that_are_sound_are_found(tmp_path: Path) -> None:
+    drawings, failed = Drawings(tmp_path), records._GRADE.checks[1]
+    drawings.keep("battery_service", {}, failed, ["<svg/>"])
+    assert drawings.of(records._GRADE, {}) == {"b": ["<svg/>"]}
