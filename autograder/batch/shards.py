@@ -38,9 +38,11 @@ class Shard:
     @classmethod
     def parse(cls, text: str) -> Shard:
         """Read "K/N"; raises ValueError unless 1 ≤ K ≤ N."""
-        match = re.fullmatch(r"([1-9]\d*)/([1-9]\d*)", text)
+        match = re.fullmatch(r"([1-9]\d{0,5})/([1-9]\d{0,5})", text)
         if not match or int(match[1]) > int(match[2]):
-            raise ValueError(f"{text!r} is no part of a class; expected K/N with K from 1 to N, such as 1/4")
+            raise ValueError(
+                f"{text[:100]!r} is no part of a class; expected K/N with K from 1 to N, such as 1/4"
+            )
         return cls(int(match[1]), int(match[2]))
 
     def part(self, works: Sequence[Work]) -> list[Work]:

@@ -39,7 +39,9 @@ def test_each_submission_is_in_one_shard_whatever_the_order(of):
     assert Shard(1, of).part(WORKS) == Shard(1, of).part(WORKS[::-1])
 
 
-@pytest.mark.parametrize("text", ["0/3", "4/3", "1", "1/0", "a/b", "-1/3", "1/3/5"])
+@pytest.mark.parametrize(
+    "text", ["0/3", "4/3", "1", "1/0", "a/b", "-1/3", "1/3/5", "1/1000000000", "9" * 5000 + "/9"]
+)
 def test_no_part_of_a_class(text):
     with pytest.raises(ValueError, match="expected K/N"):
         Shard.parse(text)
