@@ -20,9 +20,10 @@ PARTS = {
     "Chapters": ("chapters/*.ipynb",),
     "Exercises": ("exercises/*/*.ipynb",),
     "Look it up": ("docs/glossary.md", "docs/cheat_sheet.md", "docs/ros2_commands.md", "docs/robot.md"),
-    "Set it up": ("docs/for_students.md",),
+    "Set it up": ("docs/for_students.md", "docs/any_machine.md"),
     "For instructors": (
         "docs/for_instructors.md",
+        "docs/jupyterhub.md",
         "docs/grading.md",
         "docs/clusters.md",
         "docs/recordings.md",

@@ -1,7 +1,7 @@
 """The Dockerfile's steps on a machine with nothing but Debian's base packages: the launcher sets all up by itself.
 
-Takes four to eight minutes, most of them downloads and the build of the interfaces. The downloads of debootstrap, apt
-and uv are kept (build/bare_machine, uv's own cache), so that a second run has less to fetch.
+Takes a minute and a half on two cores when all downloads are there already, and some minutes the first time. Those of
+debootstrap, apt and uv are kept (build/bare_machine, uv's own cache).
 """
 
 from __future__ import annotations
