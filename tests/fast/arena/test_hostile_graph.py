@@ -11,6 +11,7 @@ pytest.importorskip("rclpy")
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.graph import MOST_ENDPOINTS, MOST_NODES, MOST_SERVICES, Graph
+from fuzz.readers.graph import WildNode
 
 
 class Endpoint(NamedTuple):
@@ -18,27 +19,8 @@ class Endpoint(NamedTuple):
     node_namespace: str = "/robot"
 
 
-class FakeNode:
-    """A node whose graph holds what a test puts there; an exception in place of an answer is raised."""
-
-    def __init__(self, **answers: Any) -> None:
-        self._answers = answers
-
-    def resolve_service_name(self, name: str) -> str:
-        return f"/robot/{name}"
-
-    def __getattr__(self, question: str) -> Any:
-        def answer(*_: Any, **__: Any) -> Any:
-            found = self._answers.get(question, 0 if question.startswith("count") else [])
-            if isinstance(found, Exception):
-                raise found
-            return found
-
-        return answer
-
-
 def graph_of(log: ArenaLog, **answers: Any) -> Graph:
-    return Graph(FakeNode(**answers), log)  # type: ignore[arg-type]
+    return Graph(WildNode(answers), log)  # type: ignore[arg-type]
 
 
 BROKEN = UnicodeDecodeError("utf-8", b"\xff", 0, 1, "invalid start byte")
