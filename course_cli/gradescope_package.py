@@ -23,7 +23,7 @@ PARTS = (
     "autograder/*.py",
     *(
         f"autograder/{room}"
-        for room in ("arena", "authoring", "engine", "export", "isolation", "on_gradescope")
+        for room in ("arena", "authoring", "engine", "export", "isolation", "on_gradescope", "recording")
     ),
     *(f"autograder/batch/{name}.py" for name in ("__init__", "collection", "records", "special_grades")),
     "autograder/report/*.py",

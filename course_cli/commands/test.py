@@ -41,7 +41,7 @@ def run_tests(
         bool,
         typer.Option(
             "--again",
-            help="Run what failed once more, alone: CI's machine is busy with three files at a time.",
+            help="Run what failed once more, alone: CI's machine is busy with four files at a time.",
         ),
     ] = False,
     browser: Annotated[
@@ -65,16 +65,16 @@ def run_tests(
         typer.Option("--fuzz-only", help="With --fuzz: only this fuzzer; repeat it for several."),
     ] = None,
 ) -> None:
-    """Run the tests: all of them (45 minutes), or the tiers that are named; or fuzz for some minutes.
+    """Run the tests: all of them (40 minutes), or the tiers that are named; or fuzz for some minutes.
 
     Further arguments go to pytest: `course test tests/fast/setup -x`, `course test --fast -k name`.
     """
     if fuzz is not None:
         raise typer.Exit(0 if run_fuzzers(fuzz, fuzz_seed, fuzz_only or []) else 1)
     chosen = {tier for tier, wanted in zip(TIERS, (fast, arena, robot, browser), strict=True) if wanted}
-    # Three files at a time: robots and notebooks of the tests wait for the clock more than for the processors. The
+    # Four files at a time: robots and notebooks of the tests wait for the clock more than for the processors. The
     # order of the files is that of tests/conftest.py.
-    parallel = ["-n", "3", "--dist", "loadfile", "--no-loadscope-reorder"]
+    parallel = ["-n", "4", "--dist", "loadfile", "--no-loadscope-reorder"]
     arguments = pytest_arguments(chosen, context.args)
     passed = run_pytest([*parallel, *arguments], PROJECT)
     if not passed and again:

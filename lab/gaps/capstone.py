@@ -21,6 +21,9 @@ NOT_MET = "has not accepted the goal"  # what errand.py says when the child's an
 TRIES = 4  # errands until parent and child have found each other
 TO_BEGIN = 6.0  # s for the first feedback, or for an end
 TO_GO_DOWN = 2.0  # s for a cancel to reach the child
+A_MOMENT = (
+    0.5  # s for the child to tell of a cancel that came just before the errand ended; less than CHILD_NEEDS
+)
 CHILD_NEEDS = 1.0  # s that the played legs go on after a cancel
 PATIENCE = 2.0  # s, as errand.py has it
 SLOW = 3.0  # s of work for a child that is only slow
@@ -39,8 +42,7 @@ def waits_for_the_end_of_its_child() -> str:
     went_down = comes_true(
         lambda: _has_told(legs, seen, "cancel") or goal.is_over or not parent.is_running, TO_GO_DOWN
     )
-    if not _has_told(legs, seen, "cancel"):
-        comes_true(lambda: goal.is_over, 0.2)
+    if not comes_true(lambda: _has_told(legs, seen, "cancel"), A_MOMENT):
         raise not_yet(
             f"the errand ended {_status(goal)}, and go_ahead goes on: nobody has cancelled its goal"
             if went_down
@@ -134,8 +136,7 @@ def _gives_up_the_mute() -> str:
         lambda: _has_told(legs, 0, "cancel") or goal.is_over or not parent.is_running,
         PATIENCE + TO_GO_DOWN + 2.0,
     )
-    if not _has_told(legs, 0, "cancel"):
-        comes_true(lambda: goal.is_over, 0.2)
+    if not comes_true(lambda: _has_told(legs, 0, "cancel"), A_MOMENT):
         raise not_yet(
             f"a child fell silent; the errand ended {_status(goal)}, and nobody cancelled the child{_complaint(parent)}"
             if goal.is_over

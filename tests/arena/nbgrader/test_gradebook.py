@@ -108,13 +108,11 @@ def test_a_gradebook_with_submissions_says_why_it_cannot_take_other_checks(grade
         CourseGradebook(course, SOLUTIONS).enter(Entry(grade_of("bert"), SOURCES))
 
 
-def test_points_outside_of_what_a_cell_is_worth_are_clamped(gradebook, course):
-    gradebook.enter(
-        Entry(grade_of("anna", server_appears={"points": 99}, ends_cleanly={"points": -5}), SOURCES)
-    )
-    cells = submission(course, "anna")[2]
-    assert cells["server_appears"] == 1
-    assert cells["ends_cleanly"] == 0
+@pytest.mark.parametrize(("check", "points"), [("server_appears", 99), ("ends_cleanly", -5)])
+def test_points_outside_of_what_a_cell_is_worth_are_refused(gradebook, course, check, points):
+    with pytest.raises(NbgraderError, match=f"'{check}' cannot have {points} of"):
+        gradebook.enter(Entry(grade_of("anna", **{check: {"points": points}}), SOURCES))
+    assert all(score is None for score in submission(course, "anna")[2].values())
 
 
 def test_what_was_not_graded_leaves_no_score_and_nbgrader_cannot_make_one_up(gradebook, course):
