@@ -145,7 +145,8 @@ def _start(
 ) -> StartedSandbox:
     def bound(pid: int) -> None:
         if memory_group:
-            memory_group.add(pid)
+            with suppress(OSError):  # a container may let root make groups and not fill them
+                memory_group.add(pid)
 
     if spec.waiting_env is None:
         return sandbox.start(spec.command, prefix=prefix, pass_fds=spec.pass_fds, prepare=bound)
