@@ -57,18 +57,19 @@ class MemoryGroup:
                 return int(number) > 0
         return False
 
-    def remove(self, patience: float = 2.0) -> None:
-        """Remove the group once its last process has ended, which may take `patience` s."""
-        deadline = time.monotonic() + patience
-        while True:
-            with suppress(FileNotFoundError):
-                try:
-                    self._folder.rmdir()
-                except OSError:
-                    if time.monotonic() < deadline:
-                        time.sleep(0.02)
-                        continue
+    def remove(self) -> None:
+        """Remove the group once its last process has ended."""
+        remove_group(self._folder)
+
+
+def remove_group(folder: Path, patience: float = 2.0) -> None:
+    """Remove a control group once its last process has left it, which may take `patience` s."""
+    deadline = time.monotonic() + patience
+    while folder.exists() and time.monotonic() < deadline:
+        with suppress(OSError):
+            folder.rmdir()
             return
+        time.sleep(0.02)
 
 
 def make_memory_group(limit_mib: float) -> MemoryGroup | None:

@@ -8,8 +8,10 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
+
+from autograder.isolation.memory_group import remove_group
 
 _PLACES = (  # with the file that says how much was used: cgroup v2, v1 and both at once
     (Path("/sys/fs/cgroup/cpuacct"), "cpuacct.usage"),
@@ -41,15 +43,7 @@ def metered_group() -> Iterator[tuple[Path, str]]:
                 yield group / "cgroup.procs", str(group / meter)
                 return
         finally:
-            _remove(group)
+            remove_group(group)
     raise CannotBeMeasured(
         "processor time is counted by control groups (cgroups), which only root can make, where the kernel has them"
     )
-
-
-def _remove(group: Path) -> None:
-    for _ in range(100):  # until the last process has left it
-        with suppress(OSError):
-            group.rmdir()
-            return
-        time.sleep(0.02)
