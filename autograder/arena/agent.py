@@ -109,10 +109,9 @@ def _perform(
     from autograder.arena.spinning import keep_spinning
     from autograder.arena.stage import NodeMissing, Stage
 
-    monitor = SchedulingMonitor(log, student, spec.scale)
+    monitor = SchedulingMonitor(log, student)
 
     def speed_up() -> None:
-        monitor.begin()
         clock.run_at(spec.scale)
         student.count_from_now()
         phases.end("settling")

@@ -188,7 +188,7 @@ class WokenLate(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class Starved(Event):
-    """How long the student's program was ready to run and got no processor, s on the arena's clock."""
+    """How long (s) the student's program waited for a processor in the worst second on the arena's clock."""
 
     seconds: float
 

@@ -17,15 +17,9 @@ PERIOD = 0.1  # s on the arena's clock
 class SchedulingMonitor:
     """Records how late the arena's own process is woken, and how long the student's gets no processor."""
 
-    def __init__(self, log: ArenaLog, student: Student, scale: float) -> None:
+    def __init__(self, log: ArenaLog, student: Student) -> None:
         self._log = log
         self._student = student
-        self._scale = scale
-        self._starved_before = 0.0
-
-    def begin(self) -> None:
-        """Count the student's waiting for a processor from now on."""
-        self._starved_before = self._student.starved()
 
     @contextmanager
     def watch(self) -> Iterator[None]:
@@ -36,8 +30,7 @@ class SchedulingMonitor:
             yield
         finally:
             over.set()
-            starved = (self._student.starved() - self._starved_before) * self._scale
-            self._log.append(ev.Starved(seconds=starved))
+            self._log.append(ev.Starved(seconds=self._student.starved()))
 
     def _sleep(self, over: threading.Event) -> None:
         worst = 0.0

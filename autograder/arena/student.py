@@ -75,12 +75,12 @@ class Student:
         return self._running.wait(timeout)
 
     def count_from_now(self) -> None:
-        """Count the processor time while the clock runs at its scale from now on, or from the program's start."""
+        """Count what it uses and waits for, while the clock runs at its scale, from now or from its start on."""
         if self._watch:
             self._watch.count_from_now()
 
     def starved(self) -> float:
-        """Return how long (s of real time) the program has waited for a processor."""
+        """Return how long the program waited for a processor, in the worst second on the arena's clock (s)."""
         return self._watch.starved() if self._watch else 0.0
 
     def close(self) -> None:

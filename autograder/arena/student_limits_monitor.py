@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import threading
 import time
-from collections import deque
 
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
+from autograder.arena.fastest_growth import FastestGrowth
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.process_tree import cpu_seconds, resident_mib, seconds_without_a_processor, sockets
 from autograder.isolation.student_process import StudentProcess
@@ -15,6 +15,7 @@ from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, real_monoton
 
 PERIOD = 0.1  # s of real time between two measurements, which read some files of every process
 BURST = 0.5  # s of real time over which the busy processors are counted
+WAIT = 1.0  # s on the arena's clock over which the waiting for a processor is counted
 
 
 class StudentLimitsMonitor:
@@ -37,8 +38,7 @@ class StudentLimitsMonitor:
         self._starved: dict[int, float] = {}
         self._cpu_before = 0.0
         self._in_time_since = time.monotonic()
-        self._looks: deque[tuple[float, float]] = deque()  # real s, processor s
-        self._burst = 0.0
+        self._busy, self._waiting = FastestGrowth(), FastestGrowth()
         self._looking = threading.Lock()
         threading.Thread(target=self._watch, name="student limits", daemon=True).start()
 
@@ -47,8 +47,8 @@ class StudentLimitsMonitor:
         self._look()
         with self._looking:
             self._cpu_before, self._in_time_since = self._cpu, time.monotonic()
-            self._looks.clear()
-            self._burst = 0.0
+            self._busy, self._waiting = FastestGrowth(), FastestGrowth()
+            self._look_at_growth()
 
     def report(self) -> None:
         """Record the resources used so far."""
@@ -59,13 +59,14 @@ class StudentLimitsMonitor:
             peak_memory_mib=self._peak,
             cpu_in_time=self._cpu - self._cpu_before,
             in_time=time.monotonic() - self._in_time_since,
-            burst=self._burst,
+            burst=self._busy.rate,
         )
         self._log.append(usage)
 
     def starved(self) -> float:
-        """Return how long (s of real time) the processes have waited for a processor so far."""
-        return sum(self._starved.values())
+        """Return how long the processes waited for a processor, in the worst second on the arena's clock (s)."""
+        self._look()
+        return self._waiting.rate
 
     def _watch(self) -> None:
         while self._student.returncode is None:
@@ -81,23 +82,19 @@ class StudentLimitsMonitor:
         with self._looking:
             processes = self._student.processes()
             self._cpu = max(self._cpu, cpu_seconds(processes))
-            self._count_busy_processors()
             used = resident_mib(processes)
             self._peak = max(self._peak, used)
             for process in processes:
                 self._starved[process] = max(
                     self._starved.get(process, 0.0), seconds_without_a_processor(process)
                 )
+            self._look_at_growth()
         return self._excess(used)
 
-    def _count_busy_processors(self) -> None:
+    def _look_at_growth(self) -> None:
         now = real_monotonic_ns() / 1e9
-        self._looks.append((now, self._cpu))
-        while len(self._looks) > 1 and now - self._looks[1][0] >= BURST:
-            self._looks.popleft()
-        then, cpu = self._looks[0]
-        if now - then >= BURST:
-            self._burst = max(self._burst, (self._cpu - cpu) / (now - then))
+        self._busy.look(now, self._cpu, BURST)
+        self._waiting.look(now, sum(self._starved.values()), WAIT / self._clock.scale)
 
     def _excess(self, memory: float) -> str:
         limits = self._limits

@@ -81,40 +81,53 @@ def audit(
     *,
     jobs: int = 2,
     repeat: int = 1,
+    seed: int = 0,
     scale: float | None = None,
     report: Callable[[AuditedRun], None] = lambda run: None,
 ) -> list[AuditedRun]:
-    """Grade each submission `repeat` times, each time with other scenario inputs, in `jobs` arenas in parallel.
+    """Grade each submission `repeat` times, in `jobs` arenas in parallel, and what could not be graded then once alone.
 
+    The scenarios' inputs are those of `seed`, and of the seeds that follow it for the repetitions.
     `report` gets each run when it is done; the runs are returned in the order of the submissions.
     """
     for known in submissions:
         require_known_checks(known, [check.id for check in exercise.checks])
+    wanted = [(repetition, known) for repetition in range(repeat) for known in submissions]
+    runs: dict[tuple[int, KnownSubmission], AuditedRun] = {}
     with ThreadPoolExecutor(jobs) as pool:
-        futures = [
-            pool.submit(audit_one, known, exercise, repetition, scale)
-            for repetition in range(repeat)
-            for known in submissions
-        ]
+        futures = {
+            pool.submit(audit_one, known, exercise, repetition, seed, scale): (repetition, known)
+            for repetition, known in wanted
+        }
         try:
             for future in as_completed(futures):
-                report(future.result())
+                run = future.result()
+                if run.grade.status != "not graded":
+                    runs[futures[future]] = run
+                    report(run)
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
-    return [future.result() for future in futures]
+    for repetition, known in wanted:
+        if (repetition, known) not in runs:
+            runs[repetition, known] = audit_one(known, exercise, repetition, seed, scale)
+            report(runs[repetition, known])
+    return [runs[one] for one in wanted]
 
 
 def audit_one(
     known: KnownSubmission,
     exercise: Exercise,
     repetition: int = 0,
+    seed: int = 0,
     scale: float | None = None,
     at_first_look: Collection[str] = (),
 ) -> AuditedRun:
     """Grade one submission, one arena at a time; `at_first_look`: the checks that need not fail twice."""
     started = time.monotonic()
-    result = grade(known.read(), exercise, seed=repetition, jobs=1, scale=scale, at_first_look=at_first_look)
+    result = grade(
+        known.read(), exercise, seed=seed + repetition, jobs=1, scale=scale, at_first_look=at_first_look
+    )
     return AuditedRun(known, repetition, result, time.monotonic() - started)
 
 

@@ -1,14 +1,19 @@
-"""Jobs in the hands of an executor: threads here, or workers elsewhere. Work that gets lost is done again once."""
+"""Jobs in the hands of an executor: threads here, or workers elsewhere.
+
+Work that gets lost, and what no arena could grade, is done once more at the end, alone.
+"""
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, ThreadPoolExecutor, wait
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from autograder.batch.job import GradingJob, Outcome
 from autograder.batch.special_grades import not_graded
+
+PutOff = Callable[[GradingJob, Outcome], None]
 
 
 @dataclass(frozen=True)
@@ -35,15 +40,27 @@ class Crew:
     """Gives jobs to workers and takes the outcomes, each job's once.
 
     A job whose worker was killed, or whose executor broke, is done again alone when no other is left: one that kills
-    its worker takes no other with it twice. If it is lost again, it is "not graded", with the reason.
+    its worker takes no other with it twice. So is one that arenas ran for and that is "not graded": the machine was
+    too busy, and alone it has more of it. What comes of the second time counts.
+
+    Args:
+        workers: carry out the jobs.
+        work: what they do with each.
+        put_off: gets each job that is to be done again, and what came of it the first time.
     """
 
-    def __init__(self, workers: Workers, work: Callable[[GradingJob], Outcome]) -> None:
+    def __init__(
+        self,
+        workers: Workers,
+        work: Callable[[GradingJob], Outcome],
+        put_off: PutOff = lambda job, outcome: None,
+    ) -> None:
         self._workers = workers
         self._work = work
+        self._put_off = put_off
         self._executor: Executor | None = None
         self._running: dict[Future[Outcome], GradingJob] = {}
-        self._lost: deque[GradingJob] = deque()
+        self._once_more: deque[GradingJob] = deque()
         self._alone: GradingJob | None = None
 
     @property
@@ -54,7 +71,7 @@ class Crew:
     @property
     def is_busy(self) -> bool:
         """Whether there are jobs without an outcome."""
-        return bool(self._running or self._lost)
+        return bool(self._running or self._once_more)
 
     def give(self, job: GradingJob) -> None:
         """Hand over a job."""
@@ -71,7 +88,7 @@ class Crew:
     def wait(self, patience: float | None = None) -> Sequence[tuple[GradingJob, Outcome]]:
         """Wait until something happens to a job, or for `patience` s; return those that are done."""
         if not self._running:
-            self._alone = self._lost.popleft()
+            self._alone = replace(self._once_more.popleft(), arenas=1)
             self._close_executor()  # it may be breaking still, and would take this job with it
             self.give(self._alone)
         done = wait(self._running, timeout=patience, return_when=FIRST_COMPLETED).done
@@ -79,15 +96,14 @@ class Crew:
         for future in done:
             job = self._running.pop(future)
             try:
-                outcomes.append((job, future.result()))
-            except (
-                Exception,
-                CancelledError,
-            ) as error:  # the job itself raises nothing, so it is the worker that was lost
-                if job is self._alone:
-                    outcomes.append((job, _lost_twice(job, error)))
-                else:
-                    self._lost.append(job)
+                outcome = future.result()
+            except (Exception, CancelledError) as error:  # the job itself raises nothing: the worker was lost
+                outcome = _lost(job, error, twice=job is self._alone)
+            if job is self._alone or not outcome.may_end_otherwise:
+                outcomes.append((job, outcome))
+            else:
+                self._once_more.append(job)
+                self._put_off(job, outcome)
         return outcomes
 
     def close(self) -> None:
@@ -102,9 +118,9 @@ class Crew:
             self._executor = None
 
 
-def _lost_twice(job: GradingJob, error: BaseException) -> Outcome:
+def _lost(job: GradingJob, error: BaseException, *, twice: bool) -> Outcome:
     reason = (
-        f"the worker was lost twice while it graded this ({type(error).__name__}: {error}); look whether a machine ran "
-        "out of memory or was switched off, and grade again with --resume"
+        f"the worker was lost {'twice ' if twice else ''}while it graded this ({type(error).__name__}: {error}); look "
+        "whether a machine ran out of memory or was switched off, and grade again with --resume"
     )
-    return Outcome(not_graded(job.exercise, job.student, "", reason), "")
+    return Outcome(not_graded(job.exercise, job.student, "", reason), "", may_end_otherwise=True)

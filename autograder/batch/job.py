@@ -67,6 +67,7 @@ class Outcome:
         drawn: SVG of the runs that failed checks were judged on, by the check's id.
         effort: what it took; None if no worker answered.
         recordings: MCAP files by name, if they were asked for.
+        may_end_otherwise: the grader failed, and not because of where or how it was set up.
     """
 
     grade: Grade
@@ -74,6 +75,7 @@ class Outcome:
     drawn: DrawnRuns = field(default_factory=dict)
     effort: Effort | None = None
     recordings: Recordings = field(default_factory=dict)
+    may_end_otherwise: bool = False
 
 
 @dataclass(frozen=True)
@@ -145,8 +147,14 @@ def _graded(job: GradingJob, isolation: Isolation, stop: Stop, report: Report) -
     except Exception:  # whatever goes wrong here is the grader's fault and may not end the batch
         reason = f"the grader itself failed:\n{traceback.format_exc()}"
         found = not_graded(job.exercise, job.student, isolation.label, reason)
-    recordings = recorder.files(found) if recorder else {}
-    return Outcome(with_reason(found), isolation.label, drawn, _effort(began, arenas), recordings)
+    return Outcome(
+        with_reason(found),
+        isolation.label,
+        drawn,
+        _effort(began, arenas),
+        recorder.files(found) if recorder else {},
+        may_end_otherwise=arenas is not None and found.status == "not graded",
+    )
 
 
 def _effort(began: str, arenas: SubmissionArenas | None) -> Effort:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from autograder.batch.cache import GradeCache, Known
 from autograder.batch.collection import Work
-from autograder.batch.crew import Crew, Workers, threads
+from autograder.batch.crew import Crew, PutOff, Workers, threads
 from autograder.batch.effort import Effort, without_arena
 from autograder.batch.job import GradingJob, Live, carry_out
 from autograder.batch.seeds import ONE_FOR_ALL, Seeds
@@ -58,6 +58,7 @@ class BatchRunner:
         resume: take grades from the cache.
         report: gets each verdict as soon as it is known, on any thread; from other machines with the grade.
         running: gets the jobs that run in this process, whenever they change, on any thread.
+        put_off: gets each job that could not be graded and is done again at the end, alone, with its first outcome.
         drawings: keeps those of failed checks.
         recordings: folder in which they are kept, each in <student>/<exercise>/; None: none are made.
         workers: where the work is done; None: `jobs` threads of this process.
@@ -73,6 +74,7 @@ class BatchRunner:
         resume: bool = False,
         report: Report = lambda verdict: None,
         running: Running = lambda jobs: None,
+        put_off: PutOff = lambda job, outcome: None,
         drawings: Drawings | None = None,
         recordings: Path | None = None,
         workers: Workers | None = None,
@@ -84,6 +86,7 @@ class BatchRunner:
         self._resume = resume
         self._report = report
         self._running = running
+        self._put_off = put_off
         self._drawings = drawings
         self._recordings = recordings
         self._workers = workers
@@ -108,7 +111,8 @@ class BatchRunner:
         at_a_time = len(works) if isinstance(works, Sized) else self._jobs
         arenas = 1 if self._workers else max(1, self._jobs // max(1, at_a_time))
         workers = self._workers or threads(max(1, self._jobs // arenas))
-        crew = Crew(workers, partial(carry_out, live=self._live() if workers.share_memory else None))
+        live = self._live() if workers.share_memory else None
+        crew = Crew(workers, partial(carry_out, live=live), self._put_off)
         handed_over: dict[tuple[str, str], Work] = {}
         try:
             for work in works:

@@ -246,7 +246,7 @@ class _Session:
             problem = NotGraded(
                 f"the machine was too busy: what runs there was {lateness(transcript):.1f} s behind the "
                 "arena's clock at scale "
-                f"{attempt_scale:g}; grade again with fewer jobs"
+                f"{attempt_scale:g}; grade again with fewer jobs, or when less else runs here"
             )
         raise problem or NotGraded("no attempt was made")
 

@@ -7,19 +7,19 @@ from autograder.authoring.transcript import Transcript
 
 STRAINED = 0.15  # s the simulator may be late in a retry
 OVERLOADED = 0.5  # s the simulator may be late before a run is not judged at all
-STARVED = 1.0  # s a student's program may wait for a processor before a run without a robot is not judged
 
 
 def lateness(transcript: Transcript) -> float:
     """Return how far (s, arena's clock) the simulator was behind at worst, once the node was ready.
 
-    Without a robot it is the longest delay of the arena's own wake-ups or, if that is more, a share of the time for
-    which the program had no processor.
+    Without a robot it is the longest delay of the arena's own wake-ups or, if that is more, what the program lost in
+    the worst second because it got no processor. The sum over a run says nothing: two seconds that are lost little by
+    little, in thirty, delay nothing that a check looks at.
     """
     ready = transcript.first(ev.NodeReady)
     since = ready.t + 1.0 if ready else 0.0
     lags = [robot.lag for robot in transcript.ground_truth if robot.t >= since]
     if not transcript.ground_truth:
         lags = [woken.late for woken in transcript.all(ev.WokenLate)]
-        lags += [starved.seconds * OVERLOADED / STARVED for starved in transcript.all(ev.Starved)]
+        lags += [starved.seconds for starved in transcript.all(ev.Starved)]
     return max(lags, default=0.0)

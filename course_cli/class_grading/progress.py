@@ -14,7 +14,7 @@ from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
-from autograder.batch.job import GradingJob
+from autograder.batch.job import GradingJob, Outcome
 from autograder.batch.pace import Pace, in_words
 from autograder.batch.runner import Graded
 from autograder.engine.verdict import CheckVerdict
@@ -86,6 +86,18 @@ class BatchProgress:
                 key: self._began.get(key, now) for key in ((job.student, job.exercise) for job in jobs)
             }
         self._say_now_and_then()
+
+    def put_off(self, job: GradingJob, outcome: Outcome) -> None:
+        """Say that a job could not be graded, and is done again at the end."""
+        if not self._elsewhere:  # its verdicts were counted, and come again
+            self._pace.expect(len(outcome.grade.checks))
+        (why, *_) = outcome.grade.reason.splitlines() or [""]
+        self._console.print(
+            f"{job.student} · {job.exercise}  not graded yet, once more at the end, alone: {why}",
+            style="magenta",
+            markup=False,
+            soft_wrap=True,
+        )
 
     def graded(self, result: Graded, checks: int) -> None:
         """Print the line of a result that should have as many verdicts as there are checks."""

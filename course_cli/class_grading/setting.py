@@ -59,6 +59,7 @@ class Setting:
             workers=self.cluster.workers if self.cluster else None,
             report=progress.verdict,
             running=progress.running,
+            put_off=progress.put_off,
             drawings=Drawings(self.request.out),
             recordings=self.request.out / RECORDINGS if self.request.record else None,
         )

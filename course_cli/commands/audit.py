@@ -9,8 +9,9 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from autograder.audit.aftermath import audit_one_by_one
 from autograder.audit.fault_patch import SUFFIX, PatchError, as_patch
-from autograder.audit.kill_matrix import kill_matrix, print_progress
+from autograder.audit.kill_matrix import kill_matrix, print_aftermath, print_progress
 from autograder.audit.known_submission import (
     HeaderError,
     KnownSubmission,
@@ -20,7 +21,13 @@ from autograder.audit.known_submission import (
 from autograder.audit.residue import residue
 from autograder.audit.run import AuditedRun
 from autograder.audit.run import audit as run_audit
-from autograder.engine.exercise import UnknownExercise, UnusableExercise, exercise_names, load_exercise
+from autograder.engine.exercise import (
+    Exercise,
+    UnknownExercise,
+    UnusableExercise,
+    exercise_names,
+    load_exercise,
+)
 from autograder.engine.exposure import HiddenChecksRefused
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
@@ -36,10 +43,18 @@ def audit(
         int,
         typer.Option(min=1, help="how often to grade each submission, each time with other scenario inputs"),
     ] = 1,
+    seed: Annotated[int, typer.Option(min=0, help="scenario inputs of the first of these gradings")] = 0,
     only: Annotated[str, typer.Option(help="only submissions whose name matches, such as 'faulty/*'")] = "*",
     scale: Annotated[
         float | None, typer.Option(help="factor by which the arenas' clock runs faster than real time")
     ] = None,
+    aftermath: Annotated[
+        bool,
+        typer.Option(
+            "--aftermath",
+            help="one at a time, and after each: what it left on this machine, and a correct one's grade",
+        ),
+    ] = False,
     json_file: Annotated[Path | None, typer.Option("--json", help="write every verdict to this file")] = None,
     show: Annotated[
         str | None,
@@ -54,6 +69,7 @@ def audit(
     """Grade submissions with known faults; exit status 0 only if every verdict is as expected."""
     console = Console(highlight=False)
     audited: dict[str, list[AuditedRun]] = {}
+    harm: list[str] = []  # to the machine and to other submissions
     try:
         if show:
             _show(_found(exercise, show))
@@ -63,19 +79,25 @@ def audit(
             return
         with residue() as left:
             for name in [exercise] if exercise else exercise_names():
-                loaded = load_exercise(name, hidden=True)
-                runs = run_audit(
-                    known_submissions(name, only=only),
-                    loaded,
-                    jobs=jobs,
-                    repeat=repeat,
-                    scale=scale,
-                    report=lambda run: print_progress(console, run),
-                )
-                console.print()
-                console.print(kill_matrix(runs, loaded), width=max(console.width, MATRIX_WIDTH))
-                console.print()
-                audited[name] = runs
+                known = known_submissions(name, only=only)
+                if aftermath:
+                    after_each = audit_one_by_one(
+                        known, name, report=lambda after: print_aftermath(console, after)
+                    )
+                    audited[name] = [after.run for after in after_each]
+                    harm += [line for after in after_each for line in after.harm()]
+                else:
+                    loaded = load_exercise(name, hidden=True)
+                    audited[name] = run_audit(
+                        known,
+                        loaded,
+                        jobs=jobs,
+                        repeat=repeat,
+                        seed=seed,
+                        scale=scale,
+                        report=lambda run: print_progress(console, run),
+                    )
+                    _print_matrix(console, audited[name], loaded)
     except (UnknownExercise, UnusableExercise, HeaderError, PatchError) as error:
         raise ended(console, error, UNUSABLE) from error
     except HiddenChecksRefused as error:
@@ -88,7 +110,13 @@ def audit(
         raise ended(console, f"no submission matches {only!r}", UNUSABLE)
     for line in left:
         console.print(f"left behind: {line}", style="red", markup=False)
-    raise typer.Exit(COULD_NOT if left or any(run.surprises() for run in every_run) else 0)
+    raise typer.Exit(COULD_NOT if left or harm or any(run.surprises() for run in every_run) else 0)
+
+
+def _print_matrix(console: Console, runs: list[AuditedRun], exercise: Exercise) -> None:
+    console.print()
+    console.print(kill_matrix(runs, exercise), width=max(console.width, MATRIX_WIDTH))
+    console.print()
 
 
 def _found(exercise: str | None, name: str) -> KnownSubmission:

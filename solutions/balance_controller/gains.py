@@ -7,6 +7,7 @@ from typing import Any
 
 DEFAULTS = {"kp_pitch": 276.0, "kd_pitch": 34.0, "kp_roll": 302.0, "kd_roll": 38.0, "max_torque": 10000.0}
 NAMES = tuple(DEFAULTS)
+HIGHEST = {"kp_pitch": 1000.0, "kd_pitch": 300.0, "kp_roll": 1000.0, "kd_roll": 300.0, "max_torque": 10000.0}
 TOPPLE = 51.0  # N·m/rad, with which gravity topples the trunk
 
 Set = dict[str, Any]
@@ -20,6 +21,12 @@ def set_each(name: str, **values: Any) -> Set:
 def set_together(name: str, **values: Any) -> Set:
     """Return a request to set_parameters_atomically."""
     return {"name": name, "values": values, "atomically": True}
+
+
+def lowest_gains(random: Random) -> dict[str, float]:
+    """Draw gains at the lower ends of the task's table, which are accepted although they hold no robot."""
+    kp = {name: round(random.uniform(51.1, 60.0), 1) for name in ("kp_pitch", "kp_roll")}
+    return kp | {"kd_pitch": 0.0, "kd_roll": 0.0, "max_torque": round(random.uniform(0.1, 5.0), 1)}
 
 
 def sound_gains(random: Random) -> dict[str, float]:

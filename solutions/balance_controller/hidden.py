@@ -20,7 +20,7 @@ from .checks import (
     sets_all_or_none,
     survives_a_push,
 )
-from .gains import NAMES, TOPPLE, set_each, set_together, sound_gains
+from .gains import HIGHEST, NAMES, TOPPLE, lowest_gains, set_each, set_together, sound_gains
 from .published import require_accepted, require_once, require_published, require_silence
 from .refused import require_bad_start_refused, require_refused
 from .standing import require_standing_after_push
@@ -29,13 +29,17 @@ AN_INTEGER = "10_parameters_and_balance#int-why"
 
 
 def _any_gains(random: Random) -> dict[str, Any]:
-    """Draw a set of all gains, and some of them one after the other."""
+    """Draw a set of all gains, some of them one after the other, one of these again, and the ends of the table."""
     chosen = random.sample(NAMES, 3)
     later = sound_gains(random)
+    same = random.choice(chosen)
     return {
         "sets": [
             set_together("all gains", **sound_gains(random)),
             set_each("some gains", **{name: later[name] for name in chosen}),
+            set_each("the same again", **{same: later[same]}),
+            set_each("the lowest", **lowest_gains(random)),
+            set_together("the highest", **HIGHEST),
         ]
     }
 
@@ -57,6 +61,7 @@ NO_NUMBERS = Scenario(
             set_each("NaN for kp", kp_roll=math.nan),
             set_each("infinite", max_torque=math.inf),
             set_each("infinite kp", kp_pitch=math.inf),
+            set_each("infinite kd", kd_roll=math.inf),
             set_together("NaN among good ones", kp_pitch=300.0, kd_roll=math.nan),
         ]
     },
@@ -155,7 +160,7 @@ def leaves_nothing_behind(run: Transcript) -> None:
 
 @check(points=2, on=ANY_GAINS, needs=publishes_once, see=TWO_CALLBACKS)
 def publishes_any_gains(run: Transcript) -> None:
-    """Whatever gains are accepted, they are published, once for each set"""
+    """All that the table accepts is accepted and published, once for each set, also one that changes nothing"""
     for one in run.params["sets"]:
         require_accepted(run, one["name"])
         require_once(run, one["name"])

@@ -59,9 +59,7 @@ def require_published(run: Transcript, name: str) -> None:
             observed="none"
             if _has_publisher(run)
             else f"none: there is no publisher of {TOPIC} in the node's namespace",
-            help="Publish in the post-set callback: self.add_post_set_parameters_callback(self._apply)."
-            if _has_publisher(run)
-            else f"Give create_publisher the name {TOPIC!r}, letter by letter, without a slash or a ~ in front.",
+            help=_about_silence(run, changes_something=new != old),
             at=at,
         )
     require_gains(messages[-1], new, old=old, after=f"{what} was accepted")
@@ -81,6 +79,14 @@ def _wrong(event: ev.MessageReceived, gains: Gains) -> list[str]:
         for name in NAMES
         if not math.isclose(getattr(event.message, name), gains[name], rel_tol=1e-6, abs_tol=1e-6)
     ]
+
+
+def _about_silence(run: Transcript, *, changes_something: bool) -> str:
+    if not _has_publisher(run):
+        return f"Give create_publisher the name {TOPIC!r}, letter by letter, without a slash or a ~ in front."
+    if not changes_something:
+        return "The value was the same as before, and the set was accepted: each accepted set has a message."
+    return "Publish in the post-set callback: self.add_post_set_parameters_callback(self._apply)."
 
 
 def _has_publisher(run: Transcript) -> bool:

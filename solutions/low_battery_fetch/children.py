@@ -32,6 +32,7 @@ DEAD_END = (
     "Waiting for a child in a callback blocks the only thread, and its answer never gets in: await the future in an "
     "async execute callback, or use a MultiThreadedExecutor and callback groups that let the answers in."
 )
+LATCHED = "subscribe to it with QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL), which is reliable."
 
 
 def children(goal: Goal) -> list[ScriptedGoal]:
@@ -63,7 +64,9 @@ def require_child(goal: Goal, step: int) -> ScriptedGoal:
         require_alive(goal.run)
         ended = f"; fetch ended {name_of(StatusName, goal.status)}" if goal.status else ""
         raise Failure(
-            expected=f"{step} goals, the last of which {STEPS[step]}",
+            expected=f"{step} goals, the last of which {STEPS[step]}"
+            if step > 1
+            else f"a goal {STEPS[step]}",
             observed=f"{len(sent)} to both actions together{ended}",
             help=_why_it_stopped(goal, sent),
             at=goal.result.t if goal.result else goal.sent.t,
@@ -83,7 +86,11 @@ def _why_it_stopped(goal: Goal, sent: Sequence[ScriptedGoal]) -> str:
     if unmeant := why_rclpy_aborted(goal):
         return unmeant
     if goal.result and (said := goal.result.result.error_msg):
-        return f"Your server gave up by itself, with error_msg {shown(said)}: find out why."
+        gave_up = f"Your server gave up by itself, with error_msg {shown(said)}"
+        levels = [each for each in run_of(goal).published("battery_state") if each.t <= goal.sent.t]
+        if not sent and len(levels) == 1 and "battery" in said:
+            return f"{gave_up}. battery_state came once, before the goal: {LATCHED}"
+        return f"{gave_up}: find out why."
     if goal.result:
         return (
             "execute made its terminal call too early: go on with the next step when a child has SUCCEEDED."

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario, check
 from autograder.authoring.feedback import require_good_feedback_rate
@@ -34,8 +36,17 @@ RISE = Scenario("rise", robot=CROUCH)
 UNKNOWN = Scenario("ask_before_anything_is_known", robot=None)
 LEANED_ON = Scenario("lean_on_before", {"force": [0.0, 20.0, 0.0], "duration": 4.0}, robot=CROUCH)
 PUSHED = Scenario("lean_on_under_way", {"force": [0.0, -20.0, 0.0], "duration": 2.5}, robot=CROUCH)
-GLIDES = Scenario("be_restless", {"speed": 0.06, "tilt": 0.0, "calm": 0.0, "duration": 3.0}, robot=None)
-LEANS = Scenario("be_restless", {"speed": 0.0, "tilt": 0.12, "calm": 0.0, "duration": 3.0}, robot=None)
+AHEAD, LEFT, BACK, RIGHT = 0.0, math.pi / 2, math.pi, -math.pi / 2  # rad, in base_link
+GLIDES = Scenario(
+    "be_restless",
+    {"speed": 0.06, "tilt": 0.0, "towards": [AHEAD, RIGHT], "calm": 0.0, "duration": 1.6},
+    robot=None,
+)
+LEANS = Scenario(
+    "be_restless",
+    {"speed": 0.0, "tilt": 0.12, "towards": [AHEAD, LEFT, BACK, RIGHT], "calm": 0.0, "duration": 1.2},
+    robot=None,
+)
 STANDING = Scenario("ask_a_standing_robot", robot=RESTING)
 CANCEL = Scenario("cancel", {"height": 0.48}, robot=CROUCH)
 TWICE = Scenario("ask_twice", robot=CROUCH)

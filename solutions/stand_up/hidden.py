@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from autograder.authoring.checks import Scenario, check
 from autograder.authoring.transcript import Transcript
 
@@ -56,6 +58,7 @@ FIDGETS = Scenario(
     lambda random: {
         "speed": 0.06,
         "tilt": round(random.choice((0.0, 0.1)), 2),
+        "towards": [round(random.uniform(-math.pi, math.pi), 2)],
         "calm": round(random.uniform(0.1, 0.2), 2),
         "duration": 3.0,
     },

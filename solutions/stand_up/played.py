@@ -164,7 +164,8 @@ def _require_unrest(run: Transcript, begin: float, end: float) -> None:
 
 
 def _is_restless(odom: Odometry) -> bool:
-    return abs(odom.twist.twist.linear.x) > UNREST or tilt(odom.pose.pose.orientation) > TILT
+    velocity = odom.twist.twist.linear
+    return math.hypot(velocity.x, velocity.y) > UNREST or tilt(odom.pose.pose.orientation) > TILT
 
 
 def tilt(q: Quaternion) -> float:

@@ -198,21 +198,26 @@ def step_aside_at_the_top(stage: Stage, light: float, duration: float) -> None:
         robot.live_until_the_end(goal)
 
 
-def be_restless(stage: Stage, speed: float, tilt: float, calm: float, duration: float) -> None:
-    """Play a robot that has risen, and is not calm for `duration` s.
+def be_restless(
+    stage: Stage, speed: float, tilt: float, towards: Sequence[float], calm: float, duration: float
+) -> None:
+    """Play a robot that has risen, and is not calm for a while.
 
     Args:
         stage: the stage.
         speed: with which the pelvis glides and bobs, m/s.
         tilt: of the pelvis, rad.
+        towards: the directions in which it glides and leans, one after the other, rad in base_link.
         calm: how long it stands still and upright after each unrest of 0.3 s; 0: never.
-        duration: of all that, s.
+        duration: of each direction, s.
     """
     with _PlayedRobot(stage, 0.48) as robot:
         goal = _open(stage).send_and_wait(as_="rise")
         stage.poll_until(lambda: robot.z >= NEAR_THE_TOP, SOON)
         robot.change("restless", speed=speed, tilt=tilt, calm=calm)
-        stage.wait(duration)
+        for toward in towards:
+            robot.change(toward=toward)
+            stage.wait(duration)
         robot.change("calm", speed=0.0, tilt=0.0)
         robot.live_until_the_end(goal)
 
@@ -281,14 +286,15 @@ class _PlayedRobot:
     Attributes:
         z: height of the pelvis, m.
         share: what the right foot carries, as a share of the left foot's load.
-        speed: with which it glides ahead, m/s; it then bobs, too.
-        tilt: its pitch, rad.
+        speed: with which it glides, m/s; it then bobs, too.
+        tilt: how far it leans, rad.
+        toward: the direction in which it glides and leans, rad in base_link, counter-clockwise from ahead.
         calm: how long speed and tilt are left out after each 0.3 s with them, s; 0: never.
     """
 
     def __init__(self, stage: Stage, height: float, *, weak: bool = False) -> None:
-        self.z, self.share, self.speed, self.tilt, self.calm = height, 1.0, 0.0, 0.0, 0.0
-        self._x, self._weak = 0.0, weak
+        self.z, self.share, self.speed, self.tilt, self.toward, self.calm = height, 1.0, 0.0, 0.0, 0.0, 0.0
+        self._x, self._y, self._weak = 0.0, 0.0, weak
         self._stage = stage
         self._state = stage.offer_topic("robot_state", RobotState, latched=True)
         self._odom = stage.offer_topic("odom", Odometry)
@@ -363,18 +369,24 @@ class _PlayedRobot:
         if self._shares:
             self.share = self._shares.popleft()
         speed, tilt = (0.0, 0.0) if self._is_calm() else (self.speed, self.tilt)
-        self._x += speed * passed
+        ahead, left = math.cos(self.toward), math.sin(self.toward)
+        self._x += speed * ahead * passed
+        self._y += speed * left * passed
         stamp = Clock().now().to_msg()
         state = RobotState(mode=RobotState.STANDING, motors_enabled=True)
         state.header.stamp = stamp
         odom = Odometry(child_frame_id="base_link")
         odom.header.frame_id, odom.header.stamp = "odom", stamp
         position, orientation = odom.pose.pose.position, odom.pose.pose.orientation
-        position.x, position.z = self._x, self.z - (BOB if speed and self._rounds % BOBBING > 2 else 0.0)
-        orientation.y, orientation.w = math.sin(tilt / 2), math.cos(tilt / 2)
-        odom.twist.twist.linear.x, odom.twist.twist.linear.z = speed, climb
-        left = WEIGHT / (1.0 + self.share)
-        for side, load in (("l", left), ("r", WEIGHT - left)):
+        position.x, position.y = self._x, self._y
+        position.z = self.z - (BOB if speed and self._rounds % BOBBING > 2 else 0.0)
+        # It turns about the horizontal axis across the direction in which it leans.
+        orientation.x, orientation.y = -left * math.sin(tilt / 2), ahead * math.sin(tilt / 2)
+        orientation.w = math.cos(tilt / 2)
+        velocity = odom.twist.twist.linear
+        velocity.x, velocity.y, velocity.z = speed * ahead, speed * left, climb
+        carried = WEIGHT / (1.0 + self.share)
+        for side, load in (("l", carried), ("r", WEIGHT - carried)):
             wrench = WrenchStamped()
             wrench.header.frame_id, wrench.header.stamp = f"{side}_sole", stamp
             wrench.wrench.force.z = load

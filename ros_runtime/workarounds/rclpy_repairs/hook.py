@@ -1,4 +1,4 @@
-"""Repair rclpy in every process of the environment, when it imports rclpy.executors.
+"""Repair rclpy in every process of the environment, when it imports rclpy.executors and rclpy.action.client.
 
 A .pth file calls `install` whenever Python starts. So this module imports nothing that costs time, and rclpy
 only when the program does. RCLPY_REPAIRS=off leaves rclpy as it is, to see the fault.
@@ -11,48 +11,66 @@ import sys
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:  # typing itself takes a millisecond to import
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
     from importlib.abc import Loader
     from importlib.machinery import ModuleSpec
     from types import ModuleType
 
-MODULE = "rclpy.executors"
+EXECUTORS, ACTION_CLIENT = "rclpy.executors", "rclpy.action.client"
 
 
 def install() -> None:
-    """Watch for the import of rclpy.executors."""
-    if os.environ.get("RCLPY_REPAIRS") != "off" and MODULE not in sys.modules:
-        sys.meta_path.insert(0, _Finder())
+    """Watch for the import of the modules that are repaired."""
+    if os.environ.get("RCLPY_REPAIRS") == "off":
+        return
+    for name, repair in ((EXECUTORS, _repair_executors), (ACTION_CLIENT, _repair_action_client)):
+        if name not in sys.modules:
+            sys.meta_path.insert(0, _Finder(name, repair))
+
+
+def _repair_executors(module: ModuleType) -> None:
+    from ros_runtime.workarounds.rclpy_repairs import busy_executor, interrupt
+    from ros_runtime.workarounds.rclpy_repairs.version import installed_version
+
+    version = installed_version()
+    for fault in (interrupt, busy_executor):
+        if fault.needs_repair(version):
+            fault.repair(module)
+
+
+def _repair_action_client(module: ModuleType) -> None:
+    from ros_runtime.workarounds.rclpy_repairs import lost_answers
+
+    if lost_answers.needs_repair(module):
+        lost_answers.repair(module)
 
 
 class _Finder:
     """Finds nothing but one module, once, and has its loader repair what it loaded."""
 
+    def __init__(self, name: str, repair: Callable[[ModuleType], None]) -> None:
+        self._name = name
+        self._repair = repair
+
     def find_spec(
         self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        if name != MODULE:
+        if name != self._name:
             return None
         sys.meta_path.remove(self)
         from importlib.machinery import PathFinder
 
         spec = PathFinder.find_spec(name, path, target)
         if spec is not None and spec.loader is not None:
-            _repair_after_loading(spec.loader)
+            _repair_after_loading(spec.loader, self._repair)
         return spec
 
 
-def _repair_after_loading(loader: Loader) -> None:
+def _repair_after_loading(loader: Loader, repair: Callable[[ModuleType], None]) -> None:
     load = loader.exec_module
 
     def exec_module(module: ModuleType) -> None:
         load(module)
-        from ros_runtime.workarounds.rclpy_repairs import busy_executor, interrupt
-        from ros_runtime.workarounds.rclpy_repairs.version import installed_version
-
-        version = installed_version()
-        for fault in (interrupt, busy_executor):
-            if fault.needs_repair(version):
-                fault.repair(module)
+        repair(module)
 
     loader.exec_module = exec_module  # type: ignore[method-assign]

@@ -16,6 +16,7 @@ from needed import ALWAYS, NEEDED
 from autograder.audit.known_submission import known_submissions
 from autograder.audit.recorded import Case, cases
 from autograder.authoring import events as ev
+from autograder.authoring.root_cause import ALLOWED_LOAD, STARTING
 from autograder.authoring.transcript import Transcript
 from autograder.engine.exercise import exercise_names, load_exercise
 from autograder.engine.judging import judge
@@ -250,6 +251,15 @@ def without_robot(case):
     robots = any(scenario.robot is not None for scenario in case.check.on)
     nodes = any(scenario.student == "node" for scenario in case.check.on)
     return ({"robot_truth"} if not robots else set()) | ({"node_ready"} if not nodes else set())
+
+
+@pytest.mark.parametrize("exercise", EXERCISES)
+def test_sound_programs_use_far_less_processor_time_than_is_allowed(exercise):
+    sound = [case for case in recorded(exercise) if case.submission in reference(exercise)]
+    for case in sound:
+        for scenario, transcript in zip(case.check.on, case.transcripts, strict=True):
+            if (used := transcript.first(ev.NodeUsage)) and scenario.timed:
+                assert used.cpu < 0.25 * (STARTING + ALLOWED_LOAD * used.wall * transcript.scale), case
 
 
 def reference(exercise):

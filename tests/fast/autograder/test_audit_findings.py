@@ -6,10 +6,11 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from autograder.audit.kill_matrix import figures, kill_matrix
+from autograder.audit.aftermath import Aftermath
+from autograder.audit.kill_matrix import figures, kill_matrix, print_aftermath
 from autograder.audit.known_submission import HeaderError, known_submissions, read_known_submission
 from autograder.audit.proof import enough_to_catch, enough_to_prove
-from autograder.audit.run import AuditedRun, checks_without_a_killer
+from autograder.audit.run import AuditedRun, audit, checks_without_a_killer
 from autograder.authoring.checks import Scenario, check
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise
 from autograder.engine.verdict import CheckVerdict, Grade
@@ -163,6 +164,42 @@ def test_matrix_shows_every_submission_and_check_and_the_figures(folder, exercis
         assert words in printed
     assert "kills: 1 of 1 faulty submissions (100 %)" in figures(runs, exercise)
     assert "false failures: 0 in 1 runs of correct submissions" in figures(runs, exercise)
+
+
+def test_what_could_not_be_graded_is_graded_once_more_at_the_end(folder, exercise, monkeypatch):
+    where = folder(correct=CORRECT, faulty=FAULTY)
+    gradings = []
+
+    def busy_at_first(known, exercise, repetition, seed, scale):
+        gradings.append(known.kind)
+        busy = known.kind == "correct" and gradings.count("correct") == 1
+        return run_of(known, answers="error" if busy else "passed")
+
+    monkeypatch.setattr("autograder.audit.run.audit_one", busy_at_first)
+    reported = []
+    known = [read(where, "correct"), read(where, "faulty")]
+    runs = audit(known, exercise, jobs=1, report=reported.append)
+    assert gradings == ["correct", "faulty", "correct"]
+    assert [run.known.kind for run in reported] == ["faulty", "correct"]
+    assert [run.grade.status for run in runs] == ["graded", "graded"]
+
+
+@pytest.mark.parametrize(
+    ("left", "next_one", "words"),
+    [
+        ((), "passed", "nothing left behind; then correct/one  1/1"),
+        (("mount /tmp/arena-1",), "passed", "left behind: mount /tmp/arena-1"),
+        ((), "failed", "the next one, correct/one: answers failed"),
+    ],
+)
+def test_what_a_submission_does_to_the_machine_and_to_the_next_one_is_told(folder, left, next_one, words):
+    where = folder(correct=CORRECT, hostile=HOSTILE)
+    hostile = run_of(read(where, "hostile"), appears="failed")
+    aftermath = Aftermath(hostile, left, run_of(read(where, "correct"), answers=next_one))
+    console = Console(width=100, record=True, file=StringIO())
+    print_aftermath(console, aftermath)
+    assert words in console.export_text()
+    assert bool(aftermath.harm()) == (words[:7] != "nothing")
 
 
 def test_enough_to_prove_is_every_check_once_and_whatever_is_not_faulty(tmp_path, monkeypatch):

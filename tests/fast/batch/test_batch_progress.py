@@ -9,7 +9,7 @@ from rich.console import Console
 
 from autograder.batch.collection import Work
 from autograder.batch.effort import Effort
-from autograder.batch.job import GradingJob
+from autograder.batch.job import GradingJob, Outcome
 from autograder.batch.pace import Pace, in_words
 from autograder.batch.runner import Graded
 from autograder.engine.verdict import CheckVerdict, Grade
@@ -116,3 +116,15 @@ def test_a_submission_without_verdicts_is_counted_as_done(clock):
     lost = Graded(Work("anna", "walk_to", None), Grade("walk_to", "anna", "", reason="lost"), {})
     progress.graded(lost, checks=2)
     assert progress._pace.done == 2
+
+
+def test_what_is_put_off_is_told_and_its_verdicts_are_expected_once_more(clock):
+    console = Console(file=io.StringIO(), width=200)
+    progress = BatchProgress(console, clock=clock)
+    progress.expect(checks=1, submissions=1)
+    progress.verdict(VERDICT)
+    first = Grade("walk_to", "anna", "namespaces", [VERDICT], reason="the machine was too busy\nfor that")
+    progress.put_off(job("anna"), Outcome(first, "namespaces", may_end_otherwise=True))
+    assert "anna · walk_to  not graded yet" in console.file.getvalue()
+    assert console.file.getvalue().endswith("the machine was too busy\n")
+    assert (progress._pace.done, progress._pace.expected) == (1, 2)

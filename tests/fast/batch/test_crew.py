@@ -1,8 +1,9 @@
-"""Work that a killed worker or a broken executor had is done again once, and every job has one outcome."""
+"""Work that a killed worker had, and what could not be graded, is done again once, and every job has one outcome."""
 
 from __future__ import annotations
 
 import os
+from collections import Counter
 from concurrent.futures import Executor, ProcessPoolExecutor
 from functools import partial
 from multiprocessing import get_context
@@ -10,8 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from autograder.batch.crew import Crew, Workers
+from autograder.batch.crew import Crew, Workers, threads
 from autograder.batch.job import GradingJob, Outcome
+from autograder.batch.special_grades import not_graded
 from autograder.engine.verdict import CheckVerdict, Grade
 
 
@@ -66,3 +68,36 @@ def test_an_executor_that_cannot_be_opened_is_an_error_and_no_grade() -> None:
 
     with pytest.raises(OSError, match="no processes left"):
         outcomes(Crew(Workers(unavailable, at_a_time=1), partial(grade_or_die, Path())), ["anna"])
+
+
+def test_what_could_not_be_graded_is_done_again_alone_at_the_end() -> None:
+    running, beside, tries = set[str](), dict[str, int](), Counter[str]()
+
+    def busy_at_first(job: GradingJob) -> Outcome:
+        running.add(job.student)
+        tries[job.student] += 1
+        beside[job.student] = len(running) - 1
+        busy = job.student == "always" or (job.student == "at first" and tries[job.student] == 1)
+        grade = not_graded(job.exercise, job.student, "", "the machine was too busy") if busy else passes(job)
+        running.remove(job.student)
+        return Outcome(grade, "namespaces", may_end_otherwise=busy)
+
+    put_off: list[str] = []
+    crew = Crew(threads(3), busy_at_first, lambda job, outcome: put_off.append(job.student))
+    found = outcomes(crew, ["always", "anna", "at first", "bert"])
+    assert [status for _, status, _ in found] == ["not graded", "graded", "graded", "graded"]
+    assert sorted(put_off) == ["always", "at first"]
+    assert tries == {"always": 2, "anna": 1, "at first": 2, "bert": 1}
+    assert beside["always"] == beside["at first"] == 0
+
+
+def test_what_was_not_graded_for_a_reason_that_stays_is_not_done_again() -> None:
+    tries: list[str] = []
+
+    def without_isolation(job: GradingJob) -> Outcome:
+        tries.append(job.student)
+        return Outcome(not_graded(job.exercise, job.student, "", "the worker has no isolation"), "")
+
+    ((_, status, _),) = outcomes(Crew(threads(1), without_isolation), ["anna"])
+    assert status == "not graded"
+    assert tries == ["anna"]

@@ -1,0 +1,21 @@
+"""How fast a total grows at its fastest, measured at looks that come when they come."""
+
+from __future__ import annotations
+
+from collections import deque
+
+
+class FastestGrowth:
+    """The most that a total has grown by in a second, over any stretch of time of at least a given length."""
+
+    def __init__(self) -> None:
+        self._looks: deque[tuple[float, float]] = deque()  # s, total
+        self.rate = 0.0
+
+    def look(self, now: float, total: float, stretch: float) -> None:
+        """Note the total at a time (s); what is younger than `stretch` (s) counts as if it had taken so long."""
+        self._looks.append((now, total))
+        while len(self._looks) > 1 and now - self._looks[1][0] >= stretch:
+            self._looks.popleft()
+        then, before = self._looks[0]
+        self.rate = max(self.rate, (total - before) / max(stretch, now - then))

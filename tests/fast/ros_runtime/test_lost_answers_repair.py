@@ -1,0 +1,38 @@
+"""The repair of the ActionClient: a quick answer is not lost where one thread sends and another one spins."""
+
+import json
+from types import SimpleNamespace
+
+import pytest
+from rclpy.action import client as installed
+from rclpy_process import run_scenario
+
+from ros_runtime.workarounds.rclpy_repairs import lost_answers
+
+AFFECTED = lost_answers.needs_repair(installed) or hasattr(
+    installed.ActionClient.send_goal_async, "__wrapped__"
+)
+
+
+def answered(repairs):
+    done = run_scenario("goal_scenarios.py", "a_goal_is_sent_cancelled_and_asked_for_its_result", repairs)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_answers_that_come_while_the_sender_has_no_processor_arrive():
+    assert answered("on") == {"goal": True, "cancel": True, "result": True}
+
+
+@pytest.mark.skipif(not AFFECTED, reason="this rclpy does not have the fault")
+def test_without_the_repair_they_do_not():
+    assert answered("off") == {"goal": False}
+
+
+def test_a_client_that_holds_a_lock_is_left_alone():
+    class Mended:
+        def send_goal_async(self):
+            with self._lock:
+                pass
+
+    assert not lost_answers.needs_repair(SimpleNamespace(ActionClient=Mended))
