@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from pathlib import Path
 
@@ -24,6 +25,16 @@ FIRST = (
 def tier_of(file: Path) -> str:
     """The folder below tests/ in which a file is."""
     return file.relative_to(TESTS).parts[0]
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--audit-minutes",
+        type=float,
+        default=math.inf,
+        metavar="MINUTES",
+        help="skip the known submissions whose grading has not begun after so long",
+    )
 
 
 def pytest_configure() -> None:
