@@ -74,7 +74,7 @@ def execute(
         extra_arguments=["--log-level=ERROR"],  # the kernel's own log, which else goes to the terminal
     )
     try:
-        client.execute(env={**os.environ, "PATH": path_with_ros2(os.environ["PATH"])})  # as in `course lab`
+        _execute(client)
     except CellExecutionError as error:
         raise ChapterFailed(f"{chapter.name}, cell {reached.id}: {error.ename}: {error.evalue}") from error
     except CellTimeoutError as error:
@@ -83,11 +83,18 @@ def execute(
         ) from error
     except DeadKernelError as error:
         raise ChapterFailed(f"{chapter.name}, cell {reached.id}: its kernel died") from error
-    except AssertionError as error:
-        if client.km is None:  # nbclient handles Ctrl-C by ending the kernel, and then stumbles over that
+    return Executed(notebook, [str(process) for process in processes_in(folder)])
+
+
+def _execute(client: NotebookClient) -> None:
+    """Run the notebook with the `ros2` commands on the PATH, as in `course lab`."""
+    try:
+        client.execute(env={**os.environ, "PATH": path_with_ros2(os.environ["PATH"])})
+    except Exception as error:
+        # nbclient handles Ctrl-C by ending the kernel in a task, and then stumbles over its absence somewhere
+        if hasattr(client, "_async_cleanup_kernel_future"):
             raise KeyboardInterrupt from error
         raise
-    return Executed(notebook, [str(process) for process in processes_in(folder)])
 
 
 def answered(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:

@@ -1,4 +1,7 @@
-"""The live ROS graph: topics, their publishers and their subscribers."""
+"""The live ROS graph: topics, their publishers and their subscribers.
+
+Nodes whose names begin with "_" are hidden, as for `ros2 node list`: a `ros2` command is such a node, for a moment.
+"""
 
 from __future__ import annotations
 
@@ -20,6 +23,7 @@ from lab.errors import LabError
 from lab.student_nodes import NOT_YET_KNOWN
 
 OF_EVERY_NODE = ("/parameter_events", "/rosout")
+HIDDEN = "_"  # begins the names of nodes that only look, or live for a moment
 
 
 @dataclass(frozen=True)
@@ -95,18 +99,26 @@ def list_graph(*names: str) -> None:
 
 
 def nodes_in_graph() -> list[str]:
-    """The full names of all nodes, sorted."""
+    """The full names of all nodes but hidden ones, sorted."""
     node: Node = connection().node
     return sorted(
         _full_name(namespace, name)
         for name, namespace in node.get_node_names_and_namespaces()
-        if name != NOT_YET_KNOWN
+        if _is_shown(name)
     )
 
 
 def _endpoints(infos: Iterable[TopicEndpointInfo]) -> tuple[Endpoint, ...]:
-    ends = (Endpoint(_full_name(info.node_namespace, info.node_name), info.qos_profile) for info in infos)
+    ends = (
+        Endpoint(_full_name(info.node_namespace, info.node_name), info.qos_profile)
+        for info in infos
+        if not info.node_name.startswith(HIDDEN)
+    )
     return tuple(sorted(ends, key=lambda end: end.node))
+
+
+def _is_shown(name: str) -> bool:
+    return name != NOT_YET_KNOWN and not name.startswith(HIDDEN)
 
 
 def _full_name(namespace: str, name: str) -> str:

@@ -188,9 +188,13 @@ class WokenLate(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class Starved(Event):
-    """How long (s) the student's program waited for a processor in the worst second on the arena's clock."""
+    """How long (s) the student's program waited for a processor, in the worst second on the arena's clock.
+
+    `altogether` (s of real time) is the waiting since its start.
+    """
 
     seconds: float
+    altogether: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)

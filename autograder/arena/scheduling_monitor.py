@@ -30,7 +30,7 @@ class SchedulingMonitor:
             yield
         finally:
             over.set()
-            self._log.append(ev.Starved(seconds=self._student.starved()))
+            self._student.record_waiting()
 
     def _sleep(self, over: threading.Event) -> None:
         worst = 0.0

@@ -79,9 +79,10 @@ class Student:
         if self._watch:
             self._watch.count_from_now()
 
-    def starved(self) -> float:
-        """Return how long the program waited for a processor, in the worst second on the arena's clock (s)."""
-        return self._watch.starved() if self._watch else 0.0
+    def record_waiting(self) -> None:
+        """Record how long the program waited for a processor so far, if it was started."""
+        if self._watch:
+            self._watch.record_waiting()
 
     def close(self) -> None:
         """Record the resources used, and end the program."""

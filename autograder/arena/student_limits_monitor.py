@@ -63,10 +63,10 @@ class StudentLimitsMonitor:
         )
         self._log.append(usage)
 
-    def starved(self) -> float:
-        """Return how long the processes waited for a processor, in the worst second on the arena's clock (s)."""
+    def record_waiting(self) -> None:
+        """Record how long the processes waited for a processor so far."""
         self._look()
-        return self._waiting.rate
+        self._log.append(ev.Starved(seconds=self._waiting.rate, altogether=sum(self._starved.values())))
 
     def _watch(self) -> None:
         while self._student.returncode is None:

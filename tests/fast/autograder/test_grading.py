@@ -189,6 +189,21 @@ def test_a_program_that_got_no_processor_is_run_again_more_slowly_where_time_cou
     assert [scale for _, scale in ran] == scales
 
 
+@pytest.mark.parametrize(("starved", "status"), [(2.0, "failed"), (5.0, "not graded")])
+def test_a_node_that_never_came_is_judged_unless_half_its_time_was_lost(
+    monkeypatch, two_checks, starved, status
+):
+    def answer(scenario, scale):
+        absent = ev.NodeNotReady(t=6.0, missing=["/call"], offered=["/cal"], waited=6.0)
+        waiting = ev.Starved(t=6.0, seconds=0.8, altogether=starved)
+        events = [BEGINNING[0], absent, waiting, ev.ScenarioEnded(t=6.0)]
+        return Transcript.from_events(scenario.name, {}, events, 1.0)
+
+    arenas(monkeypatch, answer)
+    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED)
+    assert (grade.status if status == "not graded" else grade.checks[0].status) == status
+
+
 @pytest.mark.parametrize("fast_enough", [2.0, 1.0])
 def test_a_failure_on_a_strained_run_counts_only_if_it_is_seen_again_on_one_that_is_not(
     monkeypatch, two_checks, fast_enough

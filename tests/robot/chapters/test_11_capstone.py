@@ -131,7 +131,8 @@ def test_the_glass_is_lowered_from_where_it_was(chapter: Executed) -> None:
 def test_on_the_way_the_legs_end_before_the_glass_is_lowered(chapter: Executed) -> None:
     drawn = chapter.html("walk-run")
     parent, child = moments(drawn, "carry_glass.py"), moments(drawn, "legs.py")
-    assert child["CANCELED, and the robot stands"] < parent["lower begins"] < parent["lower SUCCEEDED"]
+    stands, begins = child["CANCELED, and the robot stands"], parent["lower begins"]  # printed to 0.01 s
+    assert stands <= begins < parent["lower SUCCEEDED"]
 
 
 def test_giving_up_is_cheap(chapter: Executed) -> None:
