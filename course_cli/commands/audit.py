@@ -37,6 +37,7 @@ MATRIX_WIDTH = 140
 
 
 def audit(
+    context: typer.Context,
     exercise: Annotated[str | None, typer.Argument(help="the exercise (default: all of them)")] = None,
     jobs: JobsOption = 2,
     repeat: Annotated[
@@ -70,6 +71,9 @@ def audit(
     console = Console(highlight=False)
     audited: dict[str, list[AuditedRun]] = {}
     harm: list[str] = []  # to the machine and to other submissions
+    if aftermath and (ignored := _given(context, "jobs", "repeat", "seed", "scale")):
+        reason = f"--aftermath grades one at a time, once, as students are graded: leave out {ignored}"
+        raise ended(console, reason, UNUSABLE)
     try:
         if show:
             _show(_found(exercise, show))
@@ -111,6 +115,14 @@ def audit(
     for line in left:
         console.print(f"left behind: {line}", style="red", markup=False)
     raise typer.Exit(COULD_NOT if left or harm or any(run.surprises() for run in every_run) else 0)
+
+
+def _given(context: typer.Context, *options: str) -> str:
+    """Return those of these options that were written on the command line, such as "--jobs, --seed"."""
+    sources = {option: context.get_parameter_source(option) for option in options}
+    return ", ".join(
+        f"--{option}" for option, source in sources.items() if source and source.name == "COMMANDLINE"
+    )
 
 
 def _print_matrix(console: Console, runs: list[AuditedRun], exercise: Exercise) -> None:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from rich.console import Console
+from typer.testing import CliRunner
 
 from autograder.audit.aftermath import Aftermath
 from autograder.audit.kill_matrix import figures, kill_matrix, print_aftermath
@@ -14,6 +15,7 @@ from autograder.audit.run import AuditedRun, audit, checks_without_a_killer
 from autograder.authoring.checks import Scenario, check
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise
 from autograder.engine.verdict import CheckVerdict, Grade
+from course_cli.app import app
 
 CORRECT = '"""Style: plain."""\n'
 FAULTY = '"""Fault: sleeps\nin the callback (M2)\nCaught by: answers\nAlso fails: ends\n\nCaught by nobody else."""\n'
@@ -200,6 +202,13 @@ def test_what_a_submission_does_to_the_machine_and_to_the_next_one_is_told(folde
     print_aftermath(console, aftermath)
     assert words in console.export_text()
     assert bool(aftermath.harm()) == (words[:7] != "nothing")
+
+
+def test_an_aftermath_refuses_the_options_that_it_would_ignore(folder):
+    folder(correct=CORRECT)
+    ran = CliRunner().invoke(app("audit"), ["audit", "service", "--aftermath", "--jobs", "2", "--seed=4"])
+    assert ran.exit_code == 2
+    assert "leave out --jobs, --seed" in " ".join(ran.output.split())
 
 
 def test_enough_to_prove_is_every_check_once_and_whatever_is_not_faulty(tmp_path, monkeypatch):
