@@ -36,14 +36,19 @@ def enough_to_prove(
 
 
 def enough_to_catch(known: KnownSubmission, exercise: Exercise) -> Exercise:
-    """Return the exercise with only the checks that a faulty submission must fail, and those they need.
+    """Return the exercise with only the checks that tell whether a faulty or hostile submission is caught.
 
-    For a correct or hostile submission every check stays, because it must pass the others.
+    For a faulty one these are the checks that it must fail, without those they need, which it passes. For a hostile
+    one they are those it must or may fail, with what they need: where its effect shows first depends on the machine.
+    Every check stays for one that must fail none.
     """
-    if known.kind != "faulty":
-        return exercise
     checks = {check.id: check for check in exercise.checks}
-    wanted = list(known.caught_by)
+    if known.kind == "faulty":
+        alone = [replace(checks[check_id], needs=()) for check_id in checks if check_id in known.caught_by]
+        return replace(exercise, checks=alone)
+    if not known.caught_by:
+        return exercise
+    wanted = [*known.caught_by, *known.also_fails]
     for check_id in wanted:  # grows as it goes
         wanted += [need for need in checks[check_id].needs if need not in wanted]
     return replace(exercise, checks=[check for check in exercise.checks if check.id in wanted])

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from functools import cache
+from itertools import cycle
 
 import pytest
 from needed import ALWAYS, NEEDED
@@ -34,7 +35,7 @@ ANSWERS = (
     *("service_answered", "goal_answered", "cancel_answered", "result_received", "reply_sent"),
     "arm_reported",
 )
-DELAYS = (0.4, 2.0, 30.0)  # s
+DELAYS = (0.4, 2.0, 30.0)  # s, taken in turn
 # What a program does by itself. Without one of these a record is that of another program, and that may be a sound one.
 OWN_DOING = (
     *("node_output", "node_exited", "node_killed", "request_received"),
@@ -71,22 +72,23 @@ def without_log(verdict: CheckVerdict) -> CheckVerdict:
 def places(transcript) -> list[int]:
     """Return the indices of its events; of a row of those that come all the time, the ends of each kind."""
     kinds = [event.kind for event in transcript.events]
-    return [
-        index
-        for index, kind in enumerate(kinds)
-        if kind not in RUNS_OF
-        or not (goes_on(kind, reversed(kinds[:index])) and goes_on(kind, kinds[index + 1 :]))
-    ]
+    first = beginnings(kinds)
+    last = [len(kinds) - 1 - index for index in beginnings(kinds[::-1])]
+    return sorted({*first, *last})
 
 
-def goes_on(kind, others) -> bool:
-    """Return whether an event of this kind is the next one, apart from others that come all the time."""
-    for other in others:
-        if other == kind:
-            return True
-        if other not in RUNS_OF:
-            return False
-    return False
+def beginnings(kinds) -> list[int]:
+    """Return where something happens, and where each kind of a row of what comes all the time is first seen in it."""
+    found = []
+    row: set[str] = set()
+    for index, kind in enumerate(kinds):
+        if kind not in RUNS_OF:
+            row.clear()
+        if kind not in row:
+            found.append(index)
+        if kind in RUNS_OF:
+            row.add(kind)
+    return found
 
 
 def prefixes(transcript):
@@ -136,13 +138,12 @@ def doubled(transcript):
 
 
 def delayed(transcript):
-    for index in places(transcript):
+    for delay, index in zip(cycle(DELAYS), places(transcript)):
         event = transcript.events[index]
-        for delay in DELAYS:
-            late = replace(event, t=event.t + delay)
-            others = [*transcript.events[:index], late, *transcript.events[index + 1 :]]
-            events = sorted(others, key=lambda event: event.t)
-            yield f"with {event.kind} {index} {delay} s late", replace(transcript, events=events)
+        late = replace(event, t=event.t + delay)
+        others = [*transcript.events[:index], late, *transcript.events[index + 1 :]]
+        events = sorted(others, key=lambda event: event.t)
+        yield f"with {event.kind} {index} {delay} s late", replace(transcript, events=events)
 
 
 def flooded(transcript):

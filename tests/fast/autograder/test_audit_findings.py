@@ -19,6 +19,7 @@ from course_cli.app import app
 
 CORRECT = '"""Style: plain."""\n'
 FAULTY = '"""Fault: sleeps\nin the callback (M2)\nCaught by: answers\nAlso fails: ends\n\nCaught by nobody else."""\n'
+HARMLESS = '"""Attack: looks around\nOutcome: sees nothing\nPasses: nothing it did not do\n"""\n'
 HOSTILE = '"""Attack: forks\nOutcome: dies of it\nCaught by: appears\n"""\n'
 
 
@@ -231,13 +232,14 @@ def test_enough_to_prove_is_every_check_once_and_whatever_is_not_faulty(tmp_path
 @pytest.mark.parametrize(
     ("kind", "source", "checks"),
     [
-        ("correct", CORRECT, ["appears", "answers", "ends"]),
-        ("faulty", FAULTY, ["appears", "answers"]),
-        ("hostile", HOSTILE, ["appears", "answers", "ends"]),
+        ("correct", CORRECT, {"appears": (), "answers": ("appears",), "ends": ("answers",)}),
+        ("faulty", FAULTY, {"answers": ()}),
+        ("hostile", HOSTILE.replace("appears", "answers"), {"appears": (), "answers": ("appears",)}),
+        ("hostile", HARMLESS, {"appears": (), "answers": ("appears",), "ends": ("answers",)}),
     ],
 )
-def test_enough_to_catch_is_what_a_faulty_one_names_and_what_that_needs(
+def test_enough_to_catch_is_what_a_faulty_one_names_and_what_a_hostile_one_may_fail(
     folder, exercise, kind, source, checks
 ):
     known = read(folder(**{kind: source}), kind)
-    assert [check.id for check in enough_to_catch(known, exercise).checks] == checks
+    assert {check.id: check.needs for check in enough_to_catch(known, exercise).checks} == checks
