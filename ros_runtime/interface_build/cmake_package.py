@@ -16,8 +16,8 @@ from typing import TextIO
 from ros_runtime.interface_build.build_environment import PYTHON_LIB, RosBuild, ros_build, sourced_prefixes
 
 FOLDER = Path(__file__).resolve().parent
-MISSING_INCLUDES = FOLDER / "drop_missing_includes.cmake"
-BUILD_FILES = (FOLDER / "cmake_package.py", FOLDER / "build_environment.py", MISSING_INCLUDES)
+FROM_WHEELS = FOLDER / "from_wheels.cmake"
+BUILD_FILES = (FOLDER / "cmake_package.py", FOLDER / "build_environment.py", *sorted(FOLDER.glob("*.cmake")))
 LOG_TAIL_LINES = 40
 
 
@@ -77,7 +77,7 @@ def _run_cmake(source: Path, binary_dir: Path, prefix: Path, ros: RosBuild, log:
         configure += [
             "-G",
             "Ninja",
-            f"-DCMAKE_PROJECT_{source.name}_INCLUDE={MISSING_INCLUDES}",
+            f"-DCMAKE_PROJECT_{source.name}_INCLUDE={FROM_WHEELS}",
         ]
     steps = [
         configure,

@@ -1,5 +1,4 @@
-# Loaded through CMAKE_PROJECT_<package>_INCLUDE when the build uses the ROS wheels.
-# Their imported targets name include directories of the machine that made the wheels
+# The imported targets of the ROS wheels name include directories of the machine that made them
 # (/opt/python/...); CMake refuses imported targets whose directories do not exist.
 # The Python headers come from Python3_EXECUTABLE anyway, so dropping them loses nothing.
 

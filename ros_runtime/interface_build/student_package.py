@@ -72,7 +72,7 @@ class BuiltPackage:
 def build_package(source: Path, builds: Path, name: str) -> BuiltPackage:
     """Build the definitions in `source` as package `name` into a folder of its own below `builds`.
 
-    The same definitions are not built twice. Takes about ten seconds on two cores for a service and an action.
+    The same definitions are not built twice. Takes about five seconds on two cores for a service and an action.
 
     Raises:
         InvalidDefinitions: naming file, line, what is wrong and what was expected.
