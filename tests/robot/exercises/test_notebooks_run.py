@@ -208,3 +208,15 @@ def test_pick_and_place_on_the_live_robot(tmp_path):
     assert "back 0.04 m, on 0.08 m: put it back" in seen["example-nearer"]
     assert "SUCCEEDED" in seen["try-fetch"]
     assert "UNREACHABLE" in seen["try-far"] or "error_code 2" in seen["try-far"]
+
+
+def test_low_battery_fetch_with_three_batteries(tmp_path):
+    seen = run("low_battery_fetch", tmp_path, until="self-check-intro")
+    assert "SUCCEEDED" in seen["example-run"]
+    assert "total_steps 3" in seen["example-run"]
+    lasts, walks, holds = re.findall(r"from [\d.]+: (.*)", seen["try"])
+    assert re.match(r"SUCCEEDED .*final_object_pose \(0\.40 m.*max_grasp_force 12", lasts)
+    for early in (walks, holds):
+        assert re.match(r"ABORTED .*error_msg 'gave up: the battery got low'", early)
+    assert "max_grasp_force 0" in walks  # it took nothing
+    assert re.search(r"final_object_pose \(1\.45 m.*max_grasp_force 12", holds)  # on the tray
