@@ -1,4 +1,4 @@
-"""docs/coverage.md tells the truth: every cell, check, test and submission it names as a proof is there."""
+"""docs/coverage.md tells the truth: every row names its proofs, and every cell, check, test and submission is there."""
 
 from __future__ import annotations
 
@@ -24,12 +24,27 @@ DONE = re.findall(
 M3 M4 M5 M6 M7 M8 M9 M10 M11 M12 M13 M14 M15 M16 M17 M18 M19 M20
 """,
 )
+NOT_BY_NAME = {
+    "quiz-7-answer",
+    "patterns-choose",
+}  # cells whose tests take all quizzes, and the widgets of a run
+
+Row = tuple[str, list[list[str]]]
 
 
-def rows() -> list[list[str]]:
-    """The cells of the page's tables, without their headings."""
+def rows() -> list[Row]:
+    """The rows of the page's tables: the item's name, and the proofs of each column behind what is shown."""
     lines = [line.strip("|").split("|") for line in PAGE.splitlines() if re.match(r"\| [0M]", line)]
-    return [[cell.strip(" `") for cell in line] for line in lines]
+    return [(line[0].strip(), [re.findall(r"`([^`]+)`", column) for column in line[2:]]) for line in lines]
+
+
+ITEMS = [row for row in rows() if row[0][0] == "0"]
+MISCONCEPTIONS = [row for row in rows() if row[0][0] == "M"]
+
+
+def name_of(row: object) -> str | None:
+    """The name of a row, for pytest."""
+    return row[0] if isinstance(row, tuple) else None
 
 
 @cache
@@ -48,15 +63,23 @@ def check_ids(exercise: str) -> set[str]:
     return {check.id for check in load_exercise(exercise, hidden=True).checks}
 
 
+@cache
+def source_of(proof: str) -> str:
+    """The source of test_file::test, with its decorators."""
+    file, test = proof.split("::")
+    (path,) = ROOT.glob(f"tests/robot/*/{file}.py")
+    sources = [block for block in path.read_text().split("\n\n\n") if f"def {test}(" in block]
+    assert len(sources) == 1, proof
+    return sources[0]
+
+
 def require_proof(proof: str) -> None:
     """A proof is CHAPTER#cell or exercise#cell, exercise: check, test_file::test, or exercise/kind/submission."""
     if "#" in proof:
         notebook, cell = proof.split("#")
         assert cell in cell_ids(notebook), proof
     elif "::" in proof:
-        file, test = proof.split("::")
-        (path,) = ROOT.glob(f"tests/robot/*/{file}.py")
-        assert f"def {test}(" in path.read_text(), proof
+        assert source_of(proof)
     elif ": " in proof:
         exercise, check = proof.split(": ")
         assert check in check_ids(exercise), proof
@@ -64,26 +87,66 @@ def require_proof(proof: str) -> None:
         known_submission(*proof.split("/", 1))
 
 
+def require_read(cells: list[str], tests: list[str]) -> None:
+    """Each cell is one that a test of its row looks at."""
+    assert cells
+    assert tests
+    for cell in (cell.partition("#")[2] for cell in cells):
+        assert cell in NOT_BY_NAME or any(f'"{cell}"' in source_of(test) for test in tests), cell
+
+
 def test_no_row_that_was_done_has_gone() -> None:
     assert [row[0] for row in rows()] == DONE
+    assert "*Partial*" not in PAGE
 
 
-@pytest.mark.parametrize("row", rows(), ids=lambda row: row[0])
-def test_a_row_has_its_proofs(row: list[str]) -> None:
-    proofs = [proof for proof in row[2:] if proof]
-    assert len(proofs) >= 2
-    for proof in proofs:
-        require_proof(proof)
+@pytest.mark.parametrize("row", rows(), ids=name_of)
+def test_what_a_row_names_is_there(row: Row) -> None:
+    for column in row[1]:
+        for proof in column:
+            require_proof(proof)
 
 
-def test_a_misconception_is_named_by_its_submission() -> None:
-    for name, _, _, submission in (row for row in rows() if row[0].startswith("M")):
-        assert f"({name})" in known_submission(*submission.split("/", 1)).about
+@pytest.mark.parametrize("row", ITEMS, ids=name_of)
+def test_an_item_has_a_cell_a_check_and_a_test_that_reads_the_cell(row: Row) -> None:
+    cells, checks, tests = row[1]
+    assert any(": " in check for check in checks)
+    require_read(cells, tests)
+
+
+@pytest.mark.parametrize("row", MISCONCEPTIONS, ids=name_of)
+def test_a_misconception_is_seen_failing_and_is_caught_by_the_checks_that_its_submissions_name(
+    row: Row,
+) -> None:
+    name, (cells, submissions, checks, tests) = row
+    require_read(cells, tests)
+    caught_by: set[str] = set()
+    for submission in submissions:
+        known = known_submission(*submission.split("/", 1))
+        assert f"({name})" in known.about
+        catches = {f"{known.exercise}: {check}" for check in known.caught_by}
+        assert catches & set(checks), f"{submission} is caught by {catches}"
+        caught_by |= catches
+    assert set(checks) <= caught_by
 
 
 @pytest.mark.parametrize(
-    "proof", ["02_services#no-such-cell", "battery_service: no_such_check", "a/faulty/none"]
+    "proof",
+    [
+        "02_services#no-such-cell",
+        "battery_service: no_such_check",
+        "test_08_navigation::test_x",
+        "a/faulty/none",
+    ],
 )
 def test_a_proof_that_is_gone_is_noticed(proof: str) -> None:
     with pytest.raises((AssertionError, HeaderError)):
         require_proof(proof)
+
+
+def test_a_cell_that_no_test_reads_is_noticed() -> None:
+    with pytest.raises(AssertionError, match="m8-run"):
+        require_read(
+            ["02_services#m8-run"],
+            ["test_02_services::test_half_of_the_calls_are_fast_and_the_slowest_is_not"],
+        )

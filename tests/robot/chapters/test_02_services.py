@@ -92,6 +92,14 @@ def test_half_of_the_calls_are_fast_and_the_slowest_is_not(chapter: Executed) ->
     assert half < slowest
 
 
+def test_a_movement_that_is_acknowledged_has_not_happened(chapter: Executed) -> None:
+    at_the_success, later = (
+        float(angle) for angle in re.findall(r"(-?[\d.]+) rad", chapter.text("acknowledged-run"))
+    )
+    assert at_the_success > -0.3
+    assert later < -1.3
+
+
 def test_walking_takes_more_power_than_standing(chapter: Executed) -> None:
     watts = [float(number) for number in re.findall(r"(\d+) W", chapter.text("battery-power"))]
     assert watts[1] > 1.5 * watts[0] > 30

@@ -102,6 +102,14 @@ def test_a_second_cancel_of_the_same_goal_is_answered_with_3(chapter: Executed) 
     assert end == "end:    CANCELED"
 
 
+def test_a_cancel_before_the_acceptance_finds_no_goal(chapter: Executed) -> None:
+    early, then, robot, again = chapter.text("early-run").splitlines()
+    assert early == "early: return_code 0, 0 goals to be canceled"
+    assert then == "then:  accepted"
+    assert robot == "robot: WALKING"
+    assert again == "again: accepted, return_code 0 | end: CANCELED"
+
+
 def test_canceled_is_not_standing(chapter: Executed) -> None:
     first, second = chapter.text("standing-run").splitlines()
     assert first == "status: CANCELED | robot: WALKING"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from itertools import groupby
@@ -125,6 +126,7 @@ def test_walk_to_on_the_live_robot(tmp_path):
     assert "2.00 m forward, 0.00 m to the left" in seen["example-frames"]
     assert "plain difference -6.00 rad, wrapped 0.28 rad" in seen["example-wrap"]
     assert "SUCCEEDED" in seen["try-walk"]
+    assert 0.12 < float(re.search(r"0\.6 m: ([\d.]+) m/s", seen["try-walk"])[1]) < 0.17  # asked for 0.15
     assert "reject" in seen["try-nowhere"].lower()
 
 
@@ -164,6 +166,10 @@ def test_navigate_to_pose_on_the_live_robot(tmp_path):
     assert "the walk takes 6.7 s, the turns 9.0 s, together 15.7 s" in seen["example-time"]
     assert "SUCCEEDED" in seen["try-result"]
     assert 1.1 < float(re.search(r"distance_traveled ([\d.]+)", seen["try-result"])[1]) < 1.7
+    place = re.search(r"stands at x (-?[\d.]+) m, y (-?[\d.]+) m, heading (-?\d+)°", seen["try-result"])
+    x, y, degrees = map(float, place.groups())
+    assert math.dist((x, y), (-1.0, 1.0)) < 0.12  # the tolerance, and two decimals
+    assert abs(degrees) < 10
 
 
 def test_stand_up_on_the_live_robot(tmp_path):
@@ -202,3 +208,15 @@ def test_pick_and_place_on_the_live_robot(tmp_path):
     assert "back 0.04 m, on 0.08 m: put it back" in seen["example-nearer"]
     assert "SUCCEEDED" in seen["try-fetch"]
     assert "UNREACHABLE" in seen["try-far"] or "error_code 2" in seen["try-far"]
+
+
+def test_low_battery_fetch_with_three_batteries(tmp_path):
+    seen = run("low_battery_fetch", tmp_path, until="self-check-intro")
+    assert "SUCCEEDED" in seen["example-run"]
+    assert "total_steps 3" in seen["example-run"]
+    lasts, walks, holds = re.findall(r"from [\d.]+: (.*)", seen["try"])
+    assert re.match(r"SUCCEEDED .*final_object_pose \(0\.40 m.*max_grasp_force 12", lasts)
+    for early in (walks, holds):
+        assert re.match(r"ABORTED .*error_msg 'gave up: the battery got low'", early)
+    assert "max_grasp_force 0" in walks  # it took nothing
+    assert re.search(r"final_object_pose \(1\.45 m.*max_grasp_force 12", holds)  # on the tray
