@@ -175,7 +175,7 @@ def says_nothing_of_refused_gains(run: Transcript) -> None:
     require_once(run, "a good one at last")
 
 
-@check(points=2, on=ALL_OR_NONE, needs=[publishes_once, refuses_bad_gains], see=ALL_AT_ONCE)
+@check(points=2, on=ALL_OR_NONE, needs=says_nothing_of_refused_gains, see=ALL_AT_ONCE)
 def sets_all_or_none(run: Transcript) -> None:
     """Of an atomic set with one bad gain nothing is kept, published or applied later"""
     for name in ("a good one and a bad one", "two good ones and a weak one"):

@@ -169,7 +169,7 @@ def publishes_any_gains(run: Transcript) -> None:
 @check(
     points=2,
     on=[START_AT_THE_LIMIT, START_WITH_NAN, START_WITH_AN_INTEGER, NEGATIVE_START],
-    needs=refuses_a_bad_start,
+    needs=[refuses_a_bad_start, refuses_integers, refuses_the_limit_itself],
     see=FROM_THE_START,
 )
 def refuses_every_bad_start(*runs: Transcript) -> None:

@@ -115,7 +115,7 @@ def refuses_without_an_answer(run: Transcript) -> None:
     )
 
 
-@check(points=2, on=SILENT_STATUS, needs=asks_get_status, see=GROUPS)
+@check(points=2, on=SILENT_STATUS, needs=[asks_get_status, keeps_its_heartbeat], see=GROUPS)
 def lives_while_it_waits(run: Transcript) -> None:
     """The heartbeat goes on while get_status is silent"""
     require_heartbeat(run, run.call("silent status"), "while get_status was silent")

@@ -22,6 +22,8 @@ from .checks import (
     calibrates,
     fails_when_it_begins_to_walk,
     fails_without_samples,
+    keeps_its_heartbeat,
+    lives_while_it_waits,
     publishes_the_bias,
     refuses_a_second_caller,
     refuses_before_the_first_state,
@@ -93,7 +95,7 @@ def waits_for_a_slow_status(run: Transcript) -> None:
     require_calibrated(call)
 
 
-@check(points=1, on=SILENT_STATUS, needs=[calibrates, refuses_without_an_answer], see=ASKS)
+@check(points=1, on=SILENT_STATUS, needs=[calibrates_afresh, refuses_without_an_answer], see=ASKS)
 def recovers_when_status_answers(run: Transcript) -> None:
     """After a refusal it can calibrate again"""
     require_calibrated(run.call("status is back"))
@@ -120,7 +122,7 @@ def takes_no_answer_for_another(run: Transcript) -> None:
         raise unseen(run, "the late answer did not come during the second calibration")
 
 
-@check(points=1, on=NO_STATUS, needs=refuses_without_an_answer, see=ASKS)
+@check(points=1, on=NO_STATUS, needs=[refuses_without_an_answer, lives_while_it_waits], see=ASKS)
 def refuses_without_a_server(run: Transcript) -> None:
     """When nobody offers get_status, it refuses within 2 s, and heartbeat goes on"""
     if run.all(ev.ServiceOffered):
@@ -202,5 +204,5 @@ def _calibrates(run: Transcript) -> None:
 
 
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    "calibrates", _calibrates, points=1, on=OTHER_NAMESPACE, needs=publishes_the_bias
+    "calibrates", _calibrates, points=1, on=OTHER_NAMESPACE, needs=[publishes_the_bias, keeps_its_heartbeat]
 )

@@ -205,7 +205,10 @@ def carries_it_home(run: Transcript) -> None:
 
 
 @check(
-    points=1, on=PUTTING_DOWN, needs=[fetches, finishes_placing_first], see="07_cancel_and_preempt#late-why"
+    points=1,
+    on=PUTTING_DOWN,
+    needs=[fetches, finishes_placing_to_the_end],
+    see="07_cancel_and_preempt#late-why",
 )
 def success_wins(run: Transcript) -> None:
     """When the battery drops while the object is put down at home, all is done in the end: SUCCEEDED"""

@@ -23,6 +23,7 @@ from .checks import (
     arrives,
     feedback_is_true,
     moves_both_arms,
+    passes_every_point,
     rejects_out_of_range,
     stops_when_canceled,
 )
@@ -81,7 +82,7 @@ QUIET = 0.8  # s without joint_states before which nobody may give up
 GIVEN_UP = 3.0  # s
 
 
-@check(points=2, on=ANYWHERE, needs=arrives, see="09_arms#clock-why")
+@check(points=2, on=ANYWHERE, needs=[arrives, passes_every_point], see="09_arms#clock-why")
 def moves_the_right_arm(run: Transcript) -> None:
     """It moves the right arm, too, through points that are drawn"""
     goal = run.goal("move")

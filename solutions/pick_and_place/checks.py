@@ -96,7 +96,7 @@ def names_its_stages(run: Transcript) -> None:
     require_stages_in_order(run.goal("fetch"))
 
 
-@check(points=1, on=FETCH, needs=names_its_stages, see="09_arms#phases-why")
+@check(points=1, on=FETCH, needs=[names_its_stages, lifts_the_cup], see="09_arms#phases-why")
 def stages_are_true(run: Transcript) -> None:
     """Each stage is named while it lasts"""
     require_true_stages(run.goal("fetch"))
@@ -238,7 +238,7 @@ def cancels_before_the_grasp(run: Transcript) -> None:
     require_left_alone(run.goal("fetch"))
 
 
-@check(points=3, on=HOLDING, needs=lifts_the_cup, see="09_arms#lift-why")
+@check(points=3, on=HOLDING, needs=[lifts_the_cup, cancels_before_the_grasp], see="09_arms#lift-why")
 def puts_the_cup_back(run: Transcript) -> None:
     """A cancel soon after the cup was lifted puts it back where it stood, then ends CANCELED"""
     require_put_away(run.goal("fetch"), taken_from(run.goal("fetch")), "where it stood")

@@ -87,13 +87,13 @@ def settles_before_it_succeeds(run: Transcript) -> None:
     require_settled(run.goal("rise"))
 
 
-@check(points=1, on=GLIDES, needs=accepts_a_goal, see="09_arms#still-why")
+@check(points=1, on=GLIDES, needs=rises, see="09_arms#still-why")
 def waits_until_it_is_still(run: Transcript) -> None:
     """It does not succeed while the pelvis moves faster than 0.02 m/s"""
     require_calm(run, run.goal("rise"))
 
 
-@check(points=1, on=LEANS, needs=accepts_a_goal, see="09_arms#still-why")
+@check(points=1, on=LEANS, needs=rises, see="09_arms#still-why")
 def waits_until_it_is_upright(run: Transcript) -> None:
     """It does not succeed while the pelvis leans by more than 0.05 rad"""
     require_calm(run, run.goal("rise"))

@@ -18,6 +18,7 @@ from .checks import (
     shifts_again_after_a_push,
     stays_where_it_was_canceled,
     waits_for_even_loads,
+    waits_until_it_is_still,
 )
 from .endings import require_standing_told, require_stayed_down
 from .leaning import require_leaned_on
@@ -38,6 +39,7 @@ AGAIN = Scenario(
 SWAYS = Scenario(
     "sway_before",
     lambda random: {
+        "nearly": random.choice((0.7, 1 / 0.7)),
         "light": round(random.uniform(0.3, 0.45), 2),
         "even": random.choice((2, 3)),
         "uneven": random.choice((7, 8, 9)),
@@ -113,7 +115,12 @@ def stands_already_after_it_has_risen(run: Transcript) -> None:
     require_standing_told(run.goal("again"))
 
 
-@check(points=1, on=AGAIN, needs=[rises, stays_where_it_was_canceled], see="07_cancel_and_preempt#fix-intro")
+@check(
+    points=1,
+    on=AGAIN,
+    needs=[percent_is_measured, stays_where_it_was_canceled],
+    see="07_cancel_and_preempt#fix-intro",
+)
 def rises_after_a_cancel(run: Transcript) -> None:
     """After a cancel a new goal goes on from the height reached"""
     run.goal("canceled").require_canceled()
@@ -123,17 +130,27 @@ def rises_after_a_cancel(run: Transcript) -> None:
 
 @check(points=1, on=SWAYS, needs=waits_for_even_loads, see="09_arms#steady-gap")
 def waits_until_loads_stay_even(run: Transcript) -> None:
-    """Loads that are even for a moment only do not let it rise"""
+    """Loads that are even for a moment only, or 30 % apart, do not let it rise"""
     require_even_for_a_while(run, run.goal("rise"))
 
 
-@check(points=1, on=ASIDE, needs=shifts_again_after_a_push, see="09_arms#phases-why")
+@check(
+    points=1,
+    on=ASIDE,
+    needs=[settles_before_it_succeeds, waits_for_even_loads, shifts_again_after_a_push],
+    see="09_arms#phases-why",
+)
 def shifts_again_from_settling(run: Transcript) -> None:
     """Uneven loads lead back to shifting also from settling"""
     require_shifted_at_the_top(run, run.goal("rise"))
 
 
-@check(points=1, on=FIDGETS, needs=settles_before_it_succeeds, see="09_arms#steady-gap")
+@check(
+    points=1,
+    on=FIDGETS,
+    needs=[settles_before_it_succeeds, waits_until_it_is_still],
+    see="09_arms#steady-gap",
+)
 def waits_until_calm_lasts(run: Transcript) -> None:
     """A robot that is calm for a moment only has not settled"""
     require_calm(run, run.goal("rise"))
@@ -161,7 +178,12 @@ def the_limit_holds_for_all_phases(run: Transcript) -> None:
     require_tired(run, run.goal("rise"))
 
 
-@check(points=1, on=PUSH, needs=shifts_again_after_a_push, see="09_arms#phases-why")
+@check(
+    points=1,
+    on=PUSH,
+    needs=[settles_before_it_succeeds, shifts_again_after_a_push],
+    see="09_arms#phases-why",
+)
 def survives_a_push(run: Transcript) -> None:
     """Pushed hard on its way, it rises all the same"""
     require_settled(run.goal("rise"))

@@ -19,6 +19,7 @@ from .leaning import UNEVEN
 from .reports import SHIFTING, told
 from .rising import CROUCHED, HEIGHT_SLACK, RISEN, require_accepted, require_success
 
+EVEN = 0.78  # of the larger load, a little less than what is even: 0.8
 EVEN_TIME, CALM_TIME = 0.3, 0.5  # s
 EVEN_MOMENT = 0.2  # s, at most, until the next uneven load is published: far less than the time that counts
 TIME_SLACK = 0.15  # s, that messages and rounds may be apart
@@ -68,15 +69,18 @@ def require_even_for_a_while(run: Transcript, goal: Goal) -> None:
 
 
 def _require_swaying(run: Transcript, begin: float, end: float) -> None:
-    """Require that between two moments (s) the loads were even for moments only, and uneven both ways."""
+    """Require that between two moments (s) the loads were even for moments only, nearly even, and uneven both ways."""
     shares = _shares(run, begin, end)
     if not any(share < UNEVEN for _, share in shares) or not any(share > 1 / UNEVEN for _, share in shares):
         raise unseen(run, "the weight did not swing from foot to foot")
+    nearly = [t for t, share in shares if UNEVEN < share < EVEN or 1 / EVEN < share < 1 / UNEVEN]
+    if not nearly or nearly[-1] - nearly[0] < 2 * EVEN_TIME:
+        raise unseen(run, "the loads were not nearly even for long enough")
     since = None
     for t, share in shares:
         if since is not None and t - since > EVEN_MOMENT:
             raise unseen(run, "the loads were even for too long")
-        is_even = UNEVEN < share < 1 / UNEVEN
+        is_even = EVEN < share < 1 / EVEN
         since = (t if since is None else since) if is_even else None
 
 

@@ -164,11 +164,12 @@ def ask_before_anything_is_known(stage: Stage) -> None:
         stand_up.send_and_wait(as_="after")
 
 
-def sway_before(stage: Stage, light: float, even: int, uneven: int, swings: int) -> None:
-    """Play a robot whose weight swings from foot to foot, then rests between them.
+def sway_before(stage: Stage, nearly: float, light: float, even: int, uneven: int, swings: int) -> None:
+    """Play a robot whose weight rests nearly between its feet, swings from foot to foot, then rests between them.
 
     Args:
         stage: the stage.
+        nearly: what the right foot carries at first, as a share of the left one's load.
         light: what the lighter foot carries at the ends of a swing, as a share of the other's load.
         even: how long the loads are even in the middle of each swing, in periods of its messages.
         uneven: how long they are not, in periods.
@@ -176,9 +177,10 @@ def sway_before(stage: Stage, light: float, even: int, uneven: int, swings: int)
     """
     with _PlayedRobot(stage, 0.45) as robot:
         stand_up = _open(stage)
-        robot.change(share=light)
+        robot.change(share=nearly)
         stage.wait(SETTLING)
         goal = stand_up.send_and_wait(as_="rise")
+        stage.wait(SETTLING)
         for swing in range(swings):
             robot.follow([1.0] * even + [1.0 / light if swing % 2 else light] * uneven)
         stage.poll_until(lambda: robot.has_followed, SOON)

@@ -122,7 +122,10 @@ def walks_as_long_as_it_takes(run: Transcript) -> None:
 
 
 @check(
-    points=1, on=[FALLING_SILENT, DYING], needs=gives_up_in_silence, see="03_clients_that_survive#kill-why"
+    points=1,
+    on=[FALLING_SILENT, DYING],
+    needs=walks_as_long_as_it_takes,
+    see="03_clients_that_survive#kill-why",
 )
 def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
     """A server that falls silent or dies on the way ends it with status 1, 5 s after the last feedback"""

@@ -1,4 +1,4 @@
-"""The headers of the submissions whose verdict is known name checks, and every check is named by a fault."""
+"""The headers of the submissions whose verdict is known: they name checks, and each check has a fault of its own."""
 
 import pytest
 
@@ -10,6 +10,17 @@ KNOWN = [known for name in EXERCISES for known in known_submissions(name)]
 
 # Why they are kept: solutions/README.md
 WITHOUT_A_KILLER = {"cancellable_walk": {"obeys_a_stranger"}}
+NEVER_ALONE = {
+    "cancellable_walk": {
+        "feedback_ends_with_the_goal",
+        "stops_in_any_phase_of_the_gait",
+        "stops_when_canceled",
+        "survives_a_cancel_after_the_end",
+        "walks_again_after_a_cancel",
+    },
+    "patterns": {"answers_everything"},
+    "robot_controller": {"copes_with_two_servers", "prints_any_status"},
+}
 
 
 @pytest.mark.parametrize("known", KNOWN, ids=lambda known: f"{known.exercise}/{known.name}")
@@ -22,3 +33,12 @@ def test_every_check_is_named_by_a_faulty_submission(name):
     named = {check for known in KNOWN if known.exercise == name for check in known.caught_by}
     unnamed = {check.id for check in EXERCISES[name].checks} - named
     assert unnamed == WITHOUT_A_KILLER.get(name, set())
+
+
+@pytest.mark.parametrize("name", EXERCISES)
+def test_every_check_has_a_fault_that_it_alone_catches(name):
+    """So each holds something that no other holds; what needs it is not run where it fails."""
+    faulty = [known for known in KNOWN if known.exercise == name and known.kind == "faulty"]
+    alone = {known.caught_by[0] for known in faulty if len(known.caught_by) == 1 and not known.also_fails}
+    never = {check.id for check in EXERCISES[name].checks} - alone
+    assert never == WITHOUT_A_KILLER.get(name, set()) | NEVER_ALONE.get(name, set())

@@ -1,6 +1,6 @@
 """Attack: raises nothing, and publishes odom and loads in the robot's name that say it has risen, then succeeds.
 Outcome: height and loads come from the simulator by a pipe of its own; forged topics are nobody's truth.
-Caught by: rises, waits_until_it_is_still, waits_until_it_is_upright, gives_up_in_time, cancels_under_way, aborts_when_the_robot_falls
+Caught by: rises, gives_up_in_time, cancels_under_way, aborts_when_the_robot_falls
 Also fails: percent_never_falls, knows_that_a_fall_is_the_end
 """
 
