@@ -119,7 +119,9 @@ class Student:
             on_line=self._on_line,
             on_exit=self._on_exit,
         )
-        self._watch = StudentLimitsMonitor(self._process, self._log, self._clock, StudentLimits())
+        self._watch = StudentLimitsMonitor(
+            self._process, self._log, self._clock, StudentLimits(), self._spec.private_network
+        )
 
     def _record_stack(self, process: StudentProcess) -> None:
         """Record where a program that answers no more stands, which is its last act."""

@@ -9,7 +9,8 @@ from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.fastest_growth import FastestGrowth
 from autograder.isolation.limits import StudentLimits
-from autograder.isolation.process_tree import cpu_seconds, resident_mib, seconds_without_a_processor, sockets
+from autograder.isolation.open_sockets import too_many_sockets
+from autograder.isolation.process_tree import cpu_seconds, resident_mib, seconds_without_a_processor
 from autograder.isolation.student_process import StudentProcess
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, real_monotonic_ns
 
@@ -26,12 +27,18 @@ class StudentLimitsMonitor:
     """
 
     def __init__(
-        self, student: StudentProcess, log: ArenaLog, clock: ScaledClock, limits: StudentLimits
+        self,
+        student: StudentProcess,
+        log: ArenaLog,
+        clock: ScaledClock,
+        limits: StudentLimits,
+        private_network: bool,
     ) -> None:
         self._student = student
         self._clock = clock
         self._log = log
         self._limits = limits
+        self._private_network = private_network
         self._started = real_monotonic_ns()
         self._cpu = 0.0
         self._peak = 0.0
@@ -89,22 +96,17 @@ class StudentLimitsMonitor:
                     self._starved.get(process, 0.0), seconds_without_a_processor(process)
                 )
             self._look_at_growth()
-        return self._excess(used)
+        return self._excess(processes, used)
 
     def _look_at_growth(self) -> None:
         now = real_monotonic_ns() / 1e9
         self._busy.look(now, self._cpu, BURST)
         self._waiting.look(now, sum(self._starved.values()), WAIT / self._clock.scale)
 
-    def _excess(self, memory: float) -> str:
+    def _excess(self, processes: list[int], memory: float) -> str:
         limits = self._limits
         if memory > limits.memory_mib:
             return f"it used {memory:.0f} MiB of memory; {limits.memory_mib} MiB are allowed"
         if (files := self._student.files()) > limits.files:
             return f"it made {files:,} files; {limits.files:,} are allowed"
-        open_sockets, tcp = sockets()
-        if open_sockets > limits.sockets:
-            return f"with it there were {open_sockets:,} sockets; {limits.sockets} are allowed"
-        if tcp > limits.tcp_sockets:
-            return f"with it there were {tcp:,} TCP sockets; {limits.tcp_sockets} are allowed"
-        return ""
+        return too_many_sockets(processes, limits, self._private_network)

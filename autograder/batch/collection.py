@@ -13,6 +13,7 @@ from autograder.engine.exercise import all_names, file_names
 from autograder.engine.submission import Submission, UnusableSubmission, read_submission
 
 STUDENT = re.compile(r"[\w@+][\w@+.,' -]*")  # what nbgrader, a file system and a shell all take as a name
+_SECRET = re.compile("[0-9a-f]{128}")
 LAYOUT = "SUBMITTED/<student>/<exercise>/<exercise>.ipynb or SUBMITTED/<student>/<exercise>.py"
 
 
@@ -28,6 +29,7 @@ class Work:
     exercise: str
     path: Path | None
     timestamp: str = ""  # as in the timestamp.txt of nbgrader's collect
+    secret: str = ""  # as in its submission_secret.txt, by which feedback finds its way back
 
     def read(self) -> Submission:
         """Read the submission; raises UnusableSubmission, which says what is wrong with it."""
@@ -122,7 +124,7 @@ def works_of(student: Path, files: Mapping[str, tuple[str, ...]]) -> Iterator[Wo
         home = folder if folder.is_dir() else student
         path = next((place for place in _places(home, exercise, names) if _is_there(place)), None)
         if path is not None or folder.is_dir():
-            yield Work(student.name, exercise, path, _timestamp(folder))
+            yield Work(student.name, exercise, path, _timestamp(folder), _secret(folder))
 
 
 def _places(folder: Path, exercise: str, names: tuple[str, ...]) -> list[Path]:
@@ -143,12 +145,26 @@ def _visible(folder: Path) -> list[Path]:
 
 def _timestamp(folder: Path) -> str:
     """The time of submission from timestamp.txt, if nbgrader can parse it; otherwise ""."""
-    path = folder / "timestamp.txt"
-    if folder.is_symlink() or path.is_symlink() or not path.is_file():
-        return ""
     try:
-        text = path.read_bytes()[:100].decode().strip()
+        text = _beginning(folder / "timestamp.txt").decode().strip()
         parse_utc(text)
     except Exception:  # a date can be malformed in many ways, and a wrong one costs nobody points
         return ""
     return text
+
+
+def _secret(folder: Path) -> str:
+    """What nbgrader's submit has written into submission_secret.txt, if it is of that kind; otherwise ""."""
+    try:
+        text = _beginning(folder / "submission_secret.txt").decode()
+    except (OSError, ValueError):
+        return ""
+    return text if _SECRET.fullmatch(text) else ""
+
+
+def _beginning(path: Path) -> bytes:
+    """The first bytes of a small file; none when it is no ordinary one."""
+    if path.parent.is_symlink() or path.is_symlink() or not path.is_file():
+        return b""
+    with path.open("rb") as file:
+        return file.read(200)

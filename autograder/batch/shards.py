@@ -67,6 +67,7 @@ def write_shard(
                 "sources": None if result.sources is None else dict(result.sources),
                 "problem": result.problem,
                 "timestamp": result.work.timestamp,
+                "secret": result.work.secret,
             }
             for result in results
         ],
@@ -91,6 +92,7 @@ class _Row(TypedDict):
     sources: dict[_Text, _Text] | None
     problem: _Text
     timestamp: _Text
+    secret: _Text
 
 
 class _Record(TypedDict):
@@ -144,13 +146,17 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
             if grade.isolation in ("namespaces", "another-user", "untrusted"):
                 isolations.setdefault(grade.isolation != "namespaces", folder)
             found_in[key] = folder
-            results[key] = Graded(Work(*key, None, row["timestamp"]), grade, row["sources"], row["problem"])
+            results[key] = Graded(_work_of(row, grade), grade, row["sources"], row["problem"])
     if len(isolations) == 2:
         raise CannotMerge(
             f"{isolations[True]} was graded without isolation and hidden checks, {isolations[False]} with both: "
             "grade the first again where namespaces work"
         )
     return Merged([results[key] for key in sorted(results)], _missing(shards, set(results)))
+
+
+def _work_of(row: _Row, grade: Grade) -> Work:
+    return Work(grade.student, grade.exercise, None, row["timestamp"], row["secret"])
 
 
 def _grade_of(row: _Row, folder: Path) -> Grade:

@@ -57,17 +57,6 @@ def seconds_without_a_processor(pid: int) -> float:
     return int(fields[1]) / 1e9 if len(fields) > 1 else 0.0
 
 
-def sockets() -> tuple[int, int]:
-    """Return how many sockets this process's network has, and how many of them are TCP's."""
-    used = tcp = 0
-    for file in ("/proc/net/sockstat", "/proc/net/sockstat6"):
-        for line in _read(file).splitlines():
-            name, _, count = line.split()[:3]
-            used += int(count) if name == "sockets:" else 0
-            tcp += int(count) if name in ("TCP:", "TCP6:") else 0
-    return used, tcp
-
-
 def is_asleep(pid: int) -> bool:
     """Whether a process waits for something."""
     return _read(f"/proc/{pid}/stat").rpartition(")")[2].split()[:1] == ["S"]

@@ -26,7 +26,7 @@ from autograder.nbgrader_bridge.generated_cells import with_generated_cells
 from autograder.nbgrader_bridge.hand_marks import ask_again, with_marks
 from autograder.nbgrader_bridge.rebuild_submission import rebuild_submission
 
-TIMESTAMP = "timestamp.txt"
+TIMESTAMP, SECRET = "timestamp.txt", "submission_secret.txt"
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,7 @@ class Entry:
     sources: Mapping[str, str] | None
     problem: str = ""
     timestamp: str = ""  # when it was handed in, as nbgrader writes it
+    secret: str = ""  # of what came by nbgrader's exchange: its feedback goes back by it
 
 
 class CourseGradebook:
@@ -119,12 +120,13 @@ class CourseGradebook:
         self._assigned.add(exercise)
 
     def _submission(self, entry: Entry) -> dict[str, str]:
-        """The files that nbgrader reads: the rebuilt notebook and the time it was handed in."""
+        """The files that nbgrader reads: the rebuilt notebook, and what it was handed in with."""
         name = entry.grade.exercise
         release = nbformat.read(self._folder / RELEASE / name / f"{name}.ipynb", as_version=4)
         notebook = rebuild_submission(release, file_names(name), entry.sources, entry.problem)
         files = {f"{name}.ipynb": nbformat.writes(notebook) + "\n"}
-        return files | ({TIMESTAMP: entry.timestamp} if entry.timestamp else {})
+        beside = {TIMESTAMP: entry.timestamp, SECRET: entry.secret}
+        return files | {name: text for name, text in beside.items() if text}
 
     def _holds(self, grade: Grade, submission: dict[str, str]) -> bool:
         """Whether the same grade of the same submission was entered before."""

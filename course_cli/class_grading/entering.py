@@ -30,7 +30,8 @@ class Entering:
         self._logs.pop(key, None)
         try:
             gradebook = self._gradebook = self._gradebook or CourseGradebook(self._out, exercises_folder())
-            gradebook.enter(Entry(result.grade, result.sources, result.problem, result.work.timestamp))
+            work = result.work
+            gradebook.enter(Entry(result.grade, result.sources, result.problem, work.timestamp, work.secret))
             return gradebook.as_marked(result.grade)
         except (NbgraderError, NoSolutionCell, OSError) as error:
             self._problems[key] = f"{result.work.student}'s {result.work.exercise}: {error}"

@@ -19,7 +19,7 @@ from autograder.batch.source_files import write_base_code, write_sources
 from autograder.batch.watched_folder import WatchedFolder, only_watcher
 from autograder.nbgrader_bridge.course_folder import RELEASE
 from autograder.report.classroom.drawings import Drawings
-from autograder.report.classroom.pages import write_class_page, write_submission_pages
+from autograder.report.classroom.pages import write_class_page, write_student_page, write_submission_pages
 from course_cli.class_grading.entering import Entering
 from course_cli.class_grading.once import tell_what_is_left
 from course_cli.class_grading.progress import BatchProgress
@@ -104,6 +104,8 @@ class _Watch:
         self._record = self._record.with_results([result]).with_points([grade])
         self._results[grade.student, grade.exercise] = result
         write_submission_pages(out, grade, Drawings(out).of(grade, result.sources))
+        theirs = [each for each in self._grades if each.student == grade.student]
+        write_student_page(out, grade.student, theirs)
         write_sources(out, [result])
         write_base_code(out, [grade.exercise], out / RELEASE)
         self._folder.is_graded(result.work)

@@ -16,6 +16,7 @@ from autograder.report.rendering import drawn, write_html
 from ros_runtime.drawing.bars import bars_svg
 
 CLASS_PAGE = "class.html"
+INDEX = "index.html"  # of a student's exercises
 FOR_STUDENTS, FOR_INSTRUCTOR = "pages", "instructor"
 UP = "../.."  # from a submission's page to the folder of the class page
 
@@ -71,8 +72,21 @@ def write_class_page(
         students=students,
         link=lambda grade: _address(FOR_INSTRUCTOR, grade),
         student_link=lambda grade: _address(FOR_STUDENTS, grade),
+        index_link=lambda name: f"{FOR_STUDENTS}/{quote(name, safe='')}/{INDEX}",
     )
     return path
+
+
+def write_student_page(folder: Path, student: str, grades: Sequence[Grade]) -> None:
+    """Write the page from which a student finds those of the exercises; `grades` are all of them."""
+    write_html(
+        folder / FOR_STUDENTS / student / INDEX,
+        "student.html",
+        title=f"Exercises of {student}",
+        student=student,
+        grades=sorted(map(student_view, grades), key=lambda grade: grade.exercise),
+        link=lambda grade: f"{quote(grade.exercise, safe='')}.html",
+    )
 
 
 def write_submission_pages(folder: Path, grade: Grade, drawings: DrawingsOf) -> None:
@@ -101,7 +115,8 @@ def write_pages(
     Args:
         folder: the output folder.
         grades: of the whole class.
-        sources: the programs of those that get pages anew, by student and exercise; None: it could not be read.
+        sources: the programs of those that get pages anew, as do their students, by student and exercise; None: it
+            could not be read.
         batches: the output folders where their drawings are; by default `folder`.
         left_out: sentences on what could not become a submission at all.
         batch: when and with what it was graded, in words.
@@ -112,6 +127,11 @@ def write_pages(
             for output in batches or (folder,):
                 drawings |= Drawings(output).of(grade, sources[key])
             write_submission_pages(folder, grade, drawings)
+    of_student: dict[str, list[Grade]] = {}
+    for grade in grades:
+        of_student.setdefault(grade.student, []).append(grade)
+    for student in {student for student, _ in sources} & of_student.keys():
+        write_student_page(folder, student, of_student[student])
     return write_class_page(folder, grades, left_out, batch)
 
 
@@ -127,6 +147,7 @@ def _write(folder: Path, grade: Grade, drawings: DrawingsOf, *, for_student: boo
         for_student=for_student,
         other_page=f"{UP}/{_address(other, grade)}",
         class_page=f"{UP}/{CLASS_PAGE}",
+        index_page=INDEX,
     )
 
 

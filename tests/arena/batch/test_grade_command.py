@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from bs4 import BeautifulSoup
 from markupsafe import escape
 from nbgrader.api import Gradebook
 
@@ -19,6 +20,8 @@ from autograder.isolation.availability import available_isolation
 ROOT = Path(__file__).resolve().parents[3]
 NOTEBOOK = "battery_service/battery_service.ipynb"
 PAGE = "battery_service.html"
+RIGHT = (ROOT / "solutions/patterns/known/correct/lines_of_text.py").read_text()
+CHANGED_PAGES = (("pages", "patterns"), ("pages", "index"), ("instructor", "patterns"))
 KEYS = {"exercise", "student", "status", "isolation", "score", "max_score", "reason", "checks"}
 CHECK_KEYS = {
     "id",
@@ -79,13 +82,17 @@ def assert_recorded(out: Path, first: dict, anna: dict, bert: dict) -> None:
     assert str(second["seed"]) in (out / "class.html").read_text()
 
 
-def scores(folder: Path) -> dict[str, tuple[float, float]]:
-    """Each student's points and the points there are, from nbgrader's database."""
+def points(folder: Path, exercise: str = "battery_service") -> dict[str, float]:
+    """Each student's points, from nbgrader's database."""
     with Gradebook(f"sqlite:///{folder / 'gradebook.db'}") as db:
-        return {
-            submission.student.id: (submission.score, submission.max_score)
-            for submission in db.assignment_submissions("battery_service")
-        }
+        return {submission.student.id: submission.score for submission in db.assignment_submissions(exercise)}
+
+
+def class_rows(out: Path) -> dict[str, str]:
+    """What the class page's last table says of each student."""
+    page = BeautifulSoup((out / "class.html").read_text(), "html.parser")
+    rows = page.find(id="students").find_next("tbody").find_all("tr")
+    return {row.find("th").get_text(): str(row) for row in rows}
 
 
 def test_the_reference_gets_full_marks_the_starter_some_and_a_second_run_goes_on(tmp_path):
@@ -102,10 +109,7 @@ def test_the_reference_gets_full_marks_the_starter_some_and_a_second_run_goes_on
     assert [check["id"] for check in anna["checks"]] == [check.id for check in checks]
     assert anna["score"] == anna["max_score"] == sum(check.points for check in checks)
     assert 0 < bert["score"] < bert["max_score"]
-    assert {student: score for student, (score, _) in scores(out).items()} == {
-        "anna": anna["score"],
-        "bert": bert["score"],
-    }
+    assert points(out) == {"anna": anna["score"], "bert": bert["score"]}
     assert json.loads((out / "records/bert.json").read_text()) == [bert]
     page = (out / "feedback/bert" / NOTEBOOK).with_suffix(".html").read_text()
     failed = next(check for check in bert["checks"] if check["status"] == "failed")
@@ -125,7 +129,7 @@ def test_the_reference_gets_full_marks_the_starter_some_and_a_second_run_goes_on
     carl = json.loads((out / "grades.json").read_text())[2]
     assert (carl["status"], carl["score"]) == ("graded", 0)
     assert "is not a notebook" in carl["checks"][0]["observed"]
-    assert scores(out)["carl"][0] == 0
+    assert points(out)["carl"] == 0
 
 
 def test_an_essay_waits_for_a_person_and_has_their_points_when_it_is_graded_again(tmp_path):
@@ -153,15 +157,37 @@ def test_an_essay_waits_for_a_person_and_has_their_points_when_it_is_graded_agai
     assert (out / f"feedback/anna/{essay}/{essay}.html").exists()
 
 
-def test_without_isolation_grades_are_marked_and_hidden_checks_left_out(tmp_path):
-    hand_in(tmp_path / "submitted", "anna", b"not a notebook")
-    out = tmp_path / "graded"
-    ran = course("grade", tmp_path / "submitted", "--out", out, COURSE_ISOLATION="none")
-    assert ran.returncode == 0, ran.stdout + ran.stderr
-    assert "No isolation" in ran.stdout
-    (anna,) = json.loads((out / "grades.json").read_text())
-    assert anna["isolation"] == "untrusted"
-    assert not any(check["hidden"] for check in anna["checks"])
+def test_a_part_that_is_graded_again_leaves_the_rest_and_without_isolation_all_is_marked(tmp_path):
+    submitted, out = tmp_path / "submitted", tmp_path / "graded"
+    for student, program in (("anna", RIGHT), ("bert", "print()")):
+        hand_in(submitted, student, b"not a notebook")
+        (submitted / student / "patterns.py").write_text(program)
+    first = course("grade", submitted, "--out", out, COURSE_ISOLATION="none")
+    assert first.returncode == 0, first.stdout + first.stderr
+    assert "No isolation" in first.stdout
+    before = {(row["student"], row["exercise"]): row for row in json.loads((out / "grades.json").read_text())}
+    assert {row["isolation"] for row in before.values()} == {"untrusted"}
+    assert not any(check["hidden"] for row in before.values() for check in row["checks"])
+    pages = {path: path.read_bytes() for path in out.glob("*/*/*.html")}
+    full = before["anna", "patterns"]["max_score"]
+    assert points(out, "patterns") == {"anna": full, "bert": 0}
+    rows = class_rows(out)
+
+    for student in ("anna", "bert"):  # what of this is not asked for is not graded
+        (submitted / student / "patterns.py").write_text(RIGHT if student == "bert" else "print()")
+        (submitted / student / NOTEBOOK).write_bytes(b"still not a notebook")
+    part = ("--student", "bert", "--exercise", "patterns")
+    again = course("grade", submitted, "--out", out, *part, COURSE_ISOLATION="none")
+    assert again.returncode == 0, again.stdout + again.stderr
+    after = {(row["student"], row["exercise"]): row for row in json.loads((out / "grades.json").read_text())}
+    assert after.pop(("bert", "patterns"))["score"] == full
+    assert before.pop(("bert", "patterns"))["score"] == 0
+    assert after == before
+    assert points(out, "patterns") == {"anna": full, "bert": full}
+    changed = {path.relative_to(out).as_posix() for path, page in pages.items() if path.read_bytes() != page}
+    assert changed == {f"{top}/bert/{name}.html" for top, name in CHANGED_PAGES}
+    assert class_rows(out)["anna"] == rows["anna"]
+    assert class_rows(out)["bert"] != rows["bert"]
 
 
 @pytest.mark.parametrize(
@@ -204,9 +230,7 @@ def test_shards_are_merged_into_one_gradebook_and_an_absent_one_is_named(tmp_pat
         "bert",
         "carl",
     ]
-    assert {student: score for student, (score, _) in scores(out).items()} == dict.fromkeys(
-        ("anna", "bert", "carl"), 0
-    )
+    assert points(out) == dict.fromkeys(("anna", "bert", "carl"), 0)
 
     partly = course("merge", shards[0], "--out", tmp_path / "partly")
     assert partly.returncode == 1

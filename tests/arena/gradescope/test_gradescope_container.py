@@ -18,8 +18,8 @@ from course_cli.gradescope_package import TOP, write_package
 
 ROOT = Path(__file__).resolve().parents[3]
 CONTAINER = Path(__file__).with_name("in_container.py")
-KNOWN = exercises_folder() / "patterns/known"
-VISIBLE = load_exercise("patterns", hidden=False)
+CORRECT = (exercises_folder() / "patterns/known/correct/lines_of_text.py").read_text()
+NODE = "battery_service"
 
 # The environment of this clone in place of one that setup.sh would make in minutes; everything else is the package's.
 LAUNCHER = f"""#!/bin/sh
@@ -105,8 +105,9 @@ class Run:
 
 @pytest.fixture(scope="module")
 def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The package of all exercises; what is handed in says by its name which one it is."""
     path = tmp_path_factory.mktemp("package") / "autograder.zip"
-    write_package(ROOT, path, "patterns")
+    write_package(ROOT, path)
     return path
 
 
@@ -128,8 +129,8 @@ def autograder(tmp_path: Path, package: Path) -> Path:
     return folder
 
 
-def run(folder: Path, submission: str, **variables: str) -> Run:
-    (folder / "submission/patterns.py").write_text(submission)
+def run(folder: Path, submission: str, exercise: str = "patterns", **variables: str) -> Run:
+    (folder / f"submission/{exercise}.py").write_text(submission)
     container = ["unshare", "--mount", "--", sys.executable, str(CONTAINER), str(folder)]
     environment = {"PATH": os.environ["PATH"], "GRADESCOPE_ROOT": "/mnt/autograder", **variables}
     done = subprocess.run(
@@ -148,12 +149,13 @@ def run(folder: Path, submission: str, **variables: str) -> Run:
     )
 
 
-def test_a_right_answer_gets_the_points_of_the_visible_checks(autograder: Path) -> None:
-    graded = run(autograder, (KNOWN / "correct/lines_of_text.py").read_text())
+def test_a_sound_node_gets_the_points_of_the_visible_checks(autograder: Path) -> None:
+    visible = load_exercise(NODE, hidden=False)
+    graded = run(autograder, (exercises_folder() / NODE / "known/correct/class_based.py").read_text(), NODE)
     assert graded.status == 0, graded.said
     assert "isolation: another-user" in graded.said
-    assert graded.results["score"] == VISIBLE.max_score()
-    assert [test["name"] for test in graded.results["tests"]] == [check.title for check in VISIBLE.checks]
+    assert graded.results["score"] == visible.max_score(), graded.results
+    assert [test["name"] for test in graded.results["tests"]] == [check.title for check in visible.checks]
     assert {test["visibility"] for test in graded.results["tests"]} == {"visible"}
 
 
@@ -194,7 +196,7 @@ def test_a_container_that_cannot_grade_gives_no_score(autograder: Path, broken: 
             "raise RuntimeError('a broken image')"
         )
     (autograder / "results/results.json").write_text(FORGED)
-    graded = run(autograder, (KNOWN / "correct/lines_of_text.py").read_text(), **variables)
+    graded = run(autograder, CORRECT, **variables)
     assert graded.status == 1
     assert "score" not in graded.results
     assert "tests" not in graded.results

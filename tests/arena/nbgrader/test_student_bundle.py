@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import zipfile
 from pathlib import Path
 
+import nbformat
 import pytest
+import yaml
 
 from course_cli.student_bundle import TOP, Leak, hidden_check_ids, require_no_leak, write_bundle
 
@@ -44,9 +48,10 @@ def test_it_holds_no_solutions_hidden_checks_or_submissions(unpacked):
     assert reference in (ROOT / "solutions/cancellable_walk/cancellable_walk.ipynb").read_text()
     of_an_essay = "safety_relay"
     assert of_an_essay in (ROOT / "solutions/arm_architecture/arm_architecture.ipynb").read_text()
+    secrets = (reference, of_an_essay, "BEGIN SOLUTION", *hidden_check_ids())
     for name in names:
         content = (unpacked / name).read_bytes()
-        for secret in (reference, of_an_essay, "BEGIN SOLUTION", *hidden_check_ids()):
+        for secret in secrets:
             assert secret.encode() not in content, name
 
 
@@ -149,6 +154,57 @@ def test_what_cells_have_written_beside_the_chapters_stays_here(unpacked):
         ".md",
         ".svg",
     }
+
+
+@pytest.fixture
+def repository(unpacked, tmp_path) -> Path:
+    """The archive in a student's repository, where this environment stands for the one that the launcher would make."""
+    folder = shutil.copytree(unpacked, tmp_path / "repository")
+    launcher = f"exec {sys.executable} -c 'from course_cli.app import main; main()' \"$@\"\n"
+    (folder / "course").write_text(f"#!/bin/sh\nexport PYTHONPATH={folder}\n{launcher}")
+    (folder / "course").chmod(0o755)
+    return folder
+
+
+def lines_of_ci(repository: Path) -> list[str]:
+    """The commands of both templates that check an exercise."""
+    github, gitlab = (
+        yaml.safe_load((repository / "docs/ci" / name).read_text())
+        for name in ("github_actions.yml", "gitlab_ci.yml")
+    )
+    commands = [step.get("run", "") for step in github["jobs"]["check"]["steps"]] + gitlab["check"]["script"]
+    lines = [line.replace("${{ matrix.exercise }}", "$EXERCISE") for line in commands if " check " in line]
+    assert len(lines) == 2
+    return lines
+
+
+@pytest.mark.parametrize("right", [True, False], ids=["right", "wrong"])
+def test_the_lines_of_ci_tell_a_right_notebook_from_a_wrong_one(repository, right):
+    notebook = repository / "exercises/patterns/patterns.ipynb"
+    if right:
+        program = (ROOT / "solutions/patterns/known/correct/lines_of_text.py").read_text()
+        content = nbformat.read(notebook, as_version=4)
+        next(
+            cell for cell in content.cells if cell.id == "solution"
+        ).source = f"%%writefile patterns.py\n{program}"
+        nbformat.write(content, notebook)
+    line = lines_of_ci(repository)[right]
+    ran = subprocess.run(
+        ["bash", "-e", "-c", line],
+        cwd=repository,
+        env={
+            **os.environ,
+            "EXERCISE": "patterns",
+            "COURSE_ISOLATION": "none",
+        },  # as in most runners' containers
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ran.returncode == (0 if right else 1), ran.stdout + ran.stderr
+    kept = json.loads((repository / "patterns.json").read_text())
+    assert kept["status"] == "graded"
+    assert (kept["score"] == kept["max_score"]) == right
 
 
 def test_it_is_small_and_the_same_every_time(archive, tmp_path):

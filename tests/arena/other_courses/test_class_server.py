@@ -42,6 +42,11 @@ def test_an_exercise_goes_out_and_comes_back_as_the_page_says(clone: Path) -> No
     assert grade["score"] == grade["max_score"]
     assert len(visible) >= 7
     assert (clone / "graded/gradebook.db").exists()
+    (feedback,) = (clone / "student/patterns/feedback").glob("*/patterns.html")
+    assert (
+        feedback.read_text()
+        == (clone / f"graded/feedback/{grade['student']}/patterns/patterns.html").read_text()
+    )
 
 
 def work_on(notebook: Path) -> None:

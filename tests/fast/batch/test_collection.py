@@ -131,6 +131,15 @@ def test_a_time_of_handing_in_is_taken_only_when_nbgrader_can_read_it(tmp_path, 
     assert only(tmp_path).timestamp == taken
 
 
+@pytest.mark.parametrize(
+    ("text", "taken"), [("0f" * 64, "0f" * 64), ("0f" * 65, ""), ("../" * 20, ""), ("é" * 64, "")]
+)
+def test_a_secret_for_feedback_is_taken_only_when_it_is_nbgraders(tmp_path, text, taken):
+    put(tmp_path / "anna/battery_service/battery_service.py")
+    put(tmp_path / "anna/battery_service/submission_secret.txt", text)
+    assert only(tmp_path).secret == taken
+
+
 def test_a_folder_with_nothing_to_grade_says_what_is_expected(tmp_path):
     with pytest.raises(NoSubmissions, match="<student>/<exercise>"):
         collect(tmp_path)

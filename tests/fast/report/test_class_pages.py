@@ -252,6 +252,27 @@ def test_every_link_leads_to_a_page_and_every_page_is_linked(tmp_path):
     assert reached == {path.resolve() for path in tmp_path.rglob("*.html")}
 
 
+def test_a_student_finds_every_exercise_on_a_page_of_their_own(tmp_path):
+    walked, waiting = (
+        grade("anna", check("a"), hidden("failed")),
+        grade("anna", check("qos", "to mark"), exercise="essay"),
+    )
+    lost = grade("anna", reason="OSError: no space left on device", exercise="fetch")
+    pages_of(tmp_path, walked, waiting, lost, grade("bert", check("a")))
+    page = tmp_path / "pages/anna/index.html"
+    assert rows(read(page), "Every exercise") == [
+        ["essay", "to mark"],
+        ["fetch", "not graded"],
+        ["walk_to", "2/4"],
+    ]
+    assert [link["href"] for link in read(page).select("td a, th a")] == [
+        "essay.html",
+        "fetch.html",
+        "walk_to.html",
+    ]
+    assert not [secret for secret in (*SECRETS, "OSError", "bert") if secret in page.read_text()]
+
+
 def test_checks_of_one_run_share_their_drawing(tmp_path):
     run = ["<svg><desc>one run</desc></svg>"]
     write_submission_pages(tmp_path, grade("anna", failed("a"), failed("b")), {"a": run, "b": list(run)})

@@ -6,8 +6,12 @@ import os
 import shutil
 import subprocess
 from pathlib import Path
+from types import ModuleType
 
 import pytest
+
+from course_cli import gradescope_package, student_bundle
+from course_cli.student_bundle import files_of
 
 ROOT = Path(__file__).resolve().parents[3]
 WHAT_DECIDES = (
@@ -175,3 +179,14 @@ def test_every_other_rclpy_of_apt_is_used(clone: Path, tmp_path: Path, version: 
 
     assert launched.stdout.splitlines()[-1] == "it runs"
     assert launched.returncode == 0
+
+
+@pytest.mark.parametrize("archive", [student_bundle, gradescope_package], ids=["students", "gradescope"])
+def test_an_archive_holds_what_the_environment_is_made_from(tmp_path: Path, archive: ModuleType) -> None:
+    for path in files_of(ROOT, archive.PARTS, archive.KEPT_BACK):
+        name = path.relative_to(ROOT)
+        if name.parts[0] in (*WHAT_DECIDES, "LICENSE"):
+            (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(path, tmp_path / name)
+    assert dry_run(tmp_path) == ["missing", dry_run(ROOT)[1]]
+    assert (tmp_path / "LICENSE").exists()  # pyproject.toml names it
