@@ -86,7 +86,13 @@ def _why_it_left(goal: ScriptedGoal, exited: ev.NodeExited) -> str:
             f"It gave up, though feedback came until {heard[-1]:.1f} s: a goal may take its time, only silence has a "
             "limit, counted from the last feedback."
         )
-    if goal.cancels and goal.cancels[0].reply:
+    reply = goal.cancels[0].reply if goal.cancels else None
+    if reply and not reply.canceling:
+        return (
+            "The cancel was refused: goals_canceling is empty. So the goal goes on, and you wait for its result "
+            "before you return."
+        )
+    if reply:
         return "The answer to a cancel says only that the server will try: wait for the result before you return."
     if goal.cancels:
         return "A cancel that has been sent is not an end: wait for the result before you return."

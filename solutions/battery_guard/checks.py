@@ -23,9 +23,10 @@ from autograder.authoring.walking.client import (
     STATUS_HELP,
     require_ending_line,
     require_failure,
-    require_interrupted,
+    require_reason,
     require_usage,
 )
+from autograder.authoring.walking.ctrl_c import require_interrupted
 
 from .judging import (
     BATTERY,
@@ -125,13 +126,7 @@ def says_how_it_failed(rejected: Transcript, aborted: Transcript) -> None:
     )
     finished = require_goal_finished(aborted, require_one_goal(aborted, NAVIGATE), GoalStatus.STATUS_ABORTED)
     require_failure(aborted, WITHIN, ABORTED, because="the goal was ABORTED", help=STATUS_HELP)
-    expect(
-        finished.result.error_msg in aborted.output("stderr"),
-        expected=f"the server's reason on stderr: {finished.result.error_msg}",
-        observed=f"“{aborted.last_words}”",
-        help="Print response.result.error_msg with file=sys.stderr.",
-        at=finished.t,
-    )
+    require_reason(aborted, finished)
 
 
 @check(points=2, on=LOW_BEFORE, needs=says_how_it_succeeded, see="08_navigation#guard-intro")

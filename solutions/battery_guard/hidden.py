@@ -5,11 +5,15 @@ from __future__ import annotations
 import math
 import random
 
+from action_msgs.srv import CancelGoal
+
 from autograder.authoring import events as ev
 from autograder.authoring.action_client_checks import (
+    require_cancel,
     require_goal_answered,
     require_goal_finished,
     require_one_goal,
+    require_refused_cancel,
 )
 from autograder.authoring.checks import check, expect, program
 from autograder.authoring.missing import unseen
@@ -81,6 +85,15 @@ IN_VAIN = program(
 TOO_LATE = program(
     "dropping_at_the_end",
     lambda generator: {"level": _any_drop(generator), "ends_after": 1.0, "result_after": 2.5},
+)
+REFUSED = program(
+    "dropping_at_the_end",
+    lambda generator: {
+        "level": _any_drop(generator),
+        "ends_after": 4.0,
+        "result_after": 0.0,
+        "agreed": False,
+    },
 )
 LATE_SERVER = program("late_server", lambda generator: {"level": _any_drop(generator)})
 NEVER_A_PERCENTAGE = program("no_percentage_first", {"levels": [20.0, math.nan], "then": None})
@@ -181,16 +194,19 @@ def success_wins_the_race(in_vain: Transcript, too_late: Transcript) -> None:
             raise unseen(run, "the battery did not drop before the end of the goal")
         if run is too_late and goal.result_sent and goal.result_sent.t < drop.t:
             raise unseen(run, "the result came before the battery dropped")
-        exited = run.first(ev.NodeExited)
-        expect(
-            exited is None or exited.returncode != 4,
-            expected="exit status 0: the goal SUCCEEDED, although a cancel was under way",
-            observed="exit status 4",
-            help="A cancel is a request. How the goal ended, only response.status says: look at it after the cancel, "
-            "too.",
-            at=run.end,
-        )
-        require_success(run, finished.t + WITHIN)
+        _require_success_in_spite_of_a_cancel(run, finished.t)
+
+
+def _require_success_in_spite_of_a_cancel(run: Transcript, finished: float) -> None:
+    exited = run.first(ev.NodeExited)
+    expect(
+        exited is None or exited.returncode != 4,
+        expected="exit status 0: the goal SUCCEEDED, although a cancel had been sent",
+        observed="exit status 4",
+        help="A cancel is a request. How the goal ended, only response.status says: look at it after the cancel, too.",
+        at=run.end,
+    )
+    require_success(run, finished + WITHIN)
 
 
 @check(points=1, on=LATE_SERVER, needs=does_not_set_out_on_a_low_battery, see="08_navigation#guard-intro")
@@ -349,3 +365,14 @@ def tells_a_cancel_by_another(run: Transcript) -> None:
     require_goal_finished(run, require_one_goal(run, NAVIGATE), GoalStatus.STATUS_CANCELED)
     exited = require_canceled(run, WITHIN, "the goal was CANCELED")
     require_ending_line(run, "CANCELED", exited.t)
+
+
+@check(points=1, on=REFUSED, needs=success_wins_the_race, see="07_cancel_and_preempt#m1-why")
+def a_refused_cancel_is_no_end(run: Transcript) -> None:
+    """When the cancel is refused (empty goals_canceling), the goal is followed: SUCCEEDED ends it with status 0"""
+    goal = require_one_goal(run, NAVIGATE)
+    require_drop(run)
+    require_cancel(run, goal, because="the battery is low", help=LOOKS_AWAY)
+    require_refused_cancel(goal, run, CancelGoal.Response.ERROR_NONE)
+    finished = require_goal_finished(run, goal, GoalStatus.STATUS_SUCCEEDED)
+    _require_success_in_spite_of_a_cancel(run, finished.t)

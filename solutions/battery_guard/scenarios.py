@@ -195,13 +195,15 @@ def dropping_before_acceptance(stage: ClientStage, level: float) -> None:
     stage.wait_for_end()
 
 
-def dropping_at_the_end(stage: ClientStage, level: float, ends_after: float, result_after: float) -> None:
+def dropping_at_the_end(
+    stage: ClientStage, level: float, ends_after: float, result_after: float, agreed: bool = True
+) -> None:
     """The goal succeeds `ends_after` s after its acceptance, and its result takes so much longer (s).
 
     The battery drops 1.5 s after the third feedback; a cancel is agreed to, as long as the goal is active, but comes
-    too late to change its end.
+    too late to change its end, or it is refused.
     """
-    cancel = CancelScript(ends_after=None)
+    cancel = CancelScript(agreed=agreed, ends_after=None)
     navigation = _offer(
         stage, feedback=_way(500), ends_after=ends_after, result_after=result_after, cancel=cancel
     )

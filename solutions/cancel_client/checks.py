@@ -10,13 +10,12 @@ from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.client import (
     WALK,
     GoalStatus,
-    require_canceled_by_ctrl_c,
     require_feedback_lines,
     require_goal_at,
-    require_no_server,
-    require_silence_noticed,
     require_success,
 )
+from autograder.authoring.walking.ctrl_c import require_canceled_by_ctrl_c
+from autograder.authoring.walking.silence import GIVING_UP, require_no_server, require_silence_noticed
 
 from .judging import (
     require_agreed,
@@ -44,7 +43,6 @@ SILENT = program("silent")
 INTERRUPTED = program("interrupted", {"ends_after": 1.5})
 
 WITHIN = 15.0  # s for a walk of a few seconds
-GIVING_UP = 8.0  # s, of which 5 are waited
 
 
 @check(points=1, on=GOOD, see="06_walk_to_a_pose#follow-task")

@@ -18,13 +18,22 @@ from autograder.authoring.walking.client import (
     require_goal_at,
     require_rejection,
     require_success,
+    require_success_after_early_feedback,
     require_usage,
+)
+from autograder.authoring.walking.silence import (
+    require_death_noticed,
+    require_no_answer_noticed,
+    require_silence_on_the_way_noticed,
 )
 
 from .checks import (
     WITHIN,
     believes_the_end,
+    gives_up_in_silence,
+    gives_up_without_a_server,
     goes_on_at_the_end_of_input,
+    prints_feedback_at_once,
     q_cancels_the_goal,
     remembers_an_early_q,
     reports_a_refusal,
@@ -61,6 +70,10 @@ DEAF = program("deaf_to_cancels")
 TWICE = program("typed", {"lines": ["q", "q", "q"], "ends_after": 2.5})
 OTHER_LINES = program("typed", {"lines": ["", "w", "stop"], "ends_after": 1.0})
 NO_INPUT = program("end_of_input", {"at_once": True})
+UNANSWERED = program("unanswered")
+FALLING_SILENT = program("falling_silent")
+DYING = program("dying")
+EARLY = program("early_feedback", lambda generator: {"distance": round(generator.uniform(3.0, 9.0), 2)})
 
 
 @check(points=1, on=ANY_WALK, needs=walks, see="01_robot_and_graph#names-why")
@@ -141,3 +154,26 @@ def other_lines_cancel_nothing(run: Transcript) -> None:
 def walks_without_an_input(run: Transcript) -> None:
     """Started where there is no input, it walks all the same"""
     require_walk_without_q(run, WITHIN)
+
+
+@check(
+    points=1, on=UNANSWERED, needs=[walks, gives_up_without_a_server], see="03_clients_that_survive#fix-why"
+)
+def gives_up_without_an_answer(run: Transcript) -> None:
+    """A goal that is never answered ends it with status 1 after 5 s"""
+    require_no_answer_noticed(run)
+
+
+@check(
+    points=1, on=[FALLING_SILENT, DYING], needs=gives_up_in_silence, see="03_clients_that_survive#kill-why"
+)
+def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
+    """A server that falls silent or dies on the way ends it with status 1, 5 s after the last feedback"""
+    require_silence_on_the_way_noticed(silent)
+    require_death_noticed(dying)
+
+
+@check(points=1, on=EARLY, needs=[walks, prints_feedback_at_once], see="06_walk_to_a_pose#slow-end-why")
+def survives_early_feedback(run: Transcript) -> None:
+    """Feedback that comes before the goal is accepted disturbs nothing"""
+    require_success_after_early_feedback(run, WITHIN)

@@ -6,13 +6,22 @@ from collections.abc import Sequence
 
 from action_msgs.msg import GoalStatus
 
+from autograder.arena import scripted_walk
 from autograder.arena.client_stage import ClientStage
 from autograder.arena.scripted_action import CancelScript
-from autograder.arena.scripted_walk import ARGUMENTS, feedback, is_under_way, offer, result_at, run, way
+from autograder.arena.scripted_walk import (
+    ARGUMENTS,
+    ON_THE_WAY,
+    feedback,
+    is_under_way,
+    offer,
+    result_at,
+    run,
+    way,
+)
 from humanoid_interfaces.action import WalkTo
 
 ARRIVED = (0.97, 0.52, 0.31)  # m, m, rad
-ON_THE_WAY = (0.4, 0.1, 0.2)  # m, m, rad
 SOON = 15.0  # s for a goal to come
 BETWEEN = 0.5  # s between two lines typed
 
@@ -40,9 +49,9 @@ def nobody(stage: ClientStage) -> None:
     run(stage)
 
 
-def rejecting(stage: ClientStage) -> None:
-    """The goal is rejected."""
-    offer(stage, accepted=False)
+def unanswered(stage: ClientStage) -> None:
+    """The goal is never answered."""
+    offer(stage, accepted=None)
     run(stage)
 
 
@@ -59,14 +68,25 @@ def silent(stage: ClientStage) -> None:
     run(stage)
 
 
+def falling_silent(stage: ClientStage) -> None:
+    """There is feedback for a while, and then nothing is heard any more; a cancel stays unanswered, too."""
+    offer(stage, feedback=way(5), ends_after=None, cancel=CancelScript(agreed=None))
+    run(stage)
+
+
+def dying(stage: ClientStage) -> None:
+    """The server dies while the robot walks."""
+    scripted_walk.die(stage)
+
+
+def early_feedback(stage: ClientStage, distance: float) -> None:
+    """Feedback comes before the goal is accepted, and the acceptance takes a second."""
+    scripted_walk.send_early_feedback(stage, distance)
+
+
 def interrupted(stage: ClientStage, ends_after: float) -> None:
     """Ctrl-C while the robot walks; the cancel is agreed to, and the goal ends so much later (s)."""
-    cancel = CancelScript(ends_after=ends_after, result=result_at(ON_THE_WAY))
-    walk_to = offer(stage, feedback=way(500), ends_after=None, cancel=cancel)
-    stage.start_program(ARGUMENTS)
-    if is_under_way(stage, walk_to):
-        stage.interrupt_program()
-    stage.wait_for_end()
+    scripted_walk.interrupt(stage, ends_after=ends_after)
 
 
 # -- something is typed -----------------------------------------------------------------------------------------------

@@ -8,15 +8,14 @@ from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.client import (
     WALK,
     require_abort,
-    require_canceled_by_ctrl_c,
     require_feedback_lines,
     require_goal_at,
-    require_no_server,
     require_rejection,
-    require_silence_noticed,
     require_success,
     require_usage,
 )
+from autograder.authoring.walking.ctrl_c import require_canceled_by_ctrl_c
+from autograder.authoring.walking.silence import GIVING_UP, require_no_server, require_silence_noticed
 
 GOOD = program(
     "good",
@@ -35,7 +34,6 @@ SILENT = program("silent")
 INTERRUPTED = program("interrupted", {"ends_after": 1.5})
 
 WITHIN = 10.0  # s for a walk of a second or two
-GIVING_UP = 8.0  # s, of which 5 are waited
 
 
 @check(points=2, on=GOOD, see="06_walk_to_a_pose#client-intro")

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import random
 
-from autograder.authoring import events as ev
 from autograder.authoring.action_client_checks import (
     require_exit,
-    require_goal_answered,
     require_goal_finished,
     require_one_goal,
-    require_patience,
 )
 from autograder.authoring.checks import check, expect, program
 from autograder.authoring.missing import unseen
@@ -18,22 +15,24 @@ from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.client import (
     ABORTED,
     CANCELED,
-    NO_SERVER,
-    PATIENCE,
     STATUS_HELP,
     WALK,
     GoalStatus,
     require_ending_line,
     require_failure,
     require_feedback_lines,
-    require_gives_up_in_silence,
     require_goal_at,
-    require_interrupted,
     require_success,
+    require_success_after_early_feedback,
+)
+from autograder.authoring.walking.ctrl_c import require_end_after_ctrl_c, require_interrupted
+from autograder.authoring.walking.silence import (
+    require_death_noticed,
+    require_no_answer_noticed,
+    require_silence_on_the_way_noticed,
 )
 
 from .checks import (
-    GIVING_UP,
     WITHIN,
     ctrl_c_cancels_the_goal,
     gives_up_in_silence,
@@ -72,6 +71,7 @@ NO_CODE = program("aborting", {"error_code": 0, "error_msg": ""})
 WITH_WORDS = program("succeeding_with_words", {"final": [0.97, 0.52, 0.31]})
 FORGETFUL = program("forgetful", {"kept_for": 1.0, "final": [0.97, 0.52, 0.31]})
 NEVER_CANCELED = program("interrupted", {"ends_after": None})
+ARRIVES = program("interrupted", {"ends_after": None, "arrives_after": 3.0})
 
 
 @check(
@@ -99,19 +99,7 @@ def works_in_any_namespace(run: Transcript) -> None:
 )
 def gives_up_without_an_answer(run: Transcript) -> None:
     """A goal that is never answered ends it with status 1 after 5 s"""
-    goal = require_one_goal(run, WALK)
-    if goal.reply:
-        raise unseen(run, "the goal was answered")
-    exited = run.first(ev.NodeExited)
-    require_failure(
-        run,
-        GIVING_UP + PATIENCE,
-        NO_SERVER,
-        because="the goal was never answered",
-        help="spin_until_future_complete(node, future, timeout_sec=5.0) returns with no result: look at future.done().",
-    )
-    if exited:
-        require_patience(run, goal.received.t, exited.t, PATIENCE, what="the end")
+    require_no_answer_noticed(run)
 
 
 @check(points=2, on=SLOW, needs=gives_up_in_silence, see="03_clients_that_survive#deadline-why")
@@ -129,27 +117,8 @@ def walks_as_long_as_it_takes(run: Transcript) -> None:
 )
 def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
     """A server that falls silent or dies on the way ends it with status 1, 5 s after the last feedback"""
-    goal = require_one_goal(silent, WALK)
-    require_gives_up_in_silence(silent, goal, heard_last_feedback(silent))
-    if dying.first(ev.ActionWithdrawn) is None:
-        raise unseen(dying, "the server did not die, because the goal never was under way")
-    exited = dying.first(ev.NodeExited)
-    require_failure(
-        dying,
-        GIVING_UP + PATIENCE + WITHIN,
-        NO_SERVER,
-        because="the server has died",
-        help="A server that has died answers nothing, no cancel either: give each wait a time limit.",
-    )
-    if exited:
-        since = heard_last_feedback(dying)
-        expect(
-            PATIENCE - 0.5 <= exited.t - since <= 2 * PATIENCE + 2.0,
-            expected=f"the end {PATIENCE:g} s after the last feedback, and at most {PATIENCE:g} s more for the cancel",
-            observed=f"{exited.t - since:.1f} s after it",
-            help="Note when feedback came last; wait for the answer to the cancel with a time limit, too.",
-            at=exited.t,
-        )
+    require_silence_on_the_way_noticed(silent)
+    require_death_noticed(dying)
 
 
 @check(
@@ -160,10 +129,7 @@ def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
 )
 def survives_early_feedback(run: Transcript) -> None:
     """Feedback that comes before the goal is accepted disturbs nothing"""
-    goal = require_one_goal(run, WALK)
-    if not goal.feedback or goal.reply is None or goal.feedback[0].t > goal.reply.t:
-        raise unseen(run, "no feedback came before the acceptance")
-    require_success(run, goal, WITHIN)
+    require_success_after_early_feedback(run, WITHIN)
 
 
 @check(points=1, on=BY_ANOTHER, needs=tells_an_abort, see="07_cancel_and_preempt#cancel-all")
@@ -202,40 +168,22 @@ def asks_for_the_result_in_time(run: Transcript) -> None:
     require_success(run, goal, WITHIN)
 
 
-@check(points=1, on=NEVER_CANCELED, needs=ctrl_c_cancels_the_goal, see="07_cancel_and_preempt#m1-why")
-def ctrl_c_ends_it_in_any_case(run: Transcript) -> None:
-    """When the goal does not end within 5 s of Ctrl-C, it ends all the same, with status 4"""
-    goal = require_one_goal(run, WALK)
-    require_goal_answered(run, goal, accepted=True)
-    pressed = require_interrupted(run)
-    if not goal.cancels:
-        raise unseen(run, "the goal was not cancelled")
-    exited = require_exit(
-        run,
-        pressed + WITHIN,
-        CANCELED,
-        because="Ctrl-C was pressed",
-        stream="stdout",
-        help="Wait for the result at most 5 s after the cancel, then print a line and return 4.",
-    )
-    expect(
-        exited.t - pressed <= PATIENCE + 2.0,
-        expected=f"the end within {PATIENCE:g} s of Ctrl-C",
-        observed=f"{exited.t - pressed:.1f} s after it",
-        help="Wait for the result at most 5 s after the cancel, then print a line and return 4.",
-        at=exited.t,
-    )
+@check(
+    points=1,
+    on=[NEVER_CANCELED, ARRIVES],
+    needs=ctrl_c_cancels_the_goal,
+    see="07_cancel_and_preempt#m1-why",
+)
+def ctrl_c_ends_it_in_any_case(never: Transcript, arrives: Transcript) -> None:
+    """After Ctrl-C it ends with status 4, also when the goal SUCCEEDED all the same or has not ended in 5 s"""
+    finished = require_goal_finished(arrives, require_one_goal(arrives, WALK), GoalStatus.STATUS_SUCCEEDED)
+    if finished.t < require_interrupted(arrives):
+        raise unseen(arrives, "the goal ended before Ctrl-C")
+    for run in (never, arrives):
+        require_end_after_ctrl_c(run, WITHIN)
 
 
 @check(points=1, on=ANY_WALK, needs=prints_the_feedback, see="06_walk_to_a_pose#slow-end-why")
 def prints_any_feedback(run: Transcript) -> None:
     """Whatever the distances are, they are printed as they came"""
     require_feedback_lines(run, require_one_goal(run, WALK))
-
-
-def heard_last_feedback(run: Transcript) -> float:
-    """Return when (s) the last feedback was sent."""
-    sent = run.all(ev.FeedbackSent)
-    if not sent:
-        raise unseen(run, "no feedback was sent")
-    return sent[-1].t

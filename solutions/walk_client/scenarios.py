@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 from action_msgs.msg import GoalStatus
 
+from autograder.arena import scripted_walk
 from autograder.arena.client_stage import ClientStage
 from autograder.arena.scripted_action import CancelScript
-from autograder.arena.scripted_walk import ARGUMENTS, feedback, is_under_way, offer, result_at, run, way
+from autograder.arena.scripted_walk import feedback, offer, result_at, run, way
 from humanoid_interfaces.action import WalkTo
 
 
@@ -99,31 +100,14 @@ def slow_but_lively(stage: ClientStage, every: float, times: int) -> None:
 
 def dying(stage: ClientStage) -> None:
     """The server dies while the robot walks."""
-    walk_to = offer(stage, feedback=way(500), ends_after=None)
-    stage.start_program(ARGUMENTS)
-    if is_under_way(stage, walk_to):
-        walk_to.withdraw()
-    stage.wait_for_end()
+    scripted_walk.die(stage)
 
 
 def early_feedback(stage: ClientStage, distance: float) -> None:
     """Feedback comes before the goal is accepted, and the acceptance takes a second."""
-    offer(
-        stage,
-        early_feedback=[feedback(distance)],
-        after=1.0,
-        feedback=way(5),
-        ends_after=1.0,
-        result=result_at((1.0, 0.5, 0.3)),
-    )
-    run(stage)
+    scripted_walk.send_early_feedback(stage, distance)
 
 
-def interrupted(stage: ClientStage, ends_after: float | None) -> None:
-    """Ctrl-C while the robot walks; the cancel is agreed to, and the goal ends so much later (s), or never."""
-    cancel = CancelScript(ends_after=ends_after, result=result_at((0.4, 0.1, 0.2)))
-    walk_to = offer(stage, feedback=way(500), ends_after=None, cancel=cancel)
-    stage.start_program(ARGUMENTS)
-    if is_under_way(stage, walk_to):
-        stage.interrupt_program()
-    stage.wait_for_end()
+def interrupted(stage: ClientStage, ends_after: float | None, arrives_after: float | None = None) -> None:
+    """Ctrl-C while the robot walks; the goal is CANCELED so much later (s), or the robot arrives all the same."""
+    scripted_walk.interrupt(stage, ends_after=ends_after, arrives_after=arrives_after)

@@ -10,8 +10,6 @@ from action_msgs.msg import GoalStatus
 from autograder.authoring import events as ev
 from autograder.authoring.action_client_checks import (
     has_number,
-    heard_last,
-    require_cancel,
     require_exit,
     require_goal_answered,
     require_goal_finished,
@@ -19,7 +17,6 @@ from autograder.authoring.action_client_checks import (
     require_no_flood,
     require_numbers,
     require_one_goal,
-    require_patience,
 )
 from autograder.authoring.failure import expect
 from autograder.authoring.fields import expect_field
@@ -85,6 +82,14 @@ def require_success(run: Transcript, goal: ScriptedGoal, within: float, *, cance
         )
 
 
+def require_success_after_early_feedback(run: Transcript, within: float) -> None:
+    """Require that feedback from before the acceptance disturbed nothing."""
+    goal = require_one_goal(run, WALK)
+    if not goal.feedback or goal.reply is None or goal.feedback[0].t > goal.reply.t:
+        raise unseen(run, "no feedback came before the acceptance")
+    require_success(run, goal, within)
+
+
 def require_ending_line(run: Transcript, word: str, at: float, since: float = 0.0) -> str:
     """Require exactly one line on stdout from a time (s) on that holds this status, and return it."""
     said = [event.text for event in run.all(ev.NodeOutput) if event.stream == "stdout" and event.t >= since]
@@ -122,25 +127,6 @@ def require_failure(run: Transcript, within: float, status: int, *, because: str
     require_exit(run, within, status, because=because, stream="stderr", help=help)
 
 
-def require_gives_up_in_silence(run: Transcript, goal: ScriptedGoal, since: float) -> None:
-    """Require that 5 s after the last word of the server the client cancels the goal and ends with status 1."""
-    cancel = require_cancel(
-        run,
-        goal,
-        because=f"nothing was heard of it for {PATIENCE:g} s",
-        help="Before you give up on a goal that was accepted, call goal_handle.cancel_goal_async() and spin until it "
-        "is sent.",
-    )
-    require_patience(run, since, cancel.received.t, PATIENCE, what="a request to cancel")
-    require_failure(
-        run,
-        cancel.received.t + PATIENCE,
-        NO_SERVER,
-        because="the server is silent",
-        help="Give the waiting for the result a limit on silence, and return 1 when it is over.",
-    )
-
-
 def require_usage(run: Transcript, within: float) -> None:
     """Require that wrong arguments ended the program with the usage, before there was a node."""
     exited = require_exit(
@@ -168,29 +154,6 @@ def require_usage(run: Transcript, within: float) -> None:
     )
 
 
-def require_no_server(run: Transcript, within: float) -> None:
-    """Require that the program gave up because nobody offers the action."""
-    if run.first(ev.ActionOffered):
-        raise unseen(run, f"{WALK} was offered")
-    require_failure(
-        run,
-        within,
-        NO_SERVER,
-        because=f"nobody offers {WALK}",
-        help="wait_for_server(timeout_sec=5.0) returns False when there is none: print a line and return 1.",
-    )
-    started, exited = run.first(ev.NodeReady), run.first(ev.NodeExited)
-    if started is None or exited is None:
-        raise unseen(run, "no node appeared")
-    expect(
-        exited.t - started.t >= PATIENCE - FINDING,
-        expected=f"{PATIENCE:g} s of waiting: a server that has just been started takes a while to be found",
-        observed=f"it gave up after {exited.t - started.t:.1f} s",
-        help="Call wait_for_server(timeout_sec=5.0) before you send the goal.",
-        at=exited.t,
-    )
-
-
 def require_rejection(run: Transcript, within: float) -> None:
     """Require that the program told that its goal was rejected."""
     require_goal_answered(run, require_one_goal(run, WALK), accepted=False)
@@ -207,53 +170,26 @@ def require_abort(run: Transcript, within: float) -> None:
     """Require that the program told that its goal was aborted, with the server's reason if there is one."""
     finished = require_goal_finished(run, require_one_goal(run, WALK), GoalStatus.STATUS_ABORTED)
     require_failure(run, within, ABORTED, because="the goal was ABORTED", help=STATUS_HELP)
+    require_reason(run, finished)
+
+
+def require_reason(run: Transcript, finished: ev.GoalFinished) -> None:
+    """Require exactly one line with the server's reason, on stderr."""
+    reason = finished.result.error_msg
     expect(
-        finished.result.error_msg in run.output("stderr"),
-        expected=f"the server's reason on stderr: {finished.result.error_msg}",
+        reason in run.output("stderr"),
+        expected=f"the server's reason on stderr: {reason}",
         observed=f"“{run.last_words}”",
         help="Print response.result.error_msg with file=sys.stderr.",
         at=finished.t,
     )
-
-
-def require_silence_noticed(run: Transcript) -> None:
-    """Require that the program cancelled a goal of which nothing was heard after the acceptance."""
-    goal = require_one_goal(run, WALK)
-    accepted = require_goal_answered(run, goal, accepted=True)
-    if goal.finished and not goal.cancels:
-        raise unseen(run, "the goal ended by itself")
-    require_gives_up_in_silence(run, goal, max(accepted, heard_last(run, goal)))
-
-
-def require_interrupted(run: Transcript) -> float:
-    """Require that Ctrl-C was pressed while the goal was under way, and return when (s)."""
-    signalled = run.first(ev.NodeSignalled)
-    if signalled is None:
-        raise unseen(run, "Ctrl-C was not pressed, because the goal never was under way")
-    return signalled.t
-
-
-def require_canceled_by_ctrl_c(run: Transcript, within: float) -> None:
-    """Require that Ctrl-C, and nothing before it, cancelled the goal, and that the program followed it to its end."""
-    goal = require_one_goal(run, WALK)
-    pressed = require_interrupted(run)
-    cancel = require_cancel(
-        run,
-        goal,
-        because="you pressed Ctrl-C",
-        help="rclpy shuts down at Ctrl-C, and then nothing can be sent: rclpy.init(signal_handler_options="
-        "SignalHandlerOptions.NO), catch the signal yourself, and call cancel_goal_async().",
-    )
+    lines = [line for line in run.output().splitlines() if reason in line]
     expect(
-        cancel.received.t >= pressed,
-        expected="the goal to go on until Ctrl-C",
-        observed=f"a request to cancel {pressed - cancel.received.t:.1f} s before",
-        help="Cancel only when Ctrl-C is pressed, or when nothing has been heard for 5 s.",
-        at=cancel.received.t,
-    )
-    require_goal_finished(run, goal, GoalStatus.STATUS_CANCELED)
-    require_exit(
-        run, within, CANCELED, because="the goal was CANCELED by Ctrl-C", stream="stdout", help=STATUS_HELP
+        len(lines) == 1,
+        expected="one line, on stderr, with the server's reason",
+        observed=f"{len(lines)}: " + " | ".join(lines[:3]),
+        help="Say once how it ended: print error_msg in one place, or log it, not both.",
+        at=finished.t,
     )
 
 

@@ -87,6 +87,7 @@ NEEDED = {
         "waits_no_longer_than_5_s": f"{_CANCELED_GOAL} message_published",
         "gives_up_in_silence": f"{_ENDED} {_REPLIED} cancel_received",
         "tells_a_cancel_by_another": f"{_ENDED} {_FINISHED}",
+        "a_refused_cancel_is_no_end": f"{_ENDED} {_FINISHED} cancel_received cancel_reply_sent message_published",
     },
     "battery_service": {
         "server_appears": "",
@@ -147,6 +148,9 @@ NEEDED = {
         "cancels_once": f"{_FINISHED} cancel_received node_exited node_output node_typed",
         "other_lines_cancel_nothing": f"{_FOLLOWED} node_typed",
         "walks_without_an_input": f"{_FOLLOWED} node_typed",
+        "gives_up_without_an_answer": f"{_ENDED} action_offered goal_received",
+        "notices_silence_on_the_way": f"{_SILENT} action_withdrawn feedback_sent",
+        "survives_early_feedback": f"{_FOLLOWED} feedback_sent",
     },
     "cancellable_walk": {
         "server_appears": "",
@@ -482,7 +486,7 @@ NEEDED = {
         "survives_early_feedback": f"{_FOLLOWED} feedback_sent",
         "tells_a_cancel_by_another": f"{_ENDED} {_FINISHED}",
         "believes_the_status": _FOLLOWED,
-        "ctrl_c_ends_it_in_any_case": f"{_ENDED} {_REPLIED} cancel_received node_signalled",
+        "ctrl_c_ends_it_in_any_case": f"{_FOLLOWED} cancel_received node_signalled",
         "prints_any_feedback": f"node_output {_FINISHED} feedback_sent",
         "asks_for_the_result_in_time": f"{_FOLLOWED} result_requested",
     },

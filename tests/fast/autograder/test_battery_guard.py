@@ -43,11 +43,11 @@ def goal(t, x=1.5, y=-0.5, yaw=0.4, frame="odom", accepted=0.1):
     return [received, ev.GoalReplySent(t=t + accepted, goal="goal 1", accepted=True)]
 
 
-def cancel(t):
+def cancel(t, canceling=("goal 1",)):
     name = f"cancel {next(NUMBERS)}"
     return [
         ev.CancelReceived(t=t, cancel=name, action=NAVIGATE, server="server 1", goal="goal 1"),
-        ev.CancelReplySent(t=t, cancel=name, return_code=0, canceling=["goal 1"]),
+        ev.CancelReplySent(t=t, cancel=name, return_code=0, canceling=list(canceling)),
     ]
 
 
@@ -223,6 +223,7 @@ STOOD_FIRST = [*DROPPED, *cancel(3.1), *mode(3.6, RobotState.STANDING), *finishe
 ON_THE_SPOT = [*READY, *goal(2.0), *level(3.0, 0.1), *cancel(3.1), *finished(3.6, CANCELED)]
 DEAF = [*DROPPED, *cancel(3.1)]
 NEVER_STANDS = [*DROPPED, *cancel(3.1), *finished(3.6, CANCELED)]
+REFUSED = [*DROPPED, *cancel(3.1, canceling=())]
 
 
 def canceled(t):
@@ -280,6 +281,11 @@ def canceled(t):
             "waits_no_longer_than_5_s",
             [[*DEAF, *canceled(8.2)], [*NEVER_STANDS, *canceled(8.8)]],
             [[*DEAF], [*NEVER_STANDS, *canceled(8.8)]],
+        ),
+        (
+            "a_refused_cancel_is_no_end",
+            [[*REFUSED, *finished(5.0, SUCCEEDED), *ended(5.2, 0, "SUCCEEDED")]],
+            [[*REFUSED, *ended(3.2, 4, "the cancel is refused")]],
         ),
         ("gives_up_in_silence", [UNANSWERED, SILENT], [UNANSWERED, [*READY, *goal(2.0), *ended(7.8, 1)]]),
         (

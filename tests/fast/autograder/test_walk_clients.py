@@ -48,6 +48,7 @@ def on_the_way() -> list[Any]:
 def finished(status: int, t: float = 4.0) -> Any:
     result = WalkTo.Result()
     result.final_pose.pose.position.x, result.final_pose.pose.position.y = 0.97, 0.52
+    result.error_msg = "it fell" if status == GoalStatus.STATUS_ABORTED else ""
     return ev.GoalFinished(t=t, goal="goal 1", status=status, result=result)
 
 
@@ -246,12 +247,56 @@ def test_the_answer_to_the_cancel_is_not_the_end_of_the_goal() -> None:
     assert failure.help.startswith("The answer to a cancel says only")
 
 
+# -- after Ctrl-C, the program says how it ended, and ends with 4 ---------------------------------------------
+
+PRESSED = [*FOLLOWED, ev.NodeSignalled(t=2.9, signal="SIGINT"), *cancelled(replied(canceling=("goal 1",)))]
+STOPPED = [*PRESSED, finished(GoalStatus.STATUS_CANCELED)]
+ARRIVED = [*PRESSED, finished(GoalStatus.STATUS_SUCCEEDED)]
+
+
+@pytest.mark.parametrize(
+    ("words", "at"), [("CANCELED: Ctrl-C", 4.1), ("interrupted", 4.1), ("The robot is to stop.", 3.0)]
+)
+def test_the_end_after_ctrl_c_may_be_told_in_any_words_that_are_the_last(words: str, at: float) -> None:
+    for checks in (WALK, CANCEL):
+        checks["ctrl_c_cancels_the_goal"].run([run_of(*STOPPED, *said(words, t=at), ended(4))])
+
+
+ON_AND_ON = [*said("canceling it", t=3.0), *said("0.40 m to go", t=3.5)]
+
+
+@pytest.mark.parametrize("words", [[], ON_AND_ON, said("CANCELED", stream="stderr")])
+def test_lines_on_the_way_are_no_line_about_the_end(words: list[Any]) -> None:
+    failure = failure_of(WALK["ctrl_c_cancels_the_goal"], run_of(*STOPPED, *words, ended(4)))
+    assert failure.expected.startswith("a line on stdout at the end")
+
+
+def test_ctrl_c_ends_it_with_4_whatever_becomes_of_the_goal() -> None:
+    check = WALK["ctrl_c_ends_it_in_any_case"]
+    never = run_of(*PRESSED, *said("Ctrl-C: it goes on", t=7.9), ended(4, t=8.0))
+    check.run([never, run_of(*ARRIVED, *said("Ctrl-C, but it SUCCEEDED"), ended(4))])
+    failure = failure_of(check, never, run_of(*ARRIVED, *said("SUCCEEDED"), ended(0)))
+    assert "whatever the status of the goal" in failure.help
+    failure = failure_of(
+        check, run_of(*PRESSED, *said("CANCELED", t=11.9), ended(4, t=12.0)), run_of(*ARRIVED, ended(4))
+    )
+    assert failure.observed == "9.1 s after it"
+
+
+def test_a_reason_that_is_told_twice_is_counted() -> None:
+    abort = [*FOLLOWED, finished(GoalStatus.STATUS_ABORTED), *said("ABORTED: it fell", stream="stderr")]
+    WALK["tells_an_abort"].run([run_of(*abort, ended(3))])
+    failure = failure_of(WALK["tells_an_abort"], run_of(*abort, *said("it fell"), ended(3)))
+    assert failure.observed == "2: ABORTED: it fell | it fell"
+
+
 # -- what a sound cancel client leaves in the record passes, and what is missing there does not ---------------
 
 AGREED = [TYPED, *cancelled(replied(canceling=("goal 1",)))]
 CANCELED = [finished(GoalStatus.STATUS_CANCELED), *said("CANCELED at 0.97, 0.52"), ended(4)]
 ABORTED = [finished(GoalStatus.STATUS_ABORTED), *said("ABORTED (1): it fell", stream="stderr"), ended(3)]
 END_OF_INPUT = ev.NodeTyped(t=2.8, line=None)
+EARLY = ev.FeedbackSent(t=2.05, goal="goal 1", feedback=WalkTo.Feedback(distance_remaining=4.0))
 LATE = [TYPED, *cancelled(replied(code=3)), *said("refused: it has ended", t=3.3)]
 SOUND = {
     "q_cancels_the_goal": [*FOLLOWED, *AGREED, *said("it will be canceled", t=3.3), *CANCELED],
@@ -267,6 +312,8 @@ SOUND = {
     "tells_an_abort_after_q": [*FOLLOWED, *AGREED, *ABORTED],
     "reports_a_late_cancel": [*FOLLOWED, *LATE, *SUCCEEDED],
     "does_not_wait_for_the_answer": [*FOLLOWED, TYPED, *cancelled(), *SUCCEEDED],
+    "gives_up_without_an_answer": [goal(), *said("no answer", t=7.1, stream="stderr"), ended(1, t=7.2)],
+    "survives_early_feedback": [goal(), EARLY, answered(t=3.0), *SUCCEEDED],
     "cancels_once": [*FOLLOWED, *AGREED, ev.NodeTyped(t=3.4, line="q"), *CANCELED],
     "other_lines_cancel_nothing": [*FOLLOWED, ev.NodeTyped(t=2.8, line="stop"), *SUCCEEDED],
     "walks_without_an_input": [*FOLLOWED, END_OF_INPUT, *SUCCEEDED],

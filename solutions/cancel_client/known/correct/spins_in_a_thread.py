@@ -85,6 +85,9 @@ def follow(client, goal, inbox):
                 print("it stops", flush=True)
             else:
                 print(f"The cancel was refused, code {value.return_code}", flush=True)
+        elif what == "result" and stopping and value.status != GoalStatus.STATUS_CANCELED:
+            print(f"interrupted, but the goal ended with status {value.status}")
+            return 4
         elif what == "result":
             return report(value)
         wanted = wanted or what in ("q", "ctrl-c")

@@ -15,6 +15,11 @@ from rclpy.task import Future
 
 PATIENCE = 5.0  # s
 CHECKS = 0.1  # s between two looks of the watchdog
+ENDINGS = {
+    GoalStatus.STATUS_SUCCEEDED: "succeeded",
+    GoalStatus.STATUS_ABORTED: "aborted",
+    GoalStatus.STATUS_CANCELED: "canceled",
+}
 
 
 class Walk(Node):
@@ -79,7 +84,9 @@ class Walk(Node):
         pose = result.final_pose.pose
         heading = math.degrees(2 * math.atan2(pose.orientation.z, pose.orientation.w))
         where = f"({pose.position.x:.3f}, {pose.position.y:.3f}) m, {heading:.0f} degrees"
-        if self._state == "stopping" or status == GoalStatus.STATUS_CANCELED:
+        if self._state == "stopping":
+            self._end(4, f"interrupted; {ENDINGS.get(status, 'ended')} at {where}")
+        elif status == GoalStatus.STATUS_CANCELED:
             self._end(4, f"canceled at {where}")
         elif status == GoalStatus.STATUS_SUCCEEDED:
             self._end(0, f"succeeded at {where}")

@@ -51,7 +51,7 @@ class WalkClient(Node):
             handle.cancel_goal_async()
             latest = time.monotonic() + PATIENCE  # a limit on the time, as feedback may go on
             self._wait(ended, until=lambda: time.monotonic() > latest)
-            return CANCELED, "CANCELED: Ctrl-C"
+            return CANCELED, after_ctrl_c(ended)
         if response is None:
             self._wait(handle.cancel_goal_async(), patience=1.0)
             raise Failure(NO_SERVER, f"nothing heard of walk_to for {PATIENCE:g} s; the goal is canceled")
@@ -93,6 +93,14 @@ def ending(response):
         return CANCELED, f"CANCELED {here}"
     result = response.result
     raise Failure(ABORTED, f"ABORTED with code {result.error_code}: {result.error_msg or 'no reason given'}")
+
+
+def after_ctrl_c(ended):
+    """Return the line for a goal that Ctrl-C has cancelled: it may have ended in another way, or not at all."""
+    if not ended.done():
+        return "Ctrl-C: asked to cancel, but the goal has not ended yet"
+    words = {GoalStatus.STATUS_SUCCEEDED: "SUCCEEDED", GoalStatus.STATUS_CANCELED: "CANCELED"}
+    return f"Ctrl-C: the goal {words.get(ended.result().status, 'ABORTED')}"
 
 
 def arguments_of(args):

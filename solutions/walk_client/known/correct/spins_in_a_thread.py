@@ -60,8 +60,12 @@ def follow(client, goal):
                 return 1
     except KeyboardInterrupt:
         handle.cancel_goal_async()
-        wait_for(result, PATIENCE - 0.5)
-        print("CANCELED (Ctrl-C)")
+        if not wait_for(result, PATIENCE - 0.5):
+            print("CANCELED (Ctrl-C), though it goes on")
+        elif result.result().status == GoalStatus.STATUS_CANCELED:
+            print("CANCELED (Ctrl-C)")
+        else:
+            print(f"interrupted, but the goal ended with status {result.result().status}")
         return 4
     return report(result.result())
 
