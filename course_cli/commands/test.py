@@ -72,9 +72,9 @@ def run_tests(
     if fuzz is not None:
         raise typer.Exit(0 if run_fuzzers(fuzz, fuzz_seed, fuzz_only or []) else 1)
     chosen = {tier for tier, wanted in zip(TIERS, (fast, arena, robot, browser), strict=True) if wanted}
-    # Four files at a time: robots and notebooks of the tests wait for the clock more than for the processors. The
+    # Five files at a time: robots and notebooks of the tests wait for the clock more than for the processors. The
     # order of the files is that of tests/conftest.py.
-    parallel = ["-n", "4", "--dist", "loadfile", "--no-loadscope-reorder"]
+    parallel = ["-n", "5", "--dist", "loadfile", "--no-loadscope-reorder"]
     arguments = pytest_arguments(chosen, context.args)
     passed = run_pytest([*parallel, *arguments], PROJECT)
     if not passed and again:
