@@ -87,7 +87,7 @@ NEEDED = {
         "waits_no_longer_than_5_s": f"{_CANCELED_GOAL} message_published",
         "gives_up_in_silence": f"{_ENDED} {_REPLIED} cancel_received",
         "tells_a_cancel_by_another": f"{_ENDED} {_FINISHED}",
-        "a_refused_cancel_is_no_end": f"{_ENDED} {_FINISHED} cancel_received cancel_reply_sent message_published",
+        "a_refused_cancel_is_no_end": f"{_CANCELED_GOAL} cancel_reply_sent message_published",
     },
     "battery_service": {
         "server_appears": "",
