@@ -57,6 +57,7 @@ def require_own_work(entries: list[Entry]) -> None:
             place.mkdir(parents=True)
             for file in (f"{EXERCISE}.py", "GetBatteryStatus.srv", "timestamp.txt"):
                 (place / file).write_text(f"# {text}\n")
+            (place / "submission_secret.txt").write_text("0f" * 64)
         (submitted / "anna").mkdir()
         for entry in entries:
             _make(submitted / "anna", entry, secret)
@@ -72,6 +73,7 @@ def require_own_work(entries: list[Entry]) -> None:
                 assert str(folder) not in str(error), "a student reads where the instructor's folders are"
                 assert len(str(error)) <= LONGEST_REASON, "a reason is short"
         assert OTHERS in read.pop(("zoe", EXERCISE), ""), "a sound submission was lost"
+        assert not any(work.secret for work in works if work.student == "anna"), "another's secret was taken"
         for text in read.values():
             assert SECRET not in text, "a file from outside the class was read"
             assert OTHERS not in text, "the file of another student was read"
@@ -152,6 +154,7 @@ _places = st.sampled_from(
         ),
         *(
             f"{EXERCISE}/timestamp.txt",
+            f"{EXERCISE}/submission_secret.txt",
             "interfaces",
             "interfaces/GetBatteryStatus.srv",
             "interfaces/interfaces.ipynb",
