@@ -20,6 +20,7 @@ from autograder.audit.proof import enough_to_catch, enough_to_prove
 from autograder.audit.run import audit_one
 from autograder.engine.exercise import exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
+from course_cli.commands.test import LOST_POINTS
 
 ARENAS_AT_A_TIME = 3  # two processors: an arena waits for its own clock two thirds of the time
 EXERCISES = {name: load_exercise(name, hidden=True) for name in exercise_names()}
@@ -75,6 +76,9 @@ def is_audit(item):
 
 
 @pytest.mark.parametrize("known", GRADED, ids=label)
-def test_verdict_is_as_known(known, audited):
-    surprises = audited(known).surprises()
+def test_verdict_is_as_known(known, audited, pytestconfig):
+    audit = audited(known)
+    if known.kind == "correct" and audit.failed():
+        pytestconfig.cache.set(LOST_POINTS, label(known))
+    surprises = audit.surprises()
     assert surprises == [], "\n".join(surprises)

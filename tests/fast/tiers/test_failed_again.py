@@ -20,11 +20,14 @@ def test_at_first():
     assert len(Path("tries").read_text()) >= {needed}
 """
 OF_A_CORRECT_ONE = """
-import pytest
+from course_cli.commands.test import LOST_POINTS
 
-@pytest.mark.parametrize("known", ["walk_to/correct/plain"])
-def test_verdict(known):
-    assert not known
+def test_verdict(request):
+    first = request.config.cache.get("seen", None) is None
+    request.config.cache.set("seen", True)
+    if {lost} and first:
+        request.config.cache.set(LOST_POINTS, "walk_to/correct/plain")
+    assert not first
 """
 
 
@@ -44,10 +47,11 @@ def test_what_failed_runs_once_more_without_the_rest(
     ) is passes
 
 
-def test_a_point_that_a_correct_submission_lost_is_a_failure_at_once(tmp_path: Path) -> None:
-    (tmp_path / "test_audit.py").write_text(OF_A_CORRECT_ONE)
+@pytest.mark.parametrize("lost", [True, False])
+def test_a_point_that_a_correct_submission_lost_is_a_failure_at_once(tmp_path: Path, lost: bool) -> None:
+    (tmp_path / "test_audit.py").write_text(OF_A_CORRECT_ONE.format(lost=lost))
     assert not run_pytest([], tmp_path)
-    assert not pass_alone([], tmp_path)
+    assert pass_alone([], tmp_path) is not lost
 
 
 def test_a_run_that_broke_before_any_test_is_a_failure(tmp_path: Path) -> None:
