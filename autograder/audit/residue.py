@@ -4,7 +4,8 @@
         grade(…)
     assert not left
 
-It sees what belongs to this process alone, so others may grade on the same machine.
+It sees what belongs to this process, and in shared memory what no living process uses, so others may grade and run
+nodes on the same machine.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import os
 import tempfile
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from autograder.isolation.memory_group import group_folders
@@ -65,8 +66,33 @@ def _mounts() -> Iterator[str]:
 def _files() -> Iterator[str]:
     for folder in {Path("/tmp"), Path(tempfile.gettempdir())}:
         yield from (f"file {path}" for path in folder.iterdir() if _is_ours(path.name))
-    if _SHARED_MEMORY.is_dir():
-        yield from (f"file {path}" for path in _SHARED_MEMORY.iterdir() if path.name.startswith(_MIDDLEWARES))
+    yield from (f"file {path}" for path in _abandoned())
+
+
+def _abandoned() -> Iterator[Path]:
+    """Yield the files that nodes have left in shared memory: those that no process has mapped."""
+    if not _SHARED_MEMORY.is_dir():
+        return
+    found = [path for path in _SHARED_MEMORY.iterdir() if path.name.startswith(_MIDDLEWARES)]
+    mapped = _mapped() if found else set()
+    for path in found:
+        with suppress(FileNotFoundError):  # it has gone just now
+            status = path.stat()
+            if (os.major(status.st_dev), os.minor(status.st_dev), status.st_ino) not in mapped:
+                yield path
+
+
+def _mapped() -> set[tuple[int, int, int]]:
+    """Return the files in shared memory that processes have mapped, each as its device's two numbers and its own."""
+    files = set()
+    for maps in Path("/proc").glob("[0-9]*/maps"):
+        with suppress(OSError):  # it has ended, or is another user's
+            for line in maps.read_text().splitlines():
+                _, _, _, device, number, *path = line.split(maxsplit=5)
+                if path and path[0].startswith(str(_SHARED_MEMORY)):
+                    major, minor = device.split(":")
+                    files.add((int(major, 16), int(minor, 16), int(number)))
+    return files
 
 
 def _groups() -> Iterator[str]:

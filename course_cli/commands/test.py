@@ -29,20 +29,20 @@ def run_tests(
     ] = False,
     arena: Annotated[
         bool,
-        typer.Option("--arena", help="Sandboxes, submissions graded in them, gradebooks: half an hour."),
+        typer.Option("--arena", help="Sandboxes, submissions graded in them, gradebooks: 20 minutes."),
     ] = False,
     robot: Annotated[
         bool,
         typer.Option(
             "--robot",
-            help="Robot processes, chapters and the lab in kernels, the demo: half an hour.",
+            help="Robot processes, chapters and the lab in kernels, the demo: 15 minutes.",
         ),
     ] = False,
     again: Annotated[
         bool,
         typer.Option(
             "--again",
-            help="Run what failed once more, alone: CI's machine is busy with four files at a time.",
+            help="Run what failed once more, alone: CI's machine is busy with five files at a time.",
         ),
     ] = False,
     browser: Annotated[
@@ -66,7 +66,7 @@ def run_tests(
         typer.Option("--fuzz-only", help="With --fuzz: only this fuzzer; repeat it for several."),
     ] = None,
 ) -> None:
-    """Run the tests: all of them (40 minutes), or the tiers that are named; or fuzz for some minutes.
+    """Run the tests: all of them (half an hour), or the tiers that are named; or fuzz for some minutes.
 
     Further arguments go to pytest: `course test tests/fast/setup -x`, `course test --fast -k name`.
     """
