@@ -33,7 +33,7 @@ def residue(patience: float = 5.0) -> Iterator[list[str]]:
     What has been ended may take `patience` s to be gone.
     """
     ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)  # orphans become our children, and are found
-    before, left = _seen(), list[str]()
+    before, left = {*_seen(), *(f"file {path}" for path in _of_nodes())}, list[str]()
     yield left
     deadline = time.monotonic() + patience
     while (now := _seen() - before) and time.monotonic() < deadline:
@@ -71,15 +71,18 @@ def _files() -> Iterator[str]:
 
 def _abandoned() -> Iterator[Path]:
     """Yield the files that nodes have left in shared memory: those that no process has mapped."""
-    if not _SHARED_MEMORY.is_dir():
-        return
-    found = [path for path in _SHARED_MEMORY.iterdir() if path.name.startswith(_MIDDLEWARES)]
+    found = list(_of_nodes())
     mapped = _mapped() if found else set()
     for path in found:
         with suppress(FileNotFoundError):  # it has gone just now
             status = path.stat()
             if (os.major(status.st_dev), os.minor(status.st_dev), status.st_ino) not in mapped:
                 yield path
+
+
+def _of_nodes() -> Iterator[Path]:
+    if _SHARED_MEMORY.is_dir():
+        yield from (path for path in _SHARED_MEMORY.iterdir() if path.name.startswith(_MIDDLEWARES))
 
 
 def _mapped() -> set[tuple[int, int, int]]:

@@ -42,8 +42,6 @@ class StudentLimits:
     shared_memory_mib: int = 16
     # The kernel has no limit for these; enforced by arena/student_limits_monitor.py.
     files: int = 10_000  # and folders and links, which take memory although they are empty
-    sockets: int = (
-        700  # of the arena, with the robot's and the grader's, about 60; in a shared network its own
-    )
+    sockets: int = 700  # with the arena's, about 60; in a shared network only its own
     tcp_sockets: int = 64  # of these; each may hold megabytes, and ROS has none
     output_kib: int = 256  # kept of stdout and of stderr each
