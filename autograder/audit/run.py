@@ -9,8 +9,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from autograder.audit.known_submission import KnownSubmission, require_known_checks
+from autograder.audit.shared_arenas import SharedArenas
 from autograder.engine.exercise import Exercise
 from autograder.engine.grading import grade
+from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckStatus, Grade
 
 
@@ -87,6 +89,7 @@ def audit(
 ) -> list[AuditedRun]:
     """Grade each submission `repeat` times, in `jobs` arenas in parallel, and what could not be graded then once alone.
 
+    The faulty ones share arenas, one after another; each other one, and each that is graded alone, has its own.
     The scenarios' inputs are those of `seed`, and of the seeds that follow it for the repetitions.
     `report` gets each run when it is done; the runs are returned in the order of the submissions.
     """
@@ -94,9 +97,14 @@ def audit(
         require_known_checks(known, [check.id for check in exercise.checks])
     wanted = [(repetition, known) for repetition in range(repeat) for known in submissions]
     runs: dict[tuple[int, KnownSubmission], AuditedRun] = {}
-    with ThreadPoolExecutor(jobs) as pool:
+    with SharedArenas(known for _, known in wanted) as shared, ThreadPoolExecutor(jobs) as pool:
+
+        def audit_in_shared(known: KnownSubmission, repetition: int) -> AuditedRun:
+            with shared.lent_to(known, exercise) as arenas:
+                return audit_one(known, exercise, repetition, seed, scale, arenas=arenas)
+
         futures = {
-            pool.submit(audit_one, known, exercise, repetition, seed, scale): (repetition, known)
+            pool.submit(audit_in_shared, known, repetition): (repetition, known)
             for repetition, known in wanted
         }
         try:
@@ -122,11 +130,21 @@ def audit_one(
     seed: int = 0,
     scale: float | None = None,
     at_first_look: Collection[str] = (),
+    arenas: SubmissionArenas | None = None,
 ) -> AuditedRun:
-    """Grade one submission, one arena at a time; `at_first_look`: the checks that need not fail twice."""
+    """Grade one submission, one arena at a time.
+
+    `at_first_look`: the checks that need not fail twice. `arenas`: those of `SharedArenas`; None: its own.
+    """
     started = time.monotonic()
     result = grade(
-        known.read(), exercise, seed=seed + repetition, jobs=1, scale=scale, at_first_look=at_first_look
+        known.read(),
+        exercise,
+        seed=seed + repetition,
+        jobs=1,
+        scale=scale,
+        at_first_look=at_first_look,
+        arenas=arenas,
     )
     return AuditedRun(known, repetition, result, time.monotonic() - started)
 

@@ -1,7 +1,7 @@
 """The controller's handle of an arena: it sends scenarios one after another and gets their events back.
 
-No submission sees anything of another, because no arena serves two. Within an arena each scenario has processes, a ROS
-domain and a working folder of its own, and begins after everything of the one before has ended.
+No student's submission sees anything of another, because no arena serves two. Within an arena each scenario has
+processes, a ROS domain and a working folder of its own, and begins after everything of the one before has ended.
 """
 
 from __future__ import annotations

@@ -54,6 +54,10 @@ class SubmissionArenas:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close all arenas that are open."""
         self._take_the_one_ahead()
         for arena in self._idle:
             self._close(arena)

@@ -5,36 +5,27 @@ check, the faulty ones with the checks that must catch them, at the first look. 
 background from the first test that needs one on, in the order of the tests, so each test waits for its own and only
 those that were selected are graded (`-k battery_service`, `-k walks_on`).
 
-The exercises take turns, each with its correct submission first. On a slow machine, `--audit-minutes` skips what has
-not begun by then, and the summary counts it.
+The correct and the hostile submission of each exercise come first. The faulty ones of an exercise follow one another,
+as they share arenas. On a slow machine, `--audit-minutes` skips what has not begun by then, and the summary counts it.
 """
 
 import time
 from concurrent.futures import ThreadPoolExecutor
-from itertools import chain, zip_longest
 
 import pytest
 
 from autograder.audit.known_submission import known_submissions
 from autograder.audit.proof import enough_to_catch, enough_to_prove
 from autograder.audit.run import audit_one
+from autograder.audit.shared_arenas import SharedArenas
 from autograder.engine.exercise import exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
 from course_cli.commands.test import LOST_POINTS
 
 ARENAS_AT_A_TIME = 3  # two processors: an arena waits for its own clock two thirds of the time
 EXERCISES = {name: load_exercise(name, hidden=True) for name in exercise_names()}
-
-
-def in_turns(lists):
-    """The first of each list, then the second of each, and so on."""
-    missing = object()
-    return [
-        item for item in chain.from_iterable(zip_longest(*lists, fillvalue=missing)) if item is not missing
-    ]
-
-
-GRADED = in_turns([enough_to_prove(known_submissions(name), of_each=1) for name in EXERCISES])
+PROVING = [known for name in EXERCISES for known in enough_to_prove(known_submissions(name), of_each=1)]
+GRADED = sorted(PROVING, key=lambda known: known.kind == "faulty")
 
 
 def label(known):
@@ -53,11 +44,14 @@ def audited(request):
     def audit_in_time(known):
         if time.monotonic() > end:
             return None
-        return audit_one(
-            known,
-            enough_to_catch(known, EXERCISES[known.exercise]),
-            at_first_look=known.caught_by if known.kind == "faulty" else (),
-        )
+        exercise = enough_to_catch(known, EXERCISES[known.exercise])
+        with shared.lent_to(known, exercise) as arenas:
+            return audit_one(
+                known,
+                exercise,
+                at_first_look=known.caught_by if known.kind == "faulty" else (),
+                arenas=arenas,
+            )
 
     def result_of(known):
         audit = runs[known.path].result()
@@ -65,7 +59,7 @@ def audited(request):
             pytest.skip(f"not begun within --audit-minutes {minutes:g}: the machine is slow")
         return audit
 
-    with ThreadPoolExecutor(ARENAS_AT_A_TIME) as pool:
+    with SharedArenas(wanted) as shared, ThreadPoolExecutor(ARENAS_AT_A_TIME) as pool:
         runs = {known.path: pool.submit(audit_in_time, known) for known in wanted}
         yield result_of
         pool.shutdown(cancel_futures=True)
