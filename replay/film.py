@@ -10,7 +10,7 @@ from typing import Literal
 from PIL import Image
 
 from replay.body import RecordedBody
-from replay.captions import with_captions
+from replay.captioned_picture import with_captions
 from replay.recording import Recording
 from replay.span import Span
 from robot_sim.views.film import save_frames

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 
 from replay.body import RecordedBody
+from replay.captions import captions
 from replay.moment import Moment
 from replay.recording import Recording
 from replay.span import Span
@@ -13,6 +14,7 @@ from robot_sim.views.web_view import WebView
 
 FRAME = 0.04  # s, between two postures
 PAUSE = 1.5  # s at the end, before it begins again
+LETTERS = 100  # of a caption's line
 
 
 def play(
@@ -24,7 +26,7 @@ def play(
     tell: Callable[[Moment], None],
     goes_on: Callable[[], bool] = lambda: True,
 ) -> None:
-    """Show the robot in this span, again and again; what happens is told the first time.
+    """Show the robot in this span, again and again, with captions; what happens is told the first time.
 
     Args:
         recording: what to show.
@@ -50,6 +52,9 @@ def play(
             elapsed = time.monotonic() - began
             t = min(span.start + elapsed, span.end)
             body.show(t)
+            view.write(
+                [(caption.text, caption.colour) for caption in captions(t, recording.moments, LETTERS)]
+            )
             view.show()
             while untold and untold[0].t <= t:
                 tell(untold.pop(0))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import time
+from collections.abc import Sequence
 from socket import create_connection
 from typing import Protocol
 
@@ -37,7 +38,10 @@ class WebView:
     """
 
     def __init__(self, robot: Viewed, port: int = 0) -> None:
-        self._viewer, port = launch_web_viewer(port, _following_camera(robot.model))
+        from robot_sim.views.web_text import WebText  # late: as the viewer, half a second
+
+        self._text = WebText()
+        self._viewer, port = launch_web_viewer(port, _following_camera(robot.model), [self._text])
         self._robot = robot
         # Copies, because the viewer lets its user drag, reset and load whatever it was given.
         self._model = copy.copy(robot.model)
@@ -54,6 +58,10 @@ class WebView:
             self._next_frame = now + 1 / FRAMES
             mujoco.mj_copyData(self._data, self._model, self._robot.data)
             self._viewer.sync()
+
+    def write(self, lines: Sequence[tuple[str, str]]) -> None:
+        """Write lines over the picture from now on, each with its colour, #rrggbb."""
+        self._text.lines = lines
 
     def close(self) -> None:
         """End the viewer."""

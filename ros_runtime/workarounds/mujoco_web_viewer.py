@@ -5,7 +5,7 @@ The viewer has no password, listens on every interface, and has no option to cha
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
 from contextlib import contextmanager
 from socket import socket
@@ -20,12 +20,15 @@ LOOPBACK = "127.0.0.1"
 STARTED_WITHIN = 30.0  # s
 
 
-def launch_web_viewer(port: int, camera: mujoco.MjvCamera) -> tuple[ViewerHandle, int]:
+def launch_web_viewer(
+    port: int, camera: mujoco.MjvCamera, plugins: Sequence[Any] = ()
+) -> tuple[ViewerHandle, int]:
     """Start the viewer in a thread of this process.
 
     Args:
         port: where to listen; 0 takes the first free one from 8080 on.
         camera: where the viewer looks from at first.
+        plugins: of `mujoco.studio.plugin`, which draw over the picture.
 
     Returns:
         The handle of the viewer, and the port it listens on.
@@ -43,7 +46,7 @@ def launch_web_viewer(port: int, camera: mujoco.MjvCamera) -> tuple[ViewerHandle
     def serve(endpoint: Any) -> None:
         try:
             with _bound_to_loopback() as ports:
-                viewer = web_viewer.WebViewer(config, endpoint, camera=camera)
+                viewer = web_viewer.WebViewer(config, endpoint, camera=camera, plugins=[*plugins])
         except BaseException as error:
             started.set_exception(error)
             raise

@@ -9,6 +9,7 @@ import shutil
 import signal
 import subprocess
 import sys
+from collections.abc import Sequence
 from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
@@ -28,7 +29,7 @@ from autograder.recording.entry import METADATA
 from course_cli.app import app
 from replay import web
 from replay.body import RecordedBody
-from replay.captions import band_height
+from replay.captioned_picture import band_height
 from replay.film import RATE, film
 from replay.moment import Kind, Moment
 from replay.recording import NoRecording, Recording
@@ -170,11 +171,15 @@ class Seen:
     def __init__(self, robot: Any, port: int) -> None:
         self.robot = robot
         self.heights: list[float] = []
+        self.written: list[list[str]] = []
         self.is_closed = False
         seen.append(self)
 
     def show(self) -> None:
         self.heights.append(float(self.robot.data.qpos[2]))
+
+    def write(self, lines: Sequence[tuple[str, str]]) -> None:
+        self.written.append([text for text, _ in lines])
 
     def close(self) -> None:
         self.is_closed = True
@@ -211,6 +216,9 @@ def test_the_web_view_shows_the_fall_and_tells_each_moment_once(
     lowest = min(range(60), key=lambda frame: view.heights[frame])
     assert view.heights[0] > view.heights[5] > view.heights[lowest]
     assert max(view.heights[60:]) == pytest.approx(view.heights[0], abs=0.02)
+    times = [float(time.removesuffix(" s")) for time, *_ in view.written]
+    told_of_the_fall = [any("The robot stays upright" in line for line in lines) for lines in view.written]
+    assert told_of_the_fall == [t >= FELL_AT for t in times]
 
 
 def test_the_command_serves_a_page_and_ctrl_c_ends_it(fallen: Any) -> None:

@@ -1,0 +1,59 @@
+"""A lost point watched in the web view: the robot, and below it in words what happened and what the check found."""
+
+from __future__ import annotations
+
+import io
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from falls import recorded_fall
+from PIL import Image
+from playwright.sync_api import sync_playwright
+
+pytest.importorskip("mujoco.studio", reason="this MuJoCo is older than 4.0 and has no web viewer")
+
+CHROMIUM = shutil.which("chromium")
+# Without a graphics card Chromium draws WebGL with SwiftShader; the others keep it off the network.
+OPTIONS = (
+    *("--no-sandbox", "--disable-quic", "--disable-background-networking", "--disable-component-update"),
+    *("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
+)
+TIMEOUT = 60.0  # s
+RED = np.array([0xFF, 0x7B, 0x72])  # of what a failed check found
+
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium to look with")
+
+
+@pytest.fixture
+def url(tmp_path: Path) -> Iterator[str]:
+    """Where `course replay` shows a robot that falls."""
+    command = [Path(sys.executable).with_name("course"), "replay", recorded_fall(tmp_path, "flat")]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        assert process.stdout
+        yield next(line.split()[1] for line in process.stdout if line.startswith("view: "))
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+
+
+def test_the_captions_stand_over_the_floor_and_the_failed_check_is_red(url: str) -> None:
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OPTIONS)
+        page = browser.new_page(viewport={"width": 1000, "height": 700})
+        page.goto(url)
+        deadline = time.monotonic() + TIMEOUT
+        while red_letters(page.screenshot()) < 100:
+            assert time.monotonic() < deadline, f"no red caption is seen within {TIMEOUT:g} s"
+        browser.close()
+
+
+def red_letters(screenshot: bytes) -> int:
+    """Count the pixels of that red in the lower third, on the left."""
+    pixels = np.asarray(Image.open(io.BytesIO(screenshot)).convert("RGB")).astype(int)
+    return int((abs(pixels[450:, :700] - RED) < 40).all(axis=2).sum())
