@@ -49,7 +49,7 @@ def audited(request):
             return audit_one(
                 known,
                 exercise,
-                at_first_look=known.caught_by if known.kind == "faulty" else (),
+                at_first_look=[*known.caught_by, *known.also_fails],
                 arenas=arenas,
             )
 

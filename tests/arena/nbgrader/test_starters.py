@@ -16,7 +16,8 @@ EXERCISES = Path(__file__).resolve().parents[3] / "exercises"
 def test_the_starter_gets_some_points_and_fails_some_check(name):
     starter = read_submission(EXERCISES / name / f"{name}.ipynb", name)
     exercise = load_exercise(name, hidden=False)
-    result = grade(starter, exercise, at_first_look=[check.id for check in exercise.checks])
+    # One arena at a time runs no scenario whose checks turn out to need one that failed.
+    result = grade(starter, exercise, jobs=1, at_first_look=[check.id for check in exercise.checks])
     assert result.status == "graded"
     assert result.score < result.max_score
     assert (result.score == 0) == (name == QUIZ)
