@@ -1,15 +1,21 @@
-"""A class whose grades are known beforehand: each student hands in one known submission for each exercise."""
+"""A class whose grades are known beforehand: each student hands in one known submission for each exercise.
+
+Of an essay it is known that it waits for a person.
+"""
 
 from __future__ import annotations
 
 import json
 import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import cycle
 from pathlib import Path
 
+from autograder.audit.known_essay import KnownEssay, known_essays, surprises_in_essay
 from autograder.audit.known_submission import Kind, KnownSubmission, known_submission, known_submissions
 from autograder.audit.run import AuditedRun
 from autograder.batch.records import GRADES
+from autograder.engine.exercise import essay_names
 from autograder.engine.verdict import Grade
 
 SUBMITTED, GRADED, LABELS = "submitted", "graded", "labels.json"  # in the folder of a class
@@ -49,18 +55,24 @@ def make_class(
     if (folder / SUBMITTED).exists():
         raise CannotRehearse(f"{folder / SUBMITTED} exists; name a new folder, or remove it first")
     choice = random.Random(seed)
-    decks = {exercise: _Deck(known_submissions(exercise), choice) for exercise in exercises}
+    essays = essay_names()
+    decks = {
+        exercise: _essays(exercise) if exercise in essays else _Deck(known_submissions(exercise), choice)
+        for exercise in exercises
+    }
     labels: Labels = {}
     for number in range(1, students + 1):
         student = f"student_{number:0{len(str(students))}}"
         kinds = choice.choices(list(shares), list(shares.values()), k=len(exercises))
-        handed_in = {
-            exercise: decks[exercise].draw(kind) for exercise, kind in zip(exercises, kinds, strict=True)
-        }
+        handed_in: dict[str, KnownSubmission | KnownEssay] = {}
+        for exercise, kind in zip(exercises, kinds, strict=True):
+            deck = decks[exercise]
+            handed_in[exercise] = deck.draw(kind) if isinstance(deck, _Deck) else next(deck)
         for exercise, known in handed_in.items():
             place = folder / SUBMITTED / student / exercise
             place.mkdir(parents=True)
-            for name, text in known.read().sources.items():
+            files = known.handed_in() if isinstance(known, KnownEssay) else known.read().sources
+            for name, text in files.items():
                 (place / name).write_text(text, encoding="utf-8")
         labels[student] = {exercise: known.name for exercise, known in handed_in.items()}
     (folder / LABELS).write_text(json.dumps(labels, indent=2) + "\n")
@@ -85,6 +97,13 @@ class _Deck:
         return self._of[kind][self._dealt[kind] % len(self._of[kind])]
 
 
+def _essays(exercise: str) -> Iterator[KnownEssay]:
+    """Deal the known answers to an essay one after the other, again and again."""
+    if not (known := known_essays(exercise)):
+        raise CannotRehearse(f"there is no answer to the essay {exercise}")
+    return cycle(known)
+
+
 def surprises(folder: Path) -> dict[str, list[str]]:
     """Compare the grades of a class with its labels.
 
@@ -107,8 +126,12 @@ def surprises(folder: Path) -> dict[str, list[str]]:
     for student, handed_in in labels.items():
         for exercise, name in handed_in.items():
             grade = grades.get((student, exercise))
-            known = known_submission(exercise, name)
-            words = AuditedRun(known, 0, grade, 0.0).surprises() if grade else ["it has no grade"]
-            if words:
+            if words := _surprises_in(grade, exercise, name) if grade else ["it has no grade"]:
                 found[f"{student}'s {exercise} ({name})"] = words
     return found
+
+
+def _surprises_in(grade: Grade, exercise: str, name: str) -> list[str]:
+    if exercise in essay_names():
+        return surprises_in_essay(grade)
+    return AuditedRun(known_submission(exercise, name), 0, grade, 0.0).surprises()

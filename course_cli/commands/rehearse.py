@@ -10,8 +10,16 @@ import typer
 from rich.console import Console
 
 from autograder.audit.classroom import GRADED, LABELS, SUBMITTED, CannotRehearse, make_class, surprises
+from autograder.audit.known_essay import known_essays
 from autograder.audit.known_submission import known_submissions
-from autograder.engine.exercise import UnknownExercise, exercise_names, load_exercise
+from autograder.engine.essay import load_essay
+from autograder.engine.exercise import (
+    UnknownExercise,
+    UnusableExercise,
+    essay_names,
+    exercise_names,
+    load_exercise,
+)
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 
@@ -29,14 +37,21 @@ def make(
     seed: Annotated[int, typer.Option(help="the same seed makes the same class")] = 0,
     course: CourseOption = None,
 ) -> None:
-    """Write the submissions of a class: 70 % correct, 20 % faulty, 10 % hostile, drawn from the known ones."""
+    """Write the submissions of a class: 70 % correct, 20 % faulty, 10 % hostile, drawn from the known ones.
+
+    Of an essay, students hand in its solution or an answer that is marked for comparison; it waits for a person.
+    """
     console = Console(highlight=False)
-    exercises = exercise or [name for name in exercise_names() if known_submissions(name)]
+    programs = [name for name in exercise_names() if known_submissions(name)]
+    exercises = exercise or [*programs, *(name for name in essay_names() if known_essays(name))]
     try:
         for name in exercises:
-            load_exercise(name, hidden=False)
+            if name in essay_names():
+                load_essay(name)
+            else:
+                load_exercise(name, hidden=False)
         make_class(folder, exercises, students, seed=seed)
-    except (CannotRehearse, UnknownExercise) as error:
+    except (CannotRehearse, UnknownExercise, UnusableExercise) as error:
         raise ended(console, error, UNUSABLE) from error
     console.print(
         f"{students * len(exercises)} submissions in {folder / SUBMITTED}, labelled in {folder / LABELS}."

@@ -9,13 +9,16 @@ from pathlib import Path
 import pytest
 
 from autograder.audit.classroom import GRADED, SUBMITTED, CannotRehearse, make_class, surprises
+from autograder.audit.known_essay import known_essays
 from autograder.audit.known_submission import known_submission
 from autograder.batch.collection import collect
 from autograder.batch.records import GRADES, write_grades
+from autograder.engine.essay import left_to_a_person, load_essay
 from autograder.engine.exercise import load_exercise
 from autograder.engine.verdict import CheckVerdict, Grade
 
 EXERCISES = ("battery_service", "interfaces")
+ESSAY = "arm_architecture"
 
 
 def as_known(student: str, exercise: str, name: str) -> Grade:
@@ -94,3 +97,23 @@ def test_no_class_is_overwritten(tmp_path):
     with pytest.raises(CannotRehearse, match="name a new folder"):
         make_class(tmp_path, ["battery_service"], 2)
     assert json.loads((tmp_path / "labels.json").read_text()) == before
+
+
+def test_essays_are_handed_in_turn_by_turn_and_waiting_for_a_person_is_no_surprise(tmp_path):
+    answers = known_essays(ESSAY)
+    labels = make_class(tmp_path, [ESSAY], len(answers) + 1)
+    assert len(answers) > 1
+    assert [works[ESSAY] for works in labels.values()] == [each.name for each in (*answers, answers[0])]
+    collection = collect(tmp_path / SUBMITTED)
+    assert (len(collection.works), collection.ignored, collection.refused) == (len(labels), [], [])
+    waiting = [left_to_a_person(load_essay(ESSAY), student) for student in labels]
+    write_grades(tmp_path / GRADED / GRADES, waiting)
+    assert surprises(tmp_path) == {}
+
+
+def test_an_essay_that_a_batch_has_marked_is_a_surprise(tmp_path):
+    (student,) = make_class(tmp_path, [ESSAY], 1)
+    marked = [CheckVerdict("graph", "The graph", "marked", 1, 2)]
+    write_grades(tmp_path / GRADED / GRADES, [Grade(ESSAY, student, "by hand", marked)])
+    ((words,),) = surprises(tmp_path).values()
+    assert words == "expected an essay that waits for a person; it is graded, with 1 points"
