@@ -11,14 +11,10 @@ import pytest
 TESTS = Path(__file__).parent
 TIERS = ("fast", "arena", "robot", "browser")
 
-# The longest files begin first, and the short ones of the fast tier last, so that the workers end at about the same
-# time. What holds for every chapter comes after the files of the chapters, each of which runs its own.
-FIRST = (
-    "test_bare_debian.py",
-    "test_audit.py",
-    "test_notebooks_run.py",
-    "test_starters.py",
-)
+# The longest files begin first. Then come robots and chapters, which wait for their clocks while the submissions of
+# test_audit.py compute; what computes itself follows, and the short files of the fast tier fill the end.
+FIRST = ("test_bare_debian.py", "test_audit.py", "test_notebooks_run.py")
+TURNS = ("robot", "arena", "browser", "fast")  # of the tiers
 
 
 def tier_of(file: Path) -> str:
@@ -59,4 +55,4 @@ def turn_of(file: Path) -> int:
     """When a file begins, as a number to sort by."""
     if file.name in FIRST:
         return FIRST.index(file.name)
-    return len(FIRST) + (file.is_relative_to(TESTS / "fast"))
+    return len(FIRST) + (TURNS.index(tier_of(file)) if file.is_relative_to(TESTS) else len(TURNS))

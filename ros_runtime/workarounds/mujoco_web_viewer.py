@@ -40,6 +40,10 @@ def launch_web_viewer(
     # Imported late: this takes half a second, and a robot that nobody watches does not need it.
     from mujoco.studio import launch_thread, viewer_protocol, web_viewer
 
+    # Its banner names addresses that it is not bound to, and what else it says would come from its own thread, in the
+    # middle of somebody's line.
+    web_viewer.print = _say_nothing
+
     config = viewer_protocol.ViewerConfig(title="robot", gfx="web", http_port=port)
     started: Future[int] = Future()
 
@@ -56,10 +60,13 @@ def launch_web_viewer(
     return launch_thread.launch_thread(serve), started.result(STARTED_WITHIN)
 
 
+def _say_nothing(*_arguments: object, **_options: object) -> None:
+    """Stand in for `print`."""
+
+
 @contextmanager
 def _bound_to_loopback() -> Iterator[list[int]]:
-    """Make a viewer that starts meanwhile bind to loopback and print nothing; the list gets its port."""
-    from mujoco.studio import web_viewer
+    """Make a viewer that starts meanwhile bind to loopback; the list gets its port."""
     from mujoco.studio.web import web_server
 
     bind = web_server.bind_public_socket
@@ -73,13 +80,7 @@ def _bound_to_loopback() -> Iterator[list[int]]:
         ports.append(bound.getsockname()[1])
         return bound
 
-    def say_nothing(_host: str, _port: int) -> None:
-        """Print nothing: the banner names addresses that this viewer is not bound to."""
-
-    with (
-        _replaced(web_server, "bind_public_socket", bind_to_loopback),
-        _replaced(web_viewer, "_print_url_banner", say_nothing),
-    ):
+    with _replaced(web_server, "bind_public_socket", bind_to_loopback):
         yield ports
 
 

@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -37,7 +38,11 @@ def url(tmp_path: Path) -> Iterator[str]:
     command = [Path(sys.executable).with_name("course"), "replay", recorded_fall(tmp_path, "flat")]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
         assert process.stdout
-        yield next(line.split()[1] for line in process.stdout if line.startswith("view: "))
+        limit = threading.Timer(TIMEOUT, process.kill)  # what it prints ends then
+        limit.start()
+        view = next((line.split()[1] for line in process.stdout if line.startswith("view: ")), "")
+        limit.cancel()
+        yield view
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=30)
 

@@ -7,6 +7,7 @@ import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
 from contextlib import contextmanager
 
@@ -49,10 +50,15 @@ def viewed_robot(*options):
     process = subprocess.Popen(
         command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
+    limit = threading.Timer(TIMEOUT, process.kill)  # what it prints ends then
+    limit.start()
     try:
         said = (line.removeprefix("view: ").strip() for line in process.stdout if line.startswith("view: "))
-        yield process, next(said, "")
+        url = next(said, "")
+        limit.cancel()
+        yield process, url
     finally:
+        limit.cancel()
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=30)
         domain.release()
@@ -83,6 +89,15 @@ def test_what_was_replaced_in_mujoco_is_put_back():
     )
     expected = "from mujoco.studio.web.web_server mujoco.studio.web_viewer"
     assert expected in map(str.strip, ran.stderr.splitlines()), ran.stdout + ran.stderr
+
+
+def test_the_viewer_prints_nothing_into_our_lines():
+    with viewed_robot() as (process, _):
+        said = process.stdout.readline()
+        process.send_signal(signal.SIGINT)
+        left = process.stdout.read()
+    assert said.startswith("humanoid stands in")
+    assert left == ""
 
 
 def test_a_taken_port_is_said(url):
