@@ -4,7 +4,8 @@ Outcome: the kernel buries none of them, so all are counted; what they used of t
 Caught by: cancels_in_mid_stride
 Also fails: server_appears, accepts_a_goal, arrives, fills_the_result, feedback_keeps_its_rate,
 feedback_is_true, feedback_ends_with_the_goal, rejects_a_wrong_frame, rejects_nan,
-rejects_without_power, new_goal_preempts_the_old, aborts_when_the_robot_falls, ends_cleanly
+rejects_without_power, new_goal_preempts_the_old, aborts_when_the_robot_falls, ends_cleanly, arrives_anywhere,
+survives_a_cancel_after_the_end, works_in_any_namespace
 """
 
 import math
