@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from replay.moment import Kind, Moment
 
@@ -22,8 +22,7 @@ COLOURS = {
 OF_TIME = "#ffffff"
 
 
-@dataclass(frozen=True)
-class Caption:
+class Caption(NamedTuple):
     """A line of text in a colour, #rrggbb."""
 
     text: str

@@ -52,9 +52,7 @@ def play(
             elapsed = time.monotonic() - began
             t = min(span.start + elapsed, span.end)
             body.show(t)
-            view.write(
-                [(caption.text, caption.colour) for caption in captions(t, recording.moments, LETTERS)]
-            )
+            view.write(captions(t, recording.moments, LETTERS))
             view.show()
             while untold and untold[0].t <= t:
                 tell(untold.pop(0))

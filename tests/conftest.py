@@ -9,12 +9,10 @@ from pathlib import Path
 import pytest
 
 TESTS = Path(__file__).parent
-TIERS = ("fast", "arena", "robot", "browser")
-
 # The longest files begin first. Then come robots and chapters, which wait for their clocks while the submissions of
 # test_audit.py compute; what computes itself follows, and the short files of the fast tier fill the end.
 FIRST = ("test_bare_debian.py", "test_audit.py", "test_notebooks_run.py")
-TURNS = ("robot", "arena", "browser", "fast")  # of the tiers
+TIERS = ("robot", "arena", "browser", "fast")
 
 
 def tier_of(file: Path) -> str:
@@ -55,4 +53,4 @@ def turn_of(file: Path) -> int:
     """When a file begins, as a number to sort by."""
     if file.name in FIRST:
         return FIRST.index(file.name)
-    return len(FIRST) + (TURNS.index(tier_of(file)) if file.is_relative_to(TESTS) else len(TURNS))
+    return len(FIRST) + (TIERS.index(tier_of(file)) if file.is_relative_to(TESTS) else len(TIERS))

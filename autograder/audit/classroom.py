@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import random
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import cycle
 from pathlib import Path
 
@@ -57,22 +57,20 @@ def make_class(
     choice = random.Random(seed)
     essays = essay_names()
     decks = {
-        exercise: _essays(exercise) if exercise in essays else _Deck(known_submissions(exercise), choice)
+        exercise: _Essays(exercise) if exercise in essays else _Deck(known_submissions(exercise), choice)
         for exercise in exercises
     }
     labels: Labels = {}
     for number in range(1, students + 1):
         student = f"student_{number:0{len(str(students))}}"
         kinds = choice.choices(list(shares), list(shares.values()), k=len(exercises))
-        handed_in: dict[str, KnownSubmission | KnownEssay] = {}
-        for exercise, kind in zip(exercises, kinds, strict=True):
-            deck = decks[exercise]
-            handed_in[exercise] = deck.draw(kind) if isinstance(deck, _Deck) else next(deck)
+        handed_in = {
+            exercise: decks[exercise].draw(kind) for exercise, kind in zip(exercises, kinds, strict=True)
+        }
         for exercise, known in handed_in.items():
             place = folder / SUBMITTED / student / exercise
             place.mkdir(parents=True)
-            files = known.handed_in() if isinstance(known, KnownEssay) else known.read().sources
-            for name, text in files.items():
+            for name, text in known.read().sources.items():
                 (place / name).write_text(text, encoding="utf-8")
         labels[student] = {exercise: known.name for exercise, known in handed_in.items()}
     (folder / LABELS).write_text(json.dumps(labels, indent=2) + "\n")
@@ -97,11 +95,17 @@ class _Deck:
         return self._of[kind][self._dealt[kind] % len(self._of[kind])]
 
 
-def _essays(exercise: str) -> Iterator[KnownEssay]:
-    """Deal the known answers to an essay one after the other, again and again."""
-    if not (known := known_essays(exercise)):
-        raise CannotRehearse(f"there is no answer to the essay {exercise}")
-    return cycle(known)
+class _Essays:
+    """The known answers to an essay, dealt in the same way; none of them is right, faulty or hostile."""
+
+    def __init__(self, exercise: str) -> None:
+        if not (known := known_essays(exercise)):
+            raise CannotRehearse(f"there is no answer to the essay {exercise}")
+        self._known = cycle(known)
+
+    def draw(self, _kind: Kind) -> KnownEssay:
+        """Return the next one."""
+        return next(self._known)
 
 
 def surprises(folder: Path) -> dict[str, list[str]]:
@@ -122,16 +126,17 @@ def surprises(folder: Path) -> dict[str, list[str]]:
         (grade.student, grade.exercise): grade
         for grade in map(Grade.from_json, json.loads((folder / GRADED / GRADES).read_text()))
     }
+    essays = essay_names()
     found: dict[str, list[str]] = {}
     for student, handed_in in labels.items():
         for exercise, name in handed_in.items():
             grade = grades.get((student, exercise))
-            if words := _surprises_in(grade, exercise, name) if grade else ["it has no grade"]:
+            if not grade:
+                words = ["it has no grade"]
+            elif exercise in essays:
+                words = surprises_in_essay(grade)
+            else:
+                words = AuditedRun(known_submission(exercise, name), 0, grade, 0.0).surprises()
+            if words:
                 found[f"{student}'s {exercise} ({name})"] = words
     return found
-
-
-def _surprises_in(grade: Grade, exercise: str, name: str) -> list[str]:
-    if exercise in essay_names():
-        return surprises_in_essay(grade)
-    return AuditedRun(known_submission(exercise, name), 0, grade, 0.0).surprises()

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from autograder.engine.exercise import exercises_folder, file_names
+from autograder.engine.submission import Submission
 from autograder.engine.verdict import Grade
 
 MARKED = "marked"  # the folder of answers that instructors compare with, in an essay's
@@ -23,10 +24,10 @@ class KnownEssay:
         """Its name in labels, such as essay/weak.txt."""
         return f"essay/{self.path.name}"
 
-    def handed_in(self) -> dict[str, str]:
-        """Return what a student hands in: file name and content."""
+    def read(self) -> Submission:
+        """Return what is handed in: a notebook as it is, or the text in the file that students write."""
         name = self.path.name if self.path.suffix == ".ipynb" else file_names(self.exercise)[0]
-        return {name: self.path.read_text(encoding="utf-8")}
+        return Submission(self.exercise, self.name, {name: self.path.read_text(encoding="utf-8")})
 
 
 def known_essays(exercise: str) -> list[KnownEssay]:

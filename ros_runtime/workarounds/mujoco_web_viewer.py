@@ -9,7 +9,6 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
 from contextlib import contextmanager
 from socket import socket
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -80,16 +79,8 @@ def _bound_to_loopback() -> Iterator[list[int]]:
         ports.append(bound.getsockname()[1])
         return bound
 
-    with _replaced(web_server, "bind_public_socket", bind_to_loopback):
-        yield ports
-
-
-@contextmanager
-def _replaced(module: ModuleType, name: str, replacement: object) -> Iterator[None]:
-    """Replace a module's function, and restore it at the end."""
-    original = getattr(module, name)
-    setattr(module, name, replacement)
+    web_server.bind_public_socket = bind_to_loopback
     try:
-        yield
+        yield ports
     finally:
-        setattr(module, name, original)
+        web_server.bind_public_socket = bind

@@ -1,9 +1,9 @@
 """Submissions whose verdict is known get that verdict: the proof that the grader grades.
 
 `./course audit` grades all of them with every check, and counts what fails twice. Here are as many as prove every
-check, the faulty ones with the checks that must catch them, at the first look. They are graded a few at a time in the
-background from the first test that needs one on, in the order of the tests, so each test waits for its own and only
-those that were selected are graded (`-k battery_service`, `-k walks_on`).
+check, the faulty ones with the checks that must catch them; what fails counts at the first look. They are graded a few
+at a time in the background from the first test that needs one on, in the order of the tests, so each test waits for its
+own and only those that were selected are graded (`-k battery_service`, `-k walks_on`).
 
 The correct and the hostile submission of each exercise come first. The faulty ones of an exercise follow one another,
 as they share arenas. On a slow machine, `--audit-minutes` skips what has not begun by then, and the summary counts it.

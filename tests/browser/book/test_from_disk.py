@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 import nbformat
 import pytest
+from chromium import CHROMIUM, OFFLINE, needs_chromium
 from nbformat.v4 import new_output
 from playwright.sync_api import Page, sync_playwright
 
 from book.site import make_site
 from ros_runtime.project import PROJECT
 
-CHROMIUM = shutil.which("chromium")
-OFFLINE = ("--no-sandbox", "--disable-quic", "--disable-background-networking", "--disable-component-update")
 DOT = "data:image/webp;base64,UklGRhoAAABXRUJQVlA4TA0AAAAvAAAAEAcQERGIiP4HAA=="
 
-pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium to look with")
+pytestmark = needs_chromium
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import os
-import shutil
 import subprocess
 import sys
 import time
@@ -16,18 +15,17 @@ import nbformat
 import numpy as np
 import psutil
 import pytest
+from chromium import CHROMIUM, OFFLINE, needs_chromium
 from nbformat.v4 import new_code_cell, new_notebook
 from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
 from course_cli.student_bundle import TOP, write_bundle
 
-CHROMIUM = shutil.which("chromium")
-OFFLINE = ("--no-sandbox", "--disable-quic", "--disable-background-networking", "--disable-component-update")
 TIMEOUT = 90.0  # s, for each thing a busy machine has to do
 PICTURE = ".jp-OutputArea .widget-image"
 
-pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium to look with")
+pytestmark = needs_chromium
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -11,13 +10,12 @@ from pathlib import Path
 
 import psutil
 import pytest
+from chromium import CHROMIUM, OFFLINE, needs_chromium
 from playwright.sync_api import Page, sync_playwright
 
 from autograder.engine.essay import left_to_a_person, load_essay
 from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
 
-CHROMIUM = shutil.which("chromium")
-OFFLINE = ("--no-sandbox", "--disable-quic", "--disable-background-networking", "--disable-component-update")
 TIMEOUT = 90.0  # s, for each thing a busy machine has to do
 SOLUTIONS = Path(__file__).resolve().parents[3] / "solutions"
 NAME = "arm_architecture"
@@ -27,7 +25,7 @@ ENTRY = Entry(
 )
 POINTS = {"graph": "0", "pattern": "1", "type": "0", "qos": "0", "rate": "1.5", "failure": "0", "safety": "0"}
 
-pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium to look with")
+pytestmark = needs_chromium
 
 
 @pytest.fixture(scope="module")

@@ -3,37 +3,29 @@
 from __future__ import annotations
 
 import io
-import shutil
 import signal
 import subprocess
 import sys
-import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
+from chromium import CHROMIUM, DRAWING, needs_chromium
 from falls import recorded_fall
 from PIL import Image
 from playwright.sync_api import ViewportSize, sync_playwright
+from view_address import view_address
 
 pytest.importorskip("mujoco.studio", reason="this MuJoCo is older than 4.0 and has no web viewer")
 
-CHROMIUM = shutil.which("chromium")
-# Without a graphics card Chromium draws WebGL with SwiftShader; the others keep it off the network.
-OPTIONS = (
-    *("--no-sandbox", "--disable-quic", "--disable-background-networking", "--disable-component-update"),
-    *("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
-)
-VIEWPORT: ViewportSize = {
-    "width": 640,
-    "height": 420,
-}  # px: drawing costs by the pixel without a graphics card
+# px: drawing costs by the pixel without a graphics card
+VIEWPORT: ViewportSize = {"width": 640, "height": 420}
 TIMEOUT = 60.0  # s
 RED = np.array([0xFF, 0x7B, 0x72])  # of what a failed check found
 
-pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium to look with")
+pytestmark = needs_chromium
 
 
 @pytest.fixture
@@ -41,19 +33,14 @@ def url(tmp_path: Path) -> Iterator[str]:
     """Where `course replay` shows a robot that falls."""
     command = [Path(sys.executable).with_name("course"), "replay", recorded_fall(tmp_path, "flat")]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
-        assert process.stdout
-        limit = threading.Timer(TIMEOUT, process.kill)  # what it prints ends then
-        limit.start()
-        view = next((line.split()[1] for line in process.stdout if line.startswith("view: ")), "")
-        limit.cancel()
-        yield view
+        yield view_address(process, TIMEOUT)
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=30)
 
 
 def test_the_captions_stand_over_the_floor_and_the_failed_check_is_red(url: str) -> None:
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OPTIONS)
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=DRAWING)
         page = browser.new_page(viewport=VIEWPORT)
         page.goto(url)
         deadline = time.monotonic() + TIMEOUT

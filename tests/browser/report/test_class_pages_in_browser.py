@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from chromium import CHROMIUM, OFFLINE, needs_chromium
 from playwright.sync_api import Page, sync_playwright
 
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.classroom.pages import write_class_page, write_submission_pages
 from ros_runtime.drawing.line_plot import Plot, plot_svg
 
-CHROMIUM = shutil.which("chromium")
-OFFLINE = ("--no-sandbox", "--disable-quic", "--disable-background-networking", "--disable-component-update")
 HOSTILE = "<img src=x onerror=document.title='run'>"
 PHONE = {"width": 390, "height": 800}
 
-pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium to look with")
+pytestmark = needs_chromium
 
 
 def grade(student: str, status: str, exercise: str) -> Grade:

@@ -2,31 +2,25 @@
 
 import io
 import os
-import shutil
 import signal
 import socket
 import subprocess
 import sys
-import threading
 import time
 from contextlib import contextmanager
 
 import numpy as np
 import pytest
+from chromium import CHROMIUM, DRAWING, needs_chromium
 from PIL import Image
 from playwright.sync_api import sync_playwright
+from view_address import view_address
 
 from ros_runtime.environment import ros_environment
 from ros_runtime.ros_domain import ReservedDomain
 
 pytest.importorskip("mujoco.studio", reason="this MuJoCo is older than 4.0 and has no web viewer")
 
-CHROMIUM = shutil.which("chromium")
-# Without a graphics card Chromium draws WebGL with SwiftShader; the others keep it off the network.
-OPTIONS = (
-    *("--no-sandbox", "--disable-quic", "--disable-background-networking", "--disable-component-update"),
-    *("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
-)
 TIMEOUT = 60.0  # s
 
 
@@ -50,15 +44,9 @@ def viewed_robot(*options):
     process = subprocess.Popen(
         command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
-    limit = threading.Timer(TIMEOUT, process.kill)  # what it prints ends then
-    limit.start()
     try:
-        said = (line.removeprefix("view: ").strip() for line in process.stdout if line.startswith("view: "))
-        url = next(said, "")
-        limit.cancel()
-        yield process, url
+        yield process, view_address(process, TIMEOUT)
     finally:
-        limit.cancel()
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=30)
         domain.release()
@@ -112,10 +100,10 @@ def test_ctrl_c_ends_a_robot_with_a_view():
     assert process.returncode == 0
 
 
-@pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium to look with")
+@needs_chromium
 def test_a_browser_shows_the_robot(url):
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OPTIONS)
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=DRAWING)
         page = browser.new_page(viewport={"width": 800, "height": 600})
         page.goto(url)
         deadline = time.monotonic() + TIMEOUT

@@ -1,0 +1,11 @@
+"""The browser that tests look with: kept off the network, and drawing without a graphics card where a page needs it."""
+
+import shutil
+
+import pytest
+
+CHROMIUM = shutil.which("chromium")
+OFFLINE = ("--no-sandbox", "--disable-quic", "--disable-background-networking", "--disable-component-update")
+DRAWING = (*OFFLINE, "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")  # WebGL
+
+needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium to look with")
