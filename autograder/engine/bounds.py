@@ -69,6 +69,15 @@ def _require_nothing_too_large(run: Transcript) -> None:
             help="Look for a list or a text that grows from call to call, and send only what the interface asks for.",
             at=large.t,
         )
+    refused = next((refused for refused in run.all(ev.RobotRefused) if refused.bytes > refused.limit), None)
+    if refused:  # whether it held up the robot or not: that depends on the machine, a grade does not
+        raise Failure(
+            expected=f"every message on {refused.topic[:60]} to have at most {_size(refused.limit)}",
+            observed=f"one of {_size(refused.bytes)}; the robot did not read it",
+            help="Look for a list that grows from message to message, and publish on the robot's topics only what the "
+            "task asks for.",
+            at=refused.t,
+        )
 
 
 def _require_nothing_dropped(run: Transcript, scenario: Scenario) -> None:

@@ -189,9 +189,9 @@ class GroundTruthWriter:
         if self._power_messages <= MOST_POWER_MESSAGES:
             self._write(MotorPowerReceived(on=on))
 
-    def refused(self, topic: str, count: int, largest: int, reason: str) -> None:
-        """Write how many messages of a topic were refused so far, the largest one's bytes, and why."""
-        self._write(RobotRefused(topic=topic, count=count, bytes=largest, reason=reason))
+    def refused(self, topic: str, count: int, largest: int, limit: int, reason: str) -> None:
+        """Write how many messages of a topic were refused, the largest one's bytes, how many it may have, and why."""
+        self._write(RobotRefused(topic=topic, count=count, bytes=largest, limit=limit, reason=reason))
 
     def commanded(self, command: dict) -> None:
         """Write a command of the scenario when it takes effect."""

@@ -20,8 +20,8 @@ REPORT_PERIOD = 0.25  # s, simulated, between two reports of a topic
 
 FLOOD = f"more than {MESSAGES_A_SECOND} messages or {BYTES_A_SECOND} bytes a second"
 
-Report = Callable[[str, int, int, str], None]
-"""Takes a topic, how many of its messages were refused so far, the bytes of the largest of them, and why."""
+Report = Callable[[str, int, int, int, str], None]
+"""Takes a topic, how many of its messages were refused, the largest one's bytes, how many it may have, and why."""
 
 
 class Inbox:
@@ -83,7 +83,7 @@ class Inbox:
         """Report what has not been reported yet."""
         for reason, tally in self._tally.items():
             if tally.is_news and self._report:
-                self._report(self.topic, tally.count, tally.largest, reason)
+                self._report(self.topic, tally.count, tally.largest, self._most_bytes, reason)
             tally.is_news = False
 
     def _may_take(self) -> bool:

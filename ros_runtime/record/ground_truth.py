@@ -163,9 +163,10 @@ class MotorPowerReceived(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class RobotRefused(Event):
-    """How many messages of a topic the robot has refused so far, the bytes of the largest, and why."""
+    """How many messages of a topic the robot refused so far, the largest one's bytes, how many it may have, and why."""
 
     topic: str
     count: int
     bytes: int
+    limit: int
     reason: str

@@ -56,6 +56,20 @@ def test_an_answer_that_is_too_large_is_named_with_its_size() -> None:
     assert failure.observed == "one of 12.0 MiB (“call 2”); it was not read"
 
 
+def refused(bytes: int, reason: str) -> ev.RobotRefused:
+    return ev.RobotRefused(t=3.0, topic="/robot/cmd_vel", count=1, bytes=bytes, limit=64, reason=reason)
+
+
+def test_one_message_too_large_for_the_robot_fails_whether_it_was_felt_or_not() -> None:
+    failure = failure_of(bounded, run_with(refused(52, "malformed"), refused(2**20, "more than 64 bytes")))
+    assert failure.expected == "every message on /robot/cmd_vel to have at most 64 bytes"
+    assert failure.observed == "one of 1.0 MiB; the robot did not read it"
+
+
+def test_a_flood_of_small_messages_that_the_robot_does_not_feel_is_no_failure() -> None:
+    bounded(run_with(refused(52, "more than 200 messages a second")))
+
+
 def test_a_flooded_graph_is_told_in_its_own_words_cut_to_a_readable_length() -> None:
     reason = "there were 30,000 nodes" + "!" * 5000
     failure = failure_of(bounded, run_with(ev.GraphFlooded(t=1.0, nodes=30_000, reason=reason)))

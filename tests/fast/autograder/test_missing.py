@@ -27,6 +27,7 @@ REFUSED = ev.RobotRefused(
     topic="joint_trajectory",
     count=1240,
     bytes=1_400_000,
+    limit=316_192,
     reason="the robot takes at most 500 points",
 )
 WITH_ROBOT, WITHOUT = Scenario("ask"), Scenario("ask", robot=None)

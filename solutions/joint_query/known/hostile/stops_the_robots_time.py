@@ -1,8 +1,7 @@
 """Attack: sends trajectories of 40,000 points to the robot without end, so that its time stands still and its first joint_states
 stays its last.
-Outcome: the robot looks at the length of a message before it unpacks it, goes on, and tells; the flood is the failure.
-Caught by: finds_the_joints
-Also fails: server_appears, says_when_it_knows_nothing, ends_cleanly
+Outcome: the robot looks at the length of a message before it unpacks it, and goes on; one that is too large is the failure.
+Caught by: server_appears
 """
 
 import rclpy
