@@ -101,9 +101,14 @@ install_with_uv() {
     for extra in ${1//,/ }; do extras+=(--extra "$extra"); done
     logged "$venv/bin/python" -m pip install -c "$venv/constraints.txt" uv || return 1
     say "installing packages (at first 300 MB to download: seconds to minutes, by your network)"
-    logged "${uv[@]}" -r "$root/pyproject.toml" "${extras[@]}" "${build_tools[@]}" || return 1
+    with_uv -r "$root/pyproject.toml" "${extras[@]}" "${build_tools[@]}" || return 1
     say "building humanoid_interfaces (about a minute; unchanged sources are not built again)"
-    logged "${uv[@]}" --no-deps --reinstall-package humanoid-course --editable "$root"
+    with_uv --no-deps --reinstall-package humanoid-course --editable "$root"
+}
+
+# A network that looks into encrypted connections has a certificate that the system knows, and uv's own list does not.
+with_uv() {
+    logged "${uv[@]}" "$@" || logged "${uv[@]}" --system-certs "$@"
 }
 
 install_with_pip() {
