@@ -8,7 +8,8 @@ from mujoco.studio import messages, plugin
 from mujoco.studio.dear_imgui import dear_imgui as imgui
 
 MARGIN = 8.0  # px from the edges
-OPACITY = 0.75  # of the ground below the text
+GROUND = "#16181d"  # below the text, whether the viewer's theme is light or dark: the text's colours are made for it
+OPACITY = 0.8  # of the ground
 
 
 class WebText(plugin.ViewerPlugin):
@@ -27,11 +28,13 @@ class WebText(plugin.ViewerPlugin):
         corner = imgui.Vec2(MARGIN, imgui.GetIO().DisplaySize.y - MARGIN)
         imgui.SetNextWindowPos(corner, 0, imgui.Vec2(0.0, 1.0))  # of its own lower left corner
         imgui.SetNextWindowBgAlpha(OPACITY)
+        imgui.PushStyleColor(int(imgui.Col.WindowBg), _rgba(GROUND))
         flags = imgui.WindowFlags
         imgui.Begin("text", flags=int(flags.NoDecoration) | int(flags.NoInputs) | int(flags.AlwaysAutoResize))
         for text, colour in lines:
             imgui.TextColored(_rgba(colour), text)
         imgui.End()
+        imgui.PopStyleColor()
 
 
 def _rgba(colour: str) -> imgui.Vec4:
