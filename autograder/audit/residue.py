@@ -23,7 +23,8 @@ from autograder.isolation.process_tree import descendants
 
 _PR_SET_CHILD_SUBREAPER = 36
 _SHARED_MEMORY = Path("/dev/shm")
-_MIDDLEWARES = ("fastrtps", "fastdds", "lttng", "sem.")  # how files in shared memory begin that a node leaves
+# How files in shared memory begin that a node leaves. LTTng's are kept, by design, for each user who ever ran one.
+_MIDDLEWARES = ("fastrtps", "fastdds", "sem.")
 
 
 @contextmanager

@@ -34,6 +34,14 @@ def path() -> Iterator[Path]:
     path.unlink(missing_ok=True)
 
 
+def test_what_tracing_keeps_for_each_user_of_the_machine_is_not_left_behind() -> None:
+    path = SHARED_MEMORY / f"lttng-ust-wait-6-{uuid.uuid4().int % 10**9}"
+    with residue(patience=0.0) as left:
+        path.write_bytes(b"")  # as when another user's first node starts
+    path.unlink()
+    assert f"file {path}" not in left
+
+
 def test_a_file_is_left_behind_when_nobody_uses_it_any_more(path: Path) -> None:
     with residue(patience=0.0) as at_the_end:
         with residue(patience=0.0) as in_use:
