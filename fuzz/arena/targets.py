@@ -12,7 +12,7 @@ class Target:
 
     Attributes:
         exercise: its name.
-        checks: those that are made (ids), with what each needs among them.
+        checks: those that are made (ids), with what each needs among them; the last passes only if the job is done.
         offers: what the exercise asks for: (service, action or client, name, type).
         correct: a known submission that passes them all.
     """
@@ -32,7 +32,7 @@ TARGETS: Mapping[str, Target] = {
     ),
     "arena-action": Target(
         "cancellable_walk",
-        ("server_appears", "accepts_a_goal"),
+        ("server_appears", "accepts_a_goal", "arrives"),
         (("action", "walk_to", "humanoid_interfaces/action/WalkTo"),),
         "correct/threads_and_sleep",
     ),
