@@ -51,7 +51,7 @@ def require_submission_or_reason(data: bytes) -> None:
 def require_own_work(entries: list[Entry]) -> None:
     """Require that a class with such a folder is collected, and that nobody gets what is not their own."""
     with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
+        folder = Path(name).resolve()
         secret, submitted = folder / "secret", folder / "submitted"
         for place, text in ((secret, SECRET), (submitted / "zoe" / EXERCISE, OTHERS)):
             place.mkdir(parents=True)
@@ -91,6 +91,8 @@ def _make(home: Path, entry: Entry, secret: Path) -> None:
     path = home / entry.place
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        if not path.parent.resolve().is_relative_to(home):
+            return  # through a link; no download is unpacked so
         _MAKERS[entry.kind](path, entry.content, secret)
     except (OSError, ValueError):  # no name for a file, or there is something already
         return
