@@ -36,9 +36,11 @@ def path() -> Iterator[Path]:
 
 def test_what_tracing_keeps_for_each_user_of_the_machine_is_not_left_behind() -> None:
     path = SHARED_MEMORY / f"lttng-ust-wait-6-{uuid.uuid4().int % 10**9}"
-    with residue(patience=0.0) as left:
-        path.write_bytes(b"")  # as when another user's first node starts
-    path.unlink()
+    try:
+        with residue(patience=0.0) as left:
+            path.write_bytes(b"")  # as when another user's first node starts
+    finally:
+        path.unlink(missing_ok=True)
     assert f"file {path}" not in left
 
 
