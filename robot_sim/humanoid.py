@@ -142,6 +142,8 @@ class Humanoid:
         self._pusher.apply()
         self._brakes.apply()
         mujoco.mj_step2(self.model, self.data)
+        for hand in self.hands.values():
+            hand.tick(self.timestep)
         self.battery.drain(self.data.actuator_force, self.data.actuator_velocity, self.timestep)
         if not self._fallen and self._is_down:
             self._fallen = True

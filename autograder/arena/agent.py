@@ -81,9 +81,7 @@ def _carry_out(
     try:
         if simulator:
             simulator.listen()
-            simulator.wait_until_up()  # before the node starts, as on a desk: what is latched is from before
-        if spec.student == "node":
-            student.start()
+            simulator.wait_until_up()
         phases.end("start")
         _perform(spec, log, phases, simulator, student, clock)
     finally:

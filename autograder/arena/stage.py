@@ -1,8 +1,8 @@
 """The stage of a server: the robot, the student's node, and a client of its services and actions.
 
-A scenario makes its clients, opens the stage, and then calls services, sends goals and commands the robot. All
-durations are seconds on the arena's clock. A scenario never judges: if an answer does not come, the stage records it as
-unanswered and the scenario goes on, so that a check can say what was missing.
+A scenario makes its clients, opens the stage, which starts the node, and then calls services, sends goals and commands
+the robot. All durations are seconds on the arena's clock. A scenario never judges: if an answer does not come, the
+stage records it as unanswered and the scenario goes on, so that a check can say what was missing.
 """
 
 from __future__ import annotations
@@ -106,12 +106,16 @@ class Stage(Offering):
         return self._parameters[-1]
 
     def open(self) -> None:
-        """Wait until the student's services and actions are there and know the robot; then speed up the clock.
+        """Start the student's node, wait until its services and actions know the robot, then speed up the clock.
+
+        What the robot and the scenario have latched is from before the node, as on a desk: a node that subscribes to
+        it without transient local never gets it.
 
         Raises:
             NodeMissing: the services and actions do not come.
         """
         started = time.monotonic()
+        self._student.start()
         self._wait_for_endpoints(started)
         for parameters in self._parameters:
             self._connect(parameters)

@@ -183,14 +183,14 @@ def refuses_a_far_cup(run: Transcript) -> None:
 
 def _require_unreachable(run: Transcript, because: str) -> None:
     goal = run.goal("far")
-    result = require_aborted(
+    require_aborted(
         goal,
         "UNREACHABLE",
         because=because,
         help="Ask compute_arm_ik for the grasp and for the place before you move; abort unless error_code is SUCCESS "
         "for both.",
     )
-    require_nothing_moved(goal, result.t)
+    require_nothing_moved(goal)
 
 
 @check(points=2, on=TAKEN, needs=places_the_cup, see="09_arms#firm-why")

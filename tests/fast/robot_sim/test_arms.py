@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from bench.robot import grasps
+from bench.robot.grasping import Grasp
 from bench.robot.trial import simulate
 from robot_sim.arms.joint_trajectory import HOLD, JointPath, JointTrajectory, Waypoint
 from robot_sim.arms.reach import HandTarget
@@ -199,6 +200,33 @@ def test_it_grasps_the_cup_and_puts_it_down():
     assert run.success, run.note
     assert 8.0 < run.values["force_N"] < 12.0
     assert run.values["error_m"] < 0.01
+
+
+def test_the_force_sensor_overlooks_a_jerk_but_not_a_loss():
+    robot = Humanoid("table")
+    simulate(robot, 0.3)
+    grasp, hand = Grasp(robot), robot.hands[Side.RIGHT]
+    grasp.get_ready()
+    assert grasp.approach()
+    assert grasp.close()
+    grasp.lift()
+    hand.open_to(0.042)  # presses with 7 N
+    simulate(robot, 0.5)
+    pressed, felt = [], []
+
+    def look() -> bool:
+        pressed.append(min(hand.forces))
+        felt.append(hand.grip_force)
+        return False
+
+    shoulder, _ = joint(robot, "r_shoulder_yaw")
+    robot.move_joints(to(shoulder - 0.3, 0.1, name="r_shoulder_yaw"))
+    simulate(robot, 0.5, until=look)
+    assert min(pressed) == 0.0
+    assert min(felt) > 3.0
+    assert felt[-1] == pytest.approx(pressed[-1], abs=0.1)
+    robot.move_object("cup", (0.5, 0.3, 0.755))
+    assert simulate(robot, 0.1, until=lambda: hand.grip_force < 1.0)
 
 
 def test_a_cup_that_is_let_go_falls():
