@@ -76,8 +76,8 @@ class Hand:
 
     @property
     def grip_force(self) -> float:
-        """Force with which an object is held, N, by the force sensor: that of the pad that presses less."""
-        return min(self._felt)
+        """Force with which an object is held, N to three digits, by the force sensor: of the pad that presses less."""
+        return round(min(self._felt), 3)
 
 
 def hand_rotation(grip: np.ndarray) -> np.ndarray:
