@@ -63,9 +63,10 @@ class Hand:
         When a hand jerks, a pad that presses with 10 N can leave what it holds for 5 ms, and nothing is lost.
         """
         share = timestep / (timestep + TIME_CONSTANT)
-        (first, second), touches, sensors = self._felt, self._touches, self._sensors
-        first += share * (float(sensors[touches[0]]) - first)
-        second += share * (float(sensors[touches[1]]) - second)
+        first, second = self._felt
+        one, other = self._touches
+        first += share * (float(self._sensors[one]) - first)
+        second += share * (float(self._sensors[other]) - second)
         self._felt = first, second
 
     @property

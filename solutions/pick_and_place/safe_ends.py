@@ -47,14 +47,15 @@ def require_nothing_moved(goal: Goal) -> None:
             at=report.t,
         )
     seen = grips(run, start, end)
-    widest = max(seen, key=lambda grip: abs(grip.opening - seen[0].opening))
-    moved = abs(widest.opening - seen[0].opening)
+    moved, worst = max(
+        ((abs(grip.opening - seen[0].opening), grip) for grip in seen), key=lambda pair: pair[0]
+    )
     expect(
         moved <= OPENED_BY,
         expected="a hand that stays as it is until the goal is known to be possible",
         observed=f"it opened or closed by {moved:.3f} m",
         help="Open the hand after compute_arm_ik has found both places, not before.",
-        at=widest.t,
+        at=worst.t,
     )
 
 
