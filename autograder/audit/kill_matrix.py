@@ -18,15 +18,13 @@ CONSEQUENCE = ("✗", "cyan")  # failed as its header says it may
 SURPRISE = "bold white on red"
 
 
-def print_progress(console: Console, run: AuditedRun) -> None:
-    """Print one finished run, with each difference from the expected verdict."""
+def print_progress(console: Console, run: AuditedRun, *, earlier: bool = False) -> None:
+    """Print one finished run, with each difference from the expected verdict; `earlier`: it is from a record."""
     surprises = run.surprises()
     mark, colour = ("✗", "red") if surprises else ("✓", "green")
     score = run.grade.score if run.grade.score is not None else "not graded"
-    points = f"{score}/{run.grade.max_score}"
-    console.print(
-        Text.assemble((f"{mark} ", colour), f"{run.known.name}  ", (f"{points}  {run.seconds:.0f} s", "dim"))
-    )
+    facts = f"{score}/{run.grade.max_score}  {run.seconds:.0f} s{'  (kept)' if earlier else ''}"
+    console.print(Text.assemble((f"{mark} ", colour), f"{run.known.name}  ", (facts, "dim")))
     for surprise in surprises:
         console.print(Text(f"    {surprise}", colour))
 

@@ -12,6 +12,7 @@ from autograder.audit.known_submission import KnownSubmission, require_known_che
 from autograder.audit.shared_arenas import SharedArenas
 from autograder.engine.exercise import Exercise
 from autograder.engine.grading import grade
+from autograder.engine.stop import Stop
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckStatus, Grade
 
@@ -85,27 +86,31 @@ def audit(
     repeat: int = 1,
     seed: int = 0,
     scale: float | None = None,
+    earlier: Callable[[KnownSubmission, int], AuditedRun | None] = lambda known, repetition: None,
     report: Callable[[AuditedRun], None] = lambda run: None,
 ) -> list[AuditedRun]:
     """Grade each submission `repeat` times, in `jobs` arenas in parallel, and what could not be graded then once alone.
 
     The faulty ones share arenas, one after another; each other one, and each that is graded alone, has its own.
-    The scenarios' inputs are those of `seed`, and of the seeds that follow it for the repetitions.
-    `report` gets each run when it is done; the runs are returned in the order of the submissions.
+    The scenarios' inputs are those of `seed`, and of the seeds that follow it for the repetitions. Ctrl-C ends the
+    running arenas at once.
+    `earlier` returns the run of a submission and repetition that need not be done again, or None.
+    `report` gets each run when it is done; all are returned, those of `earlier` too, in the order of the submissions.
     """
     for known in submissions:
         require_known_checks(known, [check.id for check in exercise.checks])
     wanted = [(repetition, known) for repetition in range(repeat) for known in submissions]
-    runs: dict[tuple[int, KnownSubmission], AuditedRun] = {}
-    with SharedArenas(known for _, known in wanted) as shared, ThreadPoolExecutor(jobs) as pool:
+    runs = {(repetition, known): run for repetition, known in wanted if (run := earlier(known, repetition))}
+    left = [one for one in wanted if one not in runs]
+    stop = Stop()
+    with SharedArenas(known for _, known in left) as shared, ThreadPoolExecutor(jobs) as pool:
 
         def audit_in_shared(known: KnownSubmission, repetition: int) -> AuditedRun:
             with shared.lent_to(known, exercise) as arenas:
-                return audit_one(known, exercise, repetition, seed, scale, arenas=arenas)
+                return audit_one(known, exercise, repetition, seed, scale, arenas=arenas, stop=stop)
 
         futures = {
-            pool.submit(audit_in_shared, known, repetition): (repetition, known)
-            for repetition, known in wanted
+            pool.submit(audit_in_shared, known, repetition): (repetition, known) for repetition, known in left
         }
         try:
             for future in as_completed(futures):
@@ -114,9 +119,10 @@ def audit(
                     runs[futures[future]] = run
                     report(run)
         except BaseException:
+            stop.set()
             pool.shutdown(cancel_futures=True)
             raise
-    for repetition, known in wanted:
+    for repetition, known in left:
         if (repetition, known) not in runs:
             runs[repetition, known] = audit_one(known, exercise, repetition, seed, scale)
             report(runs[repetition, known])
@@ -131,10 +137,12 @@ def audit_one(
     scale: float | None = None,
     at_first_look: Collection[str] = (),
     arenas: SubmissionArenas | None = None,
+    stop: Stop | None = None,
 ) -> AuditedRun:
     """Grade one submission, one arena at a time.
 
     `at_first_look`: the checks that need not fail twice. `arenas`: those of `SharedArenas`; None: its own.
+    `stop`: ends them at once when it is set.
     """
     started = time.monotonic()
     result = grade(
@@ -145,6 +153,7 @@ def audit_one(
         scale=scale,
         at_first_look=at_first_look,
         arenas=arenas,
+        stop=stop,
     )
     return AuditedRun(known, repetition, result, time.monotonic() - started)
 

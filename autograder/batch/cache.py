@@ -7,6 +7,7 @@ import hashlib
 import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from pydantic import TypeAdapter
 
@@ -28,6 +29,18 @@ class Known:
 
     grade: Grade
     effort: Effort
+
+
+def grade_key(submission: Submission, exercise: Exercise, seed: int, isolation: Isolation, *more: Any) -> str:
+    """Return a hash of all that a grade depends on: sources, checks, seed of the inputs, isolation, and `more`."""
+    depends_on = [
+        dict(submission.sources),
+        checks_version(exercise.folder),
+        [check.id for check in exercise.checks],
+        seed,
+        isolation.label,
+    ]
+    return hashlib.sha256(json.dumps([*more, *depends_on]).encode()).hexdigest()
 
 
 class GradeCache:
@@ -66,16 +79,5 @@ class GradeCache:
         write_atomically(path, json.dumps(record))
 
     def _path(self, submission: Submission, exercise: Exercise, seed: int) -> Path:
-        key = hashlib.sha256(
-            json.dumps(
-                [
-                    "with effort",
-                    dict(submission.sources),
-                    checks_version(exercise.folder),
-                    [check.id for check in exercise.checks],
-                    seed,
-                    self._isolation.label,
-                ]
-            ).encode()
-        )
-        return self._folder / exercise.name / f"{key.hexdigest()}.json"
+        key = grade_key(submission, exercise, seed, self._isolation, "with effort")
+        return self._folder / exercise.name / f"{key}.json"

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from rich.console import Console
 
-from autograder.audit.aftermath import audit_one_by_one
+from autograder.audit.aftermath import Aftermath, audit_one_by_one
+from autograder.audit.audit_record import AuditRecord, UnusableAuditRecord, read_runs
 from autograder.audit.fault_patch import SUFFIX, PatchError, as_patch
 from autograder.audit.kill_matrix import kill_matrix, print_aftermath, print_progress
 from autograder.audit.known_submission import (
@@ -20,7 +21,7 @@ from autograder.audit.known_submission import (
 )
 from autograder.audit.residue import residue
 from autograder.audit.run import AuditedRun
-from autograder.audit.run import audit as run_audit
+from autograder.audit.run import audit as audit_submissions
 from autograder.engine.exercise import (
     Exercise,
     UnknownExercise,
@@ -29,6 +30,7 @@ from autograder.engine.exercise import (
     load_exercise,
 )
 from autograder.engine.exposure import HiddenChecksRefused
+from autograder.isolation.availability import available_isolation
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 from course_cli.jobs_option import JobsOption
@@ -56,7 +58,15 @@ def audit(
             help="one at a time, and after each: what it left on this machine, and a correct one's grade",
         ),
     ] = False,
-    json_file: Annotated[Path | None, typer.Option("--json", help="write every verdict to this file")] = None,
+    json_file: Annotated[
+        Path | None, typer.Option("--json", help="write every verdict to this file, as soon as it is known")
+    ] = None,
+    resume: Annotated[
+        bool,
+        typer.Option(
+            "--resume", help="go on with the file of --json: keep its gradings of what has not changed since"
+        ),
+    ] = False,
     show: Annotated[
         str | None,
         typer.Option(metavar="NAME", help="print one submission, such as faulty/sleeps, as a whole program"),
@@ -71,9 +81,11 @@ def audit(
     console = Console(highlight=False)
     audited: dict[str, list[AuditedRun]] = {}
     harm: list[str] = []  # to the machine and to other submissions
-    if aftermath and (ignored := _given(context, "jobs", "repeat", "seed", "scale")):
+    if aftermath and (ignored := _given(context, "jobs", "repeat", "seed", "scale", "resume")):
         reason = f"--aftermath grades one at a time, once, as students are graded: leave out {ignored}"
         raise ended(console, reason, UNUSABLE)
+    if resume and json_file is None:
+        raise ended(console, "--resume goes on with the file of --json: add --json FILE", UNUSABLE)
     try:
         if show:
             _show(_found(exercise, show))
@@ -81,40 +93,77 @@ def audit(
         if to_patch:
             console.print(_to_patch(_found(exercise, to_patch)), markup=False, soft_wrap=True)
             return
+        record = AuditRecord(
+            json_file,
+            isolation=available_isolation(),
+            scale=scale,
+            earlier=read_runs(json_file) if resume and json_file else (),
+        )
         with residue() as left:
             for name in [exercise] if exercise else exercise_names():
                 known = known_submissions(name, only=only)
                 if aftermath:
-                    after_each = audit_one_by_one(
-                        known, name, report=lambda after: print_aftermath(console, after)
-                    )
+                    after_each = _aftermath_of_each(console, known, name, record)
                     audited[name] = [after.run for after in after_each]
                     harm += [line for after in after_each for line in after.harm()]
                 else:
-                    loaded = load_exercise(name, hidden=True)
-                    audited[name] = run_audit(
-                        known,
-                        loaded,
-                        jobs=jobs,
-                        repeat=repeat,
-                        seed=seed,
-                        scale=scale,
-                        report=lambda run: print_progress(console, run),
-                    )
-                    _print_matrix(console, audited[name], loaded)
-    except (UnknownExercise, UnusableExercise, HeaderError, PatchError) as error:
+                    audited[name] = _audit_all(console, known, name, record, jobs, repeat, seed, scale)
+    except KeyboardInterrupt:
+        go_on = f"{json_file} has what is done: add --resume to go on." if json_file else "Nothing is kept."
+        raise ended(console, f"Interrupted. {go_on}", COULD_NOT) from None
+    except (UnknownExercise, UnusableExercise, UnusableAuditRecord, HeaderError, PatchError) as error:
         raise ended(console, error, UNUSABLE) from error
     except HiddenChecksRefused as error:
         raise ended(console, error, COULD_NOT) from error
-    if json_file:
-        record = {name: [run.to_json() for run in runs] for name, runs in audited.items()}
-        json_file.write_text(json.dumps(record, indent=2) + "\n")
     every_run = [run for runs in audited.values() for run in runs]
     if not every_run:
         raise ended(console, f"no submission matches {only!r}", UNUSABLE)
     for line in left:
         console.print(f"left behind: {line}", style="red", markup=False)
     raise typer.Exit(COULD_NOT if left or harm or any(run.surprises() for run in every_run) else 0)
+
+
+def _audit_all(
+    console: Console,
+    submissions: Sequence[KnownSubmission],
+    name: str,
+    record: AuditRecord,
+    jobs: int,
+    repeat: int,
+    seed: int,
+    scale: float | None,
+) -> list[AuditedRun]:
+    """Grade what the record does not have yet, and print the kill matrix of all."""
+    exercise = load_exercise(name, hidden=True)
+
+    def earlier(known: KnownSubmission, repetition: int) -> AuditedRun | None:
+        run = record.earlier_run(known, exercise, repetition, seed + repetition)
+        if run:
+            print_progress(console, run, earlier=True)
+        return run
+
+    def keep(run: AuditedRun) -> None:
+        record.add(run, exercise)
+        print_progress(console, run)
+
+    runs = audit_submissions(
+        submissions, exercise, jobs=jobs, repeat=repeat, seed=seed, scale=scale, earlier=earlier, report=keep
+    )
+    _print_matrix(console, runs, exercise)
+    return runs
+
+
+def _aftermath_of_each(
+    console: Console, submissions: Sequence[KnownSubmission], name: str, record: AuditRecord
+) -> list[Aftermath]:
+    """Grade each alone, and a correct one after it."""
+    exercise = load_exercise(name, hidden=True)
+
+    def keep(aftermath: Aftermath) -> None:
+        record.add(aftermath.run, exercise)
+        print_aftermath(console, aftermath)
+
+    return audit_one_by_one(submissions, name, report=keep)
 
 
 def _given(context: typer.Context, *options: str) -> str:

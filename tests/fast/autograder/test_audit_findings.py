@@ -173,7 +173,7 @@ def test_what_could_not_be_graded_is_graded_once_more_at_the_end(folder, exercis
     where = folder(correct=CORRECT, faulty=FAULTY)
     gradings = []
 
-    def busy_at_first(known, exercise, repetition, seed, scale, arenas=None):
+    def busy_at_first(known, exercise, repetition, seed, scale, **options):
         gradings.append(known.kind)
         busy = known.kind == "correct" and gradings.count("correct") == 1
         return run_of(known, answers="error" if busy else "passed")

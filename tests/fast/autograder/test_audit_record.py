@@ -1,0 +1,126 @@
+"""An audit that is interrupted goes on where it stopped, and never with a verdict on something else."""
+
+import dataclasses
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from autograder.audit.audit_record import AuditRecord, UnusableAuditRecord, read_runs
+from autograder.audit.known_submission import known_submissions
+from autograder.audit.run import AuditedRun
+from autograder.engine.exercise import load_exercise
+from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.isolation.arena_process import Kind
+from autograder.isolation.availability import Isolation
+from course_cli.app import app
+
+ISOLATED = Isolation(Kind.NAMESPACES, "as a test says")
+EXERCISE = load_exercise("battery_service", hidden=True)
+CORRECT = known_submissions("battery_service", only="correct/*")
+FIRST = CORRECT[0]
+
+
+def run_of(known, seed=0, status="passed", repetition=0):
+    checks = [
+        CheckVerdict(check.id, check.title, status, check.points, check.points, help="the machine slept")
+        for check in EXERCISE.checks
+    ]
+    grade = Grade("battery_service", known.name, "namespaces", checks, seed=seed)
+    return AuditedRun(known, repetition, grade, 12.5)
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "audit.json"
+
+
+@pytest.fixture
+def of_yesterday(path):
+    """Return a function: the record of today, that goes on with one that has FIRST with the inputs of seed 4."""
+    AuditRecord(path, isolation=ISOLATED).add(run_of(FIRST, seed=4), EXERCISE)
+
+    def record(isolation=ISOLATED, **options):
+        return AuditRecord(path, isolation=isolation, earlier=read_runs(path), **options)
+
+    return record
+
+
+def test_a_run_of_what_has_not_changed_is_kept_as_whichever_repetition_has_its_inputs(of_yesterday):
+    assert of_yesterday().earlier_run(FIRST, EXERCISE, 1, 4) == run_of(FIRST, seed=4, repetition=1)
+
+
+def test_other_inputs_checks_isolation_or_scale_and_another_submission_are_graded_anew(of_yesterday):
+    visible = load_exercise("battery_service", hidden=False)
+    assert of_yesterday().earlier_run(FIRST, EXERCISE, 0, 5) is None
+    assert of_yesterday().earlier_run(FIRST, visible, 0, 4) is None
+    assert of_yesterday().earlier_run(CORRECT[1], EXERCISE, 0, 4) is None
+    assert of_yesterday(Isolation(Kind.NONE, "")).earlier_run(FIRST, EXERCISE, 0, 4) is None
+    assert of_yesterday(scale=1.0).earlier_run(FIRST, EXERCISE, 0, 4) is None
+
+
+def test_a_submission_that_was_edited_is_graded_anew(of_yesterday, tmp_path):
+    edited = tmp_path / FIRST.path.name
+    edited.write_text(FIRST.path.read_text() + "\n# edited\n")
+    assert of_yesterday().earlier_run(dataclasses.replace(FIRST, path=edited), EXERCISE, 0, 4) is None
+
+
+def test_what_was_not_graded_is_graded_again(path):
+    AuditRecord(path, isolation=ISOLATED).add(run_of(FIRST, status="error"), EXERCISE)
+    record = AuditRecord(path, isolation=ISOLATED, earlier=read_runs(path))
+    assert record.earlier_run(FIRST, EXERCISE, 0, 0) is None
+
+
+def test_the_file_is_whole_after_every_run_and_keeps_what_it_had(of_yesterday, path):
+    record = of_yesterday()
+    record.add(run_of(CORRECT[1]), EXERCISE)
+    record.add(run_of(FIRST, seed=4, status="failed"), EXERCISE)
+    runs = json.loads(path.read_text())["battery_service"]
+    assert [(run["submission"], run["grade"]["checks"][0]["status"]) for run in runs] == [
+        (FIRST.name, "failed"),
+        (CORRECT[1].name, "passed"),
+    ]
+
+
+@pytest.mark.parametrize("text", ["", "[]", '{"battery_service": [{"grade": {}}]}', '{"a": 1}'])
+def test_a_file_that_is_no_record_is_refused_and_left_as_it_is(path, text):
+    path.write_text(text)
+    with pytest.raises(UnusableAuditRecord, match=r"is no file of course audit --json.*leave out --resume"):
+        read_runs(path)
+    ran = CliRunner().invoke(app("audit"), ["audit", "battery_service", "--json", str(path), "--resume"])
+    assert ran.exit_code == 2
+    assert path.read_text() == text
+
+
+def test_an_interrupted_audit_says_how_to_go_on_and_then_grades_only_what_is_left(path, monkeypatch):
+    graded, printed = [], []
+
+    def audit_one(known, exercise, repetition, seed, *_, **__):
+        graded.append(known.name)
+        return run_of(known, seed + repetition)
+
+    def interrupted(console, run):
+        printed.append(run.known.name)
+        if len(printed) == 2:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr("autograder.audit.run.audit_one", audit_one)
+    command = ["audit", "battery_service", "--only", "correct/*", "--json", str(path)]
+    with monkeypatch.context() as patch:
+        patch.setattr("course_cli.commands.audit.print_progress", interrupted)
+        ran = CliRunner().invoke(app("audit"), command)
+    assert ran.exit_code == 1
+    assert "add --resume to go on" in " ".join(ran.output.split())
+
+    graded.clear()
+    ran = CliRunner().invoke(app("audit"), [*command, "--resume"])
+    assert ran.exit_code == 0, ran.output
+    assert sorted(printed + graded) == [known.name for known in CORRECT]
+    assert ran.output.count("(kept)") == len(printed)
+    assert f"0 in {len(CORRECT)} runs of correct" in ran.output
+
+
+def test_resuming_needs_the_file_to_go_on_with():
+    ran = CliRunner().invoke(app("audit"), ["audit", "battery_service", "--resume"])
+    assert ran.exit_code == 2
+    assert "add --json FILE" in ran.output
