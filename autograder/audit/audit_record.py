@@ -26,7 +26,8 @@ class AuditRecord:
     """The runs of an audit, by exercise, one a line. It also has what it was given, until that is graded again.
 
     A run of an earlier audit counts when nothing that its verdict depends on has changed: the submission, the checks
-    and the engine, the robot, the seed, the clock's scale, the isolation. One that was not graded never does.
+    and the engine, the robot, the seed, the clock's scale, the isolation. One that was not graded never does, and none
+    whose submission was edited while it was graded.
     """
 
     def __init__(
@@ -42,27 +43,43 @@ class AuditRecord:
         self._isolation = isolation
         self._scale = scale
         self._runs = {_place(run): json.dumps(run) for run in earlier}
+        self._keys: dict[_Place, str] = {}  # of what is graded, before it is
 
     def earlier_run(
         self, known: KnownSubmission, exercise: Exercise, repetition: int, seed: int
     ) -> AuditedRun | None:
-        """Return the run with the inputs of `seed` that is still true, as this repetition; None if there is none."""
-        line = self._runs.get((known.exercise, known.name, seed))
-        run = json.loads(line) if line else {}
-        if run.get("key") != self._key(known, exercise, seed):
+        """Return the run with the inputs of `seed` that is still true, as this repetition; None if there is none.
+
+        Ask before the grading begins, so that `add` can tell whether it was of this submission.
+        """
+        place = known.exercise, known.name, seed
+        key = self._keys[place] = self._key(known, exercise, seed)
+        earlier = json.loads(self._runs.get(place, "{}"))
+        if earlier.get("key") != key:
             return None
-        grade = Grade.from_json(run["grade"])
-        return AuditedRun(known, repetition, grade, run["seconds"]) if grade.status == "graded" else None
+        run = AuditedRun(known, repetition, Grade.from_json(earlier["grade"]), earlier["seconds"])
+        if run.grade.status != "graded":
+            return None
+        self._put(run, exercise)  # its header may expect something else now
+        return run
 
     def add(self, run: AuditedRun, exercise: Exercise) -> None:
         """Write the file with this run, in the place of an earlier one of the same submission and seed."""
-        entry = run.to_json()
-        seed = entry["grade"]["seed"]
-        if seed is not None:
-            entry["key"] = self._key(run.known, exercise, seed)
-        self._runs[_place(entry)] = json.dumps(entry)
+        self._put(run, exercise)
+        self.write()
+
+    def write(self) -> None:
+        """Write the file, if there is one."""
         if self._path:
             write_atomically(self._path, self._text())
+
+    def _put(self, run: AuditedRun, exercise: Exercise) -> None:
+        entry = run.to_json()
+        place = _place(entry)
+        known_key = self._keys.get(place)
+        if known_key and known_key == self._key(run.known, exercise, entry["grade"]["seed"]):
+            entry["key"] = known_key
+        self._runs[place] = json.dumps(entry)
 
     def _key(self, known: KnownSubmission, exercise: Exercise, seed: int) -> str:
         return grade_key(known.read(), exercise, seed, self._isolation, self._scale)

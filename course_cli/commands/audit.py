@@ -149,6 +149,8 @@ def _audit_all(
     runs = audit_submissions(
         submissions, exercise, jobs=jobs, repeat=repeat, seed=seed, scale=scale, earlier=earlier, report=keep
     )
+    if runs:
+        record.write()  # also when nothing was left to grade
     _print_matrix(console, runs, exercise)
     return runs
 

@@ -35,10 +35,17 @@ def path(tmp_path):
     return tmp_path / "audit.json"
 
 
+def audited(path, run):
+    """Write a record as an audit does, which asks it first and then grades."""
+    record = AuditRecord(path, isolation=ISOLATED)
+    assert record.earlier_run(run.known, EXERCISE, run.repetition, run.grade.seed) is None
+    record.add(run, EXERCISE)
+
+
 @pytest.fixture
 def of_yesterday(path):
     """Return a function: the record of today, that goes on with one that has FIRST with the inputs of seed 4."""
-    AuditRecord(path, isolation=ISOLATED).add(run_of(FIRST, seed=4), EXERCISE)
+    audited(path, run_of(FIRST, seed=4))
 
     def record(isolation=ISOLATED, **options):
         return AuditRecord(path, isolation=isolation, earlier=read_runs(path), **options)
@@ -65,8 +72,28 @@ def test_a_submission_that_was_edited_is_graded_anew(of_yesterday, tmp_path):
     assert of_yesterday().earlier_run(dataclasses.replace(FIRST, path=edited), EXERCISE, 0, 4) is None
 
 
+def test_a_submission_that_was_edited_while_it_was_graded_is_graded_anew(path, tmp_path):
+    program = tmp_path / FIRST.path.name
+    program.write_text(FIRST.path.read_text())
+    known = dataclasses.replace(FIRST, path=program)
+    record = AuditRecord(path, isolation=ISOLATED)
+    assert record.earlier_run(known, EXERCISE, 0, 4) is None
+    program.write_text(FIRST.path.read_text() + "\n# edited\n")
+    record.add(run_of(known, seed=4), EXERCISE)
+    resumed = AuditRecord(path, isolation=ISOLATED, earlier=read_runs(path))
+    assert resumed.earlier_run(known, EXERCISE, 0, 4) is None
+
+
+def test_a_kept_run_is_compared_with_what_its_header_says_now(of_yesterday, path):
+    record = of_yesterday()
+    wrong = dataclasses.replace(FIRST, caught_by=(EXERCISE.checks[0].id,))
+    assert record.earlier_run(wrong, EXERCISE, 0, 4).surprises()
+    record.write()
+    assert "did not catch it" in json.loads(path.read_text())["battery_service"][0]["surprises"][0]
+
+
 def test_what_was_not_graded_is_graded_again(path):
-    AuditRecord(path, isolation=ISOLATED).add(run_of(FIRST, status="error"), EXERCISE)
+    audited(path, run_of(FIRST, status="error"))
     record = AuditRecord(path, isolation=ISOLATED, earlier=read_runs(path))
     assert record.earlier_run(FIRST, EXERCISE, 0, 0) is None
 
@@ -124,3 +151,10 @@ def test_resuming_needs_the_file_to_go_on_with():
     ran = CliRunner().invoke(app("audit"), ["audit", "battery_service", "--resume"])
     assert ran.exit_code == 2
     assert "add --json FILE" in ran.output
+
+
+def test_a_name_that_matches_nothing_leaves_the_file_as_it_is(of_yesterday, path):
+    before = path.read_text()
+    command = ["audit", "battery_service", "--only", "correct/misspelt", "--json", str(path)]
+    assert CliRunner().invoke(app("audit"), command).exit_code == 2
+    assert path.read_text() == before
