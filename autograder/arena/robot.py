@@ -112,6 +112,10 @@ class Robot:
         """Begin, or stop, publishing battery_state."""
         self._command("battery_sensor", connected=connected)
 
+    def connect_charge_sensor(self, connected: bool = True) -> None:
+        """Measure the charge again, or no more: battery_state has a percentage of NaN then."""
+        self._command("charge_sensor", connected=connected)
+
     def connect_joint_sensors(self, connected: bool = True) -> None:
         """Begin, or stop, publishing joint_states."""
         self._command("joint_sensors", connected=connected)

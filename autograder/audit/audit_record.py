@@ -9,7 +9,7 @@ from typing import Any
 
 from autograder.atomic_file import write_atomically
 from autograder.audit.known_submission import KnownSubmission
-from autograder.audit.run import AuditedRun
+from autograder.audit.run import AuditedRun, for_any_fault
 from autograder.batch.cache import grade_key
 from autograder.engine.exercise import Exercise
 from autograder.engine.verdict import Grade
@@ -57,7 +57,8 @@ class AuditRecord:
         earlier = json.loads(self._runs.get(place, "{}"))
         if earlier.get("key") != key:
             return None
-        run = AuditedRun(known, repetition, Grade.from_json(earlier["grade"]), earlier["seconds"])
+        grade = Grade.from_json(earlier["grade"])
+        run = AuditedRun(known, repetition, grade, earlier["seconds"], for_any_fault(exercise))
         if run.grade.status != "graded":
             return None
         self._put(run, exercise)  # its header may expect something else now

@@ -13,9 +13,9 @@ from pathlib import Path
 
 from autograder.audit.known_essay import KnownEssay, known_essays, surprises_in_essay
 from autograder.audit.known_submission import Kind, KnownSubmission, known_submission, known_submissions
-from autograder.audit.run import AuditedRun
+from autograder.audit.run import AuditedRun, for_any_fault
 from autograder.batch.records import GRADES
-from autograder.engine.exercise import essay_names
+from autograder.engine.exercise import essay_names, load_exercise
 from autograder.engine.verdict import Grade
 
 SUBMITTED, GRADED, LABELS = "submitted", "graded", "labels.json"  # in the folder of a class
@@ -136,7 +136,8 @@ def surprises(folder: Path) -> dict[str, list[str]]:
             elif exercise in essays:
                 words = surprises_in_essay(grade)
             else:
-                words = AuditedRun(known_submission(exercise, name), 0, grade, 0.0).surprises()
+                any_fault = for_any_fault(load_exercise(exercise, hidden=True))
+                words = AuditedRun(known_submission(exercise, name), 0, grade, 0.0, any_fault).surprises()
             if words:
                 found[f"{student}'s {exercise} ({name})"] = words
     return found

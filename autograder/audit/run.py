@@ -19,12 +19,16 @@ from autograder.engine.verdict import CheckStatus, Grade
 
 @dataclass(frozen=True)
 class AuditedRun:
-    """One grading of a known submission; `seconds` is its wall time."""
+    """One grading of a known submission; `seconds` is its wall time.
+
+    `for_any_fault` are the checks (ids) that any faulty submission may fail: they judge sequences that are drawn.
+    """
 
     known: KnownSubmission
     repetition: int
     grade: Grade
     seconds: float
+    for_any_fault: Collection[str] = ()
 
     def status(self, check_id: str) -> CheckStatus:
         """Return the verdict of one check."""
@@ -48,6 +52,8 @@ class AuditedRun:
     def unexpected(self) -> list[str]:
         """Return the checks that failed although the header does not name them: false failures, if it is correct."""
         named = {*self.known.caught_by, *self.known.also_fails}
+        if self.known.caught_by:
+            named.update(self.for_any_fault)
         return [check_id for check_id in self.failed() if check_id not in named]
 
     def surprises(self) -> list[str]:
@@ -155,7 +161,12 @@ def audit_one(
         arenas=arenas,
         stop=stop,
     )
-    return AuditedRun(known, repetition, result, time.monotonic() - started)
+    return AuditedRun(known, repetition, result, time.monotonic() - started, for_any_fault(exercise))
+
+
+def for_any_fault(exercise: Exercise) -> frozenset[str]:
+    """Return the ids of the checks that any faulty submission may fail."""
+    return frozenset(check.id for check in exercise.checks if check.meets_any_fault)
 
 
 def checks_without_a_killer(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:

@@ -15,10 +15,14 @@ import random
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import ModuleType
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from autograder.authoring.failure import CannotBeJudged, Failure, expect
+from autograder.authoring.sequence import steps_until
 from autograder.authoring.transcript import Transcript
+
+if TYPE_CHECKING:
+    from autograder.authoring.obligation import Obligation
 
 __all__ = [
     "MAY_REST",
@@ -70,6 +74,11 @@ class Scenario:
         """Whether it costs the machine next to nothing: no robot, or one that rests."""
         return self.robot is None or MAY_REST in self.robot
 
+    @property
+    def is_drawn(self) -> bool:
+        """Whether its inputs are drawn from a seed."""
+        return callable(self.inputs)
+
     def draw(self, seed: int) -> dict[str, Any]:
         """Return the inputs for one seed; the same seed draws the same inputs."""
         if callable(self.inputs):
@@ -88,6 +97,9 @@ class Check:
 
     `see` is the lesson that its failures point to, unless one names another: CHAPTER#cell, or an address.
     `hidden` is set when it is loaded: a check is hidden because it stands in hidden.py.
+    `clauses` are the numbers of the statement's clauses that it judges.
+    `each_run`: `judge` takes one transcript and is applied to each, so that only a scenario that failed is retried.
+    `obligations` are what it is made of, if it was made by `check_of`.
     """
 
     id: str
@@ -98,6 +110,14 @@ class Check:
     needs: tuple[str, ...]
     see: str = ""
     hidden: bool = False
+    clauses: tuple[int, ...] = ()
+    each_run: bool = False
+    obligations: tuple[Obligation, ...] = ()
+
+    @property
+    def meets_any_fault(self) -> bool:
+        """Whether any fault of a submission may show in it: it judges obligations in sequences that are drawn."""
+        return bool(self.obligations) and any(scenario.is_drawn for scenario in self.on)
 
     def run(self, transcripts: Sequence[Transcript]) -> None:
         """Judge the transcripts.
@@ -106,27 +126,67 @@ class Check:
             Failure: the submission is at fault.
             CannotBeJudged: the record does not let anybody judge it.
         """
-        self.judge(*transcripts)
+        if not self.each_run:
+            self.judge(*transcripts)
+            return
+        for transcript in transcripts:
+            try:
+                self.judge(transcript)
+            except Failure as failure:
+                failure.steps = steps_until(transcript, failure.at)
+                raise
 
 
 def check(
-    *, points: int, on: Scenario | Sequence[Scenario], needs: Check | Sequence[Check] = (), see: str = ""
+    *,
+    points: int,
+    on: Scenario | Sequence[Scenario],
+    needs: Check | Sequence[Check] = (),
+    see: str = "",
+    clauses: Sequence[int] = (),
 ) -> Callable[[Judge], Check]:
     """Make a check worth `points` of a function, judged on the transcript of each scenario in `on`.
 
     `needs` are checks that must have passed; otherwise this one is reported as not run. `see` is the lesson that its
-    failures point to, such as "02_services#m9-why".
+    failures point to, such as "02_services#m9-why". `clauses` are those of the statement that it judges.
     """
-    scenarios = (on,) if isinstance(on, Scenario) else tuple(on)
-    needed = (needs,) if isinstance(needs, Check) else tuple(needs)
 
     def make(judge: Judge) -> Check:
         if not judge.__doc__:
             raise ValueError(f"the check {judge.__name__} needs a docstring: it is its title")
         title = judge.__doc__.strip().splitlines()[0].rstrip(".")
-        return Check(judge.__name__, title, points, judge, scenarios, tuple(need.id for need in needed), see)
+        return named_check(
+            judge.__name__, title, judge, points=points, on=on, needs=needs, see=see, clauses=clauses
+        )
 
     return make
+
+
+def named_check(
+    id: str,
+    title: str,
+    judge: Judge,
+    *,
+    points: int,
+    on: Scenario | Sequence[Scenario],
+    needs: Check | Sequence[Check] = (),
+    see: str = "",
+    clauses: Sequence[int] = (),
+    obligations: Sequence[Obligation] = (),
+) -> Check:
+    """Make a check of a function over transcripts; if it judges `obligations`, it takes one, and gets each."""
+    return Check(
+        id,
+        title,
+        points,
+        judge,
+        (on,) if isinstance(on, Scenario) else tuple(on),
+        tuple(need.id for need in ((needs,) if isinstance(needs, Check) else needs)),
+        see,
+        clauses=tuple(clauses),
+        each_run=bool(obligations),
+        obligations=tuple(obligations),
+    )
 
 
 def checks_in(module: ModuleType, *, but: Sequence[Check] = ()) -> list[Check]:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 
 class Failure(Exception):
     """A fault of the submission.
@@ -12,7 +15,11 @@ class Failure(Exception):
         help: one next step in plain words; reports print it in the line "next".
         at: when it happened, s on the arena's clock.
         see: the lesson it points to, such as "02_services#m9-why"; by default it is the check's.
+
+    `steps` are those of the scenario that led to it, if it is a sequence; they are set by the check.
     """
+
+    steps: Sequence[Sequence[Any]] = ()
 
     def __init__(
         self, *, expected: str, observed: str, help: str, at: float | None = None, see: str = ""

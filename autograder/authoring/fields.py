@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
+from array import array
 from functools import reduce
 from numbers import Real
 from typing import Any
 
+import numpy as np
+
 from autograder.authoring.failure import expect
+from ros_runtime.messages import is_message
 
 ROUNDING = 1e-5  # of a number that went through a float32
 LONGEST = 200  # characters of a text that are shown
@@ -38,6 +42,25 @@ def same(observed: Any, value: Any) -> bool:
         both_nan = math.isnan(observed) and math.isnan(value)
         return both_nan or math.isclose(observed, value, rel_tol=ROUNDING, abs_tol=ROUNDING)
     return type(observed) is type(value) and observed == value
+
+
+def differing_fields(observed: Any, expected: Any, *, path: str = "") -> list[str]:
+    """Return the paths of the fields, such as "header.frame_id", in which two messages of one type differ."""
+    if is_message(expected):
+        return [
+            each
+            for name in expected.get_fields_and_field_types()
+            for each in differing_fields(
+                getattr(observed, name), getattr(expected, name), path=f"{path}.{name}" if path else name
+            )
+        ]
+    if isinstance(expected, list | tuple | array | np.ndarray):
+        alike = len(observed) == len(expected) and all(
+            not differing_fields(one, other) for one, other in zip(observed, expected, strict=True)
+        )
+    else:
+        alike = same(observed, expected)
+    return [] if alike else [path or "value"]
 
 
 def shown(value: Any) -> str:

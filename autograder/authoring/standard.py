@@ -6,11 +6,11 @@ ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appear
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Sequence
 
-from autograder.authoring.checks import Check, Scenario, check
+from autograder.authoring.checks import Check, Scenario, named_check
 from autograder.authoring.feedback import require_feedback
+from autograder.authoring.obligation import check_of, obligation, whole_run
 from autograder.authoring.readiness import require_ready
 from autograder.authoring.server_checks import require_clean_exit
 from autograder.authoring.transcript import Transcript
@@ -25,10 +25,23 @@ def server_appears(what: str, *, points: int, on: Scenario, see: str = "02_servi
     )
 
 
-def ends_cleanly(*, points: int, on: Scenario, needs: Needs, see: str = "02_services#conventions") -> Check:
-    """Make the check that Ctrl-C, which the scenario presses, ends the node with exit status 0."""
-    title = "Ctrl-C ends the node with exit status 0"
-    return named_check("ends_cleanly", title, require_clean_exit, points=points, on=on, needs=needs, see=see)
+def ends_cleanly(
+    *,
+    points: int,
+    on: Scenario | Sequence[Scenario],
+    needs: Needs,
+    see: str = "02_services#conventions",
+    clause: int = 0,
+) -> Check:
+    """Make the check that Ctrl-C, which each scenario presses, ends the node with exit status 0."""
+
+    def exits_with_status_0(run: Transcript) -> str:
+        """Ctrl-C ends the node with exit status 0."""
+        require_clean_exit(run)
+        return "Ctrl-C"
+
+    exits = obligation(*filter(None, [clause]), of=whole_run)(exits_with_status_0)
+    return check_of("ends_cleanly", exits, points=points, on=on, needs=needs, see=see)
 
 
 def feedback_ends_with_the_goal(
@@ -44,22 +57,3 @@ def feedback_ends_with_the_goal(
     return named_check(
         "feedback_ends_with_the_goal", title, require, points=points, on=on, needs=needs, see=see
     )
-
-
-def named_check(
-    id: str,
-    title: str,
-    require: Callable[[Transcript], Any],
-    *,
-    points: int,
-    on: Scenario,
-    needs: Needs = (),
-    see: str = "",
-) -> Check:
-    """Make a check of a function that requires something of a run."""
-
-    def judge(run: Transcript) -> None:
-        require(run)
-
-    judge.__name__, judge.__doc__ = id, title
-    return check(points=points, on=on, needs=needs, see=see)(judge)

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from autograder.authoring.checks import Check, Scenario, expect
+from autograder.authoring.checks import Check, Scenario, expect, named_check
 from autograder.authoring.server_checks import require_calls
-from autograder.authoring.standard import Needs, named_check
+from autograder.authoring.standard import Needs
 from autograder.authoring.transcript import Transcript
 
 _FROM_MEMORY = "Answer from memory: the callback must not sleep or wait for the next message."

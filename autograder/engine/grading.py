@@ -18,7 +18,7 @@ from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.engine.clock_scale import ClockScale
 from autograder.engine.exercise import Exercise, exercises_folder
 from autograder.engine.exposure import HiddenChecksRefused, require_hidden
-from autograder.engine.judging import judge, verdict_on
+from autograder.engine.judging import at_fault, judge, verdict_on
 from autograder.engine.lateness import OVERLOADED, STRAINED, lateness
 from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
@@ -137,7 +137,8 @@ class _Session:
         self._stop = Stop(stop)
         self._verdicts: dict[str, CheckVerdict] = {}
         self._runs: list[Runs] = [{} for _ in range(max(MOST_ATTEMPTS.values()))]  # by attempt
-        self._attempts: Counter[str] = Counter()  # that did not settle a check, by its id
+        # how often a check was not settled by a scenario, by the check's id
+        self._attempts: Counter[tuple[str, Scenario]] = Counter()
 
     def run(self, jobs: int, first_alone: bool = False) -> Grade:
         with self._arenas, ThreadPoolExecutor(jobs) as pool:
@@ -165,10 +166,8 @@ class _Session:
             if unmet := [need for need in check.needs if self._verdicts[need].status != "passed"]:
                 self._conclude(self._not_run(check, unmet))
                 continue
-            while check.id not in self._verdicts and _are_done(
-                check.on, self._runs[self._attempts[check.id]]
-            ):
-                self._judge(check, self._attempts[check.id])
+            while check.id not in self._verdicts and all(run and run.done() for run in self._runs_of(check)):
+                self._judge(check)
 
     def _start(self, pool: ThreadPoolExecutor, jobs: int) -> list[Future[Transcript]]:
         """Keep `jobs` arenas busy, first with what is certainly needed, and return the runs."""
@@ -195,10 +194,12 @@ class _Session:
         for check in self._exercise.checks:
             if check.id in self._verdicts:
                 continue
-            attempt = self._attempts[check.id]
             met = all(need in self._verdicts for need in check.needs)
+            attempts = ((scenario, self._attempts[check.id, scenario]) for scenario in check.on)
             wanted = certain if met else possible
-            wanted += [(scenario, attempt) for scenario in check.on if scenario not in self._runs[attempt]]
+            wanted += [
+                (scenario, attempt) for scenario, attempt in attempts if scenario not in self._runs[attempt]
+            ]
         return certain + possible
 
     def _run_first(self, scenario: Scenario) -> Transcript:
@@ -250,10 +251,14 @@ class _Session:
             )
         raise problem or NotGraded("no attempt was made")
 
-    def _judge(self, check: Check, attempt: int) -> None:
-        """Judge a check on the runs of an attempt; only a pass is a verdict at once, the rest is tried again."""
+    def _runs_of(self, check: Check) -> list[Future[Transcript] | None]:
+        """Return the runs that a check is to be judged on now; None for one that has not begun."""
+        return [self._runs[self._attempts[check.id, scenario]].get(scenario) for scenario in check.on]
+
+    def _judge(self, check: Check) -> None:
+        """Judge a check on its latest runs; only a pass is a verdict at once, the rest is tried again."""
         try:
-            transcripts = [self._runs[attempt][scenario].result() for scenario in check.on]
+            transcripts = [run.result() for run in self._runs_of(check) if run]
         except NotGraded as error:
             if self._stop.is_set():
                 raise Stopped from None
@@ -261,10 +266,13 @@ class _Session:
             return
         verdict = judge(check, transcripts)
         failed_at_once = verdict.status == "failed" and check.id in self._at_first_look
-        if attempt + 1 < MOST_ATTEMPTS[verdict.status] and not failed_at_once:
-            self._attempts[check.id] += 1
-            self._on_retry(check)
-            return
+        if verdict.status != "passed" and not failed_at_once:
+            again = at_fault(check, transcripts)
+            for scenario in again:
+                self._attempts[check.id, scenario] += 1
+            if all(self._attempts[check.id, each] < MOST_ATTEMPTS[verdict.status] for each in again):
+                self._on_retry(check)
+                return
         self._evidence(verdict, transcripts)
         self._conclude(verdict)
 
@@ -277,7 +285,3 @@ class _Session:
     def _conclude(self, verdict: CheckVerdict) -> None:
         self._verdicts[verdict.id] = verdict
         self._report(verdict)
-
-
-def _are_done(scenarios: Sequence[Scenario], runs: Runs) -> bool:
-    return all(scenario in runs and runs[scenario].done() for scenario in scenarios)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import traceback
 from collections.abc import Sequence
+from dataclasses import replace
 
 from autograder.authoring import events as ev
 from autograder.authoring import lesson
-from autograder.authoring.checks import Check
+from autograder.authoring.checks import Check, Scenario
 from autograder.authoring.failure import CannotBeJudged, Failure
 from autograder.authoring.readiness import require_ready, require_started
+from autograder.authoring.sequence import in_words
 from autograder.authoring.transcript import Transcript
 from autograder.engine.bounds import require_bounded
 from autograder.engine.verdict import CheckStatus, CheckVerdict
@@ -33,7 +35,7 @@ def judge(check: Check, transcripts: Sequence[Transcript]) -> CheckVerdict:
             check,
             "failed",
             expected=failure.expected,
-            observed=failure.observed,
+            observed=_with_steps(failure),
             help=_with_lesson(failure.help, failure.see or check.see),
             robot_time=failure.at,
             log=log,
@@ -44,6 +46,21 @@ def judge(check: Check, transcripts: Sequence[Transcript]) -> CheckVerdict:
         trace = traceback.format_exc()
         return verdict_on(check, "error", help=f"Not graded: the check itself failed.\n{trace}", log=log)
     return verdict_on(check, "passed", points=check.points, log=log)
+
+
+def at_fault(check: Check, transcripts: Sequence[Transcript]) -> list[Scenario]:
+    """Return the scenarios in which a check does not pass: all of them, unless it judges each by itself."""
+    if not check.each_run:
+        return list(check.on)
+    alone = (
+        (replace(check, on=(scenario,)), run) for scenario, run in zip(check.on, transcripts, strict=True)
+    )
+    return [one.on[0] for one, run in alone if judge(one, [run]).status != "passed"]
+
+
+def _with_steps(failure: Failure) -> str:
+    """Return what was observed and, in a scenario that is a sequence, the steps that led to it."""
+    return f"{failure.observed}; steps: {in_words(failure.steps)}" if failure.steps else failure.observed
 
 
 def _with_lesson(help: str, see: str) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 
 from geometry_msgs.msg import Pose, PoseStamped
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import BatteryState, JointState
+from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
 from autograder.authoring import events as ev
@@ -22,14 +22,7 @@ def robot_messages(transcript: Transcript, namespace: str) -> Iterator[Entry]:
     yield from _postures(transcript, namespace)
     yield from _states(transcript, full_name(namespace, "robot_state"))
     for event in transcript.all(ev.BatteryPublished):
-        message = BatteryState(
-            header=Header(stamp=stamp(event.t)),
-            voltage=event.voltage,
-            current=event.current,
-            percentage=event.percentage,
-            present=True,
-        )
-        yield Entry(event.t, full_name(namespace, "battery_state"), message, essential=True)
+        yield Entry(event.t, full_name(namespace, "battery_state"), event.message, essential=True)
 
 
 def scene_of(transcript: Transcript) -> str:

@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterable, Sequence
 
 import numpy as np
+from sensor_msgs.msg import BatteryState
 
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.side import Side
@@ -158,9 +159,9 @@ class GroundTruthWriter:
             )
         )
 
-    def battery_published(self, percentage: float, voltage: float, current: float) -> None:
+    def battery_published(self, message: BatteryState) -> None:
         """Write what went out on battery_state."""
-        self._write(BatteryPublished(percentage=percentage, voltage=voltage, current=current))
+        self._write(BatteryPublished(message=message))
 
     def joints_published(self, names: Sequence[str], positions: Sequence[float]) -> None:
         """Write what goes out on joint_states: a position for each name, rad (fingers: m)."""

@@ -57,6 +57,7 @@ class HumanoidNode(Node):
         super().__init__("humanoid", namespace=namespace)
         self.humanoid = humanoid
         self.battery_sensor_connected = True
+        self.charge_measured = True  # if not, battery_state has a percentage of NaN
         self.joint_sensors_connected = True
         self.imu_connected = True
         self.joint_states_reversed = False
@@ -256,14 +257,13 @@ class HumanoidNode(Node):
         if not self.battery_sensor_connected:
             return
         battery = self.humanoid.battery
-        percentage, voltage, current = battery.percentage, battery.voltage, battery.current
         message = self._battery_message
-        message.voltage, message.current = voltage, current
-        message.percentage = percentage
+        message.voltage, message.current = battery.voltage, battery.current
+        message.percentage = battery.percentage if self.charge_measured else math.nan
         self._read_clock()
         self._battery_state.publish(message)
         if self._ground_truth:
-            self._ground_truth.battery_published(percentage, voltage, current)
+            self._ground_truth.battery_published(message)
 
     def _publish_robot_state(self) -> None:
         mode, motors_enabled, steps = self._last_announced = self._announcement()

@@ -13,7 +13,16 @@ from robot_sim.ros.ground_truth import GroundTruthWriter
 from robot_sim.ros.node import HumanoidNode
 
 COMMANDS = (
-    *("push", "walk", "take_over", "set_battery", "battery_sensor", "robot_state", "motor_power"),
+    *(
+        "push",
+        "walk",
+        "take_over",
+        "set_battery",
+        "battery_sensor",
+        "charge_sensor",
+        "robot_state",
+        "motor_power",
+    ),
     *("joint_sensors", "joint_states", "imu_sensor", "gyro_bias", "move_joints", "report_arm", "reset"),
     *("hold_joint", "release_joint", "report_joints", "report_feet", "move_body"),
     *("report_hand", "report_object", "move_object"),
@@ -59,6 +68,8 @@ def apply_command(
             humanoid.battery.set_percentage(percentage)
         case {"do": "battery_sensor", "connected": connected}:
             node.battery_sensor_connected = connected
+        case {"do": "charge_sensor", "connected": connected}:
+            node.charge_measured = connected
         case {"do": "joint_sensors", "connected": connected}:
             node.joint_sensors_connected = connected
         case {"do": "joint_states", "reversed": is_reversed}:

@@ -65,11 +65,9 @@ class PostureTruth(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class BatteryPublished(Event):
-    """What the robot published on battery_state: percentage 0..1, voltage V, current A (negative: discharging)."""
+    """What the robot published on battery_state: a sensor_msgs/BatteryState."""
 
-    percentage: float
-    voltage: float
-    current: float
+    message: Any
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -67,13 +67,14 @@ class ServiceClient:
         """Send a request and wait for its answer; return whether it came."""
         return self.send(request, as_=as_).wait(timeout)
 
-    def call_at_once(self, requests: Sequence[Any], *, times: int = 1) -> None:
+    def call_at_once(self, requests: Sequence[Any], *, times: int = 1) -> bool:
         """Send several requests without waiting in between, wait for the answers, and repeat that so many times.
 
         A service keeps its last 10 requests: more than that at once would be lost through no fault of the node. It ends
-        if an answer does not come.
+        if an answer does not come; returns whether all came.
         """
         for _ in range(times):
             answered = [call.wait() for call in [self.send(request) for request in requests]]
             if not all(answered):
-                return
+                return False
+        return True

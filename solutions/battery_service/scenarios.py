@@ -2,68 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from autograder.arena.events import BatteryPublished
-from autograder.arena.stage import ServiceClient, Stage
+from autograder.arena.sequence import Steps, carry_out
+from autograder.arena.stage import Stage
 from humanoid_interfaces.srv import GetBatteryStatus
 
-ON_ITS_WAY = 1.1  # s; longer than the checks let a message be on its way
-SILENCE = 2.5  # s; longer than the checks ask for
+ON_ITS_WAY = 1.1  # s; longer than the model lets a message be on its way
 
 
-def ask_once(stage: Stage) -> None:
-    """Ask when the robot has published twice, so that the first message is not the last."""
-    _open(stage, messages=2).call(as_="once")
-
-
-def ask_before_the_first_message(stage: Stage) -> None:
-    """Ask while the battery sensor is unplugged; plug it in; ask again."""
-    battery = _open(stage, messages=0)
-    battery.call(as_="before the first message")
-    stage.robot.connect_battery_sensor()
-    _let_it_be_known(stage)
-    battery.call(as_="after the first message")
-
-
-def ask_at_levels(stage: Stage, levels: Sequence[float]) -> None:
-    """Set the battery to each level (0..1) in turn and ask each time."""
-    battery = _open(stage, messages=0)
-    for level in levels:
-        stage.robot.set_battery(level)
-        _let_it_be_known(stage)
-        battery.call(as_=f"at {level:g}")
-
-
-def ask_after_the_sensor_stopped(stage: Stage) -> None:
-    """Let the sensor publish, unplug it, ask."""
-    battery = _open(stage)
-    stage.robot.connect_battery_sensor(False)
-    stage.robot.wait_for_commands()
-    stage.wait(SILENCE)
-    battery.call(as_="in silence")
-
-
-def ask_many_at_once(stage: Stage, bursts: int, burst: int) -> None:
-    """Send `burst` requests without waiting in between, `bursts` times."""
-    battery = _open(stage)
-    battery.call_at_once([None] * burst, times=bursts)
-
-
-def interrupt(stage: Stage) -> None:
-    """Ask once, when a message has come, then press Ctrl-C."""
-    _open(stage).call()
-    stage.interrupt_node()
-
-
-def _open(stage: Stage, messages: int = 1) -> ServiceClient:
-    """Find the service, and let the robot publish its battery so many times."""
+def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
+    """Ask so many times at once, set the charge, unplug sensors, wait: in the order of the steps; then press Ctrl-C."""
     battery = stage.service("get_battery_status", GetBatteryStatus)
     stage.open()
-    _let_it_be_known(stage, messages)
-    return battery
 
+    def let_publish(messages: int) -> None:
+        stage.robot.wait_for_published(BatteryPublished, messages)
+        stage.wait(ON_ITS_WAY)
 
-def _let_it_be_known(stage: Stage, messages: int = 1) -> None:
-    stage.robot.wait_for_published(BatteryPublished, messages)
-    stage.wait(ON_ITS_WAY)
+    carry_out(
+        stage,
+        steps,
+        {
+            "ask": lambda number: battery.call_at_once([None] * number),
+            "set_battery": stage.robot.set_battery,
+            "unplug": lambda: stage.robot.connect_battery_sensor(False),
+            "plug_in": stage.robot.connect_battery_sensor,
+            "measure_charge": stage.robot.connect_charge_sensor,
+            "let_publish": let_publish,
+            "wait": stage.wait,
+        },
+    )
+    if interrupt:
+        stage.interrupt_node()

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 from records import answered, asked, failure_of, given_up, run_of, said, stack
+from sensor_msgs.msg import BatteryState
 
 from autograder.authoring import events as ev
 from autograder.authoring.server_checks import require_clean_exit
@@ -83,7 +84,7 @@ def test_a_crash_below_python_is_named() -> None:
 
 def test_a_silent_server_is_told_that_its_topic_went_on() -> None:
     published = [
-        ev.BatteryPublished(t=2.5 + second, percentage=0.5, voltage=30.0, current=-1.0) for second in range(4)
+        ev.BatteryPublished(t=2.5 + second, message=BatteryState()) for second in range(4)
     ]
     failure = failure_of(
         lambda: run_of(asked(), *published, given_up("call", "first")).call("first").response

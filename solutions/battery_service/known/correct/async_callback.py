@@ -27,9 +27,9 @@ class BatteryService(Node):
     async def on_request(self, request, response):
         if self.battery is None:
             nan = float("nan")
-            response.battery.percentage = nan
-            response.battery.voltage = nan
-            response.battery.current = nan
+            battery = response.battery
+            battery.percentage = battery.voltage = battery.current = battery.temperature = nan
+            battery.charge = battery.capacity = battery.design_capacity = nan
             response.message = "unknown"
             return response
         response.available = True

@@ -14,8 +14,8 @@ class Battery:
     """What is known of the battery; knows nothing of ROS but the message."""
 
     def __init__(self):
-        self.last = BatteryState()
-        self.last.percentage = self.last.voltage = self.last.current = float("nan")
+        numbers = (field for field, kind in BatteryState.get_fields_and_field_types().items() if kind == "float")
+        self.last = BatteryState(**dict.fromkeys(numbers, float("nan")))
         self.has_been_heard = False
 
     def hear(self, message):

@@ -12,12 +12,17 @@ from rclpy.node import Node
 from sensor_msgs.msg import BatteryState
 
 
+def nothing_measured():
+    names = "voltage temperature current charge capacity design_capacity percentage".split()
+    return BatteryState(**{name: float("nan") for name in names})
+
+
 class BatteryMonitor(Node):
     def __init__(self):
         super().__init__("battery_monitor")
         group = ReentrantCallbackGroup()
         self._lock = threading.Lock()
-        self._battery = BatteryState(percentage=float("nan"), voltage=float("nan"), current=float("nan"))
+        self._battery = nothing_measured()
         self._known = False
         self._subscription = self.create_subscription(
             BatteryState, "battery_state", self._on_battery, 1, callback_group=group

@@ -13,7 +13,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from sensor_msgs.msg import BatteryState
 
-NAN = float("nan")
+UNKNOWN = dict.fromkeys(("voltage", "temperature", "current", "charge", "capacity", "design_capacity", "percentage"), float("nan"))
 
 
 class BatteryService(Node):
@@ -30,7 +30,7 @@ class BatteryService(Node):
         if self.last is None:
             response.available = False
             response.message = "no battery_state has arrived yet"
-            response.battery = BatteryState(percentage=NAN, voltage=NAN, current=NAN)
+            response.battery = BatteryState(**UNKNOWN)
         else:
             response.available = True
             response.message = f"{self.last.percentage:.0%}"

@@ -14,7 +14,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 POINTS = 40_000
 
-NAN = float("nan")
+UNKNOWN = dict.fromkeys(("voltage", "temperature", "current", "charge", "capacity", "design_capacity", "percentage"), float("nan"))
 
 
 class BatteryService(Node):
@@ -36,7 +36,7 @@ class BatteryService(Node):
         if self.last is None:
             response.available = False
             response.message = "no battery_state has arrived yet"
-            response.battery = BatteryState(percentage=NAN, voltage=NAN, current=NAN)
+            response.battery = BatteryState(**UNKNOWN)
         else:
             response.available = True
             response.message = f"{self.last.percentage:.0%}"

@@ -1,0 +1,128 @@
+'''An exercise's model: what must hold of every answer, message and goal, whatever a scenario was made for.
+
+@obligation(1, 3, of=calls("get_battery_status"))
+def repeats_the_last_message(call: Call) -> str | None:
+    """`battery` is the last message that has arrived, every field as it came"""
+    if not known(call):
+        return None  # this obligation says nothing here
+    ...
+    raise Failure(expected="…", observed="…", help="…", at=call.answered.t)
+    ...
+    return "12 s of silence"  # the situation in which it was judged
+
+A check is one or more of them with a name, points and a lesson:
+
+keeps_the_last_message = check_of(
+    "keeps_the_last_message", repeats_the_last_message, points=1, on=[LEVELS, ANY_ORDER], needs=server_appears
+)
+'''
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from autograder.authoring import events as ev
+from autograder.authoring.call import Call
+from autograder.authoring.checks import Check, Scenario, named_check
+from autograder.authoring.goal import Goal
+from autograder.authoring.missing import unseen
+from autograder.authoring.sequence import require_all_steps
+from autograder.authoring.transcript import Transcript
+
+Situation = str  # in which an obligation was judged, as the table of clauses names it
+
+
+@dataclass(frozen=True, eq=False)
+class Obligation:
+    """What a clause promises, as a requirement on each occasion of a run.
+
+    Attributes:
+        name, sentence: of the function, and what it requires, in words.
+        clauses: the numbers of the statement's clauses that it holds.
+        occasions: finds in a run what it may be about: its calls, its goals, the run itself.
+        require: raises a Failure; returns the situation, or None where the obligation says nothing.
+    """
+
+    name: str
+    sentence: str
+    clauses: tuple[int, ...]
+    occasions: Callable[[Transcript], Iterable[Any]] = field(repr=False)
+    require: Callable[[Any], Situation | None] = field(repr=False)
+
+    def judge(self, run: Transcript) -> Counter[Situation]:
+        """Require it on every occasion of the run; return how often it was judged, by situation."""
+        situations = (self.require(occasion) for occasion in self.occasions(run))
+        return Counter(situation for situation in situations if situation is not None)
+
+
+def obligation(
+    *clauses: int, of: Callable[[Transcript], Iterable[Any]]
+) -> Callable[[Callable[[Any], Situation | None]], Obligation]:
+    """Make an obligation of a function whose docstring says what holds; `of` finds the occasions in a run."""
+
+    def make(require: Callable[[Any], Situation | None]) -> Obligation:
+        if not require.__doc__:
+            raise ValueError(f"the obligation {require.__name__} needs a docstring: it says what must hold")
+        sentence = require.__doc__.strip().splitlines()[0].rstrip(".")
+        return Obligation(require.__name__, sentence, clauses, of, require)
+
+    return make
+
+
+def calls(service: str) -> Callable[[Transcript], list[Call]]:
+    """Occasions: every call of a service."""
+    return lambda run: [call for call in run.calls if call.service == service]
+
+
+def goals(run: Transcript) -> list[Goal]:
+    """Occasions: every goal that was sent."""
+    return [run.goal(name) for name in dict.fromkeys(sent.goal for sent in run.all(ev.GoalSent))]
+
+
+def whole_run(run: Transcript) -> list[Transcript]:
+    """The one occasion: the run itself."""
+    return [run]
+
+
+def check_of(
+    id: str,
+    *obligations: Obligation,
+    points: int,
+    on: Scenario | Sequence[Scenario],
+    needs: Check | Sequence[Check] = (),
+    title: str = "",
+    see: str = "",
+) -> Check:
+    """Make a check that judges obligations in every scenario of `on`, each of which has to give rise to each of them.
+
+    Args:
+        id: of the check.
+        obligations: which all must hold.
+        points: for all of them.
+        on: the scenarios; one in which the submission fails is retried alone.
+        needs: checks that must have passed.
+        title: of the check; by default the sentence of its first obligation.
+        see: the lesson that its failures point to.
+    """
+
+    def judge(run: Transcript) -> None:
+        for each in obligations:
+            if not each.judge(run):
+                require_all_steps(run)
+                raise unseen(run, f"there was no occasion to judge that {each.sentence}")
+        require_all_steps(run)
+
+    return named_check(
+        id,
+        title or obligations[0].sentence,
+        judge,
+        points=points,
+        on=on,
+        needs=needs,
+        see=see,
+        clauses=sorted({clause for each in obligations for clause in each.clauses}),
+        obligations=obligations,
+    )

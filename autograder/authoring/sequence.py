@@ -1,0 +1,56 @@
+"""The steps of a scenario that is a sequence: which of them a failure needs, and whether all were carried out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from autograder.authoring.missing import Missing
+from autograder.authoring.transcript import Transcript
+
+STEPS = "steps"  # the input of a scenario that is a sequence
+
+
+def require_all_steps(run: Transcript) -> None:
+    """Require that every step was carried out, if the scenario is a sequence."""
+    steps = run.params.get(STEPS, ())
+    if (done := len(_ends(run))) < len(steps):
+        step = in_words(steps[done : done + 1])
+        raise Missing(
+            run,
+            expected=f"a program that gets as far as step {done + 1} of the scenario, “{step}”",
+            never="that step was not completed",
+        )
+
+
+def steps_until(run: Transcript, t: float | None) -> Sequence[Any]:
+    """Return the steps that were begun by `t` (s; None: all of them); none, if the scenario is no sequence."""
+    steps = run.params.get(STEPS, ())
+    return steps if t is None else steps[: 1 + sum(end < t for end in _ends(run))]
+
+
+def in_words(steps: Sequence[Sequence[Any]]) -> str:
+    """Return steps as a line to read: 'ask 1, set battery 0.35, ask 1'."""
+    return ", ".join(
+        " ".join([verb.replace("_", " "), *map(_shown, arguments)]) for verb, *arguments in steps
+    )
+
+
+def _shown(argument: Any) -> str:
+    if isinstance(argument, float):
+        return f"{argument:g}"
+    if isinstance(argument, list | tuple):
+        return f"({', '.join(map(_shown, argument))})"
+    return str(argument)
+
+
+def _ends(run: Transcript) -> list[float]:
+    """Return when (s) each step ended, in order, up to the first that did not."""
+    steps = run.params.get(STEPS, ())
+    marks = {mark.name: mark.t for mark in run.marks}
+    ends: list[float] = []
+    for number in range(1, len(steps) + 1):
+        if (end := marks.get(f"step {number}")) is None:
+            break
+        ends.append(end)
+    return ends

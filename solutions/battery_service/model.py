@@ -1,0 +1,115 @@
+"""What must hold of every answer of the battery service, clause by clause, in every scenario."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from autograder.authoring import events as ev
+from autograder.authoring.call import Call
+from autograder.authoring.connections import lesson_on_hearing, why_nothing_is_heard
+from autograder.authoring.failure import Failure
+from autograder.authoring.fields import differing_fields, shown_fields
+from autograder.authoring.obligation import calls, obligation
+from autograder.authoring.robot_topic import known_messages
+from autograder.authoring.standard_obligations import answered_within, answers_from_memory
+
+SERVICE = "get_battery_status"
+NUMBERS = ("percentage", "voltage", "current", "temperature", "charge", "capacity", "design_capacity")
+
+
+def _knowledge(call: Call) -> str:
+    known = known_messages(call, ev.BatteryPublished)
+    return "before the first message" if known == [] else "after it"
+
+
+answers_in_time = answered_within(2.0, SERVICE, clause=4)
+never_waits = answers_from_memory(SERVICE, _knowledge, clause=4)
+
+
+@obligation(1, 3, of=calls(SERVICE))
+def repeats_the_last_message(call: Call) -> str | None:
+    """`available` is true, and `battery` is the last battery_state that has arrived, every field as it came"""
+    known = known_messages(call, ev.BatteryPublished)
+    if not known:
+        return None
+    silence = call.sent.t - known[-1].t
+    call.expect(
+        "available",
+        True,
+        because="the robot had published its battery",
+        help=why_nothing_is_heard(call.run, "battery_state")
+        or (
+            f"The last message came {silence:.1f} s ago, and that is no reason to forget it: answer with it."
+            if silence > 1.0
+            else "Your node gets battery_state: keep the last message, and look at each request whether there is one."
+        ),
+        see=lesson_on_hearing(call.run, "battery_state"),
+    )
+    last = known[-1].message
+    differing = min((differing_fields(call.response.battery, each.message) for each in known), key=len)
+    if differing:
+        raise Failure(
+            expected=f"the last battery_state: {shown_fields(last, *_compared(differing))}",
+            observed=shown_fields(call.response.battery, *_compared(differing)),
+            help=_advice(call, last, differing),
+            at=call.answered.t,
+        )
+    if math.isnan(last.percentage):
+        return "a charge that is not measured"
+    return "silence of 10 s or more" if silence >= 10.0 else "silence" if silence > 1.0 else "fresh message"
+
+
+@obligation(2, of=calls(SERVICE))
+def says_when_it_knows_nothing(call: Call) -> str | None:
+    """Before the first battery_state `available` is false and every number in `battery` is NaN"""
+    if known_messages(call, ev.BatteryPublished) != []:
+        return None
+    call.expect(
+        "available",
+        False,
+        because="the robot has not published its battery yet",
+        help="Start with no message (None) and answer available: false as long as none has arrived.",
+    )
+    for name in NUMBERS:
+        call.expect(
+            f"battery.{name}",
+            math.nan,
+            because="that is ROS's sign for 'not measured', and a client would take any number for a measured one",
+            help="A new BatteryState holds 0.0 everywhere: set each number that is not measured to float('nan').",
+        )
+    return "before the first message"
+
+
+def _compared(differing: list[str]) -> list[str]:
+    """Return the fields to show: the three that people look at, and the first others that differ."""
+    return list(
+        dict.fromkeys(["percentage", "voltage", "current", *(name.split(".")[0] for name in differing)])
+    )[:6]
+
+
+def _advice(call: Call, last: Any, differing: list[str]) -> str:
+    battery = call.response.battery
+    earlier = [each.message for each in call.run.all(ev.BatteryPublished) if each.t < call.sent.t]
+    if math.isnan(battery.percentage):
+        return (
+            "available is true, but the numbers are those for 'nothing known': assign the kept message, "
+            "response.battery = message."
+        )
+    if math.isclose(battery.percentage, 100 * last.percentage, rel_tol=0.01):
+        return "BatteryState.percentage runs from 0 to 1, not from 0 to 100: pass it on as it came."
+    if any(not differing_fields(battery, message) for message in earlier):
+        return (
+            "This is an older message. Replace the one you keep each time battery_state arrives, not only the first "
+            "time."
+        )
+    if not {"percentage", "voltage", "current"} & set(differing):
+        return (
+            f"Other fields are not as they came ({', '.join(differing[:4])}): copy the whole message, "
+            "response.battery = message."
+        )
+    if math.isclose(battery.percentage, last.percentage, abs_tol=0.01):
+        return "Pass each field on as it came, without rounding: copy the whole message, response.battery = message."
+    return (
+        "Do not compute or invent values: answer with the whole message that arrived last on battery_state."
+    )
