@@ -1,4 +1,4 @@
-"""`course audit`: every check must catch its faults, and no correct submission may fail."""
+"""`course audit`: every check must catch its faults, and no correct submission may fail; mistakes cost points."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from rich.console import Console
 from autograder.audit.aftermath import Aftermath, audit_one_by_one
 from autograder.audit.audit_record import AuditRecord, UnusableAuditRecord, read_runs
 from autograder.audit.fault_patch import SUFFIX, PatchError, as_patch
+from autograder.audit.generated.printed import audit_generated_faults, show_mutant
 from autograder.audit.kill_matrix import kill_matrix, print_aftermath, print_progress
 from autograder.audit.known_submission import (
     HeaderError,
@@ -51,6 +52,19 @@ def audit(
     scale: Annotated[
         float | None, typer.Option(help="factor by which the arenas' clock runs faster than real time")
     ] = None,
+    generated: Annotated[
+        bool,
+        typer.Option(
+            "--generated",
+            help="grade correct submissions in which a program has made one mistake each: all must lose points",
+        ),
+    ] = False,
+    mutants: Annotated[
+        int | None,
+        typer.Option(
+            min=1, help="how many of them to grade of each exercise (default: 60; 30 where the robot moves)"
+        ),
+    ] = None,
     aftermath: Annotated[
         bool,
         typer.Option(
@@ -69,7 +83,9 @@ def audit(
     ] = False,
     show: Annotated[
         str | None,
-        typer.Option(metavar="NAME", help="print one submission, such as faulty/sleeps, as a whole program"),
+        typer.Option(
+            metavar="NAME", help="print one submission, such as faulty/sleeps, or what a mutant changes"
+        ),
     ] = None,
     to_patch: Annotated[
         str | None,
@@ -81,12 +97,19 @@ def audit(
     console = Console(highlight=False)
     audited: dict[str, list[AuditedRun]] = {}
     harm: list[str] = []  # to the machine and to other submissions
+    if generated and (ignored := _given(context, "repeat", "aftermath", "to_patch")):
+        raise ended(console, f"--generated makes its own submissions: leave out {ignored}", UNUSABLE)
+    if mutants and not generated:
+        raise ended(console, "--mutants says how many to make: add --generated", UNUSABLE)
     if aftermath and (ignored := _given(context, "jobs", "repeat", "seed", "scale", "resume")):
         reason = f"--aftermath grades one at a time, once, as students are graded: leave out {ignored}"
         raise ended(console, reason, UNUSABLE)
     if resume and json_file is None:
         raise ended(console, "--resume goes on with the file of --json: add --json FILE", UNUSABLE)
     try:
+        if show and generated:
+            _show_mutant(exercise, show)
+            return
         if show:
             _show(_found(exercise, show))
             return
@@ -99,8 +122,16 @@ def audit(
             scale=scale,
             earlier=read_runs(json_file) if resume and json_file else (),
         )
+        names = [exercise] if exercise else exercise_names()
+        if generated:
+            audits = audit_generated_faults(
+                console, names, record, number=mutants, only=only, jobs=jobs, seed=seed, scale=scale
+            )
+            if not any(one.judged for one in audits):
+                raise ended(console, f"no mutant matches {only!r}", UNUSABLE)
+            raise typer.Exit(COULD_NOT if any(one.has_survivors for one in audits) else 0)
         with residue() as left:
-            for name in [exercise] if exercise else exercise_names():
+            for name in names:
                 known = known_submissions(name, only=only)
                 if aftermath:
                     after_each = _aftermath_of_each(console, known, name, record)
@@ -172,7 +203,9 @@ def _given(context: typer.Context, *options: str) -> str:
     """Return those of these options that were written on the command line, such as "--jobs, --seed"."""
     sources = {option: context.get_parameter_source(option) for option in options}
     return ", ".join(
-        f"--{option}" for option, source in sources.items() if source and source.name == "COMMANDLINE"
+        f"--{option.replace('_', '-')}"
+        for option, source in sources.items()
+        if source and source.name == "COMMANDLINE"
     )
 
 
@@ -204,6 +237,13 @@ def _show(known: KnownSubmission) -> None:
         if len(sources) > 1:
             print(f"# {name}")
         print(text, end="" if text.endswith("\n") else "\n")
+
+
+def _show_mutant(exercise: str | None, name: str) -> None:
+    """Print a mutant's diff; raises `HeaderError`."""
+    if exercise is None:
+        raise HeaderError(f"name the exercise of the mutant: EXERCISE --generated --show {name}")
+    show_mutant(exercise, name)
 
 
 def _to_patch(known: KnownSubmission) -> str:

@@ -1,0 +1,63 @@
+"""Which mutants of an exercise are graded: those that are not known to be equivalent, a few of each operator."""
+
+from __future__ import annotations
+
+import hashlib
+from collections import Counter
+from collections.abc import Sequence
+from fnmatch import fnmatch
+
+from autograder.audit.generated.mutant import Mutant
+from autograder.audit.known_submission import KNOWN, HeaderError
+from autograder.engine.exercise import Exercise, exercises_folder
+
+EQUIVALENT = "equivalent.txt"  # in an exercise's known/
+USUAL, OF_ROBOTS = 60, 30  # mutants; where the robot moves a grading takes minutes
+
+
+def usual_number(exercise: Exercise) -> int:
+    """Return how many mutants to grade when nobody says."""
+    is_light = all(scenario.is_light for check in exercise.checks for scenario in check.on)
+    return USUAL if is_light else OF_ROBOTS
+
+
+def equivalents(exercise: str) -> dict[str, str]:
+    """Return the reasons why mutants are no mistakes, by their names; raises `HeaderError` for a line without one."""
+    path = exercises_folder() / exercise / KNOWN / EQUIVALENT
+    lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
+    found = {}
+    for number, line in enumerate(lines, start=1):
+        name, _, reason = (part.strip() for part in line.partition(":"))
+        if line.strip() and not line.startswith("#"):
+            if not reason:
+                raise HeaderError(
+                    f"{path}, line {number}: expected “<name of a mutant>: why it is no mistake”"
+                )
+            found[name] = reason
+    return found
+
+
+def selected(mutants: Sequence[Mutant], number: int, *, seed: int = 0, only: str = "*") -> list[Mutant]:
+    """Return up to `number` mutants whose name matches: of each operator in turn, from each base in turn.
+
+    The order within an operator is drawn by the seed and each mutant's own name, so that one more changes no other.
+    """
+    waiting: dict[str, list[Mutant]] = {}
+    for mutant in sorted(mutants, key=lambda mutant: _drawn(mutant, seed)):
+        if fnmatch(mutant.name, only):
+            waiting.setdefault(mutant.operator, []).append(mutant)
+    taken: list[Mutant] = []
+    from_base: Counter[str] = Counter()
+    operators = sorted(waiting)
+    while len(taken) < number and any(waiting.values()):
+        for operator in operators:
+            if waiting[operator] and len(taken) < number:
+                best = min(waiting[operator], key=lambda mutant: from_base[mutant.base.stem])
+                waiting[operator].remove(best)
+                from_base[best.base.stem] += 1
+                taken.append(best)
+    return taken
+
+
+def _drawn(mutant: Mutant, seed: int) -> str:
+    return hashlib.sha256(f"{seed} {mutant.name}".encode()).hexdigest()
