@@ -128,13 +128,21 @@ class Robot:
         """Give the gyro another bias (rad/s about x, y and z of imu_link)."""
         self._command("gyro_bias", bias=list(bias))
 
-    def reverse_joint_states(self) -> None:
-        """List the joints of joint_states in reverse order from now on."""
-        self._command("joint_states", reversed=True)
+    def reverse_joint_states(self, is_reversed: bool = True) -> None:
+        """List the joints of joint_states in reverse order, or in the usual one, from now on."""
+        self._command("joint_states", reversed=is_reversed)
 
-    def publish_robot_state(self) -> None:
-        """Begin publishing robot_state."""
-        self._command("robot_state", published=True)
+    def alternate_joint_states(self, alternate: bool = True) -> None:
+        """Turn the order of the joints round from each joint_states to the next, or no more."""
+        self._command("joint_states", alternate=alternate)
+
+    def set_joint_readings(self, positions: Mapping[str, float]) -> None:
+        """Have these joints' sensors say positions (rad, fingers: m) wherever the joints are; all others measure."""
+        self._command("joint_readings", positions=dict(positions))
+
+    def publish_robot_state(self, published: bool = True) -> None:
+        """Begin, or stop, publishing robot_state."""
+        self._command("robot_state", published=published)
 
     # -- waiting ------------------------------------------------------------------------------------------------------
 

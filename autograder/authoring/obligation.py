@@ -1,20 +1,17 @@
 '''An exercise's model: what must hold of every answer, message and goal, whatever a scenario was made for.
 
-@obligation(1, 3, of=calls("get_battery_status"))
-def repeats_the_last_message(call: Call) -> str | None:
-    """`battery` is the last message that has arrived, every field as it came"""
-    if not known(call):
-        return None  # this obligation says nothing here
-    ...
-    raise Failure(expected="…", observed="…", help="…", at=call.answered.t)
-    ...
-    return "12 s of silence"  # the situation in which it was judged
+@obligation(1, of=calls("is_upright"))
+def tells_the_truth(call: Call) -> str | None:
+    """`success` says whether the robot is on its feet"""
+    mode = call.run.robot_at(call.sent.t).mode
+    if mode == RobotState.OFF:
+        return None  # the clause says nothing about it
+    call.expect("success", mode != RobotState.FALLEN, because="…", help="…")
+    return "fallen" if mode == RobotState.FALLEN else "upright"  # the situation in which it was judged
 
 A check is one or more of them with a name, points and a lesson:
 
-keeps_the_last_message = check_of(
-    "keeps_the_last_message", repeats_the_last_message, points=1, on=[LEVELS, ANY_ORDER], needs=server_appears
-)
+tells_that_it_stands = check_of("tells_that_it_stands", tells_the_truth, points=1, on=ASK, needs=server_appears)
 '''
 
 from __future__ import annotations
@@ -74,12 +71,27 @@ def obligation(
 
 def calls(service: str) -> Callable[[Transcript], list[Call]]:
     """Occasions: every call of a service."""
-    return lambda run: [call for call in run.calls if call.service == service]
+
+    def find(run: Transcript) -> list[Call]:
+        _require_sent(
+            run, {answer.call for answer in run.all(ev.ServiceAnswered)}, run.all(ev.ServiceCalled), "call"
+        )
+        return [call for call in run.calls if call.service == service]
+
+    return find
 
 
 def goals(run: Transcript) -> list[Goal]:
     """Occasions: every goal that was sent."""
-    return [run.goal(name) for name in dict.fromkeys(sent.goal for sent in run.all(ev.GoalSent))]
+    sent = run.all(ev.GoalSent)
+    _require_sent(run, {answer.goal for answer in run.all(ev.GoalAnswered)}, sent, "goal")
+    return [run.goal(name) for name in dict.fromkeys(each.goal for each in sent)]
+
+
+def _require_sent(run: Transcript, answered: set[str], sent: Sequence[Any], key: str) -> None:
+    """Require that the record holds what was answered, too."""
+    if lost := answered - {getattr(each, key) for each in sent}:
+        raise unseen(run, f"the record lacks the {key} “{min(lost)}”, which was answered")
 
 
 def whole_run(run: Transcript) -> list[Transcript]:

@@ -2,32 +2,52 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, TypeVar
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
 from autograder.authoring.missing import unseen
+from autograder.authoring.robot_record import RobotRecord
 
 E = TypeVar("E", bound=ev.Event)
 
 # s a message may be on its way: 0.2 s of real time at scale 5, 0.1 s at scale 10. Scenarios wait a little longer.
 DELIVERY = 1.0
+LATEST = 0.3  # s that a message may come after its period, on a busy machine
 
 
-def known_messages(call: Call, kind: type[E]) -> list[E] | None:
+@dataclass(frozen=True)
+class Sensor:
+    """A topic that the robot publishes in a fixed `period` (s), as `kind` records it, unless `switch` has stopped it.
+
+    `switch` is the scenario's command with an argument `connected`.
+    """
+
+    kind: type[ev.Event]
+    period: float
+    switch: str
+
+
+BATTERY = Sensor(ev.BatteryPublished, 0.5, "battery_sensor")
+JOINTS = Sensor(ev.JointsPublished, 0.05, "joint_sensors")
+
+
+def known_messages(call: Call, sensor: Sensor) -> list[Any] | None:
     """Return what may be the last message at a server that answered `call`, oldest first.
 
     It begins with the last message that had certainly arrived at the request, and ends with the last one before the
     answer: those in between may have been on their way.
 
-    Args:
-        call: the request and its answer.
-        kind: the event that records a message.
-
     Returns:
-        The messages; an empty list if certainly none had arrived; None if nobody can tell: what the robot published
+        The events; an empty list if certainly none had arrived; None if nobody can tell: what the robot published
         before the node was ready reaches it only if robot and node latch it.
+
+    Raises:
+        CannotBeJudged: the record lacks messages.
     """
+    kind = sensor.kind
     ready = call.run.first(ev.NodeReady)
     published = [message for message in call.run.all(kind) if message.t <= call.answered.t]
     arrived = [
@@ -37,15 +57,31 @@ def known_messages(call: Call, kind: type[E]) -> list[E] | None:
     ]
     if not published:
         return []
-    return published[arrived[-1] :] if arrived else None
+    if not arrived:
+        return None
+    known = published[arrived[-1] :]
+    times = [*(message.t for message in known), call.sent.t]
+    for earlier, later in pairwise(times):
+        if _connected_for(call.run, sensor, earlier, later) > sensor.period + LATEST:
+            raise unseen(call.run, f"the robot published nothing from {earlier:.1f} to {later:.1f} s")
+    return known
+
+
+def _connected_for(run: RobotRecord, sensor: Sensor, start: float, end: float) -> float:
+    """Return for how long (s) the sensor was connected up to `end`, at most since `start`."""
+    for event in reversed(run.all(ev.RobotCommanded)):
+        if start < event.t < end and event.command.get("do") == sensor.switch:
+            return end - event.t if event.command["connected"] else 0.0
+    return end - start
 
 
 def last_messages(call: Call, kind: type[E], *, since: float = 0.0) -> list[E]:
-    """Return what may be the last message, as `known_messages` does; one published after `since` (s) had to arrive."""
-    known = known_messages(call, kind)
-    if not known or known[0].t <= since:
+    """Return what may be the last message at a server; one published after `since` (s) had to arrive."""
+    published = [message for message in call.run.all(kind) if message.t <= call.answered.t]
+    arrived = [message for message in published if message.t <= call.sent.t - DELIVERY]
+    if not arrived or arrived[-1].t <= since:
         raise unseen(call.run, f"the robot published nothing in time for the request “{call.name}”")
-    return known
+    return published[len(arrived) - 1 :]
 
 
 def require_nothing_published(call: Call, kind: type[ev.Event], what: str) -> None:

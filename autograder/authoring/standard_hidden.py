@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from autograder.authoring.checks import Check, Scenario, expect, named_check
+from autograder.authoring.obligation import Obligation, check_of
 from autograder.authoring.server_checks import require_calls
 from autograder.authoring.standard import Needs
 from autograder.authoring.transcript import Transcript
@@ -43,7 +44,7 @@ def answers_every_request(
 
 def works_in_any_namespace(
     does: str,
-    require: Callable[[Transcript], Any],
+    require: Callable[[Transcript], Any] | Obligation,
     *,
     points: int,
     on: Scenario,
@@ -52,4 +53,8 @@ def works_in_any_namespace(
 ) -> Check:
     """Make the check that the node does the same in another namespace: `require` tests it, `does` names it."""
     title = f"Started in another namespace, it {does} there"
+    if isinstance(require, Obligation):
+        return check_of(
+            "works_in_any_namespace", require, title=title, points=points, on=on, needs=needs, see=see
+        )
     return named_check("works_in_any_namespace", title, require, points=points, on=on, needs=needs, see=see)

@@ -61,6 +61,8 @@ class HumanoidNode(Node):
         self.joint_sensors_connected = True
         self.imu_connected = True
         self.joint_states_reversed = False
+        self.joint_states_alternate = False  # the order is turned round from each message to the next
+        self.joint_readings: dict[str, float] = {}  # by joint, in place of what is measured: rad (fingers: m)
         self.robot_state_published = True
         self._ground_truth = ground_truth
         self._velocity_command_time: float | None = None
@@ -218,10 +220,14 @@ class HumanoidNode(Node):
         if not self.joint_sensors_connected or not has_subscribers(self._joint_states):
             return
         joints = self.humanoid.joint_state()
+        if self.joint_states_alternate:
+            self.joint_states_reversed = not self.joint_states_reversed
         order = slice(None, None, -1 if self.joint_states_reversed else 1)
         message = self._joint_message
         message.name = list(joints.names)[order]
         message.position = floats(joints.position[order])
+        for name, reading in self.joint_readings.items():
+            message.position[message.name.index(name)] = reading
         message.velocity = floats(joints.velocity[order])
         message.effort = floats(joints.effort[order])
         self._read_clock()

@@ -23,7 +23,8 @@ COMMANDS = (
         "robot_state",
         "motor_power",
     ),
-    *("joint_sensors", "joint_states", "imu_sensor", "gyro_bias", "move_joints", "report_arm", "reset"),
+    *("joint_sensors", "joint_states", "joint_readings", "imu_sensor", "gyro_bias"),
+    *("move_joints", "report_arm", "reset"),
     *("hold_joint", "release_joint", "report_joints", "report_feet", "move_body"),
     *("report_hand", "report_object", "move_object"),
 )
@@ -74,6 +75,10 @@ def apply_command(
             node.joint_sensors_connected = connected
         case {"do": "joint_states", "reversed": is_reversed}:
             node.joint_states_reversed = is_reversed
+        case {"do": "joint_states", "alternate": alternate}:
+            node.joint_states_alternate = alternate
+        case {"do": "joint_readings", "positions": positions}:
+            node.joint_readings = dict(positions)
         case {"do": "imu_sensor", "connected": connected}:
             node.imu_connected = connected
         case {"do": "gyro_bias", "bias": bias}:

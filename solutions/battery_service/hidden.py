@@ -85,7 +85,7 @@ answers_every_request = check_of(
 
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
     "serves the robot",
-    model.repeats_the_last_message.judge,
+    model.repeats_the_last_message,
     points=1,
     on=OTHER_NAMESPACE,
     needs=answers_with_the_last_message,

@@ -11,7 +11,7 @@ from autograder.authoring.connections import lesson_on_hearing, why_nothing_is_h
 from autograder.authoring.failure import Failure
 from autograder.authoring.fields import differing_fields, shown_fields
 from autograder.authoring.obligation import calls, obligation
-from autograder.authoring.robot_topic import known_messages
+from autograder.authoring.robot_topic import BATTERY, known_messages
 from autograder.authoring.standard_obligations import answered_within, answers_from_memory
 
 SERVICE = "get_battery_status"
@@ -19,7 +19,7 @@ NUMBERS = ("percentage", "voltage", "current", "temperature", "charge", "capacit
 
 
 def _knowledge(call: Call) -> str:
-    known = known_messages(call, ev.BatteryPublished)
+    known = known_messages(call, BATTERY)
     return "before the first message" if known == [] else "after it"
 
 
@@ -30,7 +30,7 @@ never_waits = answers_from_memory(SERVICE, _knowledge, clause=4)
 @obligation(1, 3, of=calls(SERVICE))
 def repeats_the_last_message(call: Call) -> str | None:
     """`available` is true, and `battery` is the last battery_state that has arrived, every field as it came"""
-    known = known_messages(call, ev.BatteryPublished)
+    known = known_messages(call, BATTERY)
     if not known:
         return None
     silence = call.sent.t - known[-1].t
@@ -63,7 +63,7 @@ def repeats_the_last_message(call: Call) -> str | None:
 @obligation(2, of=calls(SERVICE))
 def says_when_it_knows_nothing(call: Call) -> str | None:
     """Before the first battery_state `available` is false and every number in `battery` is NaN"""
-    if known_messages(call, ev.BatteryPublished) != []:
+    if known_messages(call, BATTERY) != []:
         return None
     call.expect(
         "available",

@@ -8,6 +8,7 @@ exercise on a quiet machine.
 
 from __future__ import annotations
 
+import json
 import sys
 from dataclasses import replace
 
@@ -106,6 +107,16 @@ def main(wanted: list[str]) -> None:
         name, _, scenario = each.partition(":")
         for submission in SUBMISSIONS_OF[name]:
             _record(load_exercise(name, hidden=True), known_submission(name, submission), scenario)
+        write_needed(name)
+
+
+def write_needed(exercise: str) -> None:
+    """Write without which events each check does not pass; read the difference before you commit it."""
+    from test_evidence import NEEDED, needed_by, recorded, reference
+
+    sound = (case for case in recorded(exercise) if case.submission in reference(exercise))
+    needed = {case.check.id: sorted(needed_by(case)) for case in sound}
+    (FOLDER / exercise / NEEDED).write_text(json.dumps(needed, indent=1) + "\n")
 
 
 def _record(exercise: Exercise, known: KnownSubmission, only: str) -> None:

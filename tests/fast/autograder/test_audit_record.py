@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 
 from autograder.audit.audit_record import AuditRecord, UnusableAuditRecord, read_runs
 from autograder.audit.known_submission import known_submissions
-from autograder.audit.run import AuditedRun
+from autograder.audit.run import AuditedRun, for_any_fault
 from autograder.engine.exercise import load_exercise
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_process import Kind
@@ -27,7 +27,7 @@ def run_of(known, seed=0, status="passed", repetition=0):
         for check in EXERCISE.checks
     ]
     grade = Grade("battery_service", known.name, "namespaces", checks, seed=seed)
-    return AuditedRun(known, repetition, grade, 12.5)
+    return AuditedRun(known, repetition, grade, 12.5, for_any_fault(EXERCISE))
 
 
 @pytest.fixture
