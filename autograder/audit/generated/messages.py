@@ -74,7 +74,8 @@ class Messages:
         """Yield the requests and goals that are known at a place, each with its class."""
         around = self._program.functions(place)
         for (function, name), kept in self._kept.items():
-            if function in around and kept.__name__.endswith(("_Goal", "_Request")):
+            is_own = kept.__name__.endswith("_Goal") and not name.endswith(".request")  # which a client sends
+            if function in around and kept.__name__.endswith(("_Goal", "_Request")) and not is_own:
                 yield name, kept
 
     def puts(self) -> Iterator[Put]:

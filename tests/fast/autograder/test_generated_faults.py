@@ -203,7 +203,7 @@ def mutants(tmp_path, source, operator=None):
         (
             "checks_the_first_only",
             ACTION,
-            "only the first of numbers is checked",
+            "only the first of numbers is looked at",
             ["+            if not all(math.isfinite(number) for number in list(numbers)[:1]):"],
         ),
         (

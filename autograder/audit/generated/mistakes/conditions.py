@@ -101,4 +101,4 @@ def _lists_of_all(program: Program) -> Iterator[ast.Tuple | ast.List]:
 
 def _first_of(program: Program, several: ast.expr) -> Mistake:
     text = program.text(several)
-    return Mistake((program.replace(several, f"list({text})[:1]"),), f"only the first of {text} is checked")
+    return Mistake((program.replace(several, f"list({text})[:1]"),), f"only the first of {text} is looked at")

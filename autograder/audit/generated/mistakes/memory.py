@@ -39,13 +39,7 @@ def forgets_a_reset(program: Program) -> Iterator[Mistake]:
 
 def keeps_the_first_message(program: Program) -> Iterator[Mistake]:
     """A subscription callback keeps the first message instead of the last."""
-    began = {
-        ast.unparse(target): f"== {value.value!r}"
-        for target, value, _ in assignments(program)
-        if isinstance(value, ast.Constant)
-        and value.value is not None
-        and program.function_name(target) == "__init__"
-    }
+    began = _beginnings(program)
     for callback in callbacks(program):
         if callback.kind != "subscription" or isinstance(callback.function, ast.Lambda):
             continue
@@ -55,7 +49,8 @@ def keeps_the_first_message(program: Program) -> Iterator[Mistake]:
                 target = statement.targets[0]
                 name = program.text(target)
                 if isinstance(target, ast.Attribute):
-                    unknown = f"{name} {began.get(name, 'is None')}"
+                    first = began.get(name)
+                    unknown = f"{name} is None" if first is None else f"{name} == {first!r}"
                 elif isinstance(target, ast.Subscript) and not isinstance(target.slice, ast.Slice):
                     unknown = f"{program.text(target.slice)} not in {program.text(target.value)}"
                 elif name in _names_from_outside(program, callback.function):
@@ -71,11 +66,12 @@ def keeps_the_first_message(program: Program) -> Iterator[Mistake]:
 
 def forgets_what_is_old(program: Program) -> Iterator[Mistake]:
     """A kept message counts as none when it is older than 5 s."""
+    unknown = [name for name, value in _beginnings(program).items() if value is None]
     every = [callback for callback in callbacks(program) if not isinstance(callback.function, ast.Lambda)]
     for keeping in every:
         for statement in program.every(ast.Assign, keeping.function):
             (target, *_), clock = statement.targets, '__import__("time").monotonic()'
-            if keeping.kind != "subscription" or not isinstance(target, ast.Attribute):
+            if keeping.kind != "subscription" or program.text(target) not in unknown:
                 continue
             for asking in every:
                 function = asking.function
@@ -106,3 +102,12 @@ def _names_from_outside(program: Program, function: ast.AST) -> set[str]:
     """Return the names that a function declares nonlocal or global."""
     declared = [node for node in ast.walk(function) if isinstance(node, ast.Nonlocal | ast.Global)]
     return {name for node in declared for name in node.names}
+
+
+def _beginnings(program: Program) -> dict[str, object]:
+    """Return the constants that attributes have at first."""
+    return {
+        program.text(target): value.value
+        for target, value, _ in assignments(program)
+        if isinstance(value, ast.Constant) and program.function_name(target) == "__init__"
+    }

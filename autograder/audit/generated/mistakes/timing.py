@@ -43,7 +43,8 @@ def restarts_the_deadline(program: Program) -> Iterator[Mistake]:
     """A deadline is not begun anew at its event, or begins anew at one that does not count."""
     for statement in program.every(ast.Assign):
         target = statement.targets[0]
-        if not program.functions(statement) or not _reads_a_clock(statement.value):
+        is_deadline = _reads_a_clock(statement.value) and last_name(target) != "stamp"
+        if not program.functions(statement) or not is_deadline:
             continue
         name, text = program.text(target), program.text(statement)
         if isinstance(target, ast.Name):
