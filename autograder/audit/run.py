@@ -160,6 +160,7 @@ def audit_one(
         at_first_look=at_first_look,
         arenas=arenas,
         stop=stop,
+        shortens=False,
     )
     return AuditedRun(known, repetition, result, time.monotonic() - started, for_any_fault(exercise))
 

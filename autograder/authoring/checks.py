@@ -97,7 +97,8 @@ class Check:
 
     `see` is the lesson that its failures point to, unless one names another: CHAPTER#cell, or an address.
     `hidden` is set when it is loaded: a check is hidden because it stands in hidden.py.
-    `clauses` are the numbers of the statement's clauses that it judges.
+    `clauses` are the numbers of the statement's clauses that it judges; `promise` is set when it is loaded: these
+    clauses in words.
     `each_run`: `judge` takes one transcript and is applied to each, so that only a scenario that failed is retried.
     `obligations` are what it is made of, if it was made by `check_of`.
     """
@@ -111,6 +112,7 @@ class Check:
     see: str = ""
     hidden: bool = False
     clauses: tuple[int, ...] = ()
+    promise: str = ""
     each_run: bool = False
     obligations: tuple[Obligation, ...] = ()
 

@@ -24,6 +24,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
+from autograder.engine.clauses import clauses_in, in_words
 from ros_runtime.project import PROJECT
 
 if TYPE_CHECKING:
@@ -135,6 +136,8 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
     if hidden and has_hidden:
         also = checks_in(exercise_module(name, HIDDEN), but=visible)
         checks = visible + [replace(check, hidden=True) for check in also]
+    statement = clauses_in(folder / f"{name}.ipynb")
+    checks = [replace(check, promise=in_words(statement, check.clauses)) for check in checks]
     exercise = Exercise(name, folder, checks, has_hidden)
     _require_sound_checks(exercise)
     _require_scenarios(exercise)

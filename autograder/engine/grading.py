@@ -10,9 +10,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from dataclasses import replace
 
 from autograder.authoring.checks import Check, Scenario
 from autograder.authoring.root_cause import why_the_robot_was_held_up
+from autograder.authoring.sequence import STEPS, steps_until
 from autograder.authoring.transcript import Transcript
 from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.engine.clock_scale import ClockScale
@@ -32,6 +34,7 @@ OnRetry = Callable[[Check], None]
 Runs = dict[Scenario, Future[Transcript]]
 Evidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
 
+LONGEST_TRIED = 3  # steps that are looked for a failure by themselves
 VISIBLE_SEED = 0  # of what visible checks are judged on: the same inputs in a self-check and in every batch
 MOST_ATTEMPTS: dict[CheckStatus, int] = {"passed": 1, "failed": 2, "not run": 1, "error": 4}
 
@@ -53,6 +56,7 @@ def grade(
     first_alone: bool = False,
     at_first_look: Collection[str] = (),
     stop: Stop | None = None,
+    shortens: bool = True,
 ) -> Grade:
     """Grade a submission.
 
@@ -72,6 +76,7 @@ def grade(
         first_alone: run nothing beside the first scenario, as somebody waits for the first verdict.
         at_first_look: the checks (ids) whose first failure counts, where no points can be lost: in an audit.
         stop: when it is set, the arenas are ended at once.
+        shortens: look for the shortest steps that show a failure in a sequence that was drawn.
 
     Raises:
         Stopped: `stop` was set before the last verdict.
@@ -97,6 +102,7 @@ def grade(
         at_first_look,
         stop,
         recorded,
+        shortens,
     )
     return session.run(jobs, first_alone)
 
@@ -119,6 +125,7 @@ class _Session:
         at_first_look: Collection[str],
         stop: Stop | None,
         recorded: bool,
+        shortens: bool,
     ) -> None:
         self._submission = submission
         self._exercise = exercise
@@ -132,6 +139,7 @@ class _Session:
         self._arenas = arenas
         self._at_first_look = at_first_look
         self._recorded = recorded
+        self._shortens = shortens
         self._scenarios = list(dict.fromkeys(scenario for check in exercise.checks for scenario in check.on))
         self._visible = {scenario for check in exercise.checks if not check.hidden for scenario in check.on}
         self._stop = Stop(stop)
@@ -273,8 +281,34 @@ class _Session:
             if all(self._attempts[check.id, each] < MOST_ATTEMPTS[verdict.status] for each in again):
                 self._on_retry(check)
                 return
+            if verdict.status == "failed" and (shorter := self._shorter_failure(check, again, transcripts)):
+                verdict, transcripts = shorter
         self._evidence(verdict, transcripts)
         self._conclude(verdict)
+
+    def _shorter_failure(
+        self, check: Check, failed: Sequence[Scenario], transcripts: Sequence[Transcript]
+    ) -> tuple[CheckVerdict, list[Transcript]] | None:
+        """Return the failure in a sequence that was drawn as its last few steps show it alone; None if they do not.
+
+        It costs no points, which are lost already: it is for whoever reads the verdict.
+        """
+        runs = list(transcripts)
+        index = next((check.on.index(scenario) for scenario in failed if scenario.is_drawn), None)
+        if not self._shortens or not check.each_run or index is None or not check.on[index].is_light:
+            return None
+        drawn, run = check.on[index], runs[index]
+        steps = steps_until(run, judge(replace(check, on=(drawn,)), [run]).robot_time)
+        for length in range(1, min(LONGEST_TRIED, len(steps) - 1) + 1):
+            alone = replace(drawn, inputs={**run.params, STEPS: steps[-length:]})
+            try:
+                runs[index] = self._run(alone, self._scale.first_scale(alone), OVERLOADED, cold=False)
+            except NotGraded:
+                continue  # these steps alone make no scenario
+            verdict = judge(check, runs)
+            if verdict.status == "failed":
+                return verdict, runs
+        return None
 
     def _not_run(self, check: Check, unmet: Sequence[str]) -> CheckVerdict:
         if any(self._verdicts[need].status == "error" for need in unmet):

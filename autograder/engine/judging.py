@@ -91,6 +91,7 @@ def verdict_on(
         robot_time,
         log,
         check.hidden,
+        check.promise,
     )
 
 

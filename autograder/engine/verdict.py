@@ -18,6 +18,7 @@ LENGTH_NOTE = 40  # characters at most of what is put in the place of the rest
 class CheckVerdict:
     """What one check found; `robot_time` is when, in seconds on the arena's clock.
 
+    `promise` is what it judges, in the statement's words: 'clause 4, “Every request …”'.
     Of an essay it is what a person gave for one criterion ("marked"), or that nobody has done so yet ("to mark").
     """
 
@@ -32,6 +33,7 @@ class CheckVerdict:
     robot_time: float | None = None
     log: str = ""
     hidden: bool = False
+    promise: str = ""
 
     def __post_init__(self) -> None:
         for name, most in LONGEST.items():
@@ -114,7 +116,7 @@ class Grade:
 
 def _require_sound(check: CheckVerdict) -> None:
     """Require the types and the points that a verdict can have; raises ValueError."""
-    for name in ("id", "title", "expected", "observed", "help", "log"):
+    for name in ("id", "title", "expected", "observed", "help", "log", "promise"):
         _text(getattr(check, name))
     if check.status not in get_args(CheckStatus):
         raise ValueError(f"{check.id[:100]!r} has no status {str(check.status)[:100]!r}")

@@ -8,6 +8,11 @@ from typing import Protocol
 HIDDEN_HELP = "Not passed. Read the task again sentence by sentence: every sentence of it is checked."
 
 
+def hidden_help(promise: str) -> str:
+    """Return what a student reads about a hidden check that did not pass; `promise`: the clause that it judges."""
+    return f"Not passed. It checks {promise}" if promise else HIDDEN_HELP
+
+
 class Named(Protocol):
     """A check or its verdict."""
 

@@ -13,7 +13,7 @@ from nbgrader.utils import is_grade, is_solution
 from traitlets import Unicode
 
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.nbgrader_bridge.cell_names import HIDDEN_HELP, cell_names
+from autograder.nbgrader_bridge.cell_names import cell_names, hidden_help
 from autograder.report.verdict_text import verdict_text
 
 UNJUDGED = "unjudged_cells"  # resources["nbgrader"] key: grade_ids that have no verdict
@@ -84,5 +84,5 @@ def _text(verdict: CheckVerdict | None) -> str:
     if verdict is None:
         return "Not checked automatically."
     if verdict.hidden:
-        return "Passed." if verdict.status == "passed" else HIDDEN_HELP
+        return "Passed." if verdict.status == "passed" else hidden_help(verdict.promise)
     return verdict_text(verdict)

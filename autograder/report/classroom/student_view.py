@@ -1,11 +1,11 @@
-"""What a student may see of a grade: of a hidden check only whether it passed, and nothing while points are open."""
+"""What a student may see of a grade: of a hidden check its clause and whether it passed; nothing before it is final."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.nbgrader_bridge.cell_names import HIDDEN_HELP, cell_names
+from autograder.nbgrader_bridge.cell_names import cell_names, hidden_help
 
 
 def student_view(grade: Grade) -> Grade:
@@ -31,6 +31,6 @@ def _seen(verdict: CheckVerdict, name: str) -> CheckVerdict:
         "passed" if passed else "failed",
         verdict.points,
         verdict.max_points,
-        help="" if passed else HIDDEN_HELP,
+        help="" if passed else hidden_help(verdict.promise),
         hidden=True,
     )

@@ -12,6 +12,7 @@ import json
 import sys
 from dataclasses import replace
 
+from autograder.audit.clause_table import clause_table
 from autograder.audit.known_submission import KnownSubmission, known_submission
 from autograder.audit.proof import enough_to_catch
 from autograder.audit.recorded import FOLDER, scenarios_of, write
@@ -20,6 +21,7 @@ from autograder.engine.arena_run import ArenaRun, run_in_arena
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise
 from autograder.engine.lateness import STRAINED, lateness
 from autograder.engine.submission_arenas import SubmissionArenas
+from ros_runtime.project import PROJECT
 
 # One that passes everything, and a few that go wrong in different ways: an answer that is wrong, one that never comes,
 # a node that ends.
@@ -108,6 +110,7 @@ def main(wanted: list[str]) -> None:
         for submission in SUBMISSIONS_OF[name]:
             _record(load_exercise(name, hidden=True), known_submission(name, submission), scenario)
         write_needed(name)
+        (PROJECT / "docs" / "clauses" / f"{name}.md").write_text(clause_table(name))
 
 
 def write_needed(exercise: str) -> None:

@@ -53,11 +53,11 @@ def test_the_page_leads_to_an_exercise_that_is_graded(tmp_path):
     notebook = tmp_path / "tasks/is_upright/is_upright.ipynb"
     printed = [carry_out(step, tmp_path, notebook) for step in steps(ROOT / "docs/write_an_exercise.md")]
     audit = next(text for text in reversed(printed) if "kills" in text)
-    assert "kills: 4 of 4" in audit
+    assert "kills: 5 of 5" in audit
     assert "false failures: 0 in 1" in audit
     released = (tmp_path / "exercises/is_upright/is_upright.ipynb").read_text()
     assert "says_when_it_has_fallen" in released
     assert "mode in UPRIGHT" not in released
     with zipfile.ZipFile(tmp_path / "students.zip") as archive:
         names = [name for name in archive.namelist() if "is_upright" in name]
-    assert sorted(Path(name).name for name in names) == ["checks.py", "is_upright.ipynb", "scenarios.py"]
+    assert sorted(Path(name).name for name in names) == ["checks.py", "is_upright.ipynb", "model.py", "scenarios.py"]

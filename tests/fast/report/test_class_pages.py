@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -211,6 +212,10 @@ def test_of_a_hidden_check_a_student_learns_whether_it_passed(tmp_path, status):
         ]
     )
     assert secret == seen
+    its_clause = replace(hidden(status), promise="clause 4, “It answers.”")
+    write_submission_pages(tmp_path, grade("ben", failed(), its_clause), drawings)
+    told = words(read(tmp_path / BOTH[0] / "ben/walk_to.html"))
+    assert ("It checks clause 4, “It answers.”" in told) == (status != "passed")
     assert "For the student." in words(read(theirs))
     assert "instructor" not in " ".join(link["href"] for link in read(theirs).find_all("a"))
 

@@ -1,0 +1,33 @@
+"""The numbered clauses of an exercise's statement, read from the task cell of its notebook."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping, Sequence
+from functools import cache
+from pathlib import Path
+
+_CLAUSE = re.compile(r"^(\d+)\. +(.+(?:\n(?!\d+\. |\n).+)*)", re.MULTILINE)
+_MARKUP = re.compile(r"[`*]")
+
+
+@cache
+def clauses_in(notebook: Path) -> Mapping[int, str]:
+    """Return the clauses by number, each as one line of plain text; none, if there is no such notebook."""
+    if not notebook.is_file():
+        return {}
+    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+    task = next((cell for cell in cells if cell.get("id") == "task"), {"source": ""})
+    return {
+        int(number): " ".join(_MARKUP.sub("", text).split())
+        for number, text in _CLAUSE.findall("".join(task["source"]))
+    }
+
+
+def in_words(clauses: Mapping[int, str], numbers: Sequence[int]) -> str:
+    """Return some clauses to read: 'clause 4, “Every request is answered at once …”'."""
+    known = [number for number in numbers if number in clauses]
+    if len(known) > 1:
+        return "clauses " + ", ".join(f"{number} (“{clauses[number]}”)" for number in known)
+    return f"clause {known[0]}, “{clauses[known[0]]}”" if known else ""

@@ -1,0 +1,20 @@
+"""The table of clauses is what the recorded transcripts show, and every clause is held by something."""
+
+import pytest
+
+from autograder.audit.clause_table import clause_table, judged_by_clause
+from autograder.engine.exercise import exercise_names
+from ros_runtime.project import PROJECT
+
+TABLES = PROJECT / "docs" / "clauses"
+
+
+@pytest.mark.parametrize("exercise", exercise_names())
+def test_the_table_is_what_transcripts_show(exercise):
+    table = (TABLES / f"{exercise}.md").read_text()
+    assert table == clause_table(exercise), "record_transcripts.py writes it anew"
+
+
+@pytest.mark.parametrize("exercise", exercise_names())
+def test_something_holds_every_clause(exercise):
+    assert not [number for number, judged in judged_by_clause(exercise).items() if not judged]

@@ -1,0 +1,112 @@
+"""Obligations hold in every scenario: what a check of them is judged on, retried for, and says."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from test_grading import BEGINNING, ISOLATED, SUBMISSION, arenas, exercise, robot, statuses
+
+from autograder.authoring import events as ev
+from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.failure import CannotBeJudged, Failure
+from autograder.authoring.missing import Missing
+from autograder.authoring.obligation import check_of, obligation, whole_run
+from autograder.authoring.transcript import Transcript
+from autograder.engine import grading
+
+ASK = Scenario("in_order", {"steps": [["ask", 1], ["wait", 2.5]]}, robot=RESTING)
+DRAWN = Scenario(
+    "drawn", lambda random: {"steps": [["ask", 1], ["unplug"], ["wait", 2.5], ["ask", 2]]}, robot=RESTING
+)
+
+
+def run_of(scenario, *, said="", steps_done=None, missing=()):
+    """A run of a sequence, a step a second, in which the node prints `said` at the end of the last step."""
+    steps = scenario.draw(0)["steps"]
+    done = len(steps) if steps_done is None else steps_done
+    marks = [ev.Mark(t=float(number), name=f"step {number}") for number in range(1, done + 1)]
+    printed = [ev.NodeOutput(t=done - 0.5, stream="stdout", text=said)] if said else []
+    end = ev.ScenarioEnded(t=len(steps) + 1.0)
+    seen = [robot(float(second), 0.0) for second in range(1, len(steps) + 2)]
+    events = [event for event in (*BEGINNING, *marks, *printed, *seen, end) if event.kind not in missing]
+    return Transcript.from_events(scenario.name, scenario.draw(0), events, 5.0)
+
+
+@obligation(2, of=whole_run)
+def prints(run):
+    """It prints something good."""
+    output = run.first(ev.NodeOutput)
+    if output is None:
+        return None
+    if output.text == "bad":
+        raise Failure(expected="something good", observed="bad", help="Print good.", at=output.t)
+    return output.text
+
+
+def check_on(*scenarios):
+    return check_of("prints", prints, points=2, on=scenarios)
+
+
+def test_it_says_its_clauses_its_sentence_and_its_situations():
+    check = check_on(ASK)
+    assert (check.clauses, check.title, check.obligations) == ((2,), "It prints something good", (prints,))
+    assert prints.judge(run_of(ASK, said="good")) == {"good": 1}
+
+
+def test_a_scenario_that_gives_no_occasion_is_no_pass():
+    with pytest.raises(CannotBeJudged, match="no occasion to judge"):
+        check_on(ASK).run([run_of(ASK)])
+
+
+def test_steps_that_were_not_carried_out_are_no_pass():
+    with pytest.raises(Missing, match="step 2 of the scenario"):
+        check_on(ASK).run([run_of(ASK, said="good", steps_done=1)])
+
+
+def test_only_checks_on_drawn_sequences_meet_any_fault():
+    assert not check_on(ASK).meets_any_fault
+    assert check_on(ASK, DRAWN).meets_any_fault
+
+
+def test_only_the_scenario_that_failed_is_retried(monkeypatch):
+    answers = {"in_order": ["good"], "drawn": ["bad", "good"]}
+    ran = arenas(monkeypatch, lambda scenario, scale: run_of(scenario, said=answers[scenario.name].pop(0)))
+    grade = grading.grade(SUBMISSION, exercise(check_on(ASK, DRAWN)), isolation=ISOLATED, jobs=1)
+    assert statuses(grade) == {"prints": "passed"}
+    assert [name for name, _ in ran] == ["in_order", "drawn", "drawn"]
+
+
+@pytest.mark.parametrize(
+    ("least", "named"), [(1, "ask 2"), (3, "unplug, wait 2.5, ask 2"), (9, "ask 1, unplug, wait 2.5, ask 2")]
+)
+def test_a_failure_names_the_shortest_steps_that_show_it(monkeypatch, least, named):
+    def answer(scenario, scale):
+        steps = scenario.draw(0)["steps"]
+        shown = scenario is DRAWN or len(steps) >= least
+        return run_of(scenario, said="bad" if shown else "good")
+
+    arenas(monkeypatch, answer)
+    grade = grading.grade(SUBMISSION, exercise(check_on(DRAWN)), isolation=ISOLATED, jobs=1)
+    assert grade.checks[0].observed == f"bad; steps: {named}"
+
+
+def test_steps_that_make_no_scenario_by_themselves_are_left(monkeypatch):
+    def answer(scenario, scale):
+        if scenario is not DRAWN:
+            raise grading.NotGraded("KeyError: 'goal'")
+        return run_of(scenario, said="bad")
+
+    arenas(monkeypatch, answer)
+    grade = grading.grade(SUBMISSION, exercise(check_on(DRAWN)), isolation=ISOLATED, jobs=1)
+    assert statuses(grade) == {"prints": "failed"}
+
+
+def test_an_arena_that_ends_early_passes_nothing(monkeypatch):
+    arenas(monkeypatch, lambda scenario, scale: run_of(scenario, said="good", missing=("mark",)))
+    grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), isolation=ISOLATED, jobs=1)
+    assert grade.score == 0
+
+
+def test_a_check_keeps_what_it_is_made_of_when_it_is_loaded_as_hidden():
+    assert replace(check_on(DRAWN), hidden=True).meets_any_fault
