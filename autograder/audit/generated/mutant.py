@@ -73,8 +73,7 @@ def mutants_of_program(base: Path) -> list[Mutant]:
         name = f"{operator}.{program.function_name(first)}.{_hash(program, mistake)}"
         named[name] += 1
         number = f"-{named[name]}" if named[name] > 1 else ""
-        line = program.statement(first).lineno if not hasattr(first, "lineno") else first.lineno
-        sentence = f"{' '.join(mistake.sentence.split())}, in line {line}"
+        sentence = f"{' '.join(mistake.sentence.split())}, in line {getattr(first, 'lineno', 1)}"
         found.append(Mutant(f"{name}{number}.{base.stem}", operator, sentence, base, changed))
     return found
 
