@@ -113,6 +113,17 @@ def require_cancel(run: Transcript, goal: ScriptedGoal, *, because: str, help: s
     return goal.cancels[0]
 
 
+def how_to_give_up(run: Transcript) -> str:
+    """Return what to do about a client that did not cancel a goal of which nothing was heard any more."""
+    cancel = "call goal_handle.cancel_goal_async(), and spin until it is sent"
+    if run.first(ev.NodeExited):
+        return f"It ended, and the robot walks on: before you give up on a goal that was accepted, {cancel}."
+    return (
+        "It still waited for the result when the scenario was over: note when feedback came last, and after 5 s "
+        f"without any {cancel}."
+    )
+
+
 def require_single_cancel(run: Transcript, goal: ScriptedGoal, *, because: str, help: str) -> ScriptedCancel:
     """Require that the client asked to cancel the goal, that one and once, and return the request."""
     cancel = require_cancel(run, goal, because=because, help=help)

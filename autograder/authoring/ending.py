@@ -39,8 +39,9 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
     (
         r"^AssertionError: The 'result' field must be a sub message",
         Remedy(
-            "Your execute callback returned nothing, or something else than a Result. Its last line must be "
-            "`return result`, in every branch.",
+            "Your execute callback returned nothing, or something else than a Result: end every branch with "
+            "`return result`. A lambda that calls an async function returns a coroutine: give ActionServer the async "
+            "function itself.",
             "06_walk_to_a_pose#settle-intro",
         ),
     ),
@@ -121,7 +122,18 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
     ),
     (
         r"^(ImportError|ModuleNotFoundError|IndentationError|SyntaxError|TabError)\b",
-        Remedy("Python could not load the file: mend the line that the log names, and run its cell again."),
+        Remedy(
+            "Python could not load the file: mend the line that the log names, and run its cell again.",
+            "02_services#first-file",
+        ),
+    ),
+    (
+        r"^EOFError: EOF when reading a line",
+        Remedy(
+            "input() found no keyboard: nobody types where a node runs. Leave it out, and take settings from "
+            "parameters.",
+            "02_services#first-file",
+        ),
     ),
 )
 

@@ -115,16 +115,19 @@ def require_once(run: Transcript, name: str) -> None:
     gains = gains_before(run, name)
     accepted = [change for change in changes(call_named(run, name)) if change.accepted]
     messages = messages_after(run, name)
-    for change, message in zip(accepted, messages, strict=False):
-        gains |= change.numbers
-        require_gains(message, gains, after=f"{change.words} was accepted")
-    expect(
-        len(messages) == len(accepted),
+    wrong_number = Failure(
         expected=f"{_messages(len(accepted))} on {TOPIC}: {_sets_in_words(accepted)}",
         observed=_messages(len(messages)),
         help=_about_the_number(len(messages), accepted),
         at=messages[-1].t,
     )
+    if len(messages) < len(accepted):
+        raise wrong_number  # and their values would be compared with those of other sets
+    for change, message in zip(accepted, messages, strict=False):
+        gains |= change.numbers
+        require_gains(message, gains, after=f"{change.words} was accepted")
+    if len(messages) > len(accepted):
+        raise wrong_number
 
 
 def require_silence(run: Transcript, name: str) -> None:
@@ -168,7 +171,8 @@ def _sets_in_words(accepted: Sequence[Change]) -> str:
 def _about_the_number(observed: int, accepted: Sequence[Change]) -> str:
     if observed < len(accepted):
         return (
-            "Each set that is accepted has a message of its own: publish in the post-set callback each time."
+            "Each set that is accepted has a message of its own: publish in the post-set callback each time, and from "
+            "no timer."
         )
     if len(accepted) == 1 and observed == len(accepted[0].values):
         return "Publish once in each call of the post-set callback, behind the loop over the parameters, not in it."

@@ -9,6 +9,7 @@ from action_msgs.srv import CancelGoal
 
 from autograder.authoring import events as ev
 from autograder.authoring.action_client_checks import (
+    how_to_give_up,
     require_cancel,
     require_goal_answered,
     require_goal_finished,
@@ -107,7 +108,13 @@ SILENT = program("silent")
 BY_ANOTHER = program("canceled_by_another")
 
 
-@check(points=1, on=[ANY_POSE, WITHOUT_YAW], needs=says_how_it_succeeded, see="01_robot_and_graph#names-why")
+@check(
+    points=1,
+    on=[ANY_POSE, WITHOUT_YAW],
+    needs=says_how_it_succeeded,
+    see="01_robot_and_graph#names-why",
+    clauses=[4, 5, 18],
+)
 def goes_anywhere(with_yaw: Transcript, without_yaw: Transcript) -> None:
     """Negative numbers, a yaw that is left out, a battery at 1.0 and another namespace are no obstacle"""
     for run in (with_yaw, without_yaw):
@@ -122,6 +129,7 @@ def goes_anywhere(with_yaw: Transcript, without_yaw: Transcript) -> None:
     on=[AT_THE_LIMIT, DOWN_TO_THE_LIMIT, JUST_BELOW, EMPTY],
     needs=cancels_when_the_battery_drops,
     see="08_navigation#float-why",
+    clauses=[7],
 )
 def compares_with_the_limit_exactly(
     at_the_limit: Transcript, down_to_it: Transcript, just_below: Transcript, empty: Transcript
@@ -159,6 +167,7 @@ def compares_with_the_limit_exactly(
     on=BEFORE_ACCEPTANCE,
     needs=cancels_when_the_battery_drops,
     see="08_navigation#client-intro",
+    clauses=[6],
 )
 def cancels_right_after_the_acceptance(run: Transcript) -> None:
     """A battery that drops before the goal is accepted cancels it right after the acceptance"""
@@ -182,6 +191,7 @@ def cancels_right_after_the_acceptance(run: Transcript) -> None:
     on=[IN_VAIN, TOO_LATE],
     needs=cancels_when_the_battery_drops,
     see="07_cancel_and_preempt#late-why",
+    clauses=[11, 12],
 )
 def success_wins_the_race(in_vain: Transcript, too_late: Transcript) -> None:
     """A goal that SUCCEEDED in spite of the cancel ends it with status 0"""
@@ -209,7 +219,13 @@ def _require_success_in_spite_of_a_cancel(run: Transcript, finished: float) -> N
     require_success(run, finished + WITHIN)
 
 
-@check(points=1, on=LATE_SERVER, needs=does_not_set_out_on_a_low_battery, see="08_navigation#guard-intro")
+@check(
+    points=1,
+    on=LATE_SERVER,
+    needs=does_not_set_out_on_a_low_battery,
+    see="08_navigation#guard-intro",
+    clauses=[3],
+)
 def looks_at_the_battery_until_it_sends(run: Transcript) -> None:
     """A battery that drops while it waits for the server keeps it from sending the goal"""
     drop = require_drop(run)
@@ -230,6 +246,7 @@ def looks_at_the_battery_until_it_sends(run: Transcript) -> None:
     on=[NEVER_A_PERCENTAGE, A_PERCENTAGE_AT_LAST],
     needs=[ignores_what_is_no_percentage, does_not_set_out_without_a_battery_state],
     see="08_navigation#guard-traps-why",
+    clauses=[1, 8],
 )
 def waits_for_a_percentage(never: Transcript, at_last: Transcript) -> None:
     """While battery_state holds no percentage it waits, at most 5 s, and then ends with status 1"""
@@ -264,6 +281,7 @@ def waits_for_a_percentage(never: Transcript, at_last: Transcript) -> None:
     on=[STANDS_FIRST, ON_THE_SPOT],
     needs=waits_until_the_robot_stands,
     see="08_navigation#standing-why",
+    clauses=[9],
 )
 def takes_standing_and_canceled_in_any_order(stands_first: Transcript, on_the_spot: Transcript) -> None:
     """When the robot stands before the goal is CANCELED, or has not moved yet, CANCELED ends it"""
@@ -290,6 +308,7 @@ def takes_standing_and_canceled_in_any_order(stands_first: Transcript, on_the_sp
     on=[DEAF, NEVER_STANDS],
     needs=waits_until_the_robot_stands,
     see="08_navigation#standing-why",
+    clauses=[10],
 )
 def waits_no_longer_than_5_s(deaf: Transcript, never_stands: Transcript) -> None:
     """If CANCELED or STANDING does not come within 5 s, it ends all the same, with status 4"""
@@ -323,7 +342,11 @@ def _require_end_in_any_case(run: Transcript, since: float, what: str) -> None:
 
 
 @check(
-    points=1, on=[UNANSWERED, SILENT], needs=gives_up_without_a_server, see="03_clients_that_survive#fix-why"
+    points=1,
+    on=[UNANSWERED, SILENT],
+    needs=gives_up_without_a_server,
+    see="03_clients_that_survive#fix-why",
+    clauses=[14, 15],
 )
 def gives_up_in_silence(unanswered: Transcript, silent: Transcript) -> None:
     """5 s without an answer, or without feedback and result, end it with status 1; an accepted goal is canceled"""
@@ -346,8 +369,7 @@ def gives_up_in_silence(unanswered: Transcript, silent: Transcript) -> None:
         accepted + PATIENCE - 0.5,
         0.5,
         because="nothing was heard of the goal for 5 s",
-        help="Before you give up on a goal that was accepted, call goal_handle.cancel_goal_async() and spin until it "
-        "is sent.",
+        help=how_to_give_up(silent),
     )
     require_failure(
         silent, accepted + GIVING_UP + PATIENCE, NO_SERVER, because="the server is silent", help=STATUS_HELP
@@ -359,6 +381,7 @@ def gives_up_in_silence(unanswered: Transcript, silent: Transcript) -> None:
     on=BY_ANOTHER,
     needs=[says_how_it_failed, ctrl_c_cancels_the_goal],
     see="08_navigation#stop-why",
+    clauses=[12],
 )
 def tells_a_cancel_by_another(run: Transcript) -> None:
     """A goal that somebody else cancels ends it with status 4, and a line on stdout says CANCELED"""
@@ -367,7 +390,9 @@ def tells_a_cancel_by_another(run: Transcript) -> None:
     require_ending_line(run, "CANCELED", exited.t)
 
 
-@check(points=1, on=REFUSED, needs=success_wins_the_race, see="07_cancel_and_preempt#m1-why")
+@check(
+    points=1, on=REFUSED, needs=success_wins_the_race, see="07_cancel_and_preempt#m1-why", clauses=[11, 12]
+)
 def a_refused_cancel_is_no_end(run: Transcript) -> None:
     """When the cancel is refused (empty goals_canceling), the goal is followed: SUCCEEDED ends it with status 0"""
     goal = require_one_goal(run, NAVIGATE)

@@ -189,7 +189,7 @@ def _require_later(goal: Goal, t: float, when: str) -> None:
     result = require_success(goal)
     expect(
         result.t >= t,
-        expected="success only when the robot has stood high, still, upright and evenly for 0.5 s in a row",
+        expected="success only when the robot has stood high, still and upright for 0.5 s in a row",
         observed=f"it SUCCEEDED {when}",
         help="Settling ends when height (0.59 m), speed (0.02 m/s) and tilt (0.05 rad) of odom have all been good for "
         "0.5 s: note since when, and forget it whenever one is not.",

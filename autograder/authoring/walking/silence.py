@@ -5,6 +5,7 @@ from __future__ import annotations
 from autograder.authoring import events as ev
 from autograder.authoring.action_client_checks import (
     heard_last,
+    how_to_give_up,
     require_cancel,
     require_goal_answered,
     require_one_goal,
@@ -79,8 +80,7 @@ def _require_gives_up_in_silence(run: Transcript, goal: ScriptedGoal, since: flo
         run,
         goal,
         because=f"nothing was heard of it for {PATIENCE:g} s",
-        help="Before you give up on a goal that was accepted, call goal_handle.cancel_goal_async() and spin until it "
-        "is sent.",
+        help=how_to_give_up(run),
     )
     require_patience(run, since, cancel.received.t, PATIENCE, what="a request to cancel")
     require_failure(
