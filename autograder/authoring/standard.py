@@ -18,11 +18,17 @@ from autograder.authoring.transcript import Transcript
 Needs = Check | Sequence[Check]
 
 
-def server_appears(what: str, *, points: int, on: Scenario, see: str = "02_services#first-file") -> Check:
+def server_appears(
+    what: str,
+    *,
+    points: int,
+    on: Scenario,
+    see: str = "02_services#first-file",
+    clauses: Sequence[int] = (),
+) -> Check:
     """Make the check that the node offers `what`; choose the shortest scenario, as this verdict comes first."""
-    return named_check(
-        "server_appears", f"The node offers {what}", require_ready, points=points, on=on, see=see
-    )
+    title = f"The node offers {what}"
+    return named_check("server_appears", title, require_ready, points=points, on=on, see=see, clauses=clauses)
 
 
 def ends_cleanly(
@@ -31,20 +37,28 @@ def ends_cleanly(
     on: Scenario | Sequence[Scenario],
     needs: Needs,
     see: str = "02_services#conventions",
+    clauses: Sequence[int] = (),
     clause: int = 0,
 ) -> Check:
-    """Make the check that Ctrl-C, which each scenario presses, ends the node with exit status 0."""
+    """Make the check that Ctrl-C, which each scenario presses, ends the node with exit status 0.
+
+    `clause` is another way to say `clauses` where there is one.
+    """
 
     def exits_with_status_0(run: Transcript) -> str:
         """Ctrl-C ends the node with exit status 0."""
         require_clean_exit(run)
         return "Ctrl-C"
 
-    exits = obligation(*filter(None, [clause]), of=whole_run)(exits_with_status_0)
+    exits = obligation(*(clauses or filter(None, [clause])), of=whole_run)(exits_with_status_0)
+
+    def judge(run: Transcript) -> None:
+        exits.judge(run)
+
     return named_check(
         "ends_cleanly",
         exits.sentence,
-        exits.judge,
+        judge,
         points=points,
         on=on,
         needs=needs,
@@ -55,7 +69,13 @@ def ends_cleanly(
 
 
 def feedback_ends_with_the_goal(
-    goal: str, *, points: int, on: Scenario, needs: Needs, see: str = "07_cancel_and_preempt#m13-why"
+    goal: str,
+    *,
+    points: int,
+    on: Scenario,
+    needs: Needs,
+    see: str = "07_cancel_and_preempt#m13-why",
+    clauses: Sequence[int] = (),
 ) -> Check:
     """Nothing comes after the end: no feedback of the goal of this name, once its result is there."""
 
@@ -65,5 +85,12 @@ def feedback_ends_with_the_goal(
 
     title = "After the result no more feedback comes"
     return named_check(
-        "feedback_ends_with_the_goal", title, require, points=points, on=on, needs=needs, see=see
+        "feedback_ends_with_the_goal",
+        title,
+        require,
+        points=points,
+        on=on,
+        needs=needs,
+        see=see,
+        clauses=clauses,
     )

@@ -5,7 +5,8 @@ The students' copy of the engine is without this module.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from autograder.authoring.checks import Check, Scenario, expect, named_check
@@ -26,6 +27,7 @@ def answers_every_request(
     within: float = 2.0,
     help: str = _FROM_MEMORY,
     see: str = "02_services#m4-why",
+    clauses: Sequence[int] = (),
 ) -> Check:
     """Make the check that all `requests` of the scenario, many at once, are answered within so many s."""
 
@@ -39,7 +41,9 @@ def answers_every_request(
         )
 
     title = f"{requests} requests, many at once, are all answered, each within {within:g} s"
-    return named_check("answers_every_request", title, judge, points=points, on=on, needs=needs, see=see)
+    return named_check(
+        "answers_every_request", title, judge, points=points, on=on, needs=needs, see=see, clauses=clauses
+    )
 
 
 def works_in_any_namespace(
@@ -50,11 +54,14 @@ def works_in_any_namespace(
     on: Scenario,
     needs: Needs,
     see: str = "01_robot_and_graph#names-why",
+    clauses: Sequence[int] = (),
 ) -> Check:
-    """Make the check that the node does the same in another namespace: `require` tests it, `does` names it."""
-    title = f"Started in another namespace, it {does} there"
+    """Make the check that the node does the same in another namespace: `require` tests it, `does` names it.
+
+    Where `require` is an obligation, `clauses` take the place of its own: here it holds that names are relative.
+    """
+    id, title = "works_in_any_namespace", f"Started in another namespace, it {does} there"
     if isinstance(require, Obligation):
-        return check_of(
-            "works_in_any_namespace", require, title=title, points=points, on=on, needs=needs, see=see
-        )
-    return named_check("works_in_any_namespace", title, require, points=points, on=on, needs=needs, see=see)
+        there = replace(require, sentence=title, clauses=tuple(clauses)) if clauses else require
+        return check_of(id, there, title=title, points=points, on=on, needs=needs, see=see)
+    return named_check(id, title, require, points=points, on=on, needs=needs, see=see, clauses=clauses)

@@ -92,7 +92,7 @@ def server_appears(run: Transcript) -> None:
         raise
 
 
-@check(points=1, on=SETS, needs=server_appears, see=DECLARED)
+@check(points=1, on=SETS, needs=server_appears, see=DECLARED, clauses=[1])
 def declares_the_robots_gains(run: Transcript) -> None:
     """The five parameters are doubles, and their defaults are the robot's own gains"""
     found = require_doubles(run, "at the start")
@@ -106,7 +106,7 @@ def declares_the_robots_gains(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=SETS, needs=server_appears, see=DECLARED)
+@check(points=1, on=SETS, needs=server_appears, see=DECLARED, clauses=[2])
 def describes_its_parameters(run: Transcript) -> None:
     """Each parameter has a description and a range that holds its default"""
     call = call_named(run, "describe")
@@ -132,7 +132,7 @@ def describes_its_parameters(run: Transcript) -> None:
         )
 
 
-@check(points=2, on=SETS, needs=declares_the_robots_gains, see=TWO_CALLBACKS)
+@check(points=2, on=SETS, needs=declares_the_robots_gains, see=TWO_CALLBACKS, clauses=[6, 7])
 def publishes_what_it_accepted(run: Transcript) -> None:
     """After an accepted set, balance_gains has all five gains as they are then"""
     for name in ("one gain", "three at once", "two in a row"):
@@ -140,14 +140,14 @@ def publishes_what_it_accepted(run: Transcript) -> None:
         require_published(run, name)
 
 
-@check(points=2, on=SETS, needs=publishes_what_it_accepted, see=ONE_BY_ONE)
+@check(points=2, on=SETS, needs=publishes_what_it_accepted, see=ONE_BY_ONE, clauses=[8])
 def publishes_once(run: Transcript) -> None:
     """One message for each accepted set, also when a set has several gains"""
     for name in ("one gain", "three at once", "two in a row"):
         require_once(run, name)
 
 
-@check(points=2, on=REFUSALS, needs=server_appears, see=TWO_CALLBACKS)
+@check(points=2, on=REFUSALS, needs=server_appears, see=TWO_CALLBACKS, clauses=[3, 5])
 def refuses_bad_gains(run: Transcript) -> None:
     """A gain that is negative, or too weak to hold the trunk, is refused with a reason"""
     for name in ("too weak", "too weak in roll"):
@@ -166,7 +166,7 @@ def refuses_bad_gains(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=REFUSALS, needs=[publishes_once, refuses_bad_gains], see=TWO_CALLBACKS)
+@check(points=1, on=REFUSALS, needs=[publishes_once, refuses_bad_gains], see=TWO_CALLBACKS, clauses=[9])
 def says_nothing_of_refused_gains(run: Transcript) -> None:
     """Nothing is published for a set that is refused"""
     for name in ("too weak", "too weak in roll", "negative", "negative torque"):
@@ -175,7 +175,7 @@ def says_nothing_of_refused_gains(run: Transcript) -> None:
     require_once(run, "a good one at last")
 
 
-@check(points=2, on=ALL_OR_NONE, needs=says_nothing_of_refused_gains, see=ALL_AT_ONCE)
+@check(points=2, on=ALL_OR_NONE, needs=says_nothing_of_refused_gains, see=ALL_AT_ONCE, clauses=[9, 10])
 def sets_all_or_none(run: Transcript) -> None:
     """Of an atomic set with one bad gain nothing is kept, published or applied later"""
     for name in ("a good one and a bad one", "two good ones and a weak one"):
@@ -190,7 +190,7 @@ def sets_all_or_none(run: Transcript) -> None:
     require_once(run, "a good one alone")
 
 
-@check(points=1, on=LATE_LISTENER, needs=publishes_what_it_accepted, see=LATE)
+@check(points=1, on=LATE_LISTENER, needs=publishes_what_it_accepted, see=LATE, clauses=[11])
 def keeps_the_last_gains(run: Transcript) -> None:
     """A robot that starts later gets the last gains, because the topic is latched"""
     require_accepted(run, "two gains")
@@ -211,7 +211,7 @@ def keeps_the_last_gains(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=START, needs=keeps_the_last_gains, see=WHO_SEES_IT)
+@check(points=1, on=START, needs=keeps_the_last_gains, see=WHO_SEES_IT, clauses=[12])
 def publishes_at_the_start(run: Transcript) -> None:
     """At the start it publishes its gains once, with the values that it was started with"""
     found = require_doubles(run, "at the start")
@@ -244,13 +244,13 @@ def _about_the_start(heard: Sequence[ev.MessageReceived]) -> str:
     return "Each declaration is a set: register a callback that publishes behind the declarations; then publish once."
 
 
-@check(points=2, on=WEAK_START, needs=server_appears, see=FROM_THE_START)
+@check(points=2, on=WEAK_START, needs=server_appears, see=FROM_THE_START, clauses=[13])
 def refuses_a_bad_start(run: Transcript) -> None:
     """Started with a bad gain, it ends with status 1 and a line that says why"""
     require_bad_start_refused(run)
 
 
-@check(points=2, on=PUSH, needs=publishes_what_it_accepted, see=PUSHED)
+@check(points=2, on=PUSH, needs=publishes_what_it_accepted, see=PUSHED, clauses=[14])
 def survives_a_push(run: Transcript) -> None:
     """With the gains that it publishes the robot survives a push of 10 N·s"""
     require_accepted(run, "new gains")
@@ -258,4 +258,4 @@ def survives_a_push(run: Transcript) -> None:
     require_standing_after_push(run)
 
 
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)
+ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears, clauses=[15])

@@ -107,7 +107,7 @@ OTHER_NAMESPACE = Scenario(
 )
 
 
-@check(points=1, on=NO_NUMBERS, needs=refuses_bad_gains, see="02_services#nan")
+@check(points=1, on=NO_NUMBERS, needs=refuses_bad_gains, see="02_services#nan", clauses=[3, 5])
 def refuses_what_is_no_number(run: Transcript) -> None:
     """NaN and infinity are refused with a reason"""
     for one in run.params["sets"]:
@@ -122,7 +122,7 @@ def refuses_what_is_no_number(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=INTEGERS, needs=refuses_bad_gains, see=AN_INTEGER)
+@check(points=1, on=INTEGERS, needs=refuses_bad_gains, see=AN_INTEGER, clauses=[4, 5])
 def refuses_integers(run: Transcript) -> None:
     """An integer for a double is refused with a reason"""
     for one in run.params["sets"]:
@@ -134,7 +134,7 @@ def refuses_integers(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=EXACTLY, needs=refuses_bad_gains, see=TWO_CALLBACKS)
+@check(points=1, on=EXACTLY, needs=refuses_bad_gains, see=TWO_CALLBACKS, clauses=[3, 5])
 def refuses_the_limit_itself(run: Transcript) -> None:
     """A kp of exactly 51 N·m/rad and a max_torque of 0 are refused, too"""
     for name, because in (
@@ -150,7 +150,13 @@ def refuses_the_limit_itself(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=BEHIND, needs=[sets_all_or_none, refuses_the_limit_itself], see=TWO_CALLBACKS)
+@check(
+    points=1,
+    on=BEHIND,
+    needs=[sets_all_or_none, refuses_the_limit_itself],
+    see=TWO_CALLBACKS,
+    clauses=[9, 10],
+)
 def leaves_nothing_behind(run: Transcript) -> None:
     """What the on-set callback refuses at the end of an atomic set leaves nothing behind"""
     require_silence(run, "good ones and the limit")
@@ -158,7 +164,7 @@ def leaves_nothing_behind(run: Transcript) -> None:
     require_once(run, "a good one alone")
 
 
-@check(points=2, on=ANY_GAINS, needs=publishes_once, see=TWO_CALLBACKS)
+@check(points=2, on=ANY_GAINS, needs=publishes_once, see=TWO_CALLBACKS, clauses=[6, 7, 8])
 def publishes_any_gains(run: Transcript) -> None:
     """All that the table accepts is accepted and published, once for each set, also one that changes nothing"""
     for one in run.params["sets"]:
@@ -171,6 +177,7 @@ def publishes_any_gains(run: Transcript) -> None:
     on=[START_AT_THE_LIMIT, START_WITH_NAN, START_WITH_AN_INTEGER, NEGATIVE_START],
     needs=[refuses_a_bad_start, refuses_integers, refuses_the_limit_itself],
     see=FROM_THE_START,
+    clauses=[13],
 )
 def refuses_every_bad_start(*runs: Transcript) -> None:
     """Started with 51.0, NaN, an integer or a negative gain, it ends with status 1 and a line"""
@@ -178,7 +185,7 @@ def refuses_every_bad_start(*runs: Transcript) -> None:
         require_bad_start_refused(run)
 
 
-@check(points=1, on=ANY_PUSH, needs=[survives_a_push, publishes_any_gains], see=PUSHED)
+@check(points=1, on=ANY_PUSH, needs=[survives_a_push, publishes_any_gains], see=PUSHED, clauses=[14])
 def survives_any_push(run: Transcript) -> None:
     """With other gains, and from any side, the robot survives a push of 10 N·s"""
     require_accepted(run, "new gains")
@@ -186,7 +193,13 @@ def survives_any_push(run: Transcript) -> None:
     require_standing_after_push(run)
 
 
-@check(points=1, on=OTHER_NAMESPACE, needs=publishes_what_it_accepted, see="01_robot_and_graph#names-why")
+@check(
+    points=1,
+    on=OTHER_NAMESPACE,
+    needs=publishes_what_it_accepted,
+    see="01_robot_and_graph#names-why",
+    clauses=[15],
+)
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it publishes there"""
     require_accepted(run, "one gain")

@@ -70,21 +70,25 @@ LOOKS_AWAY = (
 )
 
 
-@check(points=2, on=GOOD, see="06_walk_to_a_pose#client-intro")
+@check(points=2, on=GOOD, see="06_walk_to_a_pose#client-intro", clauses=[4])
 def sends_the_goal(run: Transcript) -> None:
     """With the battery at 0.80 it sends one goal, at x, y and yaw in frame odom"""
     require_level(run, low=False)
     require_goal_at(run, 1.5, -0.5, 0.4)
 
 
-@check(points=2, on=GOOD, needs=sends_the_goal, see="06_walk_to_a_pose#follow-task")
+@check(points=2, on=GOOD, needs=sends_the_goal, see="06_walk_to_a_pose#follow-task", clauses=[5, 12])
 def says_how_it_succeeded(run: Transcript) -> None:
     """A goal that SUCCEEDED while the battery lasts is not cancelled, and ends it with status 0"""
     require_no_cancel(require_success(run), because="the battery never falls below 0.32")
 
 
 @check(
-    points=1, on=[TOO_FEW, NO_NUMBER], needs=says_how_it_succeeded, see="03_clients_that_survive#fix-frame"
+    points=1,
+    on=[TOO_FEW, NO_NUMBER],
+    needs=says_how_it_succeeded,
+    see="03_clients_that_survive#fix-frame",
+    clauses=[17],
 )
 def refuses_wrong_arguments(too_few: Transcript, no_number: Transcript) -> None:
     """Wrong arguments end it with status 2 and the usage, before a node is started"""
@@ -92,7 +96,7 @@ def refuses_wrong_arguments(too_few: Transcript, no_number: Transcript) -> None:
         require_usage(run, WITHIN)
 
 
-@check(points=1, on=NOBODY, see="03_clients_that_survive#fix-why")
+@check(points=1, on=NOBODY, see="03_clients_that_survive#fix-why", clauses=[2, 15])
 def gives_up_without_a_server(run: Transcript) -> None:
     """Without a server it ends with status 1 after 5 s, and says so on stderr"""
     require_level(run, low=False)
@@ -113,7 +117,13 @@ def gives_up_without_a_server(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=[REJECTING, ABORTING], needs=says_how_it_succeeded, see="06_walk_to_a_pose#hopeful-why")
+@check(
+    points=1,
+    on=[REJECTING, ABORTING],
+    needs=says_how_it_succeeded,
+    see="06_walk_to_a_pose#hopeful-why",
+    clauses=[12, 13, 15],
+)
 def says_how_it_failed(rejected: Transcript, aborted: Transcript) -> None:
     """A rejected goal ends it with status 2, an aborted one with 3 and error_msg on stderr"""
     require_goal_answered(rejected, require_one_goal(rejected, NAVIGATE), accepted=False)
@@ -129,7 +139,7 @@ def says_how_it_failed(rejected: Transcript, aborted: Transcript) -> None:
     require_reason(aborted, finished)
 
 
-@check(points=2, on=LOW_BEFORE, needs=says_how_it_succeeded, see="08_navigation#guard-intro")
+@check(points=2, on=LOW_BEFORE, needs=says_how_it_succeeded, see="08_navigation#guard-intro", clauses=[3])
 def does_not_set_out_on_a_low_battery(run: Transcript) -> None:
     """With a latched battery_state of 0.12 it sends no goal, says so on stdout, and ends with status 4"""
     low = [event for event in run.published(BATTERY) if event.message.percentage < 0.2]
@@ -159,7 +169,13 @@ def does_not_set_out_on_a_low_battery(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=WITHOUT_BATTERY, needs=says_how_it_succeeded, see="08_navigation#guard-intro")
+@check(
+    points=1,
+    on=WITHOUT_BATTERY,
+    needs=says_how_it_succeeded,
+    see="08_navigation#guard-intro",
+    clauses=[1, 15],
+)
 def does_not_set_out_without_a_battery_state(run: Transcript) -> None:
     """Without any battery_state in 5 s it sends no goal and ends with status 1"""
     if run.published(BATTERY):
@@ -187,7 +203,7 @@ def does_not_set_out_without_a_battery_state(run: Transcript) -> None:
     )
 
 
-@check(points=2, on=DROP, needs=says_how_it_succeeded, see="08_navigation#watch-run")
+@check(points=2, on=DROP, needs=says_how_it_succeeded, see="08_navigation#watch-run", clauses=[5])
 def cancels_when_the_battery_drops(run: Transcript) -> None:
     """When the percentage falls below 0.20 on the way, it cancels the goal within 1 s, once"""
     goal = require_one_goal(run, NAVIGATE)
@@ -198,7 +214,7 @@ def cancels_when_the_battery_drops(run: Transcript) -> None:
     )
 
 
-@check(points=2, on=DROP, needs=cancels_when_the_battery_drops, see="08_navigation#standing-why")
+@check(points=2, on=DROP, needs=cancels_when_the_battery_drops, see="08_navigation#standing-why", clauses=[9])
 def waits_until_the_robot_stands(run: Transcript) -> None:
     """After the cancel it waits for CANCELED and for robot_state STANDING, then ends with status 4"""
     goal = require_one_goal(run, NAVIGATE)
@@ -226,7 +242,9 @@ def waits_until_the_robot_stands(run: Transcript) -> None:
     require_ending_line(run, "CANCELED", exited.t)
 
 
-@check(points=2, on=NO_PERCENTAGE, needs=says_how_it_succeeded, see="08_navigation#guard-traps-why")
+@check(
+    points=2, on=NO_PERCENTAGE, needs=says_how_it_succeeded, see="08_navigation#guard-traps-why", clauses=[8]
+)
 def ignores_what_is_no_percentage(run: Transcript) -> None:
     """NaN, 20.0, 15.0 and -0.3 on the way are ignored, with one warning line on stderr"""
     goal = require_one_goal(run, NAVIGATE)
@@ -241,7 +259,7 @@ def ignores_what_is_no_percentage(run: Transcript) -> None:
     require_one_warning(run)
 
 
-@check(points=1, on=INTERRUPTED, needs=says_how_it_succeeded, see="06_walk_to_a_pose#field-why")
+@check(points=1, on=INTERRUPTED, needs=says_how_it_succeeded, see="06_walk_to_a_pose#field-why", clauses=[16])
 def ctrl_c_cancels_the_goal(run: Transcript) -> None:
     """Ctrl-C cancels the goal; it waits for its end and ends with status 4"""
     goal = require_one_goal(run, NAVIGATE)

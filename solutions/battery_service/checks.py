@@ -27,7 +27,7 @@ INTERRUPT = Scenario("in_order", {"steps": [], "interrupt": True}, robot=UNPLUGG
 
 
 server_appears = standard.server_appears(
-    "get_battery_status", points=1, on=INTERRUPT, see="02_services#first-file"
+    "get_battery_status", points=1, on=INTERRUPT, see="02_services#first-file", clauses=[5]
 )
 
 answers_with_the_last_message = check_of(
@@ -62,5 +62,5 @@ follows_the_battery = check_of(
 )
 
 ends_cleanly = standard.ends_cleanly(
-    points=1, on=[INTERRUPT, ASK_ONCE], needs=server_appears, see="02_services#conventions"
+    points=1, on=[INTERRUPT, ASK_ONCE], needs=server_appears, see="02_services#conventions", clauses=[6]
 )

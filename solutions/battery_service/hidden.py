@@ -26,7 +26,7 @@ def _steps(random: Random) -> dict[str, Any]:
     def level() -> float:
         return round(random.uniform(0.0, 1.0), 4)
 
-    blocks = [
+    blocks: list[list[list[Any]]] = [
         [["set_battery", level()], ["let_publish", 1], ["ask", 1]],
         [["set_battery", level()], ["ask", 1], ["let_publish", 2], ["ask", 2]],
         [["unplug"], ["wait", round(random.uniform(2.0, 6.0), 1)], ["ask", 2], ["plug_in"]],
@@ -89,4 +89,5 @@ works_in_any_namespace = standard_hidden.works_in_any_namespace(
     points=1,
     on=OTHER_NAMESPACE,
     needs=answers_with_the_last_message,
+    clauses=[5],
 )

@@ -45,33 +45,33 @@ INTERRUPTED = program("interrupted", {"ends_after": 1.5})
 WITHIN = 15.0  # s for a walk of a few seconds
 
 
-@check(points=1, on=GOOD, see="06_walk_to_a_pose#follow-task")
+@check(points=1, on=GOOD, see="06_walk_to_a_pose#follow-task", clauses=[1])
 def walks(run: Transcript) -> None:
     """It sends one goal, and says SUCCEEDED with the final pose and status 0"""
     require_success(run, require_goal_at(run, 1.0, 0.5, 0.3), WITHIN)
 
 
-@check(points=2, on=GOOD, needs=walks, see="05_executors#one-why")
+@check(points=2, on=GOOD, needs=walks, see="05_executors#one-why", clauses=[1, 9])
 def prints_feedback_at_once(run: Transcript) -> None:
     """It prints each feedback within 0.5 s, also while nobody types"""
     require_feedback_lines(run, require_one_goal(run, WALK))
     require_prompt_feedback(run)
 
 
-@check(points=3, on=CANCELED_BY_Q, needs=walks, see="07_cancel_and_preempt#fix-read")
+@check(points=3, on=CANCELED_BY_Q, needs=walks, see="07_cancel_and_preempt#fix-read", clauses=[2, 3])
 def q_cancels_the_goal(run: Transcript) -> None:
     """A q and Enter cancel the goal; it waits for its end and ends with status 4"""
     require_canceled_by_q(run, WITHIN)
 
 
-@check(points=2, on=OVERTAKEN, needs=q_cancels_the_goal, see="07_cancel_and_preempt#late-why")
+@check(points=2, on=OVERTAKEN, needs=q_cancels_the_goal, see="07_cancel_and_preempt#late-why", clauses=[3])
 def believes_the_end(run: Transcript) -> None:
     """A goal that SUCCEEDED, although the server had agreed to cancel it, ends it with status 0"""
     goal = require_agreed(run, GoalStatus.STATUS_SUCCEEDED)
     require_success(run, goal, WITHIN, canceled=True)
 
 
-@check(points=2, on=EARLY, needs=q_cancels_the_goal, see="06_walk_to_a_pose#diagram")
+@check(points=2, on=EARLY, needs=q_cancels_the_goal, see="06_walk_to_a_pose#diagram", clauses=[4])
 def remembers_an_early_q(run: Transcript) -> None:
     """A q that is typed before the goal is accepted cancels it when it is"""
     require_canceled_by_q(
@@ -81,7 +81,7 @@ def remembers_an_early_q(run: Transcript) -> None:
     )
 
 
-@check(points=2, on=REFUSING, needs=q_cancels_the_goal, see="07_cancel_and_preempt#m1-why")
+@check(points=2, on=REFUSING, needs=q_cancels_the_goal, see="07_cancel_and_preempt#m1-why", clauses=[6])
 def reports_a_refusal(run: Transcript) -> None:
     """A refused cancel (code 0, empty goals_canceling) is reported, and the goal goes on to its own end"""
     goal = require_told_refusal(
@@ -94,25 +94,25 @@ def reports_a_refusal(run: Transcript) -> None:
     require_success(run, goal, WITHIN, canceled=True)
 
 
-@check(points=1, on=INPUT_ENDS, needs=walks, see="07_cancel_and_preempt#button-code")
+@check(points=1, on=INPUT_ENDS, needs=walks, see="07_cancel_and_preempt#button-code", clauses=[5])
 def goes_on_at_the_end_of_input(run: Transcript) -> None:
     """The end of the input (Ctrl-D) cancels nothing"""
     require_walk_without_q(run, WITHIN)
 
 
-@check(points=1, on=NOBODY, see="03_clients_that_survive#fix-why")
+@check(points=1, on=NOBODY, see="03_clients_that_survive#fix-why", clauses=[1])
 def gives_up_without_a_server(run: Transcript) -> None:
     """Without a server it ends with status 1 after 5 s, and says so on stderr"""
     require_no_server(run, GIVING_UP)
 
 
-@check(points=1, on=SILENT, needs=walks, see="03_clients_that_survive#fix-why")
+@check(points=1, on=SILENT, needs=walks, see="03_clients_that_survive#fix-why", clauses=[1])
 def gives_up_in_silence(run: Transcript) -> None:
     """After 5 s without feedback or result it cancels the goal and ends with status 1"""
     require_silence_noticed(run)
 
 
-@check(points=1, on=INTERRUPTED, needs=walks, see="06_walk_to_a_pose#field-why")
+@check(points=1, on=INTERRUPTED, needs=walks, see="06_walk_to_a_pose#field-why", clauses=[1])
 def ctrl_c_cancels_the_goal(run: Transcript) -> None:
     """Ctrl-C cancels the goal; it waits for its end and ends with status 4"""
     require_canceled_by_ctrl_c(run, WITHIN)

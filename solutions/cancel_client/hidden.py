@@ -76,25 +76,31 @@ DYING = program("dying")
 EARLY = program("early_feedback", lambda generator: {"distance": round(generator.uniform(3.0, 9.0), 2)})
 
 
-@check(points=1, on=ANY_WALK, needs=walks, see="01_robot_and_graph#names-why")
+@check(points=1, on=ANY_WALK, needs=walks, see="01_robot_and_graph#names-why", clauses=[1])
 def walks_anywhere(run: Transcript) -> None:
     """Another namespace, another pose with negative numbers"""
     require_success(run, require_goal_at(run, *map(float, run.params["arguments"])), WITHIN)
 
 
-@check(points=1, on=TOO_FEW, needs=walks, see="03_clients_that_survive#fix-frame")
+@check(points=1, on=TOO_FEW, needs=walks, see="03_clients_that_survive#fix-frame", clauses=[1])
 def refuses_wrong_arguments(run: Transcript) -> None:
     """Wrong arguments end it with status 2 and the usage, before a node is started"""
     require_usage(run, WITHIN)
 
 
-@check(points=1, on=ABORTING, needs=walks, see="06_walk_to_a_pose#hopeful-why")
+@check(points=1, on=ABORTING, needs=walks, see="06_walk_to_a_pose#hopeful-why", clauses=[1])
 def tells_an_abort(run: Transcript) -> None:
     """An aborted goal ends it with status 3, and error_msg stands on stderr"""
     require_abort(run, WITHIN)
 
 
-@check(points=1, on=REJECTED_EARLY, needs=remembers_an_early_q, see="06_walk_to_a_pose#reject-task")
+@check(
+    points=1,
+    on=REJECTED_EARLY,
+    needs=remembers_an_early_q,
+    see="06_walk_to_a_pose#reject-task",
+    clauses=[1, 4],
+)
 def a_rejected_goal_needs_no_cancel(run: Transcript) -> None:
     """A goal that is rejected after a q ends it with status 2"""
     require_typed(run)
@@ -106,6 +112,7 @@ def a_rejected_goal_needs_no_cancel(run: Transcript) -> None:
     on=ABORTED_ANYWAY,
     needs=[believes_the_end, tells_an_abort],
     see="07_cancel_and_preempt#late-why",
+    clauses=[3],
 )
 def tells_an_abort_after_q(run: Transcript) -> None:
     """A goal that is ABORTED after the server had agreed to cancel it ends it with status 3"""
@@ -113,7 +120,7 @@ def tells_an_abort_after_q(run: Transcript) -> None:
     require_abort(run, WITHIN)
 
 
-@check(points=2, on=TOO_LATE, needs=reports_a_refusal, see="07_cancel_and_preempt#late-why")
+@check(points=2, on=TOO_LATE, needs=reports_a_refusal, see="07_cancel_and_preempt#late-why", clauses=[3, 7])
 def reports_a_late_cancel(run: Transcript) -> None:
     """A cancel that comes when the goal has ended (code 3) is reported, and the goal's end decides"""
     goal = require_told_refusal(
@@ -125,7 +132,7 @@ def reports_a_late_cancel(run: Transcript) -> None:
     require_success(run, goal, WITHIN, canceled=True)
 
 
-@check(points=2, on=DEAF, needs=q_cancels_the_goal, see="03_clients_that_survive#kill-why")
+@check(points=2, on=DEAF, needs=q_cancels_the_goal, see="03_clients_that_survive#kill-why", clauses=[8])
 def does_not_wait_for_the_answer(run: Transcript) -> None:
     """A cancel that gets no answer holds up nothing: the goal is followed to its end"""
     goal = require_one_goal(run, WALK)
@@ -136,7 +143,7 @@ def does_not_wait_for_the_answer(run: Transcript) -> None:
     require_success(run, goal, WITHIN, canceled=True)
 
 
-@check(points=1, on=TWICE, needs=q_cancels_the_goal, see="07_cancel_and_preempt#late-why")
+@check(points=1, on=TWICE, needs=q_cancels_the_goal, see="07_cancel_and_preempt#late-why", clauses=[2])
 def cancels_once(run: Transcript) -> None:
     """However often q is typed, the goal is cancelled once"""
     if len(run.all(ev.NodeTyped)) < 2:
@@ -144,20 +151,32 @@ def cancels_once(run: Transcript) -> None:
     require_canceled_by_q(run, WITHIN)
 
 
-@check(points=1, on=OTHER_LINES, needs=q_cancels_the_goal, see="07_cancel_and_preempt#button-code")
+@check(
+    points=1, on=OTHER_LINES, needs=q_cancels_the_goal, see="07_cancel_and_preempt#button-code", clauses=[5]
+)
 def other_lines_cancel_nothing(run: Transcript) -> None:
     """Only q cancels: an empty line or another word does not"""
     require_walk_without_q(run, WITHIN)
 
 
-@check(points=1, on=NO_INPUT, needs=goes_on_at_the_end_of_input, see="07_cancel_and_preempt#button-code")
+@check(
+    points=1,
+    on=NO_INPUT,
+    needs=goes_on_at_the_end_of_input,
+    see="07_cancel_and_preempt#button-code",
+    clauses=[5],
+)
 def walks_without_an_input(run: Transcript) -> None:
     """Started where there is no input, it walks all the same"""
     require_walk_without_q(run, WITHIN)
 
 
 @check(
-    points=1, on=UNANSWERED, needs=[walks, gives_up_without_a_server], see="03_clients_that_survive#fix-why"
+    points=1,
+    on=UNANSWERED,
+    needs=[walks, gives_up_without_a_server],
+    see="03_clients_that_survive#fix-why",
+    clauses=[1],
 )
 def gives_up_without_an_answer(run: Transcript) -> None:
     """A goal that is never answered ends it with status 1 after 5 s"""
@@ -165,7 +184,11 @@ def gives_up_without_an_answer(run: Transcript) -> None:
 
 
 @check(
-    points=1, on=[FALLING_SILENT, DYING], needs=gives_up_in_silence, see="03_clients_that_survive#kill-why"
+    points=1,
+    on=[FALLING_SILENT, DYING],
+    needs=gives_up_in_silence,
+    see="03_clients_that_survive#kill-why",
+    clauses=[1],
 )
 def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
     """A server that falls silent or dies on the way ends it with status 1, 5 s after the last feedback"""
@@ -173,7 +196,13 @@ def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
     require_death_noticed(dying)
 
 
-@check(points=1, on=EARLY, needs=[walks, prints_feedback_at_once], see="06_walk_to_a_pose#slow-end-why")
+@check(
+    points=1,
+    on=EARLY,
+    needs=[walks, prints_feedback_at_once],
+    see="06_walk_to_a_pose#slow-end-why",
+    clauses=[1],
+)
 def survives_early_feedback(run: Transcript) -> None:
     """Feedback that comes before the goal is accepted disturbs nothing"""
     require_success_after_early_feedback(run, WITHIN)

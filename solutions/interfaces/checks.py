@@ -30,7 +30,7 @@ def service_builds(run: Transcript) -> None:
     require_built(run, RESPONSE)
 
 
-@check(points=2, on=SERVICE, needs=service_builds, see="04_your_own_interfaces#anatomy")
+@check(points=2, on=SERVICE, needs=service_builds, see="04_your_own_interfaces#anatomy", clauses=[2, 11])
 def response_has_its_fields(run: Transcript) -> None:
     """Its response has available, battery and message"""
     require_fields(run, "response", RESPONSE)
@@ -42,19 +42,21 @@ def action_builds(run: Transcript) -> None:
     require_built(run, GOAL | RESULT | FEEDBACK)
 
 
-@check(points=2, on=ACTION, needs=action_builds, see="04_your_own_interfaces#anatomy")
+@check(points=2, on=ACTION, needs=action_builds, see="04_your_own_interfaces#anatomy", clauses=[3, 4, 11])
 def goal_has_its_fields(run: Transcript) -> None:
     """Its goal has a pose with a frame, and a tolerance"""
     require_fields(run, "goal", GOAL)
 
 
-@check(points=2, on=ACTION, needs=action_builds, see="04_your_own_interfaces#anatomy")
+@check(points=2, on=ACTION, needs=action_builds, see="04_your_own_interfaces#anatomy", clauses=[5, 11])
 def result_has_its_fields(run: Transcript) -> None:
     """Its result has error_code, error_msg and distance_traveled"""
     require_fields(run, "result", RESULT)
 
 
-@check(points=2, on=ACTION, needs=action_builds, see="04_your_own_interfaces#anatomy")
+@check(
+    points=2, on=ACTION, needs=action_builds, see="04_your_own_interfaces#anatomy", clauses=[7, 8, 9, 10, 11]
+)
 def feedback_has_its_fields(run: Transcript) -> None:
     """Its feedback has the seven fields of the task"""
     require_fields(run, "feedback", FEEDBACK)

@@ -70,18 +70,18 @@ SILENCE_LESSON = "11_capstone#dead-why"
 REJECTS = "07_cancel_and_preempt#conventions"
 
 server_appears = standard.server_appears(
-    "the action fetch", points=1, on=INTERRUPT, see="07_cancel_and_preempt#fix-file"
+    "the action fetch", points=1, on=INTERRUPT, see="07_cancel_and_preempt#fix-file", clauses=[31]
 )
 
 
-@check(points=1, on=GOOD, needs=server_appears, see=DEADLOCK)
+@check(points=1, on=GOOD, needs=server_appears, see=DEADLOCK, clauses=[1])
 def goes_to_the_table(run: Transcript) -> None:
     """It accepts a goal, and sends the robot to the table"""
     goal = run.goal("fetch")
     require_walk_to_the_table(require_child(goal, 1))
 
 
-@check(points=2, on=GOOD, needs=goes_to_the_table, see=DEADLOCK)
+@check(points=2, on=GOOD, needs=goes_to_the_table, see=DEADLOCK, clauses=[1, 2, 4, 29])
 def takes_the_object(run: Transcript) -> None:
     """When the robot has arrived, it has the object put onto the tray"""
     goal = run.goal("fetch")
@@ -92,7 +92,7 @@ def takes_the_object(run: Transcript) -> None:
     require_put_aside(child, goal.request)
 
 
-@check(points=2, on=GOOD, needs=takes_the_object, see=DEADLOCK)
+@check(points=2, on=GOOD, needs=takes_the_object, see=DEADLOCK, clauses=[1, 3, 4, 5])
 def fetches(run: Transcript) -> None:
     """It comes home, puts the object down, and then SUCCEEDS"""
     goal = run.goal("fetch")
@@ -100,7 +100,7 @@ def fetches(run: Transcript) -> None:
     require_success(goal)
 
 
-@check(points=1, on=GOOD, needs=fetches, see="07_cancel_and_preempt#m13-why")
+@check(points=1, on=GOOD, needs=fetches, see="07_cancel_and_preempt#m13-why", clauses=[6])
 def fills_the_result(run: Transcript) -> None:
     """The result tells where the object ended, the largest force, and error_code NONE"""
     goal = run.goal("fetch")
@@ -120,7 +120,7 @@ def fills_the_result(run: Transcript) -> None:
     goal.expect("error_code", 0, because="nothing went wrong", help="NONE is 0, the default.")
 
 
-@check(points=1, on=GOOD, needs=takes_the_object, see="06_walk_to_a_pose#slow-why")
+@check(points=1, on=GOOD, needs=takes_the_object, see="06_walk_to_a_pose#slow-why", clauses=[7])
 def passes_feedback_on(run: Transcript) -> None:
     """What pick_and_place says of its stage, fetch says in its own feedback, in order and within 1 s"""
     goal = run.goal("fetch")
@@ -140,7 +140,7 @@ def passes_feedback_on(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=IMPOSSIBLE, needs=goes_to_the_table, see=REJECTS)
+@check(points=1, on=IMPOSSIBLE, needs=goes_to_the_table, see=REJECTS, clauses=[8])
 def rejects_what_is_knowably_wrong(run: Transcript) -> None:
     """It rejects a place in frame map, NaN, and a force that is not above 0"""
     because = {
@@ -156,7 +156,7 @@ def rejects_what_is_knowably_wrong(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=LOW_BEFORE, needs=goes_to_the_table, see=BATTERY_LESSON)
+@check(points=1, on=LOW_BEFORE, needs=goes_to_the_table, see=BATTERY_LESSON, clauses=[10, 17])
 def does_not_set_out_on_a_low_battery(run: Transcript) -> None:
     """With the battery at 0.12 it sends no goal to anybody, and ends ABORTED naming the battery"""
     goal = run.goal("low battery")
@@ -170,7 +170,13 @@ def does_not_set_out_on_a_low_battery(run: Transcript) -> None:
     require_abort(goal, "battery", because="it was at 0.12")
 
 
-@check(points=2, on=[REJECTED, ABORTED_WALK, ABORTED_GRASP], needs=goes_to_the_table, see=ORPHANS)
+@check(
+    points=2,
+    on=[REJECTED, ABORTED_WALK, ABORTED_GRASP],
+    needs=goes_to_the_table,
+    see=ORPHANS,
+    clauses=[22, 25, 26],
+)
 def says_why_a_child_failed(rejected: Transcript, walk: Transcript, grasp: Transcript) -> None:
     """A child that is rejected or aborts ends fetch ABORTED; error_msg names the action and holds the child's reason"""
     goal = rejected.goal("fetch")
@@ -196,7 +202,7 @@ def says_why_a_child_failed(rejected: Transcript, walk: Transcript, grasp: Trans
             )
 
 
-@check(points=2, on=SILENT, needs=goes_to_the_table, see=SILENCE_LESSON)
+@check(points=2, on=SILENT, needs=goes_to_the_table, see=SILENCE_LESSON, clauses=[23, 25, 27, 29])
 def cancels_a_silent_child(run: Transcript) -> None:
     """A child that is silent for 5 s is canceled; when it has ended, fetch ends ABORTED naming the action"""
     goal = run.goal("fetch")
@@ -214,7 +220,7 @@ def cancels_a_silent_child(run: Transcript) -> None:
     require_nothing_left(goal)
 
 
-@check(points=3, on=CANCELED_WALK, needs=goes_to_the_table, see=GOES_DOWN)
+@check(points=3, on=CANCELED_WALK, needs=goes_to_the_table, see=GOES_DOWN, clauses=[18, 20, 21])
 def cancel_goes_down(run: Transcript) -> None:
     """A cancel goes down to the child at work, and fetch is CANCELED when the child has ended"""
     goal = run.goal("fetch")
@@ -224,13 +230,13 @@ def cancel_goes_down(run: Transcript) -> None:
     require_no_more(goal, 1, "fetch was canceled")
 
 
-@check(points=3, on=TO_THE_TABLE, needs=goes_to_the_table, see=GIVES_UP)
+@check(points=3, on=TO_THE_TABLE, needs=goes_to_the_table, see=GIVES_UP, clauses=[11, 12, 17])
 def gives_up_before_the_grasp(run: Transcript) -> None:
     """When the battery drops before the grasp, it cancels the child, waits for its end, goes home, and is ABORTED"""
     require_gave_up_before_the_grasp(run.goal("fetch"), 1)
 
 
-@check(points=3, on=HOLDING, needs=takes_the_object, see=GIVES_UP)
+@check(points=3, on=HOLDING, needs=takes_the_object, see=GIVES_UP, clauses=[13, 15, 17])
 def finishes_placing_first(run: Transcript) -> None:
     """When the battery drops while the hand holds the object, it is placed first; then home, and ABORTED"""
     goal = run.goal("fetch")
@@ -252,4 +258,4 @@ def finishes_placing_first(run: Transcript) -> None:
     require_nothing_left(goal)
 
 
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)
+ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears, clauses=[31])

@@ -123,7 +123,7 @@ PREEMPTED_WALK = Scenario(
 )
 
 
-@check(points=1, on=[ANYTHING, LONG_WALK], needs=fetches, see=BATTERY_LESSON)
+@check(points=1, on=[ANYTHING, LONG_WALK], needs=fetches, see=BATTERY_LESSON, clauses=[3, 4, 11, 23])
 def fetches_anything(anything: Transcript, long_walk: Transcript) -> None:
     """NaN, 20.0 and -0.3 are no percentages, 0.20 is not low, and a child that reports may take longer than 5 s"""
     if len(anything.published(BATTERY)) < 5:
@@ -134,7 +134,13 @@ def fetches_anything(anything: Transcript, long_walk: Transcript) -> None:
         require_success(goal)
 
 
-@check(points=1, on=NO_BATTERY, needs=[fetches, does_not_set_out_on_a_low_battery], see=BATTERY_LESSON)
+@check(
+    points=1,
+    on=NO_BATTERY,
+    needs=[fetches, does_not_set_out_on_a_low_battery],
+    see=BATTERY_LESSON,
+    clauses=[10, 17, 30],
+)
 def sends_nobody_without_a_battery(run: Transcript) -> None:
     """As long as battery_state has said nothing it fetches nothing, and says so; then it does"""
     goal = run.goal("low battery")
@@ -146,7 +152,13 @@ def sends_nobody_without_a_battery(run: Transcript) -> None:
     require_success(run.goal("charged"))
 
 
-@check(points=1, on=LOW_THEN_CHARGED, needs=[fetches, does_not_set_out_on_a_low_battery], see=BATTERY_LESSON)
+@check(
+    points=1,
+    on=LOW_THEN_CHARGED,
+    needs=[fetches, does_not_set_out_on_a_low_battery],
+    see=BATTERY_LESSON,
+    clauses=[30],
+)
 def sets_out_when_it_is_charged(run: Transcript) -> None:
     """A battery that was low and is charged again is no obstacle to the next goal"""
     low, charged = run.goal("low battery"), run.goal("charged")
@@ -155,7 +167,9 @@ def sets_out_when_it_is_charged(run: Transcript) -> None:
     require_success(charged)
 
 
-@check(points=2, on=[APPROACHING, GRASPING], needs=gives_up_before_the_grasp, see=GIVES_UP)
+@check(
+    points=2, on=[APPROACHING, GRASPING], needs=gives_up_before_the_grasp, see=GIVES_UP, clauses=[11, 12, 17]
+)
 def gives_up_while_the_hand_is_empty(approaching: Transcript, grasping: Transcript) -> None:
     """While the stage is approaching or grasping, a drop cancels pick_and_place, too"""
     for run, stage in ((approaching, "approaching"), (grasping, "grasping")):
@@ -164,7 +178,9 @@ def gives_up_while_the_hand_is_empty(approaching: Transcript, grasping: Transcri
         require_gave_up_before_the_grasp(goal, 2)
 
 
-@check(points=1, on=AT_THE_TRAY, needs=[fetches, gives_up_before_the_grasp], see=GIVES_UP)
+@check(
+    points=1, on=AT_THE_TRAY, needs=[fetches, gives_up_before_the_grasp], see=GIVES_UP, clauses=[11, 12, 17]
+)
 def gives_up_at_home(run: Transcript) -> None:
     """When the battery drops before the grasp at home, it cancels the child and is ABORTED: it is home already"""
     goal = run.goal("fetch")
@@ -172,7 +188,7 @@ def gives_up_at_home(run: Transcript) -> None:
     require_gave_up_before_the_grasp(goal, 4)
 
 
-@check(points=1, on=PLACING, needs=finishes_placing_first, see=GIVES_UP)
+@check(points=1, on=PLACING, needs=finishes_placing_first, see=GIVES_UP, clauses=[13, 17])
 def finishes_placing_to_the_end(run: Transcript) -> None:
     """Also while the stage is placing, pick_and_place comes to its own end before the robot goes home"""
     goal = run.goal("fetch")
@@ -190,7 +206,9 @@ def finishes_placing_to_the_end(run: Transcript) -> None:
     require_abort(goal, "battery", because="it dropped while the object was placed")
 
 
-@check(points=1, on=GOING_HOME, needs=[fetches, gives_up_before_the_grasp], see=GIVES_UP)
+@check(
+    points=1, on=GOING_HOME, needs=[fetches, gives_up_before_the_grasp], see=GIVES_UP, clauses=[14, 15, 17]
+)
 def carries_it_home(run: Transcript) -> None:
     """When the battery drops on the way home, the robot goes on home; then ABORTED, with the object on the tray"""
     goal = run.goal("fetch")
@@ -209,6 +227,7 @@ def carries_it_home(run: Transcript) -> None:
     on=PUTTING_DOWN,
     needs=[fetches, finishes_placing_to_the_end],
     see="07_cancel_and_preempt#late-why",
+    clauses=[13, 16],
 )
 def success_wins(run: Transcript) -> None:
     """When the battery drops while the object is put down at home, all is done in the end: SUCCEEDED"""
@@ -219,7 +238,7 @@ def success_wins(run: Transcript) -> None:
     require_success(goal)
 
 
-@check(points=1, on=REFUSES_TO_STOP, needs=gives_up_before_the_grasp, see=ORPHANS)
+@check(points=1, on=REFUSES_TO_STOP, needs=gives_up_before_the_grasp, see=ORPHANS, clauses=[12, 17, 29])
 def waits_for_a_child_that_goes_on(run: Transcript) -> None:
     """A child that refuses the cancel is waited for all the same; then the robot goes home"""
     goal = run.goal("fetch")
@@ -235,7 +254,7 @@ def waits_for_a_child_that_goes_on(run: Transcript) -> None:
     require_abort(goal, "battery", because="it is low")
 
 
-@check(points=1, on=RECOVERS, needs=gives_up_before_the_grasp, see=BATTERY_LESSON)
+@check(points=1, on=RECOVERS, needs=gives_up_before_the_grasp, see=BATTERY_LESSON, clauses=[12, 15, 17])
 def gives_up_for_good(run: Transcript) -> None:
     """A battery that recovers while the child stops changes nothing: it goes home, and is ABORTED"""
     goal = run.goal("fetch")
@@ -247,7 +266,13 @@ def gives_up_for_good(run: Transcript) -> None:
     require_gave_up_before_the_grasp(goal, 1)
 
 
-@check(points=1, on=DROP_BEFORE_ACCEPTANCE, needs=gives_up_before_the_grasp, see="08_navigation#client-intro")
+@check(
+    points=1,
+    on=DROP_BEFORE_ACCEPTANCE,
+    needs=gives_up_before_the_grasp,
+    see="08_navigation#client-intro",
+    clauses=[12, 17, 19],
+)
 def gives_up_right_after_the_acceptance(run: Transcript) -> None:
     """A drop before the child is accepted cancels it right after the acceptance"""
     goal = run.goal("fetch")
@@ -262,7 +287,13 @@ def gives_up_right_after_the_acceptance(run: Transcript) -> None:
     require_nothing_left(goal)
 
 
-@check(points=2, on=[CANCEL_GRASP, CANCEL_LAST], needs=[fetches, cancel_goes_down], see=GOES_DOWN)
+@check(
+    points=2,
+    on=[CANCEL_GRASP, CANCEL_LAST],
+    needs=[fetches, cancel_goes_down],
+    see=GOES_DOWN,
+    clauses=[18, 20, 21],
+)
 def cancel_goes_down_to_the_arm(grasp: Transcript, last: Transcript) -> None:
     """A cancel goes down to pick_and_place, too, which knows itself how to end safely"""
     for run, step in ((grasp, 2), (last, 4)):
@@ -273,7 +304,7 @@ def cancel_goes_down_to_the_arm(grasp: Transcript, last: Transcript) -> None:
         require_no_more(goal, step, "fetch was canceled")
 
 
-@check(points=2, on=CANCEL_REFUSED, needs=cancel_goes_down, see=ORPHANS)
+@check(points=2, on=CANCEL_REFUSED, needs=cancel_goes_down, see=ORPHANS, clauses=[20, 21])
 def waits_although_the_cancel_is_refused(run: Transcript) -> None:
     """When the child refuses the cancel, fetch is CANCELED only when the child has ended by itself"""
     goal = run.goal("fetch")
@@ -285,7 +316,13 @@ def waits_although_the_cancel_is_refused(run: Transcript) -> None:
     require_no_more(goal, 1, "fetch was canceled")
 
 
-@check(points=1, on=CANCEL_BEFORE_ACCEPTANCE, needs=cancel_goes_down, see="07_cancel_and_preempt#late-why")
+@check(
+    points=1,
+    on=CANCEL_BEFORE_ACCEPTANCE,
+    needs=cancel_goes_down,
+    see="07_cancel_and_preempt#late-why",
+    clauses=[19, 20, 21],
+)
 def remembers_a_cancel(run: Transcript) -> None:
     """A cancel before the child is accepted goes down right after the acceptance"""
     goal = run.goal("fetch")
@@ -296,7 +333,7 @@ def remembers_a_cancel(run: Transcript) -> None:
     require_no_more(goal, 1, "fetch was canceled")
 
 
-@check(points=1, on=UNANSWERED, needs=says_why_a_child_failed, see=SILENCE_LESSON)
+@check(points=1, on=UNANSWERED, needs=says_why_a_child_failed, see=SILENCE_LESSON, clauses=[23, 25])
 def gives_up_without_an_answer(run: Transcript) -> None:
     """A child whose goal has no answer after 5 s ends fetch ABORTED naming the action"""
     goal = run.goal("fetch")
@@ -312,6 +349,7 @@ def gives_up_without_an_answer(run: Transcript) -> None:
     on=TOO_LATE,
     needs=[cancels_a_silent_child, gives_up_without_an_answer],
     see="03b_clients_in_bad_company#late-why",
+    clauses=[25, 28],
 )
 def cancels_a_late_child(run: Transcript) -> None:
     """A child that is accepted after its 5 s are over is canceled at once: nobody waits for it any more"""
@@ -329,6 +367,7 @@ def cancels_a_late_child(run: Transcript) -> None:
     on=[DIES, ARM_DIES],
     needs=[cancels_a_silent_child, fetches],
     see="11_capstone#dead-why",
+    clauses=[23, 25, 27],
 )
 def survives_a_dying_server(walk: Transcript, arm: Transcript) -> None:
     """When a child's server dies, fetch ends ABORTED naming the action, and the node lives"""
@@ -342,7 +381,7 @@ def survives_a_dying_server(walk: Transcript, arm: Transcript) -> None:
         require_soon(goal, last_heard(child), "the last that was heard of the child", within=2 * GIVING_UP)
 
 
-@check(points=1, on=DEAF, needs=[cancels_a_silent_child, fetches], see=SILENCE_LESSON)
+@check(points=1, on=DEAF, needs=[cancels_a_silent_child, fetches], see=SILENCE_LESSON, clauses=[25, 27])
 def waits_no_longer_than_it_must(run: Transcript) -> None:
     """A silent child that does not answer the cancel either is given up 5 s later, ABORTED naming the action"""
     goal = run.goal("fetch")
@@ -355,7 +394,13 @@ def waits_no_longer_than_it_must(run: Transcript) -> None:
     require_soon(goal, asked.received.t, "the request to cancel", within=GIVING_UP)
 
 
-@check(points=1, on=[NOBODY_WALKS, NOBODY_GRASPS], needs=says_why_a_child_failed, see=SILENCE_LESSON)
+@check(
+    points=1,
+    on=[NOBODY_WALKS, NOBODY_GRASPS],
+    needs=says_why_a_child_failed,
+    see=SILENCE_LESSON,
+    clauses=[24, 25],
+)
 def gives_up_without_a_server(walks: Transcript, grasps: Transcript) -> None:
     """When nobody offers an action, fetch is ABORTED naming it, at most 5 s after it needed it"""
     for run in (walks, grasps):
@@ -371,7 +416,7 @@ def gives_up_without_a_server(walks: Transcript, grasps: Transcript) -> None:
         require_soon(goal, since, f"looking for {missing}", within=GIVING_UP)
 
 
-@check(points=1, on=BY_ANOTHER, needs=says_why_a_child_failed, see=ORPHANS)
+@check(points=1, on=BY_ANOTHER, needs=says_why_a_child_failed, see=ORPHANS, clauses=[22, 25])
 def fails_when_another_cancels_the_child(run: Transcript) -> None:
     """A child that somebody else cancels has failed: ABORTED, not CANCELED"""
     goal = run.goal("fetch")
@@ -380,14 +425,16 @@ def fails_when_another_cancels_the_child(run: Transcript) -> None:
     require_failed_child(goal, 3, because="somebody else canceled it")
 
 
-@check(points=1, on=TRIES_AGAIN, needs=[fetches, says_why_a_child_failed], see=ORPHANS)
+@check(points=1, on=TRIES_AGAIN, needs=[fetches, says_why_a_child_failed], see=ORPHANS, clauses=[30])
 def serves_the_next_goal(run: Transcript) -> None:
     """After a failure the next goal is fetched"""
     require_failed_child(run.goal("fetch"), 1, because="it rejected its goal")
     require_success(run.goal("again"))
 
 
-@check(points=2, on=PREEMPTED_WALK, needs=[cancel_goes_down, fetches], see="11_capstone#newest-why")
+@check(
+    points=2, on=PREEMPTED_WALK, needs=[cancel_goes_down, fetches], see="11_capstone#newest-why", clauses=[9]
+)
 def new_goal_preempts_the_old(run: Transcript) -> None:
     """A new goal preempts the old one: its child is canceled and ends, then the old is ABORTED and the new begins"""
     old, new = run.goal("old"), run.goal("new")
@@ -421,4 +468,5 @@ works_in_any_namespace = standard_hidden.works_in_any_namespace(
     points=1,
     on=OTHER_NAMESPACE,
     needs=fetches,
+    clauses=[31],
 )

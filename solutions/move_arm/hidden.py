@@ -82,7 +82,7 @@ QUIET = 0.8  # s without joint_states before which nobody may give up
 GIVEN_UP = 3.0  # s
 
 
-@check(points=2, on=ANYWHERE, needs=[arrives, passes_every_point], see="09_arms#clock-why")
+@check(points=2, on=ANYWHERE, needs=[arrives, passes_every_point], see="09_arms#clock-why", clauses=[1, 6, 7])
 def moves_the_right_arm(run: Transcript) -> None:
     """It moves the right arm, too, through points that are drawn"""
     goal = run.goal("move")
@@ -94,7 +94,7 @@ def moves_the_right_arm(run: Transcript) -> None:
     require_points_passed(goal)
 
 
-@check(points=1, on=REVERSED, needs=arrives, see="02_services#first-file")
+@check(points=1, on=REVERSED, needs=arrives, see="02_services#first-file", clauses=[7])
 def reads_joint_states_by_name(run: Transcript) -> None:
     """It measures by the joints' names, in whatever order joint_states lists them"""
     run.told("joint_states", before=run.goal("move").sent.t, reversed=True)
@@ -105,7 +105,7 @@ def reads_joint_states_by_name(run: Transcript) -> None:
     )
 
 
-@check(points=2, on=ENDS, needs=rejects_out_of_range, see="09_arms#silent-why")
+@check(points=2, on=ENDS, needs=rejects_out_of_range, see="09_arms#silent-why", clauses=[1, 5])
 def knows_each_joints_range(run: Transcript) -> None:
     """It knows the range of each joint: a little outside is rejected, at any point, inside is accepted"""
     joint = run.params["joint"]
@@ -126,6 +126,7 @@ def knows_each_joints_range(run: Transcript) -> None:
     on=BLOCK,
     needs=[aborts_when_the_arm_is_blocked, feedback_is_true],
     see="09_arms#bend-why",
+    clauses=[13],
 )
 def feedback_shows_a_blocked_arm(run: Transcript) -> None:
     """max_error grows while the arm is blocked"""
@@ -133,21 +134,21 @@ def feedback_shows_a_blocked_arm(run: Transcript) -> None:
     require_true_feedback(run.goal("move"))
 
 
-@check(points=1, on=GENEROUS, needs=aborts_when_the_end_is_missed, see="09_arms#bend-why")
+@check(points=1, on=GENEROUS, needs=aborts_when_the_end_is_missed, see="09_arms#bend-why", clauses=[7])
 def obeys_goal_tolerance(run: Transcript) -> None:
     """A joint within goal_tolerance of its end is near enough"""
     require_held_short(run.goal("move"), "l_elbow")
     require_arrival(run.goal("move"))
 
 
-@check(points=1, on=IN_TIME, needs=aborts_when_the_end_is_missed, see="09_arms#bend-why")
+@check(points=1, on=IN_TIME, needs=aborts_when_the_end_is_missed, see="09_arms#bend-why", clauses=[7])
 def waits_a_second_for_the_end(run: Transcript) -> None:
     """A joint that gets to its end within 1 s of its time is in time"""
     require_released_in_time(run.goal("move"), "l_elbow")
     require_arrival(run.goal("move"))
 
 
-@check(points=1, on=AT_THE_START, needs=stops_when_canceled, see="07_cancel_and_preempt#m1-why")
+@check(points=1, on=AT_THE_START, needs=stops_when_canceled, see="07_cancel_and_preempt#m1-why", clauses=[14])
 def cancels_at_the_start(run: Transcript) -> None:
     """A cancel right after the acceptance ends CANCELED with the arm still"""
     goal = run.goal("move").require_accepted()
@@ -165,7 +166,13 @@ def cancels_at_the_start(run: Transcript) -> None:
     require_stopped(run, ["l_elbow", "l_wrist_pitch"], request.t)
 
 
-@check(points=1, on=AGAIN, needs=[stops_when_canceled, arrives], see="07_cancel_and_preempt#fix-intro")
+@check(
+    points=1,
+    on=AGAIN,
+    needs=[stops_when_canceled, arrives],
+    see="07_cancel_and_preempt#fix-intro",
+    clauses=[7],
+)
 def moves_again_after_a_cancel(run: Transcript) -> None:
     """A new goal after a cancel is carried out"""
     require_moving(run, "l_elbow", run.goal("canceled").requests_to_cancel[-1].sent.t)
@@ -177,6 +184,7 @@ def moves_again_after_a_cancel(run: Transcript) -> None:
     on=ONE_OF_TWO,
     needs=[stops_when_canceled, moves_both_arms],
     see="09_arms#replace-why",
+    clauses=[14, 16],
 )
 def a_cancel_spares_the_other_arm(run: Transcript) -> None:
     """When one arm's goal is cancelled, that arm stops and the other goes on"""
@@ -187,7 +195,7 @@ def a_cancel_spares_the_other_arm(run: Transcript) -> None:
     require_spared(run.goal("right"))
 
 
-@check(points=1, on=LOST, needs=arrives, see="09_arms#conventions")
+@check(points=1, on=LOST, needs=arrives, see="09_arms#conventions", clauses=[12])
 def aborts_without_joint_states(run: Transcript) -> None:
     """When joint_states say nothing for 1 s the goal ends with INVALID_JOINTS and the arm stops"""
     goal = run.goal("move")
@@ -220,7 +228,7 @@ def aborts_without_joint_states(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=OTHER_NAMESPACE, needs=arrives, see="01_robot_and_graph#names-why")
+@check(points=1, on=OTHER_NAMESPACE, needs=arrives, see="01_robot_and_graph#names-why", clauses=[17])
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it moves the arm of the robot there"""
     require_arrival(run.goal("move"))

@@ -73,7 +73,7 @@ OTHER_PREEMPT = Scenario(
 OTHER_NAMESPACE = Scenario("navigate", {"x": 0.5, "y": 0.0, "yaw": 0.0}, namespace="/lab_7/robot")
 
 
-@check(points=2, on=RANDOM_POSES, needs=arrives, see="06_walk_to_a_pose#settle-why")
+@check(points=2, on=RANDOM_POSES, needs=arrives, see="06_walk_to_a_pose#settle-why", clauses=[2, 4])
 def arrives_within_the_tolerance(run: Transcript) -> None:
     """It reaches poses with any heading, one after the other, each within its tolerance"""
     for number, (*_pose, tolerance) in enumerate(run.params["poses"], start=1):
@@ -85,6 +85,7 @@ def arrives_within_the_tolerance(run: Transcript) -> None:
     on=RANDOM_POSES,
     needs=[arrives_within_the_tolerance, measures_its_path, counts_no_detour_without_one],
     see="08_navigation#odometer-why",
+    clauses=[12, 15],
 )
 def tells_each_goal_its_own_story(run: Transcript) -> None:
     """Path and recoveries begin at 0 with each goal"""
@@ -98,7 +99,9 @@ def tells_each_goal_its_own_story(run: Transcript) -> None:
         require_no_detour(goal)
 
 
-@check(points=1, on=ANY_PHASE, needs=cancels_in_mid_stride, see="07_cancel_and_preempt#fix-intro")
+@check(
+    points=1, on=ANY_PHASE, needs=cancels_in_mid_stride, see="07_cancel_and_preempt#fix-intro", clauses=[17]
+)
 def cancels_in_any_phase(run: Transcript) -> None:
     """Also while it turns a cancel ends CANCELED, with the robot still"""
     for delay in run.params["delays"]:
@@ -107,7 +110,7 @@ def cancels_in_any_phase(run: Transcript) -> None:
         require_stopped(run, request.t)
 
 
-@check(points=1, on=TO_THE_OTHER_SIDE, needs=counts_the_recovery, see="08_navigation#loops-why")
+@check(points=1, on=TO_THE_OTHER_SIDE, needs=counts_the_recovery, see="08_navigation#loops-why", clauses=[15])
 def gets_back_from_anywhere(run: Transcript) -> None:
     """Led astray to the other side, it counts that, too, and arrives"""
     require_detour_counted(run.goal("go"))
@@ -119,6 +122,7 @@ def gets_back_from_anywhere(run: Transcript) -> None:
     on=OTHER_PREEMPT,
     needs=[new_goal_preempts_the_old, tells_its_time],
     see="08_navigation#conventions",
+    clauses=[9],
 )
 def a_new_goal_has_a_time_of_its_own(run: Transcript) -> None:
     """navigation_time of a goal that preempts begins at its own acceptance"""
@@ -126,7 +130,7 @@ def a_new_goal_has_a_time_of_its_own(run: Transcript) -> None:
     require_true_navigation_time(run.goal("new"))
 
 
-@check(points=1, on=OTHER_NAMESPACE, needs=arrives, see="01_robot_and_graph#names-why")
+@check(points=1, on=OTHER_NAMESPACE, needs=arrives, see="01_robot_and_graph#names-why", clauses=[21])
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it walks the robot there"""
     require_arrival(run.goal("go"))

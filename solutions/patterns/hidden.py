@@ -82,4 +82,6 @@ UNSEEN = (
     ),
 )
 
-situations = [check(points=1, on=ANSWERS, see=PATTERNS)(judge_of(situation)) for situation in UNSEEN]
+situations = [
+    check(points=1, on=ANSWERS, see=PATTERNS, clauses=[1, 2, 3])(judge_of(situation)) for situation in UNSEEN
+]

@@ -68,14 +68,18 @@ OTHER_NAMESPACE = Scenario(
 LOOK = "07_cancel_and_preempt#conventions"
 
 
-@check(points=2, on=ANYWHERE, needs=places_the_cup, see="09_arms#careful-why")
+@check(points=2, on=ANYWHERE, needs=places_the_cup, see="09_arms#careful-why", clauses=[2, 3, 4])
 def fetches_from_anywhere(run: Transcript) -> None:
     """It finds the cup wherever it stands, and puts it down wherever it shall stand"""
     require_placed(run.goal("fetch"))
 
 
 @check(
-    points=2, on=[ANYWHERE, GENTLY], needs=[keeps_the_force, fetches_from_anywhere], see="09_arms#force-why"
+    points=2,
+    on=[ANYWHERE, GENTLY],
+    needs=[keeps_the_force, fetches_from_anywhere],
+    see="09_arms#force-why",
+    clauses=[3, 5],
 )
 def obeys_any_force(anywhere: Transcript, gently: Transcript) -> None:
     """It holds the cup with whatever force is asked for, firm or gentle"""
@@ -84,14 +88,14 @@ def obeys_any_force(anywhere: Transcript, gently: Transcript) -> None:
         require_force_kept(run.goal("fetch"))
 
 
-@check(points=1, on=TWICE, needs=places_the_cup, see="09_arms#careful-why")
+@check(points=1, on=TWICE, needs=places_the_cup, see="09_arms#careful-why", clauses=[3])
 def fetches_twice(run: Transcript) -> None:
     """After a goal it carries out another"""
     run.goal("fetch 1").require_accepted()
     require_placed(run.goal("fetch 2"))
 
 
-@check(points=1, on=NO_NAMES, needs=knows_no_teapot, see="09_arms#base-intro")
+@check(points=1, on=NO_NAMES, needs=knows_no_teapot, see="09_arms#base-intro", clauses=[11, 17])
 def survives_a_name_that_is_none(run: Transcript) -> None:
     """An object_id that cannot be part of a topic's name is an unknown object, too"""
     for number, name in enumerate(run.params["objects"], start=1):
@@ -104,19 +108,19 @@ def survives_a_name_that_is_none(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=ON_THE_WAY, needs=notices_a_lost_cup, see="09_arms#slip-why")
+@check(points=1, on=ON_THE_WAY, needs=notices_a_lost_cup, see="09_arms#slip-why", clauses=[15, 17])
 def notices_a_loss_on_the_way(run: Transcript) -> None:
     """When the cup is lost on its way across the goal ends with DROPPED, too"""
     require_dropped(run.goal("fetch"))
 
 
-@check(points=1, on=CLOSING, needs=cancels_before_the_grasp, see="09_arms#lift-why")
+@check(points=1, on=CLOSING, needs=cancels_before_the_grasp, see="09_arms#lift-why", clauses=[18])
 def cancels_while_closing(run: Transcript) -> None:
     """A cancel while the fingers close opens them and leaves the cup where it is"""
     require_left_alone(run.goal("fetch"))
 
 
-@check(points=2, on=LATE, needs=puts_the_cup_back, see="09_arms#put-down-gap")
+@check(points=2, on=LATE, needs=puts_the_cup_back, see="09_arms#put-down-gap", clauses=[19])
 def puts_the_cup_at_the_nearer_place(run: Transcript) -> None:
     """A cancel when the cup is nearly there puts it at place_pose, then ends CANCELED"""
     require_put_away(run.goal("fetch"), place_of(run.goal("fetch")), "place_pose, which is nearer")
@@ -127,6 +131,7 @@ def puts_the_cup_at_the_nearer_place(run: Transcript) -> None:
     on=AGAIN,
     needs=[cancels_before_the_grasp, places_the_cup],
     see="07_cancel_and_preempt#fix-intro",
+    clauses=[3],
 )
 def fetches_after_a_cancel(run: Transcript) -> None:
     """After a cancel it carries out another goal"""
@@ -140,4 +145,5 @@ works_in_any_namespace = _works_in_any_namespace(
     points=1,
     on=OTHER_NAMESPACE,
     needs=places_the_cup,
+    clauses=[21],
 )

@@ -58,66 +58,72 @@ INTERRUPT = Scenario("interrupt", robot=RESTING)
 LOOK = "07_cancel_and_preempt#conventions"
 
 server_appears = standard.server_appears(
-    "the action stand_up", points=1, on=INTERRUPT, see="06_walk_to_a_pose#small-intro"
+    "the action stand_up", points=1, on=INTERRUPT, see="06_walk_to_a_pose#small-intro", clauses=[18]
 )
 
 
-@check(points=1, on=RISE, needs=server_appears, see="06_walk_to_a_pose#reject-task")
+@check(points=1, on=RISE, needs=server_appears, see="06_walk_to_a_pose#reject-task", clauses=[1])
 def accepts_a_goal(run: Transcript) -> None:
     """It accepts a goal while the robot crouches"""
     require_accepted(run.goal("rise"))
     require_crouch(run.goal("rise"))
 
 
-@check(points=2, on=RISE, needs=accepts_a_goal, see="09_arms#rise-why")
+@check(points=2, on=RISE, needs=accepts_a_goal, see="09_arms#rise-why", clauses=[5, 6, 17])
 def rises(run: Transcript) -> None:
     """It SUCCEEDS, and base_link is then at 0.59 m or higher"""
     require_risen(run.goal("rise"))
 
 
-@check(points=1, on=RISE, needs=rises, see="01_robot_and_graph#walk-intro")
+@check(points=1, on=RISE, needs=rises, see="01_robot_and_graph#walk-intro", clauses=[3])
 def rises_on_the_spot(run: Transcript) -> None:
     """The robot rises without a step"""
     require_on_the_spot(run.goal("rise"))
 
 
-@check(points=2, on=RISE, needs=rises, see="09_arms#still-why")
+@check(points=2, on=RISE, needs=rises, see="09_arms#still-why", clauses=[6])
 def settles_before_it_succeeds(run: Transcript) -> None:
     """When it SUCCEEDS the robot has been high, still and upright for 0.5 s"""
     require_settled(run.goal("rise"))
 
 
-@check(points=1, on=GLIDES, needs=rises, see="09_arms#still-why")
+@check(points=1, on=GLIDES, needs=rises, see="09_arms#still-why", clauses=[6])
 def waits_until_it_is_still(run: Transcript) -> None:
     """It does not succeed while the pelvis moves faster than 0.02 m/s"""
     require_calm(run, run.goal("rise"))
 
 
-@check(points=1, on=LEANS, needs=rises, see="09_arms#still-why")
+@check(points=1, on=LEANS, needs=rises, see="09_arms#still-why", clauses=[6])
 def waits_until_it_is_upright(run: Transcript) -> None:
     """It does not succeed while the pelvis leans by more than 0.05 rad"""
     require_calm(run, run.goal("rise"))
 
 
-@check(points=1, on=RISE, needs=accepts_a_goal, see="06_walk_to_a_pose#settle-intro")
+@check(points=1, on=RISE, needs=accepts_a_goal, see="06_walk_to_a_pose#settle-intro", clauses=[8])
 def feedback_keeps_its_rate(run: Transcript) -> None:
     """Feedback comes at 5 Hz without a gap over 1 s"""
     require_good_feedback_rate(run.goal("rise"))
 
 
-@check(points=1, on=RISE, needs=[rises, feedback_keeps_its_rate], see="09_arms#phases-why")
+@check(points=1, on=RISE, needs=[rises, feedback_keeps_its_rate], see="09_arms#phases-why", clauses=[9])
 def names_its_phases(run: Transcript) -> None:
     """Phase is shifting, rising, settling, each while the robot does it"""
     require_named_phases(run.goal("rise"))
 
 
-@check(points=1, on=RISE, needs=[rises, feedback_keeps_its_rate], see="08_navigation#zero-why")
+@check(points=1, on=RISE, needs=[rises, feedback_keeps_its_rate], see="08_navigation#zero-why", clauses=[10])
 def percent_is_measured(run: Transcript) -> None:
     """percent_complete is the share of the height gained, and ends at 100"""
     require_measured_percent(run.goal("rise"))
 
 
-@check(points=1, on=GLIDES, needs=[accepts_a_goal, feedback_keeps_its_rate], see="08_navigation#zero-why")
+@check(
+    points=1,
+    on=GLIDES,
+    needs=[accepts_a_goal, feedback_keeps_its_rate],
+    see="08_navigation#zero-why",
+    clauses=[11],
+)
 def percent_never_falls(run: Transcript) -> None:
     """percent_complete does not fall when the pelvis bobs"""
     require_bobbing(run)
@@ -125,31 +131,31 @@ def percent_never_falls(run: Transcript) -> None:
 
 
 feedback_ends_with_the_goal = standard.feedback_ends_with_the_goal(
-    "rise", points=1, on=RISE, needs=[rises, feedback_keeps_its_rate]
+    "rise", points=1, on=RISE, needs=[rises, feedback_keeps_its_rate], clauses=[8]
 )
 
 
-@check(points=1, on=UNKNOWN, needs=accepts_a_goal, see="06_walk_to_a_pose#reject-task")
+@check(points=1, on=UNKNOWN, needs=accepts_a_goal, see="06_walk_to_a_pose#reject-task", clauses=[1])
 def rejects_before_anything_is_known(run: Transcript) -> None:
     """It rejects a goal before the first messages of the robot, and accepts one after them"""
     require_rejected_until_known(run, run.goal("before"), run.goal("after"))
 
 
-@check(points=2, on=LEANED_ON, needs=rises, see="09_arms#still-why")
+@check(points=2, on=LEANED_ON, needs=rises, see="09_arms#still-why", clauses=[4, 9])
 def waits_for_even_loads(run: Transcript) -> None:
     """While somebody leans on the robot it stays down, in shifting; then it rises"""
     require_waited(run.goal("rise"))
     require_risen(run.goal("rise"))
 
 
-@check(points=2, on=PUSHED, needs=rises, see="09_arms#phases-why")
+@check(points=2, on=PUSHED, needs=rises, see="09_arms#phases-why", clauses=[7, 9])
 def shifts_again_after_a_push(run: Transcript) -> None:
     """Leaned on while it rises, it stops and goes back to shifting; then it rises"""
     require_shifted_again(run.goal("rise"))
     require_risen(run.goal("rise"))
 
 
-@check(points=1, on=STANDING, needs=server_appears, see="09_arms#phases-why")
+@check(points=1, on=STANDING, needs=server_appears, see="09_arms#phases-why", clauses=[1, 2])
 def accepts_a_goal_when_it_stands(run: Transcript) -> None:
     """It accepts a goal for a robot that stands already, because a rejection carries no reason"""
     require_accepted(
@@ -159,32 +165,32 @@ def accepts_a_goal_when_it_stands(run: Transcript) -> None:
     )
 
 
-@check(points=2, on=STANDING, needs=accepts_a_goal_when_it_stands, see="09_arms#phases-why")
+@check(points=2, on=STANDING, needs=accepts_a_goal_when_it_stands, see="09_arms#phases-why", clauses=[2, 17])
 def says_that_it_stands_already(run: Transcript) -> None:
     """That goal is ABORTED at once with ALREADY_STANDING and a sentence"""
     require_standing_told(run.goal("standing"))
 
 
-@check(points=2, on=CANCEL, needs=accepts_a_goal, see="07_cancel_and_preempt#m1-why")
+@check(points=2, on=CANCEL, needs=accepts_a_goal, see="07_cancel_and_preempt#m1-why", clauses=[12])
 def cancels_under_way(run: Transcript) -> None:
     """A cancel while the robot rises is agreed to and ends CANCELED"""
     request = run.goal("canceled").require_canceled()
     require_begun(run.goal("canceled"), request.t)
 
 
-@check(points=2, on=CANCEL, needs=cancels_under_way, see="07_cancel_and_preempt#m12-robot-why")
+@check(points=2, on=CANCEL, needs=cancels_under_way, see="07_cancel_and_preempt#m12-robot-why", clauses=[12])
 def stays_where_it_was_canceled(run: Transcript) -> None:
     """After the cancel the pelvis stays at the height it had reached"""
     require_stayed(run.goal("canceled"))
 
 
-@check(points=1, on=TWICE, needs=rises, see=LOOK)
+@check(points=1, on=TWICE, needs=rises, see=LOOK, clauses=[13])
 def rejects_a_second_goal(run: Transcript) -> None:
     """It rejects a goal while another runs, and the first goes on"""
     require_rejected_while_busy(run.goal("first"), run.goal("second"))
 
 
-@check(points=2, on=HELD, needs=accepts_a_goal, see="08_navigation#late-why")
+@check(points=2, on=HELD, needs=accepts_a_goal, see="08_navigation#late-why", clauses=[14, 17])
 def gives_up_in_time(run: Transcript) -> None:
     """Held down, it ends ABORTED after 12 s, with a sentence"""
     goal = run.goal("held")
@@ -192,22 +198,22 @@ def gives_up_in_time(run: Transcript) -> None:
     require_given_up(goal, goal.accepted_at)
 
 
-@check(points=1, on=HELD, needs=gives_up_in_time, see="08_navigation#late-why")
+@check(points=1, on=HELD, needs=gives_up_in_time, see="08_navigation#late-why", clauses=[14])
 def stays_down_after_the_limit(run: Transcript) -> None:
     """After that the robot stays down, also when it is let go"""
     require_no_rise_afterwards(run.goal("held"))
 
 
-@check(points=1, on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why")
+@check(points=1, on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why", clauses=[15, 17])
 def aborts_when_the_robot_falls(run: Transcript) -> None:
     """When the robot falls the goal is ABORTED with FELL and a sentence"""
     require_aborted_by_a_fall(run.goal("rise"))
 
 
-@check(points=1, on=FALLEN, needs=server_appears, see="07_cancel_and_preempt#fall-why")
+@check(points=1, on=FALLEN, needs=server_appears, see="07_cancel_and_preempt#fall-why", clauses=[16])
 def knows_that_a_fall_is_the_end(run: Transcript) -> None:
     """A goal for a robot that has fallen is rejected, or ABORTED at once with FELL"""
     require_hopeless(run.goal("fallen"))
 
 
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears, see=LOOK)
+ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears, see=LOOK, clauses=[18])

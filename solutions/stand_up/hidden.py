@@ -100,6 +100,7 @@ OTHER_NAMESPACE = Scenario("rise", robot=CROUCH, namespace="/lab_7/robot")
     on=ANY_HEIGHT,
     needs=[settles_before_it_succeeds, percent_is_measured],
     see="08_navigation#zero-why",
+    clauses=[6, 10],
 )
 def rises_from_any_height(run: Transcript) -> None:
     """It rises from any crouch, and counts its percents from there"""
@@ -108,7 +109,9 @@ def rises_from_any_height(run: Transcript) -> None:
     require_measured_percent(run.goal("rise"))
 
 
-@check(points=1, on=RISE_TWICE, needs=[rises, says_that_it_stands_already], see="09_arms#phases-why")
+@check(
+    points=1, on=RISE_TWICE, needs=[rises, says_that_it_stands_already], see="09_arms#phases-why", clauses=[2]
+)
 def stands_already_after_it_has_risen(run: Transcript) -> None:
     """A goal after a success is accepted, and ABORTED with ALREADY_STANDING"""
     require_risen(run.goal("rise"))
@@ -120,6 +123,7 @@ def stands_already_after_it_has_risen(run: Transcript) -> None:
     on=AGAIN,
     needs=[percent_is_measured, stays_where_it_was_canceled],
     see="07_cancel_and_preempt#fix-intro",
+    clauses=[6, 10],
 )
 def rises_after_a_cancel(run: Transcript) -> None:
     """After a cancel a new goal goes on from the height reached"""
@@ -128,7 +132,7 @@ def rises_after_a_cancel(run: Transcript) -> None:
     require_measured_percent(run.goal("again"))
 
 
-@check(points=1, on=SWAYS, needs=waits_for_even_loads, see="09_arms#steady-gap")
+@check(points=1, on=SWAYS, needs=waits_for_even_loads, see="09_arms#steady-gap", clauses=[4])
 def waits_until_loads_stay_even(run: Transcript) -> None:
     """Loads that are even for a moment only, or 30 % apart, do not let it rise"""
     require_even_for_a_while(run, run.goal("rise"))
@@ -139,6 +143,7 @@ def waits_until_loads_stay_even(run: Transcript) -> None:
     on=ASIDE,
     needs=[settles_before_it_succeeds, waits_for_even_loads, shifts_again_after_a_push],
     see="09_arms#phases-why",
+    clauses=[7],
 )
 def shifts_again_from_settling(run: Transcript) -> None:
     """Uneven loads lead back to shifting also from settling"""
@@ -150,6 +155,7 @@ def shifts_again_from_settling(run: Transcript) -> None:
     on=FIDGETS,
     needs=[settles_before_it_succeeds, waits_until_it_is_still],
     see="09_arms#steady-gap",
+    clauses=[6],
 )
 def waits_until_calm_lasts(run: Transcript) -> None:
     """A robot that is calm for a moment only has not settled"""
@@ -157,7 +163,11 @@ def waits_until_calm_lasts(run: Transcript) -> None:
 
 
 @check(
-    points=1, on=SHIFTING, needs=[cancels_under_way, waits_for_even_loads], see="07_cancel_and_preempt#m1-why"
+    points=1,
+    on=SHIFTING,
+    needs=[cancels_under_way, waits_for_even_loads],
+    see="07_cancel_and_preempt#m1-why",
+    clauses=[12],
 )
 def cancels_while_it_shifts(run: Transcript) -> None:
     """A cancel in shifting ends CANCELED, and the robot stays down"""
@@ -172,6 +182,7 @@ def cancels_while_it_shifts(run: Transcript) -> None:
     on=TIRES,
     needs=[gives_up_in_time, waits_for_even_loads],
     see="08_navigation#late-why",
+    clauses=[14],
 )
 def the_limit_holds_for_all_phases(run: Transcript) -> None:
     """The 12 s begin once, and are over in shifting, too"""
@@ -183,13 +194,14 @@ def the_limit_holds_for_all_phases(run: Transcript) -> None:
     on=PUSH,
     needs=[settles_before_it_succeeds, shifts_again_after_a_push],
     see="09_arms#phases-why",
+    clauses=[6, 7],
 )
 def survives_a_push(run: Transcript) -> None:
     """Pushed hard on its way, it rises all the same"""
     require_settled(run.goal("rise"))
 
 
-@check(points=1, on=OTHER_NAMESPACE, needs=rises, see="01_robot_and_graph#names-why")
+@check(points=1, on=OTHER_NAMESPACE, needs=rises, see="01_robot_and_graph#names-why", clauses=[18])
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it raises the robot there"""
     require_risen(run.goal("rise"))

@@ -75,7 +75,11 @@ ARRIVES = program("interrupted", {"ends_after": None, "arrives_after": 3.0})
 
 
 @check(
-    points=1, on=[ANY_WALK, WITHOUT_YAW], needs=says_how_it_succeeded, see="03_clients_that_survive#fix-frame"
+    points=1,
+    on=[ANY_WALK, WITHOUT_YAW],
+    needs=says_how_it_succeeded,
+    see="03_clients_that_survive#fix-frame",
+    clauses=[1, 4],
 )
 def walks_anywhere(with_yaw: Transcript, without_yaw: Transcript) -> None:
     """Negative numbers, and a yaw that is left out, are sent as they are meant"""
@@ -85,7 +89,13 @@ def walks_anywhere(with_yaw: Transcript, without_yaw: Transcript) -> None:
         require_success(run, goal, WITHIN)
 
 
-@check(points=1, on=OTHER_NAMESPACE, needs=says_how_it_succeeded, see="01_robot_and_graph#names-why")
+@check(
+    points=1,
+    on=OTHER_NAMESPACE,
+    needs=says_how_it_succeeded,
+    see="01_robot_and_graph#names-why",
+    clauses=[12],
+)
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it sends the goal to the robot there"""
     require_success(run, require_one_goal(run, WALK), WITHIN)
@@ -96,13 +106,14 @@ def works_in_any_namespace(run: Transcript) -> None:
     on=UNANSWERED,
     needs=[sends_the_goal, gives_up_without_a_server],
     see="03_clients_that_survive#fix-why",
+    clauses=[6, 9],
 )
 def gives_up_without_an_answer(run: Transcript) -> None:
     """A goal that is never answered ends it with status 1 after 5 s"""
     require_no_answer_noticed(run)
 
 
-@check(points=2, on=SLOW, needs=gives_up_in_silence, see="03_clients_that_survive#deadline-why")
+@check(points=2, on=SLOW, needs=gives_up_in_silence, see="03_clients_that_survive#deadline-why", clauses=[8])
 def walks_as_long_as_it_takes(run: Transcript) -> None:
     """A walk of 12 s with feedback each 3 s is followed to its end: only silence has a limit"""
     goal = require_one_goal(run, WALK)
@@ -114,6 +125,7 @@ def walks_as_long_as_it_takes(run: Transcript) -> None:
     on=[FALLING_SILENT, DYING],
     needs=walks_as_long_as_it_takes,
     see="03_clients_that_survive#kill-why",
+    clauses=[7, 9],
 )
 def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
     """A server that falls silent or dies on the way ends it with status 1, 5 s after the last feedback"""
@@ -126,13 +138,14 @@ def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
     on=EARLY,
     needs=[prints_the_feedback, says_how_it_succeeded],
     see="06_walk_to_a_pose#slow-end-why",
+    clauses=[12],
 )
 def survives_early_feedback(run: Transcript) -> None:
     """Feedback that comes before the goal is accepted disturbs nothing"""
     require_success_after_early_feedback(run, WITHIN)
 
 
-@check(points=1, on=BY_ANOTHER, needs=tells_an_abort, see="07_cancel_and_preempt#cancel-all")
+@check(points=1, on=BY_ANOTHER, needs=tells_an_abort, see="07_cancel_and_preempt#cancel-all", clauses=[3, 4])
 def tells_a_cancel_by_another(run: Transcript) -> None:
     """A goal that somebody else cancels ends it with status 4, and a line on stdout says CANCELED"""
     goal = require_one_goal(run, WALK)
@@ -143,7 +156,13 @@ def tells_a_cancel_by_another(run: Transcript) -> None:
     require_ending_line(run, "CANCELED", exited.t)
 
 
-@check(points=2, on=[NO_CODE, WITH_WORDS], needs=tells_an_abort, see="06_walk_to_a_pose#hopeful-why")
+@check(
+    points=2,
+    on=[NO_CODE, WITH_WORDS],
+    needs=tells_an_abort,
+    see="06_walk_to_a_pose#hopeful-why",
+    clauses=[3, 9],
+)
 def believes_the_status(aborted: Transcript, succeeded: Transcript) -> None:
     """The status decides: ABORTED with error_code NONE is 3, SUCCEEDED with an error_msg is 0"""
     goal = require_one_goal(aborted, WALK)
@@ -152,7 +171,7 @@ def believes_the_status(aborted: Transcript, succeeded: Transcript) -> None:
     require_success(succeeded, require_one_goal(succeeded, WALK), WITHIN)
 
 
-@check(points=1, on=FORGETFUL, needs=says_how_it_succeeded, see="06_walk_to_a_pose#late-why")
+@check(points=1, on=FORGETFUL, needs=says_how_it_succeeded, see="06_walk_to_a_pose#late-why", clauses=[12])
 def asks_for_the_result_in_time(run: Transcript) -> None:
     """A server that keeps a result for 1 s is asked for it before"""
     goal = require_one_goal(run, WALK)
@@ -173,6 +192,7 @@ def asks_for_the_result_in_time(run: Transcript) -> None:
     on=[NEVER_CANCELED, ARRIVES],
     needs=ctrl_c_cancels_the_goal,
     see="07_cancel_and_preempt#m1-why",
+    clauses=[10],
 )
 def ctrl_c_ends_it_in_any_case(never: Transcript, arrives: Transcript) -> None:
     """After Ctrl-C it ends with status 4, also when the goal SUCCEEDED all the same or has not ended in 5 s"""
@@ -183,7 +203,7 @@ def ctrl_c_ends_it_in_any_case(never: Transcript, arrives: Transcript) -> None:
         require_end_after_ctrl_c(run, WITHIN)
 
 
-@check(points=1, on=ANY_WALK, needs=prints_the_feedback, see="06_walk_to_a_pose#slow-end-why")
+@check(points=1, on=ANY_WALK, needs=prints_the_feedback, see="06_walk_to_a_pose#slow-end-why", clauses=[2])
 def prints_any_feedback(run: Transcript) -> None:
     """Whatever the distances are, they are printed as they came"""
     require_feedback_lines(run, require_one_goal(run, WALK))
