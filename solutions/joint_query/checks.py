@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-import re
-
-from autograder.authoring import events as ev
 from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario, check, expect
-from autograder.authoring.robot_topic import require_nothing_published
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.obligation import check_of
 
-from .judging import (
-    listed,
-    require_names,
-    require_positions,
-    require_posture,
-    require_refusal,
-    require_success,
-    robot_joints,
-)
+from . import model
 
-# Six joints that stand at different angles, in an order that is neither the robot's nor the alphabet's.
-SIX_JOINTS = ["r_knee", "l_shoulder_roll", "r_shoulder_roll", "l_hip_pitch", "l_elbow", "r_shoulder_pitch"]
+# Joints that stand at different angles, one twice, in an order that is neither the robot's nor the alphabet's.
+SOME_JOINTS = [
+    "r_knee",
+    "l_shoulder_roll",
+    "r_shoulder_roll",
+    "r_knee",
+    "l_hip_pitch",
+    "l_elbow",
+    "r_shoulder_pitch",
+]
 POSTURE = {
     "r_elbow": -0.9,
     "l_wrist_yaw": 0.3,
@@ -30,101 +26,120 @@ POSTURE = {
     "r_shoulder_roll": -0.8,
     "l_elbow": -1.4,
 }  # rad
-STRANGERS = ["tail_yaw", "l_knee", "r_wing_pitch", "head_pan", "antenna_2"]
+STRANGERS = ["tail_yaw", "l_knee", "r_wing_pitch", "head_pan", "antenna_2", "l_wheel", "gripper"]
+UNPLUGGED_ROBOT = (*RESTING, "--joint-sensors-unplugged")
 
-ASK = Scenario("ask", {"names": SIX_JOINTS, "posture": POSTURE, "strangers": STRANGERS})
-UNPLUGGED = Scenario(
-    "ask_before_the_first_message", {"names": SIX_JOINTS}, robot=(*RESTING, "--joint-sensors-unplugged")
+ASK = Scenario(
+    "in_order",
+    {"steps": [["let_arrive"], ["ask", SOME_JOINTS], ["ask", []]], "interrupt": True},
+    robot=RESTING,
 )
-INTERRUPT = Scenario("interrupt", {"names": SIX_JOINTS}, robot=RESTING)
+MOVED = Scenario(
+    "in_order",
+    {
+        "steps": [
+            *(["let_arrive"], ["ask", [*POSTURE]], ["reverse", True], ["move", POSTURE], ["ask", [*POSTURE]]),
+            *(["unplug"], ["wait", 5.5], ["ask", [*POSTURE]]),
+        ]
+    },
+    robot=RESTING,
+)
+STRANGE = Scenario(
+    "in_order",
+    {
+        "steps": [
+            *(["let_arrive"], ["ask", STRANGERS], ["ask", ["l_knee"]]),
+            *(["ask", ["elbow"]], ["ask", ["R_Elbow"]], ["ask", ["head_pan"]]),
+        ]
+    },
+    robot=RESTING,
+)
+UNPLUGGED = Scenario(
+    "in_order",
+    {
+        "steps": [
+            *(["ask", SOME_JOINTS], ["ask", []], ["ask", ["l_knee"], STRANGERS]),
+            *(["plug_in"], ["let_arrive"], ["ask", SOME_JOINTS]),
+        ]
+    },
+    robot=UNPLUGGED_ROBOT,
+)
 
 
 server_appears = standard.server_appears(
-    "get_joint_positions", points=1, on=INTERRUPT, see="02_services#first-file"
+    "get_joint_positions", points=1, on=ASK, see="02_services#first-file", clauses=[7]
 )
 
+finds_the_joints = check_of(
+    "finds_the_joints",
+    model.finds_the_joints,
+    points=1,
+    on=ASK,
+    needs=server_appears,
+    see="01_robot_and_graph#joints-intro",
+)
 
-@check(points=1, on=ASK, needs=server_appears, see="01_robot_and_graph#joints-intro")
-def finds_the_joints(run: Transcript) -> None:
-    """Asked for joints that the robot has, it answers success: true"""
-    require_success(run.call("some joints"))
+keeps_the_order_asked = check_of(
+    "keeps_the_order_asked",
+    model.keeps_the_order_asked,
+    points=1,
+    on=ASK,
+    needs=finds_the_joints,
+    see="01_robot_and_graph#joints-run",
+)
 
+positions_are_the_robots = check_of(
+    "positions_are_the_robots",
+    model.positions_are_the_last,
+    points=2,
+    on=ASK,
+    needs=finds_the_joints,
+    see="01_robot_and_graph#joints-run",
+)
 
-@check(points=1, on=ASK, needs=finds_the_joints, see="01_robot_and_graph#joints-run")
-def keeps_the_order_asked(run: Transcript) -> None:
-    """joint_state.name holds the names asked for, in the order of the request"""
-    require_names(run.call("some joints"))
+no_names_means_all = check_of(
+    "no_names_means_all",
+    model.lists_every_joint_once,
+    points=1,
+    on=ASK,
+    needs=finds_the_joints,
+    see="01_robot_and_graph#joints-intro",
+)
 
+follows_the_robot = check_of(
+    "follows_the_robot",
+    model.finds_the_joints,
+    model.positions_are_the_last,
+    title="When the arms have moved, so has the answer, in any order of the joints; in a silence the last one stays",
+    points=1,
+    on=MOVED,
+    needs=positions_are_the_robots,
+    see="02_services#diagram",
+)
 
-@check(points=2, on=ASK, needs=finds_the_joints, see="01_robot_and_graph#joints-run")
-def positions_are_the_robots(run: Transcript) -> None:
-    """Each position is that of the joint beside it, in radians, as the robot published it"""
-    require_positions(run.call("some joints"))
+names_every_unknown_joint = check_of(
+    "names_every_unknown_joint",
+    model.refuses_unknown_joints,
+    model.names_every_unknown_joint,
+    model.finds_the_joints,
+    title="Unknown joints: success: false and a message that names each of them; then it serves on",
+    points=2,
+    on=STRANGE,
+    needs=finds_the_joints,
+    see="02_services#set-refuse-why",
+)
 
-
-@check(points=1, on=ASK, needs=positions_are_the_robots, see="01_robot_and_graph#joints-intro")
-def no_names_means_all(run: Transcript) -> None:
-    """Asked with an empty list, it answers with every joint once"""
-    call = run.call("all joints")
-    require_success(call)
-    names, joints = call.response.joint_state.name, robot_joints(run)
-    missing = sorted(set(joints) - set(names))
-    expect(
-        sorted(names) == sorted(joints),
-        expected=f"all {len(joints)} joints of the robot, each once, in any order",
-        observed=f"{len(names)} names; missing: {listed(missing)}",
-        help="When request.names is empty, answer as if every name of the last joint_states had been asked for.",
-        at=call.answered.t,
-    )
-    require_positions(call)
-
-
-@check(points=1, on=ASK, needs=positions_are_the_robots, see="02_services#diagram")
-def follows_the_robot(run: Transcript) -> None:
-    """When the arms have moved, the answer has moved with them"""
-    call = run.call("moved joints")
-    require_success(call)
-    require_posture(call, POSTURE)
-    require_positions(call)
-
-
-@check(points=2, on=ASK, needs=finds_the_joints, see="02_services#set-refuse-why")
-def names_every_unknown_joint(run: Transcript) -> None:
-    """Unknown joints: success: false and a message that names each of them; then it serves on"""
-    call = run.call("strangers")
-    message, joints = call.response.message, robot_joints(run)
-    unknown = [name for name in STRANGERS if name not in joints]
-    require_refusal(
-        call,
-        because=f"the robot has no {', '.join(unknown)}",
-        help="The message names the unknown joints, but success is true: leave response.success False."
-        if any(name in message for name in unknown)
-        else "An unknown name fails the whole request: success stays false and message says which names.",
-    )
-    unnamed = [name for name in unknown if not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", message)]
-    expect(
-        not unnamed,
-        expected=f"a message with every unknown joint: {', '.join(unknown)}",
-        observed=f"{message[:200]!r}, without {', '.join(unnamed)}",
-        help="Collect the unknown names of the whole request before you answer, instead of stopping at the first.",
-        at=call.answered.t,
-    )
-    require_success(run.call("one joint"))
-
-
-@check(points=1, on=UNPLUGGED, needs=server_appears, see="02_services#m9-fix-why")
-def says_when_it_knows_nothing(run: Transcript) -> None:
-    """Before the first joint_states it answers success: false, also to an empty list"""
-    for call in (run.call("some joints"), run.call("all joints")):
-        require_nothing_published(call, ev.JointsPublished, "joint_states")
-        require_nothing_published(call, ev.RobotCommanded, "joint_states")
-        require_refusal(
-            call,
-            because="the robot has not published its joints yet",
-            help="Start with no message (None) and answer success: false as long as none has arrived.",
-        )
-
+says_when_it_knows_nothing = check_of(
+    "says_when_it_knows_nothing",
+    model.never_waits,
+    model.says_when_it_knows_nothing,
+    title="Before the first joint_states it answers at once with success: false, whatever was asked",
+    points=1,
+    on=UNPLUGGED,
+    needs=server_appears,
+    see="02_services#m9-fix-why",
+)
 
 ends_cleanly = standard.ends_cleanly(
-    points=1, on=INTERRUPT, needs=server_appears, see="02_services#conventions"
+    points=1, on=ASK, needs=server_appears, see="02_services#conventions", clause=8
 )

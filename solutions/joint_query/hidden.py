@@ -2,146 +2,172 @@
 
 from __future__ import annotations
 
-import random
+from random import Random
 from typing import Any
 
-from autograder.authoring.call import Call
-from autograder.authoring.checks import RESTING, Scenario, check, expect
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import standard_hidden
+from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.obligation import check_of
 
+from . import model
 from .checks import (
-    SIX_JOINTS,
+    SOME_JOINTS,
+    STRANGERS,
     UNPLUGGED,
-    finds_the_joints,
+    UNPLUGGED_ROBOT,
     follows_the_robot,
     keeps_the_order_asked,
     names_every_unknown_joint,
     positions_are_the_robots,
     says_when_it_knows_nothing,
 )
-from .judging import (
-    listed,
-    require_names,
-    require_positions,
-    require_posture,
-    require_refusal,
-    require_reversed,
-    require_success,
+
+PARTS = [
+    *("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll"),
+    *("shoulder_pitch", "shoulder_roll", "shoulder_yaw", "elbow", "wrist_yaw", "wrist_pitch", "wrist_roll"),
+]
+FINGERS = ["l_finger_1", "l_finger_2", "r_finger_1", "r_finger_2"]
+JOINTS = [
+    "waist_yaw",
+    "waist_pitch",
+    "head_pan",
+    "head_tilt",
+    *(f"{side}_{part}" for part in PARTS for side in "lr"),
+]
+MOST_AT_ONCE = 8  # a service keeps its last 10 requests
+
+
+def _steps(random: Random) -> dict[str, Any]:
+    """Ask before the first message, then in any order: other readings and orders, silences, strangers, many at once."""
+
+    def joints() -> list[str]:
+        return random.sample([*JOINTS, *FINGERS], random.randint(1, 5))
+
+    def strangers() -> list[str]:
+        name = random.choice(JOINTS)
+        return random.sample(
+            [name.upper(), name.title(), f" {name}", f"{name} ", random.choice(PARTS), "", *STRANGERS], 3
+        )
+
+    def mixed() -> list[str]:
+        names = [*joints(), *(unknown := strangers()), unknown[0]]
+        return random.sample(names, len(names))
+
+    def repeated() -> list[str]:
+        names = joints()
+        return random.sample([*names, *names, names[0]], 2 * len(names) + 1)
+
+    def readings() -> dict[str, float]:
+        names = random.sample(JOINTS, 6)
+        away = {name: round(random.uniform(-3.1, 3.1), 7) for name in names}
+        return {**away, names[0]: 0.0, names[1]: away[names[1]] / 1000, random.choice(FINGERS): 0.0234567}
+
+    def seconds(least: float, most: float) -> float:
+        return round(random.uniform(least, most), 1)
+
+    first, second, third, fourth = (readings() for _ in range(4))
+    burst = [[], joints(), joints(), repeated(), mixed(), joints(), strangers(), joints()]
+    keeping_on: list[list[Any]] = [["ask", ["head_pan"]], ["wait", 0.1]] * 12
+    blocks: list[list[list[Any]]] = [
+        [
+            *(["read", first], ["let_arrive"], ["ask", [*first]]),
+            *(
+                ["read", second],
+                ["reverse", True],
+                ["let_arrive"],
+                ["ask", [*first, *second]],
+                ["reverse", False],
+            ),
+        ],
+        [["alternate", True], ["let_arrive"], *(["ask", joints()] for _ in range(4)), ["alternate", False]],
+        [
+            ["unplug"],
+            ["read", third],
+            ["wait", seconds(6.0, 10.0)],
+            ["ask", [*third]],
+            ["ask", []],
+            ["plug_in"],
+        ],
+        [["ask", *random.sample(burst, MOST_AT_ONCE)]],
+        [["ask", strangers()[:1]], ["ask", mixed()], ["ask", joints()], ["ask", repeated()]],
+        [["read", {}], ["turn", "head_pan", random.choice([-0.8, 0.8])], *keeping_on],
+    ]
+    random.shuffle(blocks)
+    before = [
+        *(["ask", joints()], ["ask", []], ["wait", seconds(0.5, 1.5)]),
+        ["ask", *random.sample(burst, random.randint(2, MOST_AT_ONCE))],
+    ]
+    after = [["plug_in"], ["read", fourth], ["let_arrive"], ["ask", [*fourth]], ["ask", joints(), []]]
+    return {"steps": [*before, *after, *(step for block in blocks for step in block)]}
+
+
+ANY_ORDER = Scenario("in_order", _steps, robot=UNPLUGGED_ROBOT)
+OTHER_NAMESPACE = Scenario(
+    "in_order", {"steps": [["let_arrive"], ["ask", SOME_JOINTS]]}, robot=RESTING, namespace="/lab_7/robot"
 )
 
-# Where the robot can hold its arms and head without touching itself: rad.
-RANGES = {
-    "head_pan": (-1.0, 1.0),
-    "head_tilt": (-0.5, 0.7),
-    "l_shoulder_pitch": (-0.9, 0.5),
-    "l_shoulder_roll": (0.3, 1.0),
-    "l_elbow": (-2.1, -1.7),
-    "l_wrist_yaw": (-0.8, 0.8),
-    "r_shoulder_pitch": (-0.9, 0.5),
-    "r_shoulder_roll": (-1.0, -0.3),
-    "r_elbow": (-1.5, -0.4),
-    "r_wrist_pitch": (-0.8, 0.8),
-}
-BURST = 8
-
-
-def _inputs(random: random.Random) -> dict[str, Any]:
-    """A posture, several lists for one moment, a list for another order on the topic, and parts of names."""
-    joints = random.sample(sorted(RANGES), len(RANGES))
-    return {
-        "posture": {name: round(random.uniform(*RANGES[name]), 3) for name in joints},
-        "burst": {
-            f"at once, {number}": [f"{random.choice('lr')}_hip_yaw", *random.sample(sorted(RANGES), 3)]
-            for number in range(1, BURST + 1)
-        },
-        "reordered": random.sample(sorted(RANGES), 5),
-        "parts": {
-            f"part {part}": [part]
-            for part in random.sample(["elbow", "l_shoulder", "hip_", "wrist_yaw", "head", "r_"], 2)
-        },
-    }
-
-
-EVERY_WAY = Scenario("ask_in_every_way", _inputs)
-OTHER_NAMESPACE = Scenario("ask_once", {"names": SIX_JOINTS}, robot=RESTING, namespace="/lab_7/robot")
-
-
-def _require_positions_as_asked(call: Call) -> None:
-    require_success(call)
-    require_names(call)
-    require_positions(call)
-
-
-@check(
+recovers_when_the_sensors_appear = check_of(
+    "recovers_when_the_sensors_appear",
+    model.finds_the_joints,
+    model.positions_are_the_last,
+    title="Once the first message has come, it answers with it",
     points=1,
     on=UNPLUGGED,
     needs=[positions_are_the_robots, says_when_it_knows_nothing],
     see="02_services#m9-fix-why",
 )
-def recovers_when_the_sensors_appear(run: Transcript) -> None:
-    """Once the first message has come, it answers with it"""
-    call = run.call("after the first message")
-    run.told("joint_sensors", before=call.sent.t, connected=True)
-    _require_positions_as_asked(call)
 
-
-@check(
+answers_in_any_posture = check_of(
+    "answers_in_any_posture",
+    model.finds_the_joints,
+    model.positions_are_the_last,
+    model.keeps_up_with_a_motion,
+    model.lists_every_joint_once,
+    model.says_when_it_knows_nothing,
+    title="Whatever came before, and however long the robot is silent, it answers with the last message as it came",
     points=1,
-    on=EVERY_WAY,
-    needs=[keeps_the_order_asked, follows_the_robot],
+    on=ANY_ORDER,
+    needs=follows_the_robot,
     see="01_robot_and_graph#joints-intro",
 )
-def answers_in_any_posture(run: Transcript) -> None:
-    """Whatever the posture, it answers with it"""
-    call = run.call("in a posture")
-    _require_positions_as_asked(call)
-    require_posture(call, run.params["posture"])
 
+answers_every_request = check_of(
+    "answers_every_request",
+    model.answers_in_time,
+    model.never_waits,
+    model.keeps_the_order_asked,
+    title="Every request is answered at once with its own joints, also eight different ones together",
+    points=1,
+    on=ANY_ORDER,
+    needs=keeps_the_order_asked,
+    see="02_services#m4-why",
+)
 
-@check(points=1, on=EVERY_WAY, needs=finds_the_joints, see="02_services#m4-why")
-def answers_every_request(run: Transcript) -> None:
-    """Eight different requests at once are all answered, each with its own joints and within 2 s"""
-    for name in run.params["burst"]:
-        call = run.call(name)
-        returned, wanted = call.response.joint_state.name, call.request.names
-        expect(
-            call.latency <= 2.0,
-            expected="every answer within 2 s",
-            observed=f"one took {call.latency:.2f} s",
-            help="Answer from memory: the callback must not sleep or wait for the next message.",
-            at=call.sent.t,
-        )
-        expect(
-            sorted(returned) == sorted(wanted),
-            expected=f"an answer to {', '.join(wanted)}",
-            observed=f"joints of another request: {listed(returned)}",
-            help="Requests may be served at the same time: keep what belongs to one in local variables, not in self.",
-            at=call.answered.t,
-        )
+looks_joints_up_by_name = check_of(
+    "looks_joints_up_by_name",
+    model.looks_joints_up_by_name,
+    points=1,
+    on=ANY_ORDER,
+    needs=positions_are_the_robots,
+    see="01_robot_and_graph#joints-run",
+)
 
+takes_no_joint_for_another = check_of(
+    "takes_no_joint_for_another",
+    model.refuses_unknown_joints,
+    model.names_every_unknown_joint,
+    title="Names count letter by letter: unknown ones among known ones, parts, capitals and blanks are refused by name",
+    points=1,
+    on=ANY_ORDER,
+    needs=names_every_unknown_joint,
+    see="02_services#set-refuse-why",
+)
 
-@check(points=1, on=EVERY_WAY, needs=answers_in_any_posture, see="01_robot_and_graph#joints-run")
-def looks_joints_up_by_name(run: Transcript) -> None:
-    """When joint_states lists the joints in another order, each position is still its own joint's"""
-    call = run.call("in another order")
-    _require_positions_as_asked(call)
-    require_reversed(call)
-
-
-@check(points=1, on=EVERY_WAY, needs=names_every_unknown_joint, see="02_services#set-refuse-why")
-def takes_no_joint_for_another(run: Transcript) -> None:
-    """A part of a joint's name is no joint: success: false"""
-    for name in run.params["parts"]:
-        require_refusal(
-            run.call(name),
-            because="that is only a part of joints' names",
-            help="Compare whole names: `name in positions` with a dictionary, not `part in name` with a string.",
-        )
-
-
-@check(points=1, on=OTHER_NAMESPACE, needs=positions_are_the_robots, see="01_robot_and_graph#names-why")
-def works_in_any_namespace(run: Transcript) -> None:
-    """Started in another namespace, it serves the robot there"""
-    call = run.call("some joints")
-    require_success(call)
-    require_positions(call)
+works_in_any_namespace = standard_hidden.works_in_any_namespace(
+    "serves the robot",
+    model.positions_are_the_last,
+    points=1,
+    on=OTHER_NAMESPACE,
+    needs=positions_are_the_robots,
+    clauses=[7],
+)

@@ -1,0 +1,232 @@
+"""What must hold of every answer of the joint query, clause by clause, in every scenario."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+from autograder.authoring.call import Call
+from autograder.authoring.connections import lesson_on_hearing
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.fields import shown_fields
+from autograder.authoring.obligation import calls, obligation, whole_run
+from autograder.authoring.robot_topic import JOINTS, known_messages
+from autograder.authoring.standard_obligations import answered_within, answers_from_memory
+from autograder.authoring.transcript import Transcript
+
+from .advice import (
+    about_repeats,
+    advice_on_names,
+    advice_on_positions,
+    advice_on_refusal,
+    advice_on_strangers,
+    asked,
+    contains_name,
+    described,
+    listed,
+    not_heard,
+    quoted,
+)
+from .truth import (
+    is_a_success,
+    is_at,
+    is_deaf,
+    moved_between,
+    must_know,
+    positions_by_name,
+    robot_joints,
+    situation,
+    unknown_names,
+)
+
+SERVICE = "get_joint_positions"
+# A busy machine may hold up a message, but not most of them, while it passes the requests to the same node: more than
+# MOST_STALE of at least ENOUGH_PAIRS answers are the same as the one before only if the node answers from an old table.
+ENOUGH_PAIRS, MOST_STALE = 6, 0.6
+
+
+def _knowledge(call: Call) -> str:
+    return "after the first message" if must_know(call) else "before the first message"
+
+
+answers_in_time = answered_within(2.0, SERVICE, clause=6)
+never_waits = answers_from_memory(SERVICE, _knowledge, clause=6)
+
+
+@obligation(1, 2, of=calls(SERVICE))
+def finds_the_joints(call: Call) -> str | None:
+    """Asked for joints that the robot has, or for all, it answers success: true"""
+    deaf = is_deaf(call)
+    if not deaf and (not must_know(call) or unknown_names(call)):
+        return None
+    expect(
+        call.response.success,
+        expected=f"success: true for {asked(call)}, which the robot has",
+        observed=shown_fields(call.response, "success", "message"),
+        help=not_heard(call.run) if deaf else advice_on_refusal(call),
+        at=call.answered.t,
+        see=lesson_on_hearing(call.run, "joint_states"),
+    )
+    return None if deaf else situation(call)
+
+
+@obligation(1, of=calls(SERVICE))
+def keeps_the_order_asked(call: Call) -> str | None:
+    """joint_state.name holds the names asked for, in the order of the request, one twice if it was asked for twice"""
+    wanted, names = list(call.request.names), list(call.response.joint_state.name)
+    if not wanted or not is_a_success(call):
+        return None
+    expect(
+        names == wanted,
+        expected=f"joint_state.name as asked: {listed(wanted)}",
+        observed=listed(names),
+        help=advice_on_names(call, names, wanted),
+        at=call.answered.t,
+    )
+    return "a name twice" if len(set(wanted)) < len(wanted) else "different names"
+
+
+@obligation(2, of=calls(SERVICE))
+def lists_every_joint_once(call: Call) -> str | None:
+    """To an empty list it answers with every joint of the robot, once"""
+    if call.request.names or not is_a_success(call):
+        return None
+    names, joints = list(call.response.joint_state.name), robot_joints(call.run)
+    missing = sorted(set(joints) - set(names))
+    expect(
+        sorted(names) == sorted(joints),
+        expected=f"all {len(joints)} joints of the robot, each once, in any order",
+        observed=f"{len(names)} names; missing: {listed(missing)}",
+        help="When request.names is empty, answer as if every name of the last joint_states had been asked for.",
+        at=call.answered.t,
+    )
+    return "all joints"
+
+
+@obligation(1, 2, 5, of=calls(SERVICE))
+def positions_are_the_last(call: Call) -> str | None:
+    """Each position is that of the joint beside it, as it came in the last joint_states that has arrived"""
+    names, positions = list(call.response.joint_state.name), list(call.response.joint_state.position)
+    if is_deaf(call) and call.response.success:
+        raise Failure(
+            expected="positions from the robot's joint_states",
+            observed=f"{described(names, positions)}, although no joint_states had reached your node",
+            help=not_heard(call.run),
+            at=call.answered.t,
+            see=lesson_on_hearing(call.run, "joint_states"),
+        )
+    if not is_a_success(call) or not (call.request.names or names):
+        return None
+    expect(
+        len(names) == len(positions) > 0,
+        expected="as many positions as names, and at least one",
+        observed=f"{len(names)} names and {len(positions)} positions",
+        help="Fill joint_state.name and joint_state.position together: position[i] belongs to name[i]."
+        + about_repeats(call),
+        at=call.answered.t,
+    )
+    missing = [name for name in call.request.names if name not in names]
+    expect(
+        not missing,
+        expected=f"a position for each of {asked(call)}",
+        observed=f"none for {listed(missing)}",
+        help="Answer for every name of the request.",
+        at=call.answered.t,
+    )
+    tables = [positions_by_name(message) for message in known_messages(call, JOINTS) or ()]
+    off = min(
+        ([i for i, at in enumerate(positions) if not is_at(names[i], at, table)] for table in tables),
+        key=len,
+    )
+    if off:
+        wrong, last = [names[i] for i in off], tables[-1]
+        raise Failure(
+            expected=f"as in the last joint_states: {described(wrong, [last.get(name, math.nan) for name in wrong])}",
+            observed=described(wrong, [positions[i] for i in off]),
+            help=advice_on_positions(call, names, positions, last),
+            at=call.answered.t,
+        )
+    return situation(call)
+
+
+@obligation(5, of=calls(SERVICE))
+def looks_joints_up_by_name(call: Call) -> str | None:
+    """When joint_states lists the joints in another order, each position is still its own joint's"""
+    orders = [message.names for message in known_messages(call, JOINTS) or ()]
+    changed = any(names != robot_joints(call.run) for names in orders)
+    return positions_are_the_last.require(call) if changed else None
+
+
+@obligation(5, of=whole_run)
+def keeps_up_with_a_motion(run: Transcript) -> str | None:
+    """While a joint moves, an answer differs from the one before: none comes from a table renewed at intervals"""
+    answers = [call for call in calls(SERVICE)(run) if is_a_success(call)]
+    pairs = [(one, other) for one, other in pairwise(answers) if moved_between(one, other)]
+    if len(pairs) < ENOUGH_PAIRS:
+        return None
+    stale = [
+        other
+        for one, other in pairs
+        if other.response.joint_state.position == one.response.joint_state.position
+    ]
+    expect(
+        len(stale) <= MOST_STALE * len(pairs),
+        expected=f"another answer each time, as {asked(pairs[0][0])} moved and joint_states went on in between",
+        observed=f"{len(stale)} of {len(pairs)} answers were the same as the one before",
+        help="Keep the message itself each time one arrives, and look the joints up in it at each request: a table "
+        "that is renewed at intervals is old in between.",
+        at=stale[0].answered.t if stale else None,
+    )
+    return "while a joint moves"
+
+
+@obligation(3, of=calls(SERVICE))
+def refuses_unknown_joints(call: Call) -> str | None:
+    """Asked for a name that no joint of the robot has, letter by letter, it answers success: false"""
+    if not must_know(call) or not (unknown := unknown_names(call)):
+        return None
+    message = call.response.message
+    expect(
+        not call.response.success,
+        expected=f"success: false for {asked(call)}, because the robot has no {quoted(unknown)}",
+        observed=shown_fields(call.response, "success", "message"),
+        help="The message names the unknown joints, but success is true: leave response.success False."
+        if any(contains_name(message, name) for name in unknown if name)
+        else advice_on_strangers(call, unknown),
+        at=call.answered.t,
+    )
+    return "among known ones" if len(set(unknown)) < len(set(call.request.names)) else "only unknown ones"
+
+
+@obligation(3, of=calls(SERVICE))
+def names_every_unknown_joint(call: Call) -> str | None:
+    """The message of a refusal contains every unknown name as it was asked for"""
+    if not must_know(call) or not (unknown := unknown_names(call)) or call.response.success:
+        return None
+    message = call.response.message
+    unnamed = [name for name in unknown if not contains_name(message, name)]
+    expect(
+        not unnamed,
+        expected=f"a message with every unknown joint: {quoted(unknown)}",
+        observed=f"{message[:200]!r}, without {quoted(unnamed)}",
+        help="Collect the unknown names of the whole request before you answer, instead of stopping at the first."
+        if len(unnamed) < len(unknown)
+        else "Put the unknown names of this request into response.message, as they were asked for.",
+        at=call.answered.t,
+    )
+    return "one unknown" if len(set(unknown)) == 1 else "several unknown"
+
+
+@obligation(4, of=calls(SERVICE))
+def says_when_it_knows_nothing(call: Call) -> str | None:
+    """Before the first joint_states it answers success: false, whatever was asked"""
+    if is_deaf(call) or known_messages(call, JOINTS) != []:
+        return None
+    expect(
+        not call.response.success,
+        expected=f"success: false for {asked(call)}, because the robot has not published its joints yet",
+        observed=shown_fields(call.response, "success", "message"),
+        help="Start with no message (None) and answer success: false as long as none has arrived.",
+        at=call.answered.t,
+    )
+    return "names" if call.request.names else "all joints"

@@ -1,0 +1,85 @@
+"""What a joint query can know at a request, and which names the robot has."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from itertools import pairwise
+
+from autograder.authoring import events as ev
+from autograder.authoring.call import Call
+from autograder.authoring.fields import ROUNDING, same
+from autograder.authoring.robot_record import RobotRecord
+from autograder.authoring.robot_topic import DELIVERY, JOINTS, known_messages
+
+SILENCE = 1.0  # s without a message, of which there are 20 a second
+SEVERAL = 2  # messages between two answers
+
+Positions = Mapping[str, float]  # rad (fingers: m), by the joint's name
+
+
+def must_know(call: Call) -> bool:
+    """Return whether a message had certainly arrived at the request."""
+    return bool(known_messages(call, JOINTS))
+
+
+def moved_between(one: Call, other: Call) -> bool:
+    """Return whether several messages, each with other positions, came between an answer and the same question."""
+    names = list(one.request.names)
+    between = [each for each in one.run.all(ev.JointsPublished) if one.answered.t < each.t < other.sent.t]
+    places = [tuple(positions_by_name(each)[name] for name in names) for each in between]
+    far = all(
+        abs(a - b) > ROUNDING
+        for before, after in pairwise(places)
+        for a, b in zip(before, after, strict=True)
+    )
+    return bool(names) and other.request.names == one.request.names and len(between) >= SEVERAL and far
+
+
+def is_a_success(call: Call) -> bool:
+    """Return whether it answered success for joints that it must know."""
+    return call.response.success and must_know(call) and not unknown_names(call)
+
+
+def is_deaf(call: Call) -> bool:
+    """Return whether the robot could publish joint_states in time for the call, and had nobody to publish them to."""
+    ready = call.run.first(ev.NodeReady)
+    if ready is None or call.run.first(ev.JointsPublished) is not None:
+        return False
+    switches = [step[0] for step in call.run.params["steps"] if step[0] in ("plug_in", "unplug")]
+    since = 0.0 if switches[:1] != ["plug_in"] else math.inf
+    for event in call.run.all(ev.RobotCommanded):
+        if event.command["do"] == JOINTS.switch and event.t < call.sent.t:
+            since = event.t if event.command["connected"] else math.inf
+    return max(since, ready.t) < call.sent.t - DELIVERY
+
+
+def robot_joints(run: RobotRecord) -> list[str]:
+    """Return the names of the joints that the robot published."""
+    published = run.first(ev.JointsPublished)
+    return list(published.names) if published else []
+
+
+def unknown_names(call: Call) -> list[str]:
+    """Return the names asked for that no joint has, each once."""
+    joints = robot_joints(call.run)
+    return [name for name in dict.fromkeys(call.request.names) if name not in joints]
+
+
+def positions_by_name(message: ev.JointsPublished) -> Positions:
+    """Return the positions of a message."""
+    return dict(zip(message.names, message.positions, strict=True))
+
+
+def is_at(name: str, position: float, table: Positions) -> bool:
+    """Return whether a joint was at a position."""
+    return name in table and same(position, table[name])
+
+
+def situation(call: Call) -> str:
+    """Return how old the last message was, or that it had another order."""
+    known = known_messages(call, JOINTS) or []
+    silence = call.sent.t - known[-1].t
+    if silence > SILENCE:
+        return "silence of 10 s or more" if silence >= 10.0 else "silence"
+    return "another order" if known[-1].names != robot_joints(call.run) else "fresh message"
