@@ -45,6 +45,8 @@ def keeps_the_first_message(program: Program) -> Iterator[Mistake]:
             continue
         for statement in program.every(ast.stmt, callback.function):
             unknown, text = None, program.text(statement)
+            if isinstance(statement, ast.Assign) and isinstance(statement.value, ast.Constant):
+                continue  # the last is as the first
             if isinstance(statement, ast.Assign) and len(statement.targets) == 1:
                 target = statement.targets[0]
                 name = program.text(target)
