@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
+from autograder.authoring import events as ev
 from autograder.authoring.call import Call
 from autograder.authoring.connections import lesson_on_hearing
 from autograder.authoring.failure import Failure, expect
@@ -28,11 +29,11 @@ from .advice import (
     quoted,
 )
 from .truth import (
-    is_a_success,
     is_at,
     is_deaf,
     moved_between,
     must_know,
+    ought_to_succeed,
     positions_by_name,
     robot_joints,
     situation,
@@ -56,9 +57,9 @@ never_waits = answers_from_memory(SERVICE, _knowledge, clause=6)
 @obligation(1, 2, of=calls(SERVICE))
 def finds_the_joints(call: Call) -> str | None:
     """Asked for joints that the robot has, or for all, it answers success: true"""
-    deaf = is_deaf(call)
-    if not deaf and (not must_know(call) or unknown_names(call)):
+    if not ought_to_succeed(call):
         return None
+    deaf = is_deaf(call)
     expect(
         call.response.success,
         expected=f"success: true for {asked(call)}, which the robot has",
@@ -67,14 +68,24 @@ def finds_the_joints(call: Call) -> str | None:
         at=call.answered.t,
         see=lesson_on_hearing(call.run, "joint_states"),
     )
-    return None if deaf else situation(call)
+    return "without a message" if deaf else situation(call)
+
+
+def _is_a_success(call: Call) -> bool:
+    """Return whether it answered success where it should; require it if no such call of the run did."""
+    if not ought_to_succeed(call):
+        return False
+    answered = [each for each in call.run.all(ev.ServiceAnswered) if getattr(each.response, "success", False)]
+    if not answered:
+        finds_the_joints.require(call)
+    return call.response.success
 
 
 @obligation(1, of=calls(SERVICE))
 def keeps_the_order_asked(call: Call) -> str | None:
     """joint_state.name holds the names asked for, in the order of the request, one twice if it was asked for twice"""
     wanted, names = list(call.request.names), list(call.response.joint_state.name)
-    if not wanted or not is_a_success(call):
+    if not wanted or not _is_a_success(call):
         return None
     expect(
         names == wanted,
@@ -89,7 +100,7 @@ def keeps_the_order_asked(call: Call) -> str | None:
 @obligation(2, of=calls(SERVICE))
 def lists_every_joint_once(call: Call) -> str | None:
     """To an empty list it answers with every joint of the robot, once"""
-    if call.request.names or not is_a_success(call):
+    if call.request.names or not _is_a_success(call):
         return None
     names, joints = list(call.response.joint_state.name), robot_joints(call.run)
     missing = sorted(set(joints) - set(names))
@@ -115,7 +126,7 @@ def positions_are_the_last(call: Call) -> str | None:
             at=call.answered.t,
             see=lesson_on_hearing(call.run, "joint_states"),
         )
-    if not is_a_success(call) or not (call.request.names or names):
+    if not _is_a_success(call) or not (call.request.names or names):
         return None
     expect(
         len(names) == len(positions) > 0,
@@ -154,13 +165,13 @@ def looks_joints_up_by_name(call: Call) -> str | None:
     """When joint_states lists the joints in another order, each position is still its own joint's"""
     orders = [message.names for message in known_messages(call, JOINTS) or ()]
     changed = any(names != robot_joints(call.run) for names in orders)
-    return positions_are_the_last.require(call) if changed else None
+    return finds_the_joints.require(call) and positions_are_the_last.require(call) if changed else None
 
 
 @obligation(5, of=whole_run)
 def keeps_up_with_a_motion(run: Transcript) -> str | None:
     """While a joint moves, an answer differs from the one before: none comes from a table renewed at intervals"""
-    answers = [call for call in calls(SERVICE)(run) if is_a_success(call)]
+    answers = [call for call in calls(SERVICE)(run) if _is_a_success(call)]
     pairs = [(one, other) for one, other in pairwise(answers) if moved_between(one, other)]
     if len(pairs) < ENOUGH_PAIRS:
         return None

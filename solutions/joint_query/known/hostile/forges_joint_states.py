@@ -1,7 +1,7 @@
 """Attack: publishes a joint_states of its own under the robot's name and answers with that, so that both agree.
 Outcome: answers are compared with what the simulator reports through its own pipe, not with the topic.
 Caught by: positions_are_the_robots
-Also fails: names_every_unknown_joint, says_when_it_knows_nothing
+Also fails: no_names_means_all, names_every_unknown_joint, says_when_it_knows_nothing
 """
 
 import rclpy
