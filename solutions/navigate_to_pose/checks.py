@@ -114,7 +114,7 @@ def measures_its_path(run: Transcript) -> None:
     require_measured_path(run.goal("go"), run.goal("go").require_result(SUCCEEDED))
 
 
-@check(points=1, on=GO, needs=feedback_keeps_its_rate, see="08_navigation#recovery-why", clauses=[15])
+@check(points=1, on=GO, needs=feedback_keeps_its_rate, see="08_navigation#recovery-why", clauses=[14, 15])
 def counts_no_detour_without_one(run: Transcript) -> None:
     """number_of_recoveries stays 0 while nothing disturbs the robot"""
     require_accepted(run.goal("go"))
@@ -198,7 +198,7 @@ def rejects_without_power(run: Transcript) -> None:
     )
 
 
-@check(points=2, on=ASTRAY, needs=arrives, see="08_navigation#loops-why", clauses=[15])
+@check(points=2, on=ASTRAY, needs=arrives, see="08_navigation#loops-why", clauses=[14, 15])
 def gets_back_on_its_way(run: Transcript) -> None:
     """Led back and turned by a remote control, it finds its way again, and arrives"""
     require_led_astray(run.goal("go"))
@@ -210,7 +210,7 @@ def gets_back_on_its_way(run: Transcript) -> None:
     on=ASTRAY,
     needs=[gets_back_on_its_way, feedback_keeps_its_rate],
     see="08_navigation#recovery-why",
-    clauses=[15],
+    clauses=[14, 15],
 )
 def counts_the_recovery(run: Transcript) -> None:
     """number_of_recoveries counts it, once"""

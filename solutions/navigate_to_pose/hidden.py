@@ -110,7 +110,9 @@ def cancels_in_any_phase(run: Transcript) -> None:
         require_stopped(run, request.t)
 
 
-@check(points=1, on=TO_THE_OTHER_SIDE, needs=counts_the_recovery, see="08_navigation#loops-why", clauses=[15])
+@check(
+    points=1, on=TO_THE_OTHER_SIDE, needs=counts_the_recovery, see="08_navigation#loops-why", clauses=[14, 15]
+)
 def gets_back_from_anywhere(run: Transcript) -> None:
     """Led astray to the other side, it counts that, too, and arrives"""
     require_detour_counted(run.goal("go"))

@@ -7,7 +7,7 @@ import math
 from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
 from autograder.authoring.goal import Goal
-from autograder.authoring.walking.path import length_walked
+from autograder.authoring.walking.path import STRIDE, length_walked
 
 LOST = 0.2  # m where the robot turns back: half a leg before it and half a leg after it go uncounted
 SHARE, LEAST = 0.15, 0.25  # of the path, or m (more than a step), that distance_traveled may be off
@@ -29,6 +29,7 @@ def require_measured_path(
         too_much: the advice where it tells more than the robot walked.
     """
     walked = length_walked(goal.run, goal.accepted_at, end.t)
+    directly = length_walked(goal.run, goal.accepted_at, end.t, STRIDE)
     claimed = float(end.result.distance_traveled)
     straight = math.dist(
         *((r.x, r.y) for r in (goal.run.robot_at(goal.accepted_at), goal.run.robot_at(end.t)))
@@ -42,7 +43,7 @@ def require_measured_path(
     else:
         help = "Count the path in every round of the loop, from acceptance to the end, also while the robot turns."
     slack = max(SHARE * walked, LEAST)
-    least, most = walked - slack - reversals * LOST, walked + slack
+    least, most = directly - slack - reversals * LOST, walked + slack
     expect(
         least <= claimed <= most,
         expected=f"result.distance_traveled near {walked:.2f} m ({least:.2f} to {most:.2f} m), the path of the pelvis "

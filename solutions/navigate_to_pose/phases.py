@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 
 from autograder.authoring import events as ev
@@ -13,8 +14,14 @@ from autograder.authoring.walking.path import walking_speed
 from .legs import Leg, off_the_way
 
 FACING = 0.6  # rad between heading and goal while it walks
-IN_PLACE, WALKS = 0.10, 0.20  # m/s of the body as a whole
-TURNS = 0.15  # rad/s
+IN_PLACE = 0.10  # m/s of the body as a whole
+WALKS, STANDS, TURNS = (
+    0.7,
+    0.4,
+    0.5,
+)  # of the greatest speed, and turn rate in place, that the robot had on this leg
+
+_NUMBER = re.compile(r"[-+]?\d+([.,]\d+)?")
 
 
 def require_facing(goal: Goal) -> None:
@@ -37,9 +44,20 @@ def require_facing(goal: Goal) -> None:
 def require_named_phases(goal: Goal) -> None:
     """Require that the walk has a name of its own, and the turns before and after it have others."""
     leg = Leg.of(goal)
-    turning = _statuses(goal, leg.start, leg.half, lambda robot, speed: speed < IN_PLACE and _turns(robot))
-    walking = _statuses(goal, leg.start, leg.end, lambda robot, speed: speed > WALKS)
-    aligning = _statuses(goal, leg.half, leg.end, lambda robot, speed: speed < IN_PLACE and _turns(robot))
+    moves = [
+        (robot, walking_speed(goal.run, robot.t))
+        for robot in goal.run.robot_between(leg.start, leg.end)[::10]
+    ]
+    fastest = max(speed for _, speed in moves)
+    in_place = min(IN_PLACE, STANDS * fastest)
+    turn_rate = TURNS * max((abs(robot.turn_rate) for robot, speed in moves if speed < in_place), default=0.0)
+
+    def turns(robot: ev.RobotTruth, speed: float) -> bool:
+        return speed < in_place and abs(robot.turn_rate) > turn_rate
+
+    turning = _statuses(goal, leg.start, leg.half, turns)
+    walking = _statuses(goal, leg.start, leg.end, lambda robot, speed: speed > WALKS * fastest)
+    aligning = _statuses(goal, leg.half, leg.end, turns)
     for phase, statuses in (
         ("it turns toward the goal", turning),
         ("it walks", walking),
@@ -64,15 +82,11 @@ def require_named_phases(goal: Goal) -> None:
     )
 
 
-def _turns(robot: ev.RobotTruth) -> bool:
-    return abs(robot.turn_rate) > TURNS
-
-
 def _statuses(goal: Goal, start: float, end: float, during) -> Counter[str]:
-    """Count the statuses of the feedback between two moments while the robot did something."""
+    """Count the statuses of the feedback, without the numbers in them, while the robot did something."""
     run = goal.run
     return Counter(
-        feedback.feedback.status
+        _NUMBER.sub("", feedback.feedback.status)
         for feedback in goal.feedback
         if start < feedback.t < end and during(run.robot_at(feedback.t), walking_speed(run, feedback.t))
     )

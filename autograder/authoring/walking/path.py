@@ -15,13 +15,15 @@ SPACING = 0.1  # s between the points of the path
 Point = tuple[float, float]  # m, m in odom
 
 
-def length_walked(run: RobotRecord, start: float, end: float) -> float:
+def length_walked(run: RobotRecord, start: float, end: float, spacing: float = SPACING) -> float:
     """Return how far (m) the robot walked between two moments (s).
 
     Each point of the path is the mean of the pelvis's positions over a stride around it, so the sway cancels out and
-    what remains is where the body as a whole went.
+    what remains is where the body as a whole went. What is left of it adds up where the robot goes slowly: with points
+    a stride apart (`spacing`, s) that is nothing.
     """
-    return length([_middle(run, start + SPACING * k) for k in range(int((end - start) / SPACING) + 1)])
+    times = [start + spacing * k for k in range(int((end - start) / spacing) + 1)]
+    return length([_middle(run, t) for t in dict.fromkeys([*times, end])])
 
 
 def length(points: Sequence[Point]) -> float:
