@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from rcl_interfaces.srv import GetParameters, SetParameters
+from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
 from rclpy.node import Node
 
 from autograder.arena import events as ev
@@ -49,10 +49,14 @@ class NodeMissing(Exception):
 
 
 class Parameters:
-    """Clients of get_parameters and set_parameters of the node that offers a service; set when the stage opens."""
+    """Clients of the parameters of the node that offers a service: to read, set and set them together.
+
+    They are made when the stage opens.
+    """
 
     get: ServiceClient
     set: ServiceClient
+    set_together: ServiceClient
 
     def __init__(self, service: str) -> None:
         self.service = service
@@ -169,6 +173,7 @@ class Stage(Offering):
         owner = next(iter(self._graph.owners_of(parameters.service)), parameters.service)
         parameters.get = self.service(f"{owner}/get_parameters", GetParameters)
         parameters.set = self.service(f"{owner}/set_parameters", SetParameters)
+        parameters.set_together = self.service(f"{owner}/set_parameters_atomically", SetParametersAtomically)
 
     def _missing(self) -> list[str]:
         services = [name for service in self._services for name in service.unmatched()]

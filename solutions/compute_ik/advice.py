@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from autograder.authoring.fields import shown
+
+from .reply import side_in_words
 from .two_link_arm import DEFAULT, TOLERANCE, Point, TwoLinkArm
 
 SAME = 1e-3  # rad
@@ -74,6 +77,25 @@ def advice_for(shoulder: float, elbow: float, target: Point, arm: TwoLinkArm) ->
     return (
         "Put the angles back in: x = l1 cos(shoulder) + l2 cos(shoulder + elbow), y the same with sin. Begin with the "
         "elbow: cos(elbow) = (x² + y² - l1² - l2²) / (2 l1 l2)."
+    )
+
+
+def advice_on_the_side(elbow_up: bool, twin_is_above: bool | None) -> str:
+    """Say what to do about an elbow on the wrong side, given the side of the answer with the other elbow_up."""
+    if twin_is_above is None:
+        return (
+            "elbow_up decides the sign of the elbow's angle: ahead of the shoulder a positive angle has the elbow "
+            "below the line."
+        )
+    other, side = shown(not elbow_up), side_in_words(twin_is_above)
+    if twin_is_above == elbow_up:
+        return (
+            f"With elbow_up {other} the elbow was {side}: elbow_up is used the wrong way round. Turn the sign of the "
+            "elbow's angle."
+        )
+    return (
+        f"With elbow_up {other} the elbow was also {side}: elbow_up is not used. Let it decide the sign of the elbow's "
+        "angle."
     )
 
 

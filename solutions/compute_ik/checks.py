@@ -2,152 +2,120 @@
 
 from __future__ import annotations
 
-import math
-
-from autograder.authoring import events as ev
 from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario, check, expect
-from autograder.authoring.missing import held_up, unseen
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.obligation import check_of
 
-from .judging import (
-    Reply,
-    Response,
-    code_in_words,
-    replies,
-    require_code,
-    require_hit,
-    require_refusal,
-    require_sides,
-)
-from .questions import ask_for, ask_for_both
-from .two_link_arm import TwoLinkArm
+from . import model
 
-ROBOTS_ARM = TwoLinkArm(upper_arm=0.22, forearm=0.30)  # m: shoulder to elbow, elbow to between the fingers
-ARM_TOLERANCE = 0.01  # m; its servos bring the hand within 2 mm
+FRAMES = ["shoulder", "base_link", "l_shoulder", "", "/shoulder", "Shoulder"]
+ROBOTS_ARM = {
+    "upper_arm_length": 0.22,
+    "forearm_length": 0.30,
+}  # m: to the elbow, and on to between the fingers
 
+# It has a robot, which notices a busy machine; on such a machine Python takes seconds to end.
 POINTS = Scenario(
-    "ask",
+    "in_order",
     {
-        "questions": {
-            "within reach": [*ask_for_both(0.4, 0.3), *ask_for_both(0.45, -0.1), *ask_for_both(0.1, 0.3)],
-            "out of reach": [
-                *(ask_for(0.5, 0.4), ask_for(0.56, 0.0), ask_for(-0.3, -0.5)),
-                *(ask_for(0.03, 0.02), ask_for(0.0, 0.0)),
-            ],
-            "not a number": [ask_for(math.nan, 0.3), ask_for(0.4, 0.3)],
-        }
+        "steps": [
+            ["ask", [x, y, elbow_up]]
+            for x, y in ((0.4, 0.3), (0.45, -0.1), (0.1, 0.3), (0.53, 0.12), (-0.2, 0.35), (-0.3, -0.1))
+            for elbow_up in (False, True)
+        ],
+        "interrupt": True,
+    },
+    robot=RESTING,
+)
+LIMITS = Scenario(
+    "in_order",
+    {
+        "steps": [
+            *(["ask", [0.4, 0.3]], ["ask", [0.5, 0.4]], ["ask", [0.56, 0.0]], ["ask", [-0.3, -0.5]]),
+            *(
+                ["ask", [0.03, 0.02]],
+                ["ask", [0.0, 0.0]],
+                ["ask", [0.0, 0.547]],
+                ["ask", [-0.3, 0.463]],
+                ["ask", [0.053, 0.0, True]],
+            ),
+        ]
     },
     robot=None,
 )
-FRAMES = Scenario(
-    "ask",
-    {
-        "questions": {
-            "in shoulder": [ask_for(0.4, 0.3)],
-            "in others": [ask_for(0.4, 0.3, frame=frame) for frame in ("base_link", "l_shoulder", "")],
-        }
-    },
+IN_FRAMES = Scenario(
+    "in_order",
+    {"steps": [["ask", [0.4, 0.3, False, frame]] for frame in FRAMES]},
     robot=None,
 )
 REAL_ARM = Scenario(
-    "move_the_arm",
+    "in_order",
     {
-        "questions": {
-            "with the arm": [ask_for(0.4, 0.1), ask_for(0.3, -0.25)],
-            "near the shoulder": [ask_for(0.1, 0.05), ask_for(-0.05, 0.12)],
-        }
+        "steps": [
+            *(["move_to", 0.4, 0.1], ["move_to", 0.3, -0.25]),
+            *(["ask", [0.1, 0.05]], ["ask", [-0.05, 0.12]]),
+        ],
+        "started_with": ROBOTS_ARM,
     },
-    parameters={"upper_arm_length": ROBOTS_ARM.upper_arm, "forearm_length": ROBOTS_ARM.forearm},
+    parameters=ROBOTS_ARM,
 )
-# It has a robot, which notices a busy machine; on such a machine Python takes seconds to end.
-INTERRUPT = Scenario("interrupt", {"questions": {"within reach": [ask_for(0.4, 0.3)]}}, robot=RESTING)
 
 
-server_appears = standard.server_appears("compute_ik", points=1, on=INTERRUPT, see="02_services#first-file")
+server_appears = standard.server_appears(
+    "compute_ik", points=1, on=POINTS, see="02_services#first-file", clauses=[10]
+)
 
+reaches_the_point = check_of(
+    "reaches_the_point",
+    model.reaches_the_point,
+    title="The angles it answers with bring the hand to the point, within 1 mm",
+    points=2,
+    on=POINTS,
+    needs=server_appears,
+    see="04_your_own_interfaces#cosine-why",
+)
 
-@check(points=2, on=POINTS, needs=server_appears, see="04_your_own_interfaces#cosine-why")
-def reaches_the_point(run: Transcript) -> None:
-    """The angles it answers with bring the hand to the point, within 1 mm"""
-    for reply in replies(run, "within reach"):
-        require_hit(reply)
+bends_the_elbow_as_asked = check_of(
+    "bends_the_elbow_as_asked",
+    model.bends_the_elbow_as_asked,
+    title="The elbow is above the line to the target with elbow_up, below it without",
+    points=2,
+    on=POINTS,
+    needs=reaches_the_point,
+    see="04_your_own_interfaces#cosine-why",
+)
 
+says_what_is_out_of_reach = check_of(
+    "says_what_is_out_of_reach",
+    model.refuses_nothing_within_reach,
+    model.says_what_is_out_of_reach,
+    title="Too far and too near is NO_IK_SOLUTION, and what can be reached is not",
+    points=2,
+    on=LIMITS,
+    needs=server_appears,
+    see="04_your_own_interfaces#cosine-why",
+)
 
-@check(points=2, on=POINTS, needs=reaches_the_point, see="04_your_own_interfaces#cosine-why")
-def bends_the_elbow_as_asked(run: Transcript) -> None:
-    """The elbow is above the line to the target with elbow_up, below it without"""
-    require_sides(replies(run, "within reach"))
+refuses_other_frames = check_of(
+    "refuses_other_frames",
+    model.refuses_other_frames,
+    points=1,
+    on=IN_FRAMES,
+    needs=server_appears,
+    see="04_your_own_interfaces#server-why",
+)
 
-
-@check(points=2, on=POINTS, needs=server_appears, see="04_your_own_interfaces#cosine-why")
-def says_what_is_out_of_reach(run: Transcript) -> None:
-    """Too far and too near is NO_IK_SOLUTION, and what can be reached is not"""
-    for reply in replies(run, "within reach"):
-        require_code(
-            reply,
-            Response.SUCCESS,
-            because="this can be reached",
-            help="Only what cannot be reached is refused.",
-        )
-    for reply in replies(run, "out of reach"):
-        require_refusal(reply)
-
-
-@check(points=1, on=FRAMES, needs=server_appears, see="04_your_own_interfaces#server-why")
-def refuses_other_frames(run: Transcript) -> None:
-    """A target in any frame but "shoulder" is FRAME_TRANSFORM_FAILURE, and no other is"""
-    for reply in replies(run, "in shoulder"):
-        expect(
-            reply.error_code != Response.FRAME_TRANSFORM_FAILURE,
-            expected=f"another error_code for {reply.question}: that is the right frame",
-            observed=f"error_code {code_in_words(reply.error_code)}",
-            help="Compare request.target.header.frame_id with 'shoulder'.",
-            at=reply.at,
-        )
-    for reply in replies(run, "in others"):
-        require_code(
-            reply,
-            Response.FRAME_TRANSFORM_FAILURE,
-            because="only 'shoulder' is the frame of the arm",
-            help=f"{reply.frame!r} is not 'shoulder'{'' if reply.frame else ' either'}: refuse everything else, "
-            "before computing.",
-        )
-
-
-@check(points=2, on=REAL_ARM, needs=bends_the_elbow_as_asked, see="04_your_own_interfaces#parameters-why")
-def moves_the_real_hand(run: Transcript) -> None:
-    """Started with the robot's own lengths as parameters, its angles bring the robot's hand to the point"""
-    for reply in replies(run, "with the arm"):
-        require_hit(reply, ROBOTS_ARM)
-        _require_the_hand_there(run, reply)
-
-
-def _arm_after(run: Transcript, reply: Reply) -> ev.ArmReported:
-    """Return the arm in the simulator after it had been moved to the answer's angles."""
-    for arm in run.all(ev.ArmReported):
-        if arm.t > reply.at:
-            if run.told("move_joints", before=arm.t).t < reply.at:
-                raise held_up(run, f"the arm was not moved to the angles for {reply.question}")
-            return arm
-    raise unseen(run, f"the robot did not say where its hand was for {reply.question}")
-
-
-def _require_the_hand_there(run: Transcript, reply: Reply) -> None:
-    """Require that the hand was at the target when the arm had come to rest."""
-    arm = _arm_after(run, reply)
-    x, y = reply.target
-    away = math.dist(arm.hand, (x, 0.0, y))
-    expect(
-        away <= ARM_TOLERANCE,
-        expected=f"the robot's hand within {ARM_TOLERANCE * 1000:.0f} mm of {reply.question}",
-        observed=f"{reply.angles}: the hand came to {arm.hand[0]:.3f} m forward, {arm.hand[2]:.3f} m up, "
-        f"{away * 1000:.0f} mm off",
-        help="The robot's elbow bends one way only, as yours does: with elbow_up false its angle has to be positive.",
-        at=arm.t,
-    )
-
+moves_the_real_hand = check_of(
+    "moves_the_real_hand",
+    model.reaches_the_point,
+    model.moves_the_real_hand,
+    title="Started with the robot's own lengths as parameters, its angles bring the robot's hand to the point",
+    points=2,
+    on=REAL_ARM,
+    needs=bends_the_elbow_as_asked,
+    see="04_your_own_interfaces#parameters-why",
+)
 
 ends_cleanly = standard.ends_cleanly(
-    points=1, on=INTERRUPT, needs=server_appears, see="02_services#conventions"
+    points=1, on=POINTS, needs=server_appears, see="02_services#conventions", clause=11
 )

@@ -6,143 +6,156 @@ import math
 from random import Random
 from typing import Any
 
-from rcl_interfaces.msg import ParameterType, ParameterValue
+from autograder.authoring import standard_hidden
+from autograder.authoring.checks import Scenario
+from autograder.authoring.obligation import check_of
 
-from autograder.authoring.checks import Scenario, check, expect
-from autograder.authoring.transcript import Transcript
-
+from . import model
 from .checks import (
-    POINTS,
-    REAL_ARM,
-    ROBOTS_ARM,
     bends_the_elbow_as_asked,
-    moves_the_real_hand,
     reaches_the_point,
+    refuses_other_frames,
     says_what_is_out_of_reach,
     server_appears,
 )
-from .judging import (
-    Response,
-    code_in_words,
-    replies,
-    require_code,
-    require_hit,
-    require_refusal,
-    require_side,
-)
-from .questions import ahead, anywhere, ask_for
+from .questions import AT_A_LIMIT, anywhere, at_distance
 from .two_link_arm import DEFAULT, TwoLinkArm
 
+OTHER_FRAMES = ["", "/shoulder", "a/shoulder", "Shoulder", "shoulder ", "shoulder_link", "map"]
+NO_NUMBERS = [math.nan, math.inf, -math.inf]
+NO_LENGTHS = [0.0, -0.25, math.nan]
+BURST = 8  # a service keeps its last 10 requests
 
-def _anywhere_then_other_lengths(random: Random) -> dict[str, Any]:
-    """Draw points all around the shoulder, then others that stay within reach if only one new length is accepted.
 
-    The last one, 0.10 m away, is only within reach as long as both lengths are the old ones.
-    """
+def _targets(random: Random) -> dict[str, Any]:
+    """Ask in any order for points over the whole reach, just within and beyond each limit, in frames and at heights."""
+    limits = [
+        at_distance(random, limit + away)
+        for limit in (DEFAULT.nearest, DEFAULT.farthest)
+        for away in (-AT_A_LIMIT, -AT_A_LIMIT, 0.0, AT_A_LIMIT, AT_A_LIMIT)
+    ]
+    beyond = [at_distance(random, random.uniform(0.56, 5.0)), at_distance(random, random.uniform(0.0, 0.04))]
+    within = [anywhere(random, DEFAULT) for _ in range(12)]
+    frames = [[*anywhere(random, DEFAULT), frame] for frame in random.sample(OTHER_FRAMES, 4)]
+    high = [[*anywhere(random, DEFAULT), "shoulder", random.choice([-1.0, 0.3, 40.0])] for _ in range(3)]
+    questions = [*limits, *beyond, *within, *frames, *high]
+    random.shuffle(questions)
+    burst = [anywhere(random, DEFAULT) for _ in range(BURST)]
+    return {"steps": [*(["ask", question] for question in questions), ["ask", *burst], ["ask", [0.4, 0.3]]]}
+
+
+def _lengths(random: Random) -> dict[str, Any]:
+    """Read the lengths, set one, the other, both, and some that are none; ask all over the reach after each."""
+
+    def upper_arm() -> list[Any]:
+        return ["upper_arm_length", round(random.uniform(0.1, 0.6), 3)]
+
+    def forearm() -> list[Any]:
+        return ["forearm_length", round(random.uniform(0.1, 0.6), 3)]
+
+    arm = {"upper_arm_length": DEFAULT.upper_arm, "forearm_length": DEFAULT.forearm}
+
+    def set_and_ask(verb: str, *lengths: list[Any]) -> list[list[Any]]:
+        before = TwoLinkArm(*arm.values())
+        arm.update(dict(lengths))
+        after = TwoLinkArm(*arm.values())
+        points = [anywhere(random, each) for each in (after, after, after, before)]
+        limits = [
+            at_distance(random, after.farthest - AT_A_LIMIT),
+            at_distance(random, after.farthest + AT_A_LIMIT),
+        ]
+        return [[verb, *lengths], *(["ask", question] for question in [*points, *limits])]
+
+    blocks: list[list[Any]] = [
+        *(["set", upper_arm()], ["set", forearm()], ["set", upper_arm(), forearm()]),
+        *(["set_together", upper_arm(), forearm()], ["set_together", forearm(), upper_arm()]),
+    ]
+    random.shuffle(blocks)
     return {
-        "questions": {"anywhere": [anywhere(random, DEFAULT) for _ in range(8)]},
-        "lengths": {
-            "upper_arm_length": round(random.uniform(0.38, 0.42), 3),
-            "forearm_length": round(random.uniform(0.15, 0.19), 3),
-        },
-        "then": {"with other lengths": [*(ahead(random, 0.30, 0.42) for _ in range(3)), ask_for(0.08, 0.06)]},
+        "steps": [
+            ["get", "upper_arm_length", "forearm_length"],
+            *(["ask", anywhere(random, DEFAULT)] for _ in range(2)),
+            *(step for block in blocks for step in set_and_ask(*block)),
+        ]
     }
 
 
-SET_LENGTHS = Scenario("set_lengths", _anywhere_then_other_lengths, robot=None)
-OTHER_NAMESPACE = Scenario(
-    "ask", {"questions": {"within reach": [ask_for(0.4, 0.3)]}}, robot=None, namespace="/lab_7/robot"
-)
+def _no_numbers(random: Random) -> dict[str, Any]:
+    """Ask for points that are none among points; set lengths that are none and ask; then set good ones."""
+    points = [
+        *([bad, 0.3] for bad in NO_NUMBERS),
+        *([0.3, bad] for bad in NO_NUMBERS),
+        [math.nan, math.nan],
+        [0.4, 0.3, False, "shoulder", math.nan],
+        [math.nan, 0.3, True, "base_link"],
+    ]
+    random.shuffle(points)
+    asked = [["ask", question] for bad in points for question in (bad, anywhere(random, DEFAULT))]
+    names = ["upper_arm_length", "forearm_length"]
+    set_badly = [
+        step
+        for bad in NO_LENGTHS
+        for step in (["set", [random.choice(names), bad]], ["ask", [0.4, 0.3]], ["ask", [0.1, -0.1, True]])
+    ]
+    again = [["set", *([name, 0.35] for name in names)], *(["ask", [x, 0.3]] for x in (0.2, 0.4, -0.3))]
+    return {"steps": [*asked, *set_badly, *again]}
 
 
-@check(
+ANY_TARGET = Scenario("in_order", _targets, robot=None)
+ANY_LENGTH = Scenario("in_order", _lengths, robot=None)
+NO_NUMBER = Scenario("in_order", _no_numbers, robot=None)
+OTHER_NAMESPACE = Scenario("in_order", {"steps": [["ask", [0.4, 0.3]]]}, robot=None, namespace="/lab_7/robot")
+
+reaches_any_point = check_of(
+    "reaches_any_point",
+    model.answers_every_request,
+    model.reaches_the_point,
+    model.bends_the_elbow_as_asked,
+    model.says_what_is_out_of_reach,
+    model.refuses_other_frames,
+    title="All around the shoulder, up to both limits and in any frame, the answer is right",
     points=2,
-    on=[SET_LENGTHS, REAL_ARM],
-    needs=[bends_the_elbow_as_asked, moves_the_real_hand],
+    on=ANY_TARGET,
+    needs=[bends_the_elbow_as_asked, says_what_is_out_of_reach, refuses_other_frames],
     see="04_your_own_interfaces#fk-why",
 )
-def reaches_any_point(run: Transcript, with_other_lengths: Transcript) -> None:
-    """All around the shoulder, and close to it with a forearm longer than the upper arm, it hits the point"""
-    for reply in replies(run, "anywhere"):
-        require_hit(reply)
-        require_side(reply)
-    for reply in replies(with_other_lengths, "near the shoulder"):
-        require_hit(reply, ROBOTS_ARM)
 
-
-@check(points=1, on=POINTS, needs=says_what_is_out_of_reach, see="02_services#nan")
-def refuses_what_is_no_number(run: Transcript) -> None:
-    """A target that is not a number is no success, and the next question is answered as ever"""
-    nonsense, sound = replies(run, "not a number")
-    expect(
-        nonsense.error_code != Response.SUCCESS,
-        expected=f"any error_code but SUCCESS for {nonsense.question}",
-        observed=f"error_code {code_in_words(nonsense.error_code)}, {nonsense.angles}",
-        help="Every comparison with NaN is false, so a test such as `distance > reach` lets it through: ask "
-        "math.isfinite(), or test for what is good.",
-        at=nonsense.at,
-    )
-    require_code(
-        sound,
-        Response.SUCCESS,
-        because="this can be reached",
-        help="Keep nothing from one request to the next.",
-    )
-
-
-@check(points=1, on=SET_LENGTHS, needs=server_appears, see="04_your_own_interfaces#parameters-intro")
-def declares_its_lengths(run: Transcript) -> None:
-    """upper_arm_length and forearm_length are parameters of type double: 0.30 and 0.25 m"""
-    call = run.call("get_parameters")
-    values = iter(call.response.values)
-    for name, length in (("upper_arm_length", DEFAULT.upper_arm), ("forearm_length", DEFAULT.forearm)):
-        value = next(values, ParameterValue())  # a node that lacks one may say nothing of any
-        expect(
-            value.type == ParameterType.PARAMETER_DOUBLE
-            and math.isclose(value.double_value, length, abs_tol=1e-6),
-            expected=f"a parameter {name} of type double with the value {length:.2f}",
-            observed=_in_words(value),
-            help=f"Declare it with its default in the constructor: self.declare_parameter({name!r}, {length:.2f}).",
-            at=call.sent.t,
-        )
-
-
-@check(
+refuses_what_is_no_number = check_of(
+    "refuses_what_is_no_number",
+    model.answers_every_request,
+    model.refuses_what_is_no_number,
+    model.refuses_nothing_within_reach,
+    title="Coordinates and lengths that are no numbers: no success, and the node lives on and answers as ever",
     points=1,
-    on=SET_LENGTHS,
+    on=NO_NUMBER,
+    needs=says_what_is_out_of_reach,
+    see="02_services#nan",
+)
+
+declares_its_lengths = check_of(
+    "declares_its_lengths",
+    model.declares_its_lengths,
+    points=1,
+    on=ANY_LENGTH,
+    needs=server_appears,
+    see="04_your_own_interfaces#parameters-intro",
+)
+
+does_what_it_says_of_new_lengths = check_of(
+    "does_what_it_says_of_new_lengths",
+    model.uses_the_lengths_it_accepted,
+    title="Lengths that are set while it runs, one or both, are taken into account, or refused",
+    points=1,
+    on=ANY_LENGTH,
     needs=[bends_the_elbow_as_asked, says_what_is_out_of_reach, declares_its_lengths],
     see="04_your_own_interfaces#parameters-why",
 )
-def does_what_it_says_of_new_lengths(run: Transcript) -> None:
-    """Lengths that are set while it runs are taken into account, or refused"""
-    arm = _arm_after_setting(run)
-    for reply in replies(run, "with other lengths"):
-        if math.hypot(*reply.target) > arm.nearest:
-            require_hit(reply, arm)
-            require_side(reply, arm)
-        else:
-            require_refusal(reply, arm)
 
-
-@check(points=1, on=OTHER_NAMESPACE, needs=reaches_the_point, see="01_robot_and_graph#names-why")
-def works_in_any_namespace(run: Transcript) -> None:
-    """Started in another namespace, it serves there"""
-    for reply in replies(run, "within reach"):
-        require_hit(reply)
-
-
-def _arm_after_setting(run: Transcript) -> TwoLinkArm:
-    """Return the lengths that the node reported: each new one that it accepted, else the old one."""
-    results = run.call("set_parameters").response.results
-    lengths = [DEFAULT.upper_arm, DEFAULT.forearm]
-    for index, (result, new) in enumerate(zip(results, run.params["lengths"].values(), strict=False)):
-        if result.successful:
-            lengths[index] = new
-    return TwoLinkArm(*lengths)
-
-
-def _in_words(value: ParameterValue) -> str:
-    if value.type == ParameterType.PARAMETER_NOT_SET:
-        return "no value: it is not declared, or without a default"
-    is_double = value.type == ParameterType.PARAMETER_DOUBLE
-    return f"the value {value.double_value:g}" if is_double else "a value of another type"
+works_in_any_namespace = standard_hidden.works_in_any_namespace(
+    "serves",
+    model.reaches_the_point,
+    points=1,
+    on=OTHER_NAMESPACE,
+    needs=reaches_the_point,
+    clauses=[10],
+)

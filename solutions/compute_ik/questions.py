@@ -1,4 +1,4 @@
-"""Requests to compute_ik, as a scenario sends them."""
+"""Questions to compute_ik that are drawn: [x, y, elbow_up], m."""
 
 from __future__ import annotations
 
@@ -8,36 +8,18 @@ from typing import Any
 
 from .two_link_arm import TwoLinkArm
 
-Request = dict[str, Any]
-
-MARGIN = 0.02  # m that drawn points keep from the border of what can be reached
+AT_A_LIMIT = 0.002  # m from a limit of the reach: twice what the statement leaves open
 
 
-def ask_for(x: float, y: float, *, elbow_up: bool = False, frame: str = "shoulder") -> Request:
-    """Return the request for a point (m) in a frame."""
-    return {
-        "target": {"header": {"frame_id": frame}, "point": {"x": x, "y": y, "z": 0.0}},
-        "elbow_up": elbow_up,
-    }
+def anywhere(random: Random, arm: TwoLinkArm) -> list[Any]:
+    """Draw a point that an arm reaches, in any direction, the ends of the reach as often as the middle."""
+    part = random.choice([random.uniform(0.0, 0.05), random.uniform(0.0, 1.0), random.uniform(0.95, 1.0)])
+    nearest, farthest = arm.nearest + AT_A_LIMIT, arm.farthest - AT_A_LIMIT
+    return at_distance(random, nearest + part * (farthest - nearest))
 
 
-def ask_for_both(x: float, y: float) -> list[Request]:
-    """Return the requests for a point with the elbow below and above."""
-    return [ask_for(x, y, elbow_up=elbow_up) for elbow_up in (False, True)]
-
-
-def anywhere(random: Random, arm: TwoLinkArm) -> Request:
-    """Draw a point that an arm reaches, in any direction."""
-    distance = random.uniform(arm.nearest + MARGIN, arm.farthest - MARGIN)
-    return _draw(random, distance, random.uniform(-math.pi, math.pi))
-
-
-def ahead(random: Random, nearest: float, farthest: float) -> Request:
-    """Draw a point between two distances (m), at least 0.35 rad off the vertical."""
-    widest = math.pi / 2 - 0.35
-    return _draw(random, random.uniform(nearest, farthest), random.uniform(-widest, widest))
-
-
-def _draw(random: Random, distance: float, direction: float) -> Request:
+def at_distance(random: Random, distance: float) -> list[Any]:
+    """Draw a point so far (m) from the shoulder, ahead of it more often than not."""
+    direction = random.uniform(-math.pi, math.pi) / random.choice([1.0, 2.5])
     x, y = distance * math.cos(direction), distance * math.sin(direction)
-    return ask_for(round(x, 4), round(y, 4), elbow_up=random.random() < 0.5)
+    return [round(x, 5), round(y, 5), random.random() < 0.5]

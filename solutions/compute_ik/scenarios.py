@@ -7,69 +7,75 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import GetParameters, SetParameters
+from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
 
-from autograder.arena.stage import ServiceClient, Stage
+from autograder.arena.sequence import Steps, carry_out
+from autograder.arena.stage import Stage
 from humanoid_interfaces.srv import ComputeIK
-from ros_runtime.messages import from_dict
 
 MOVING = 1.0  # s of the robot's time for the arm from one point to the next
 SETTLING = 0.3  # s of it to come to rest
 OTHER_ARM_JOINTS = ("shoulder_roll", "shoulder_yaw", "wrist_yaw", "wrist_pitch", "wrist_roll")
 
-Request = dict[str, Any]  # fields of a ComputeIK request
-Questions = Mapping[str, Sequence[Request]]  # in groups, to which the checks refer by name
+Question = Sequence[Any]  # x and y (m); then, if they are other than usual: elbow_up, the frame, z (m)
 
 
-def ask(stage: Stage, questions: Questions) -> None:
-    """Ask one group of questions after the other."""
-    ik = stage.service("compute_ik", ComputeIK)
-    stage.open()
-    _ask(ik, questions)
+def in_order(
+    stage: Stage, steps: Steps, interrupt: bool = False, started_with: Mapping[str, float] | None = None
+) -> None:
+    """Ask at once, bring the robot's arm to an answer, read and set parameters; then press Ctrl-C.
 
-
-def interrupt(stage: Stage, questions: Questions) -> None:
-    """Ask, then press Ctrl-C."""
-    ask(stage, questions)
-    stage.interrupt_node()
-
-
-def set_lengths(stage: Stage, questions: Questions, lengths: Mapping[str, float], then: Questions) -> None:
-    """Read the parameters, ask, set them while the node runs, ask again."""
+    `started_with` are the lengths (m) that the node is started with, if not the usual ones: the model has to know.
+    """
     ik = stage.service("compute_ik", ComputeIK)
     parameters = stage.parameters_of(ik)
     stage.open()
-    parameters.get.call(GetParameters.Request(names=list(lengths)), as_="get_parameters")
-    if _ask(ik, questions):
-        values = [_parameter(*length) for length in lengths.items()]
-        parameters.set.call(SetParameters.Request(parameters=values), as_="set_parameters")
-        _ask(ik, then)
+
+    def ask(*questions: Question) -> bool:
+        return ik.call_at_once([_request(*question) for question in questions])
+
+    def move_to(*question: Any) -> bool:
+        call = ik.send(_request(*question))
+        if call.wait() and call.response:
+            _move_to(stage, call.response.shoulder, call.response.elbow)
+        return call.response is not None
+
+    def get(*names: str) -> bool:
+        return parameters.get.call(GetParameters.Request(names=list(names)))
+
+    def set_lengths(*lengths: tuple[str, float]) -> bool:
+        return parameters.set.call(SetParameters.Request(parameters=_parameters(lengths)))
+
+    def set_together(*lengths: tuple[str, float]) -> bool:
+        return parameters.set_together.call(SetParametersAtomically.Request(parameters=_parameters(lengths)))
+
+    vocabulary = {
+        "ask": ask,
+        "move_to": move_to,
+        "get": get,
+        "set": set_lengths,
+        "set_together": set_together,
+    }
+    carry_out(stage, steps, vocabulary)
+    if interrupt:
+        stage.interrupt_node()
 
 
-def move_the_arm(stage: Stage, questions: Questions) -> None:
-    """Ask; at each answer to the group 'with the arm' bring the robot's left arm to it and see where the hand is."""
-    ik = stage.service("compute_ik", ComputeIK)
-    stage.open()
-    for group, requests in questions.items():
-        for number, request in enumerate(requests, start=1):
-            call = ik.send(from_dict(ComputeIK.Request, request), as_=f"{group} {number}")
-            if not call.wait():
-                return
-            if group == "with the arm" and call.response:
-                _move_to(stage, call.response.shoulder, call.response.elbow)
+def _request(
+    x: float, y: float, elbow_up: bool = False, frame: str = "shoulder", z: float = 0.0
+) -> ComputeIK.Request:
+    request = ComputeIK.Request(elbow_up=elbow_up)
+    request.target.header.frame_id = frame
+    request.target.point.x, request.target.point.y, request.target.point.z = x, y, z
+    return request
 
 
-def _ask(ik: ServiceClient, questions: Questions) -> bool:
-    """Ask until a question is not answered: a node that hangs or has died will not answer the next one either."""
-    return all(
-        ik.call(from_dict(ComputeIK.Request, request), as_=f"{group} {number}")
-        for group, requests in questions.items()
-        for number, request in enumerate(requests, start=1)
-    )
-
-
-def _parameter(name: str, value: float) -> Parameter:
-    return Parameter(name=name, value=ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value))
+def _parameters(lengths: Sequence[tuple[str, float]]) -> list[Parameter]:
+    double = ParameterType.PARAMETER_DOUBLE
+    return [
+        Parameter(name=name, value=ParameterValue(type=double, double_value=length))
+        for name, length in lengths
+    ]
 
 
 def _move_to(stage: Stage, shoulder: float, elbow: float) -> None:

@@ -3,68 +3,92 @@
 import math
 
 import pytest
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue, SetParametersResult
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 
 from autograder.authoring import events as ev
 from autograder.authoring.checks import Failure
 from autograder.authoring.transcript import Transcript
-from autograder.engine.exercise import exercise_module, load_exercise
+from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.srv import ComputeIK
 
-JUDGING = exercise_module("compute_ik", "judging")
-Reply, require_hit, require_side = JUDGING.Reply, JUDGING.require_hit, JUDGING.require_side
-CHECKS = {check.id: check for check in load_exercise("compute_ik", hidden=True).checks}
+MODEL = exercise_module("compute_ik", "model")
 TwoLinkArm = exercise_module("compute_ik", "two_link_arm").TwoLinkArm
 TARGET = (0.4, 0.3)
 SHOULDER, ELBOW = math.radians(14.5383), math.radians(49.4584)  # the elbow below
 DIRECTION = math.atan2(TARGET[1], TARGET[0])
 INSIDE = DIRECTION - SHOULDER  # the triangle's angle at the shoulder
+LENGTHS = ("upper_arm_length", "forearm_length")
 
 
-def reply(shoulder, elbow, *, target=TARGET, elbow_up=False, error_code=1):
-    request = ComputeIK.Request(elbow_up=elbow_up)
-    request.target.header.frame_id = "shoulder"
-    request.target.point.x, request.target.point.y = target
-    response = ComputeIK.Response(error_code=error_code, shoulder=shoulder, elbow=elbow)
-    asked = ev.ServiceCalled(t=0.5, call="ask", service="compute_ik", request=request)
-    answered = ev.ServiceAnswered(t=1.0, call="ask", response=response)
-    return Reply(Transcript.from_events("ask", {}, [asked, answered]).call("ask"))
+def run(*answers, lengths=(), accepted=True, together=False, started_with=None):
+    """Return a run in which lengths are set first and then each question (target, elbow_up, frame) gets an answer."""
+    events = []
+    if lengths:
+        values = [ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=each) for each in lengths]
+        asked = [Parameter(name=name, value=value) for name, value in zip(LENGTHS, values, strict=False)]
+        result = SetParametersResult(successful=accepted)
+        kind = SetParametersAtomically if together else SetParameters
+        service = "/ik/set_parameters_atomically" if together else "/ik/set_parameters"
+        request = kind.Request(parameters=asked)
+        response = kind.Response(**({"result": result} if together else {"results": [result] * len(asked)}))
+        events.append(ev.ServiceCalled(t=0.1, call="set", service=service, request=request))
+        events.append(ev.ServiceAnswered(t=0.2, call="set", response=response))
+    for number, (shoulder, elbow, error_code, target, elbow_up, frame) in enumerate(answers, start=1):
+        request = ComputeIK.Request(elbow_up=elbow_up)
+        request.target.header.frame_id = frame
+        request.target.point.x, request.target.point.y = target
+        response = ComputeIK.Response(error_code=error_code, shoulder=shoulder, elbow=elbow)
+        call = f"compute_ik {number}"
+        events.append(ev.ServiceCalled(t=number, call=call, service="compute_ik", request=request))
+        events.append(ev.ServiceAnswered(t=number + 0.5, call=call, response=response))
+    params = {"steps": [], **({"started_with": started_with} if started_with else {})}
+    return Transcript.from_events("in_order", params, events)
+
+
+def answer(shoulder, elbow, *, target=TARGET, elbow_up=False, error_code=1, frame="shoulder"):
+    return shoulder, elbow, error_code, target, elbow_up, frame
+
+
+def require_hit(*answers, **of_the_run):
+    return MODEL.reaches_the_point.judge(run(*answers, **of_the_run))
+
+
+def require_side(*answers):
+    return MODEL.bends_the_elbow_as_asked.judge(run(*answers))
 
 
 @pytest.mark.parametrize("turns", [0, 1, -3])
 def test_full_turns_do_not_matter(turns):
-    answer = reply(SHOULDER + 2 * math.pi * turns, ELBOW - 2 * math.pi * turns)
-    require_hit(answer)
-    require_side(answer)
+    turned = answer(SHOULDER + 2 * math.pi * turns, ELBOW - 2 * math.pi * turns)
+    assert require_hit(turned)
+    assert require_side(turned)
 
 
 def test_each_of_the_two_solutions_is_on_its_side():
     above = (DIRECTION + INSIDE, -ELBOW)
-    require_hit(reply(*above, elbow_up=True))
-    require_side(reply(*above, elbow_up=True))
+    require_hit(answer(*above, elbow_up=True))
+    require_side(answer(*above, elbow_up=True))
     with pytest.raises(Failure, match="the elbow is above it"):
-        require_side(reply(*above, elbow_up=False))
+        require_side(answer(*above, elbow_up=False))
     with pytest.raises(Failure, match="the elbow is below it"):
-        require_side(reply(SHOULDER, ELBOW, elbow_up=True))
+        require_side(answer(SHOULDER, ELBOW, elbow_up=True))
 
 
 @pytest.mark.parametrize("shoulder", [math.inf, math.nan])
 def test_an_angle_that_is_none_has_no_side(shoulder):
-    for judged in (
-        lambda answer: require_side(answer),
-        lambda answer: JUDGING.require_sides([answer, reply(0.1, 0.2)]),
-    ):
-        with pytest.raises(Failure, match="which is nowhere"):
-            judged(reply(shoulder, ELBOW, elbow_up=True))
+    with pytest.raises(Failure, match="which is nowhere"):
+        require_side(answer(shoulder, ELBOW, elbow_up=True))
 
 
 def test_behind_the_shoulder_either_side_will_do():
     for elbow_up in (False, True):
-        require_side(reply(math.pi - SHOULDER, -ELBOW, target=(-0.4, 0.3), elbow_up=elbow_up))
+        require_side(answer(math.pi - SHOULDER, -ELBOW, target=(-0.4, 0.3), elbow_up=elbow_up))
 
 
 def test_two_millimetres_are_too_many():
     with pytest.raises(Failure, match="mm off"):
-        require_hit(reply(SHOULDER + 0.004, ELBOW))
+        require_hit(answer(SHOULDER + 0.004, ELBOW))
 
 
 @pytest.mark.parametrize(
@@ -92,28 +116,27 @@ def test_two_millimetres_are_too_many():
 )
 def test_the_advice_names_the_mistake(shoulder, elbow, advice):
     with pytest.raises(Failure) as failure:
-        require_hit(reply(shoulder, elbow))
+        require_hit(answer(shoulder, elbow))
     assert advice in failure.value.help
 
 
 def test_an_answer_for_the_default_lengths_is_recognised():
     with pytest.raises(Failure) as failure:
-        require_hit(reply(SHOULDER, ELBOW), TwoLinkArm(0.22, 0.30))
+        require_hit(answer(SHOULDER, ELBOW), lengths=(0.22, 0.30))
     assert "upper_arm_length" in failure.value.help
 
 
 @pytest.mark.parametrize(("code", "advice"), [(0, "constants"), (-31, "farthest")])
 def test_a_code_that_is_none_is_told_from_a_wrong_one(code, advice):
     with pytest.raises(Failure) as failure:
-        require_hit(reply(SHOULDER, ELBOW, error_code=code))
+        require_hit(answer(SHOULDER, ELBOW, error_code=code))
     assert advice in failure.value.help
 
 
 def sides(run_below, run_above):
     """Return the advice for angles given with elbow_up false and true."""
-    below, above = reply(*run_below), reply(*run_above, elbow_up=True)
     with pytest.raises(Failure) as failure:
-        JUDGING.require_sides([below, above])
+        require_side(answer(*run_below), answer(*run_above, elbow_up=True))
     return failure.value.help
 
 
@@ -126,26 +149,63 @@ def test_an_elbow_that_is_always_on_one_side_is_told_from_one_that_is_turned_rou
         "With elbow_up true the elbow was also above: elbow_up is not used."
     )
     assert "the wrong way round" in sides(above, below)
-    JUDGING.require_sides([reply(*below), reply(*above, elbow_up=True)])
+    assert require_side(answer(*below), answer(*above, elbow_up=True))
 
 
-def refused_frame(frame):
-    """Return the advice where only one frame but the arm's is taken for the arm's."""
-    events = []
-    for name, asked_in in (("in shoulder 1", "shoulder"), ("in others 1", frame)):
-        request = ComputeIK.Request()
-        request.target.header.frame_id = asked_in
-        events.append(ev.ServiceCalled(t=0.5, call=name, service="compute_ik", request=request))
-        events.append(ev.ServiceAnswered(t=1.0, call=name, response=ComputeIK.Response(error_code=1)))
-    questions = {"in shoulder": [{}], "in others": [{}]}
+@pytest.mark.parametrize("frame", ["", "l_shoulder"])
+def test_only_shoulder_is_the_frame_of_the_arm(frame):
+    either = " either" if not frame else ""
     with pytest.raises(Failure) as failure:
-        CHECKS["refuses_other_frames"].run([Transcript.from_events("ask", {"questions": questions}, events)])
-    return failure.value.help
-
-
-def test_an_empty_frame_is_another_frame_like_any():
-    assert refused_frame("") == "'' is not 'shoulder' either: refuse everything else, before computing."
+        MODEL.refuses_other_frames.judge(run(answer(SHOULDER, ELBOW, frame=frame)))
     assert (
-        refused_frame("l_shoulder")
-        == "'l_shoulder' is not 'shoulder': refuse everything else, before computing."
+        failure.value.help
+        == f"{frame!r} is not 'shoulder'{either}: refuse everything else, before computing."
     )
+
+
+@pytest.mark.parametrize(
+    ("away", "codes"), [(-0.002, {1}), (-0.0005, {1, -31}), (0.0005, {-31}), (0.002, {-31})]
+)
+def test_at_a_limit_of_the_reach_either_code_is_right_if_the_hand_is_there(away, codes):
+    arm, right = TwoLinkArm(), set()
+    farthest = (arm.farthest + away, 0.0)
+    bend = math.acos(min(1.0, (farthest[0] ** 2 - 0.30**2 - 0.25**2) / (2 * 0.30 * 0.25)))
+    shoulder = -math.atan2(0.25 * math.sin(bend), 0.30 + 0.25 * math.cos(bend))
+    for code in (1, -31):
+        asked = run(answer(shoulder, bend, target=farthest, error_code=code))
+        try:
+            MODEL.reaches_the_point.judge(asked)
+            MODEL.says_what_is_out_of_reach.judge(asked)
+            right.add(code)
+        except Failure:
+            pass
+    assert codes <= right
+    assert abs(away) < 0.001 or right == codes
+
+
+@pytest.mark.parametrize("together", [False, True])
+def test_lengths_that_were_accepted_are_used(together):
+    with pytest.raises(Failure, match="mm off"):
+        require_hit(answer(SHOULDER, ELBOW), lengths=(0.22, 0.30), together=together)
+    assert require_hit(answer(SHOULDER, ELBOW), lengths=(0.30, 0.25), together=together)
+
+
+def test_a_length_that_was_refused_is_not_used():
+    assert require_hit(answer(SHOULDER, ELBOW), lengths=(0.22, 0.30), accepted=False)
+    assert MODEL.uses_the_lengths_it_accepted.judge(
+        run(answer(SHOULDER, ELBOW), lengths=(0.5,), accepted=False)
+    )
+
+
+@pytest.mark.parametrize("length", [0.0, -0.25, math.nan])
+def test_with_a_length_that_is_none_any_answer_will_do(length):
+    asked = run(answer(1.0, 1.0), lengths=(length,))
+    assert MODEL.answers_every_request.judge(asked) == {"with lengths that are none": 1}
+    assert not MODEL.reaches_the_point.judge(asked)
+
+
+def test_a_request_without_an_answer_is_named_by_its_target():
+    events = run(answer(0.0, 0.0, target=(0.03, 0.02))).events[:1]
+    with pytest.raises(Failure) as failure:
+        MODEL.reaches_the_point.judge(Transcript.from_events("in_order", {"steps": []}, events))
+    assert "(0.03, 0.02)" in failure.value.expected

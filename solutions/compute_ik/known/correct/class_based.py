@@ -23,7 +23,7 @@ class ArmKinematics(Node):
         l1 = self.get_parameter("upper_arm_length").value
         l2 = self.get_parameter("forearm_length").value
         x, y = request.target.point.x, request.target.point.y
-        cosine = (x * x + y * y - l1 * l1 - l2 * l2) / (2.0 * l1 * l2)
+        cosine = (x * x + y * y - l1 * l1 - l2 * l2) / (2.0 * l1 * l2 or math.nan)
         if not -1.0 <= cosine <= 1.0:
             response.error_code = ComputeIK.Response.NO_IK_SOLUTION
             response.message = f"({x:.2f}, {y:.2f}) is out of reach"

@@ -1,0 +1,295 @@
+"""What must hold of every answer of the IK service, clause by clause, in every scenario."""
+
+from __future__ import annotations
+
+import math
+
+from rcl_interfaces.msg import ParameterType, ParameterValue
+
+from autograder.authoring import events as ev
+from autograder.authoring.call import Call
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.missing import held_up
+from autograder.authoring.obligation import calls, obligation, whole_run
+from autograder.authoring.transcript import Transcript
+
+from .advice import advice_for, advice_on_the_side
+from .reply import CODES, Reply, Response, code_in_words, side_in_words
+from .two_link_arm import DEFAULT, TOLERANCE, TwoLinkArm
+
+SERVICE = "compute_ik"
+SETTING = ("set_parameters", "set_parameters_atomically")
+AHEAD = 0.02  # m; farther back, "above the line" may be read in two ways
+ARM_TOLERANCE = 0.01  # m; the servos of the robot's arm bring the hand within 2 mm
+
+
+@obligation(7, of=calls(SERVICE))
+def answers_every_request(call: Call) -> str:
+    """Every request gets an answer, whatever it asks for and whatever lengths were set"""
+    _ = Reply(call, DEFAULT).response
+    return "with lengths that are none" if _arm(call) is None else "with an arm"
+
+
+@obligation(1, 2, of=calls(SERVICE))
+def reaches_the_point(call: Call) -> str | None:
+    """A success brings the hand to the point, within 1 mm; what is within reach is a success"""
+    reply = _reply(call)
+    if reply is None or reply.is_out_of_reach:
+        return None
+    if reply.is_within_reach:
+        _require_success(reply)
+    elif not reply.is_a_success:
+        return None
+    missed_by = reply.arm.misses(*reply.shoulder_and_elbow, reply.target)
+    if missed_by > TOLERANCE:
+        raise Failure(
+            expected=f"angles that bring the hand within 1 mm of {reply.question}, with links of "
+            f"{reply.arm.upper_arm:.2f} and {reply.arm.forearm:.2f} m",
+            observed=f"{reply.angles}: {_where_that_is(reply, missed_by)}",
+            help=advice_for(*reply.shoulder_and_elbow, reply.target, reply.arm),
+            at=reply.at,
+        )
+    if not reply.is_within_reach:
+        return "at a limit of the reach"
+    return "ahead" if reply.target[0] >= AHEAD else "above, below or behind"
+
+
+@obligation(3, of=calls(SERVICE))
+def bends_the_elbow_as_asked(call: Call) -> str | None:
+    """The elbow is above the line to a target ahead with elbow_up, below it without"""
+    reply = _reply(call)
+    if reply is None or not reply.is_within_reach or reply.target[0] < AHEAD or not reply.is_a_success:
+        return None
+    side, is_above = side_in_words(reply.elbow_up), reply.elbow_is_above
+    if is_above is None:
+        raise Failure(
+            expected=f"two angles for {reply.question}",
+            observed=f"{reply.angles}, which is nowhere",
+            help="Look where a NaN or an infinite number comes from: a division by zero, or acos of more than 1.",
+            at=reply.at,
+        )
+    expect(
+        is_above == reply.elbow_up,
+        expected=f"the elbow {side} the line from shoulder to target for {reply.question}",
+        observed=f"{reply.angles}: the elbow is {side_in_words(is_above)} it",
+        help=advice_on_the_side(reply.elbow_up, _side_of_the_twin(reply)),
+        at=reply.at,
+    )
+    return f"the elbow {side}"
+
+
+@obligation(1, of=calls(SERVICE))
+def refuses_nothing_within_reach(call: Call) -> str | None:
+    """What can be reached is SUCCESS"""
+    reply = _reply(call)
+    if reply is None or not reply.is_within_reach:
+        return None
+    _require_success(reply)
+    return "within reach"
+
+
+@obligation(4, of=calls(SERVICE))
+def says_what_is_out_of_reach(call: Call) -> str | None:
+    """Too far and too near is NO_IK_SOLUTION"""
+    reply = _reply(call)
+    if reply is None or not reply.is_out_of_reach:
+        return None
+    _require_code(
+        reply,
+        Response.NO_IK_SOLUTION,
+        because=reply.reach,
+        help="Look at cos(elbow) before acos: beyond -1 and 1 there is no such triangle. Forcing it into that range "
+        "makes a failure look like a success.",
+    )
+    return "too far" if reply.distance > reply.arm.farthest else "too near"
+
+
+@obligation(5, of=calls(SERVICE))
+def refuses_other_frames(call: Call) -> str:
+    """A target in any frame but "shoulder" is FRAME_TRANSFORM_FAILURE, and no other is"""
+    reply = Reply(call, DEFAULT)
+    if reply.frame == "shoulder":
+        expect(
+            reply.error_code != Response.FRAME_TRANSFORM_FAILURE,
+            expected=f"another error_code for {reply.question}: that is the right frame",
+            observed=f"error_code {code_in_words(reply.error_code)}",
+            help="Compare request.target.header.frame_id with 'shoulder'.",
+            at=reply.at,
+        )
+        return "in shoulder"
+    _require_code(
+        reply,
+        Response.FRAME_TRANSFORM_FAILURE,
+        because="only 'shoulder' is the frame of the arm",
+        help=f"{reply.frame!r} is not 'shoulder'{'' if reply.frame else ' either'}: refuse everything else, before "
+        "computing.",
+    )
+    return "in another frame" if reply.frame else "in an empty frame"
+
+
+@obligation(6, of=calls(SERVICE))
+def refuses_what_is_no_number(call: Call) -> str | None:
+    """A target whose x or y is NaN or infinite is no success"""
+    reply = Reply(call, DEFAULT)
+    if reply.frame != "shoulder" or all(map(math.isfinite, reply.target)):
+        return None
+    expect(
+        not reply.is_a_success,
+        expected=f"any error_code but SUCCESS for {reply.question}",
+        observed=f"error_code {code_in_words(reply.error_code)}, {reply.angles}",
+        help="Every comparison with NaN is false, so a test such as `distance > reach` lets it through: ask "
+        "math.isfinite(), or test for what is good.",
+        at=reply.at,
+    )
+    return "NaN" if any(map(math.isnan, reply.target)) else "infinite"
+
+
+@obligation(9, of=calls(SERVICE))
+def uses_the_lengths_it_accepted(call: Call) -> str | None:
+    """Lengths that were set are used from the next request on, if set_parameters accepted them; else the old ones"""
+    if not _settings(call):
+        return None
+    each = [reaches_the_point, says_what_is_out_of_reach, bends_the_elbow_as_asked]
+    return " and ".join(filter(None, (one.require(call) for one in each))) or None
+
+
+@obligation(8, of=whole_run)
+def declares_its_lengths(run: Transcript) -> str | None:
+    """upper_arm_length and forearm_length are parameters of type double: 0.30 and 0.25 m"""
+    asked = [call for call in run.calls if call.service.endswith("/get_parameters")]
+    for call in asked:
+        values = iter(call.response.values)
+        for name, length in zip(call.request.names, (DEFAULT.upper_arm, DEFAULT.forearm), strict=True):
+            value = next(values, ParameterValue())  # a node that lacks one may say nothing of any
+            expect(
+                value.type == ParameterType.PARAMETER_DOUBLE
+                and math.isclose(value.double_value, length, abs_tol=1e-6),
+                expected=f"a parameter {name} of type double with the value {length:.2f}",
+                observed=_in_words(value),
+                help=f"Declare it with its default in the constructor: self.declare_parameter({name!r}, {length:.2f}).",
+                at=call.sent.t,
+            )
+    return "at the start" if asked else None
+
+
+@obligation(2, 8, of=whole_run)
+def moves_the_real_hand(run: Transcript) -> str | None:
+    """The angles bring the robot's hand to the point, as far as its servos allow"""
+    reports = run.all(ev.ArmReported)
+    for arm in reports:
+        reply = Reply(
+            [call for call in calls(SERVICE)(run) if call.answer and call.answer.t < arm.t][-1], DEFAULT
+        )
+        if run.told("move_joints", before=arm.t).t < reply.at:
+            raise held_up(run, f"the arm was not moved to the angles for {reply.question}")
+        x, y = reply.target
+        away = math.dist(arm.hand, (x, 0.0, y))
+        expect(
+            away <= ARM_TOLERANCE,
+            expected=f"the robot's hand within {ARM_TOLERANCE * 1000:.0f} mm of {reply.question}",
+            observed=f"{reply.angles}: the hand came to {arm.hand[0]:.3f} m forward, {arm.hand[2]:.3f} m up, "
+            f"{away * 1000:.0f} mm off",
+            help="The robot's elbow bends one way only, as yours does: with elbow_up false its angle is positive.",
+            at=arm.t,
+        )
+    return "the robot's arm" if reports else None
+
+
+# -- the truth --------------------------------------------------------------------------------------------------------
+
+
+def _transcript(call: Call) -> Transcript:
+    if not isinstance(call.run, Transcript):
+        raise TypeError("a call of an obligation is one of a transcript")
+    return call.run
+
+
+def _settings(call: Call) -> list[Call]:
+    """Return the calls that set parameters before a call; each must have been answered."""
+    asked = [each for each in _transcript(call).calls if each.service.split("/")[-1] in SETTING]
+    return [each for each in asked if each.sent.t < call.sent.t and each.answered]
+
+
+def _accepted(setting: Call) -> dict[str, float]:
+    """Return the parameters that a call set, by their names, as far as the node accepted them."""
+    together = setting.service.endswith("_atomically")
+    asked, response = setting.request.parameters, setting.response
+    results = [response.result] * len(asked) if together else response.results
+    return {
+        new.name: new.value.double_value
+        for new, result in zip(asked, results, strict=False)
+        if result.successful
+    }
+
+
+def _arm(call: Call) -> TwoLinkArm | None:
+    """Return the arm that the node computes with at a call: each length as given at the start, or as it accepted it.
+
+    None: it accepted one that is none: 0, negative, infinite or no number.
+    """
+    arm = {"upper_arm_length": DEFAULT.upper_arm, "forearm_length": DEFAULT.forearm}
+    arm |= call.run.params.get("started_with") or {}
+    for setting in _settings(call):
+        arm |= _accepted(setting)
+    if not all(math.isfinite(length) and length > 0.0 for length in arm.values()):
+        return None
+    return TwoLinkArm(arm["upper_arm_length"], arm["forearm_length"])
+
+
+def _reply(call: Call) -> Reply | None:
+    """Return the answer to a call for a point in frame shoulder; None if it asks for none, or the arm is none."""
+    arm, point = _arm(call), call.request.target.point
+    reply = Reply(call, arm or DEFAULT)
+    _ = reply.response
+    is_a_point = reply.frame == "shoulder" and all(map(math.isfinite, (point.x, point.y, point.z)))
+    return reply if arm and is_a_point else None
+
+
+def _side_of_the_twin(reply: Reply) -> bool | None:
+    """Return the side of the elbow in the answer for the same target with the other elbow_up, if there is one."""
+    for other in calls(SERVICE)(_transcript(reply.call)):
+        twin = Reply(other, reply.arm)
+        if other.answer and twin.target == reply.target and twin.elbow_up != reply.elbow_up:
+            return twin.elbow_is_above
+    return None
+
+
+# -- requirements -----------------------------------------------------------------------------------------------------
+
+
+def _require_success(reply: Reply) -> None:
+    _require_code(
+        reply,
+        Response.SUCCESS,
+        because=reply.reach,
+        help="Compare the distance of the target with the lengths in metres: their sum is the farthest it may be.",
+    )
+
+
+def _require_code(reply: Reply, code: int, *, because: str, help: str) -> None:
+    expect(
+        reply.error_code == code,
+        expected=f"error_code {CODES[code]} ({code}) for {reply.question}: {because}",
+        observed=f"error_code {code_in_words(reply.error_code)}",
+        help=help
+        if reply.error_code in CODES
+        else "Set response.error_code to one of ComputeIK.Response's constants. A new response has 0, which is none.",
+        at=reply.at,
+    )
+
+
+# -- words ------------------------------------------------------------------------------------------------------------
+
+
+def _where_that_is(reply: Reply, missed_by: float) -> str:
+    if math.isinf(missed_by):
+        return "no place at all"
+    x, y = reply.arm.hand_at(*reply.shoulder_and_elbow)
+    return f"the hand is at ({x:.3f}, {y:.3f}), {missed_by * 1000:.0f} mm off"
+
+
+def _in_words(value: ParameterValue) -> str:
+    if value.type == ParameterType.PARAMETER_NOT_SET:
+        return "no value: it is not declared, or without a default"
+    is_double = value.type == ParameterType.PARAMETER_DOUBLE
+    return f"the value {value.double_value:g}" if is_double else "a value of another type"
