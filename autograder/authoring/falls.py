@@ -41,3 +41,4 @@ def require_fell_told(goal: Goal, fallen: ev.RobotTruth) -> None:
         at=result.t,
     )
     require_error_code(goal, "FELL", because="the robot has fallen")
+    goal.require_reason()

@@ -190,6 +190,17 @@ class Goal:
         self.require_result(CANCELED)
         return request.sent
 
+    def require_reason(self) -> None:
+        """Require that error_msg of its result, which must be there, says something."""
+        assert self.result, "ask for its result first"
+        expect(
+            bool(self.result.result.error_msg.strip()),
+            expected="error_msg to say why the goal was ABORTED",
+            observed="it is empty",
+            help="Set result.error_msg to a sentence for people before the terminal call.",
+            at=self.result.t,
+        )
+
     def require_silence_afterwards(self) -> None:
         """Require that no feedback came after the result, while the scenario listened for it."""
         if self.result is None or self.run.end < self.result.t + LISTENED:

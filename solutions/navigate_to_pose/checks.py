@@ -287,7 +287,9 @@ def measures_what_was_walked(run: Transcript) -> None:
 @check(points=2, on=MID_STRIDE, needs=accepts_a_goal, see="07_cancel_and_preempt#fix-intro", clauses=[17])
 def cancels_in_mid_stride(run: Transcript) -> None:
     """A cancel while the robot walks ends CANCELED, and within 2 s the robot stands still and upright"""
-    request = run.goal("after 1.5 s").require_canceled()
+    goal = run.goal("after 1.5 s")
+    request = goal.require_canceled()
+    require_error_code(goal, "NONE", because="the goal was canceled, which is no error")
     require_walking(run, request.t)
     require_stopped(run, request.t)
 

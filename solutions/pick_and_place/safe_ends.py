@@ -72,6 +72,7 @@ def require_preempted_or_rejected(first: Goal, second: Goal) -> None:
         help="Two goals had one hand. Reject the second one in goal_callback, or end the first one with PREEMPTED.",
     )
     require_error_code(first, "PREEMPTED", because="a later goal has the hand")
+    first.require_reason()
     expect(
         end.t >= second.sent.t,
         expected="the first goal to go on until the second one comes",

@@ -8,6 +8,7 @@ from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario, check
 from autograder.authoring.feedback import require_good_feedback_rate
 from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.reports import require_error_code
 
 from .endings import (
     require_aborted_by_a_fall,
@@ -174,7 +175,9 @@ def says_that_it_stands_already(run: Transcript) -> None:
 @check(points=2, on=CANCEL, needs=accepts_a_goal, see="07_cancel_and_preempt#m1-why", clauses=[12])
 def cancels_under_way(run: Transcript) -> None:
     """A cancel while the robot rises is agreed to and ends CANCELED"""
-    request = run.goal("canceled").require_canceled()
+    goal = run.goal("canceled")
+    request = goal.require_canceled()
+    require_error_code(goal, "NONE", because="the goal was canceled, which is no error")
     require_begun(run.goal("canceled"), request.t)
 
 

@@ -41,7 +41,7 @@ def require_standing_told(goal: Goal) -> None:
         ABORTED, help="Nothing was done, so it is no success: abort() with ALREADY_STANDING."
     )
     require_error_code(goal, "ALREADY_STANDING", because="the robot stands already")
-    _require_words(goal)
+    goal.require_reason()
     took = result.t - goal.accepted_at
     expect(
         took <= AT_ONCE,
@@ -49,17 +49,6 @@ def require_standing_told(goal: Goal) -> None:
         observed=f"it came after {took:.1f} s",
         help="Compare odom's height with 0.59 m before the first phase.",
         at=result.t,
-    )
-
-
-def _require_words(goal: Goal) -> None:
-    assert goal.result
-    expect(
-        bool(goal.result.result.error_msg.strip()),
-        expected="error_msg to say why the goal was ABORTED",
-        observed="it is empty",
-        help="Set result.error_msg to a sentence for people.",
-        at=goal.result.t,
     )
 
 
@@ -79,7 +68,7 @@ def require_given_up(goal: Goal, since: float) -> None:
         at=result.t,
     )
     require_error_code(goal, "NONE", because="the action has no code for the time limit")
-    _require_words(goal)
+    goal.require_reason()
 
 
 def require_held(goal: Goal) -> None:
@@ -155,7 +144,7 @@ def require_aborted_by_a_fall(goal: Goal) -> None:
     require_crouch(goal)
     require_begun(goal, run.told("push").t)
     require_fell_told(goal, require_knocked_over(run))
-    _require_words(goal)
+    goal.require_reason()
 
 
 def require_hopeless(goal: Goal) -> None:

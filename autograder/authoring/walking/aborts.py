@@ -33,6 +33,7 @@ def require_preempted(old: Goal, new: Goal) -> None:
         "newest? (handle_accepted_callback)",
     )
     require_error_code(old, "PREEMPTED", because="a new goal has taken its place")
+    old.require_reason()
     expect(
         end.t >= new.sent.t,
         expected="the old goal to go on until the new one comes",
