@@ -12,7 +12,9 @@ CURRENT_TIME_CONSTANT = 0.5  # s, of the low-pass in the current sensor
 
 @dataclass(frozen=True, slots=True)
 class BatteryParameters:
-    """A pack of eight lithium cells and the robot's consumption."""
+    """A pack of lithium cells in series and the robot's consumption."""
+
+    cells: int = 8
 
     capacity: float = 120.0  # W·h
     full_voltage: float = 33.6  # V, open circuit
@@ -20,6 +22,11 @@ class BatteryParameters:
     resistance: float = 0.05  # Ω
     idle_power: float = 18.0  # W, computers and sensors
     motor_loss: float = 0.025  # W/(N·m)², heat in a windings' resistance
+
+    @property
+    def design_charge(self) -> float:
+        """What a full pack holds, A·h."""
+        return 2 * self.capacity / (self.full_voltage + self.empty_voltage)
 
 
 class Battery:

@@ -119,12 +119,12 @@ class HumanoidNode(Node):
         self._imu_message.header.frame_id = "imu_link"
         self._odom_message = Odometry(child_frame_id="base_link")
         self._odom_message.header.frame_id = "odom"
-        nan = math.nan
+        design_charge = self.humanoid.battery.parameters.design_charge
         self._battery_message = BatteryState(
-            temperature=nan,
-            charge=nan,
-            capacity=nan,
-            design_capacity=nan,
+            temperature=math.nan,
+            capacity=design_charge,
+            design_capacity=design_charge,
+            location="torso",
             power_supply_status=BatteryState.POWER_SUPPLY_STATUS_DISCHARGING,
             power_supply_health=BatteryState.POWER_SUPPLY_HEALTH_GOOD,
             power_supply_technology=BatteryState.POWER_SUPPLY_TECHNOLOGY_LION,
@@ -266,6 +266,9 @@ class HumanoidNode(Node):
         message = self._battery_message
         message.voltage, message.current = battery.voltage, battery.current
         message.percentage = battery.percentage if self.charge_measured else math.nan
+        message.charge = message.percentage * message.capacity
+        cells = battery.parameters.cells
+        message.cell_voltage = [battery.voltage / cells] * cells
         self._read_clock()
         self._battery_state.publish(message)
         if self._ground_truth:

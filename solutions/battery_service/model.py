@@ -20,7 +20,7 @@ NUMBERS = ("percentage", "voltage", "current", "temperature", "charge", "capacit
 
 def _knowledge(call: Call) -> str:
     known = known_messages(call, BATTERY)
-    return "before the first message" if known == [] else "after it"
+    return "before the first message" if known == [] else "after the first message"
 
 
 answers_in_time = answered_within(2.0, SERVICE, clause=4)
