@@ -54,6 +54,11 @@ class Transcript(RobotRecord):
         )
 
     @cached_property
+    def goals(self) -> list[Goal]:
+        """Every goal that was sent, in order."""
+        return [self.goal(name) for name in dict.fromkeys(sent.goal for sent in self.all(ev.GoalSent))]
+
+    @cached_property
     def cancels(self) -> list[Cancel]:
         """Every cancel request, in order."""
         sent = {event.cancel: event for event in reversed(self.all(ev.CancelSent))}

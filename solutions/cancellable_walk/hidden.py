@@ -2,146 +2,226 @@
 
 from __future__ import annotations
 
-from autograder.authoring.checks import Scenario, check, expect
-from autograder.authoring.goal import CANCELED, SUCCEEDED
-from autograder.authoring.missing import unseen
-from autograder.authoring.readiness import require_alive
-from autograder.authoring.transcript import Transcript
-from autograder.authoring.walking.planar import error
-from autograder.authoring.walking.truth import (
-    require_accepted,
-    require_arrival,
-    require_stopped,
-    require_walking,
-)
+import math
+from random import Random
+from typing import Any
 
-from .checks import arrives, cancels_in_mid_stride, stops_when_canceled
+from autograder.authoring import standard_hidden
+from autograder.authoring.checks import Scenario
+from autograder.authoring.obligation import check_of
+
+from . import model
+from .checks import FAR, STANDING, arrives, cancels_in_mid_stride, stops_when_canceled
+
+AFTERWARDS = 0.8  # s from a result to the next goal
+Steps = list[list[Any]]
 
 
-def _poses(random) -> dict:
-    """Two poses less than a metre apart, the second partly behind the first.
+def _walks(random: Random) -> dict[str, Any]:
+    """Turn its back, cross pi, give way twice and to one of two, reject meanwhile; fall without power.
 
-    Both face backwards, to the same side, so that a velocity sent in odom's axes leads away on the whole second leg.
+    A velocity in odom's axes leads away from the second pose.
     """
     side = random.choice((-1, 1))
-    first = (random.uniform(0.3, 0.6), random.uniform(-0.3, 0.3), side * random.uniform(1.9, 2.8))
-    second = (
-        first[0] - random.uniform(0.2, 0.4),
-        first[1] + random.uniform(-0.3, 0.3),
-        side * random.uniform(1.9, 2.8),
-    )
-    return {"poses": [[round(value, 3) for value in pose] for pose in (first, second)]}
+    yaw = side * random.uniform(3.0, 3.1)
+    x, y = random.uniform(0.2, 0.3), random.uniform(-0.1, 0.1)
+    beyond = (x + 0.35 * math.cos(yaw), y + 0.35 * math.sin(yaw), -side * random.uniform(3.0, 3.1))
+    aside = (beyond[0], beyond[1] + random.choice((-0.2, 0.2)), beyond[2])
+    impossible = _impossible(random)
+    blocks: list[Steps] = [
+        [
+            *(["go", "first", *FAR, 0.0], ["walk_for", random.uniform(0.2, 0.8)]),
+            *(["go", "second", 1.0, 0.5, 0.0, 0.0], ["walk_for", random.uniform(0.2, 0.8)]),
+            *(["go", "third", *aside, 0.0], ["end", "first"], ["end", "second"], ["arrive", "third"]),
+        ],
+        [
+            ["go_together", ["one", *aside, 0.0], ["other", *beyond, 0.0]],
+            *(["arrive", "one"], ["arrive", "other"]),
+        ],
+        [
+            *(["go_on", "canceled", *FAR], ["walk_for", random.uniform(0.2, 0.8)], ["cancel", "canceled"]),
+            *(["go", "at once", *aside, 0.0], ["end", "canceled"], ["arrive", "at once"]),
+        ],
+        [["go", "here", *beyond, 0.0], *impossible[4:], ["arrive", "here"]],
+    ]
+    random.shuffle(blocks)
+    steps = [
+        *(["go", "back", x, y, yaw, 0.0], *impossible[:4], ["arrive", "back"], ["wait", AFTERWARDS]),
+        *(
+            ["go", "across pi", *beyond, 0.0],
+            ["arrive", "across pi"],
+            ["wait", AFTERWARDS],
+        ),
+        *(step for block in blocks for step in [*block, ["wait", AFTERWARDS]]),
+        *(["go_on", "down", *FAR], ["walk_for", random.uniform(0.2, 0.8)], ["cut_power"], ["end", "down"]),
+        *(["wait", AFTERWARDS], ["go", "lying", 0.0, 0.0, 0.0]),
+    ]
+    return {"steps": _rounded(steps)}
 
 
-RANDOM_POSES = Scenario("walk_in_turn", _poses)
-AT_THE_START = Scenario("cancel_at_the_start")
-SEVERAL_PHASES = Scenario(
-    "cancel_in_mid_stride",
-    lambda random: {"delays": [round(0.5 + 0.11 * k + random.uniform(0, 0.1), 3) for k in range(4)]},
+def _impossible(random: Random) -> Steps:
+    """Return goals that must be rejected, each wrong in one field, in any order."""
+    numbers = (math.nan, math.inf, -math.inf)
+    wrong: list[tuple[str, Any]] = [
+        ("header.frame_id", random.choice(("base_link", "world", "odometry", ""))),
+        *((f"pose.position.{axis}", random.choice(numbers)) for axis in "xyz"),
+        *((f"pose.orientation.{axis}", random.choice(numbers)) for axis in "xyzw"),
+    ]
+    random.shuffle(wrong)
+    return [["ask", f"impossible {number}", *each] for number, each in enumerate(wrong, start=1)]
+
+
+def _phases(random: Random) -> dict[str, Any]:
+    """Cancel in mid-stride at three moments of the gait."""
+    steps: Steps = []
+    for k in range(3):
+        delay = round(0.5 + 0.15 * k + random.uniform(0.0, 0.13), 3)
+        name = f"after {delay:g} s"
+        steps += [
+            ["go_on", name, *FAR],
+            ["walk_for", delay],
+            ["cancel", name],
+            ["end", name],
+            ["wait", STANDING],
+        ]
+    return {"steps": steps}
+
+
+def _cancels(random: Random) -> dict[str, Any]:
+    """Cancel before acceptance, at first feedback, twice, by a stranger, near arrival, after the end, in any order."""
+    ahead = random.uniform(0.5, 0.6)
+
+    def walking(name: str, *cancel: Any) -> Steps:
+        return [
+            *(["go_on", name, *FAR], ["walk_for", random.uniform(0.0, 0.8)]),
+            *(list(cancel), ["end", name], ["wait", STANDING]),
+        ]
+
+    blocks: list[Steps] = [
+        [["cancel_at_once", "at once", *FAR], ["end", "at once"], ["wait", AFTERWARDS]],
+        [
+            *(["go_on", "first feedback", *FAR], ["hear_of", "first feedback"], ["cancel", "first feedback"]),
+            *(["end", "first feedback"], ["wait", STANDING]),
+        ],
+        walking("twice", "cancel_twice", "twice"),
+        walking("stranger", "cancel_all"),
+        [
+            *(["go_on", "near", ahead, 0.0, 0.0], ["come_near", "near", random.uniform(0.12, 0.2)]),
+            *(["cancel", "near"], ["end", "near"], ["wait", STANDING]),
+        ],
+        [
+            *(["go_on", "arrived", random.uniform(-0.2, -0.15), 0.0, 0.0], ["arrive", "arrived"]),
+            *(["wait", AFTERWARDS], ["cancel", "arrived"]),
+            *(["go_on", "after it", 0.2, 0.0, 0.3], ["arrive", "after it"], ["wait", AFTERWARDS]),
+        ],
+    ]
+    random.shuffle(blocks)
+    return {"steps": _rounded([step for block in blocks for step in block])}
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, list):
+        return [_rounded(each) for each in value]
+    return round(value, 3) if isinstance(value, float) else value
+
+
+ANY_ORDER = Scenario("in_order", _walks)
+SEVERAL_PHASES = Scenario("in_order", _phases)
+CANCELS = Scenario("in_order", _cancels)
+OTHER_NAMESPACE = Scenario(
+    "in_order", {"steps": [["go", "walk", 0.3, 0.0, 0.0], ["arrive", "walk"]]}, namespace="/lab_7/robot"
 )
-NEAR_ARRIVAL = Scenario(
-    "cancel_near_arrival", lambda random: {"distance": round(random.uniform(0.12, 0.2), 3)}
+
+arrives_anywhere = check_of(
+    "arrives_anywhere",
+    model.accepts,
+    model.rejects_frames,
+    model.rejects_nan,
+    model.rejects_without_power,
+    model.goes_on,
+    model.succeeds,
+    model.turns_the_shorter_way,
+    model.status_in_order,
+    model.stands_at_success,
+    model.stands_without_a_goal,
+    model.feedback_at_5_hz,
+    model.feedback_is_true,
+    model.reports_where_it_ended,
+    model.says_why_it_aborted,
+    model.gives_way,
+    model.only_one_is_newest,
+    model.tells_a_fall,
+    title="It reaches poses with any heading, one after the other, whatever is asked meanwhile, and keeps every clause",
+    points=2,
+    on=ANY_ORDER,
+    needs=arrives,
+    see="01_robot_and_graph#frames-intro",
 )
-AFTER_THE_END = Scenario("cancel_after_the_end")
-TWICE = Scenario("cancel_twice")
-BY_A_STRANGER = Scenario("cancel_by_a_stranger")
-NEAR = 0.1  # m the robot may have walked on, or back, until it was cancelled
-OTHER_NAMESPACE = Scenario("walk", {"x": 0.3, "y": 0.0, "yaw": 0.0}, namespace="/lab_7/robot")
-
-
-@check(points=2, on=RANDOM_POSES, needs=arrives, see="01_robot_and_graph#frames-intro")
-def arrives_anywhere(run: Transcript) -> None:
-    """It reaches poses with any heading, one after the other"""
-    for number in range(1, len(run.params["poses"]) + 1):
-        require_arrival(run.goal(f"leg {number}"))
-
-
-@check(points=1, on=AT_THE_START, needs=cancels_in_mid_stride, see="07_cancel_and_preempt#m1-why")
-def cancels_at_the_start(run: Transcript) -> None:
-    """A cancel before execution, or at the first feedback, ends CANCELED with the robot still"""
-    run.goal("at once").require_canceled()
-    request = run.goal("first feedback").require_canceled()
-    require_stopped(run, request.t)
-
-
-@check(points=2, on=SEVERAL_PHASES, needs=stops_when_canceled, see="07_cancel_and_preempt#why")
-def stops_in_any_phase_of_the_gait(run: Transcript) -> None:
-    """Wherever its feet are when the cancel comes, the robot stops upright"""
-    for delay in run.params["delays"]:
-        request = run.goal(f"after {delay:g} s").require_canceled()
-        require_walking(run, request.t)
-        require_stopped(run, request.t)
-
-
-@check(points=1, on=NEAR_ARRIVAL, needs=stops_when_canceled, see="07_cancel_and_preempt#fix-read")
-def cancels_near_arrival(run: Transcript) -> None:
-    """A cancel just before arrival ends CANCELED, or SUCCEEDED at the goal, with the robot still"""
-    goal = require_accepted(run.goal("near"))
-    cancel = run.goal("near").requests_to_cancel[-1]
-    distance, _turn = error(run.robot_at(cancel.sent.t), goal)
-    expect(
-        distance <= run.params["distance"] + NEAR,
-        expected="the robot near its goal after 15 s, where it is cancelled",
-        observed=f"it is {distance:.2f} m away",
-        help="Walk at 0.3 m/s or so: 0.7 m take a few seconds.",
-        at=cancel.sent.t,
-    )
-    if goal.status == SUCCEEDED:
-        require_arrival(goal)
-    else:
-        cancel.require_agreed(goal)
-        goal.require_result(CANCELED)
-    require_stopped(run, cancel.sent.t)
-
-
-@check(points=1, on=AFTER_THE_END, needs=arrives, see="07_cancel_and_preempt#late-why")
-def survives_a_cancel_after_the_end(run: Transcript) -> None:
-    """A cancel after the result changes nothing, and the next goal is walked to"""
-    require_arrival(run.goal("first"))
-    cancel = run.goal("first").requests_to_cancel[0]
-    result = run.goal("first").result
-    if result is None or result.t > cancel.sent.t:
-        raise unseen(run, "the cancel did not come after the end")
-    require_alive(run)
-    expect(
-        cancel.answer is not None and not cancel.answer.canceling,
-        expected="the cancel of a goal that has ended to be refused",
-        observed="no answer" if cancel.answer is None else "the server agreed to cancel it",
-        help="Keep no list of goals of your own: rclpy knows which goals are active and refuses the others.",
-        at=cancel.sent.t,
-    )
-    require_arrival(run.goal("second"))
-
-
-@check(points=1, on=TWICE, needs=cancels_in_mid_stride, see="07_cancel_and_preempt#m12-why")
-def survives_two_cancels(run: Transcript) -> None:
-    """The same cancel asked for twice ends CANCELED once, and both are answered"""
-    goal, cancels = run.goal("walk"), run.goal("walk").requests_to_cancel
-    goal.require_canceled(cancels[0])
-    require_alive(run)
-    if len(cancels) < 2:
-        raise unseen(run, "the cancel was asked for only once")
-    require_walking(run, cancels[0].sent.t)
-    expect(
-        all(cancel.answer is not None for cancel in cancels),
-        expected="an answer to both cancel requests",
-        observed="one was not answered within 5 s",
-        help="cancel_callback may be called again for the same goal: return CancelResponse.ACCEPT and change "
-        "nothing else in it.",
-        at=cancels[-1].sent.t,
-    )
-    goal.require_silence_afterwards()
-
-
-@check(points=1, on=BY_A_STRANGER, needs=stops_when_canceled, see="07_cancel_and_preempt#conventions")
-def obeys_a_stranger(run: Transcript) -> None:
-    """Another client may cancel every goal"""
-    request = run.goal("walk").require_canceled(run.cancels_of_all[-1])
-    require_walking(run, request.t)
-    require_stopped(run, request.t)
-
-
-@check(points=1, on=OTHER_NAMESPACE, needs=arrives, see="01_robot_and_graph#names-why")
-def works_in_any_namespace(run: Transcript) -> None:
-    """Started in another namespace, it walks the robot there"""
-    require_arrival(run.goal("walk"))
+cancels_at_the_start = check_of(
+    "cancels_at_the_start",
+    *model.canceled_at_the_start,
+    title="A cancel before execution, or at the first feedback, ends CANCELED with the robot still",
+    points=1,
+    on=CANCELS,
+    needs=cancels_in_mid_stride,
+    see="07_cancel_and_preempt#m1-why",
+)
+stops_in_any_phase_of_the_gait = check_of(
+    "stops_in_any_phase_of_the_gait",
+    model.grants_cancels,
+    model.stops_when_canceled,
+    model.stands_without_a_goal,
+    title="Wherever its feet are when the cancel comes, the robot stops upright",
+    points=2,
+    on=SEVERAL_PHASES,
+    needs=stops_when_canceled,
+    see="07_cancel_and_preempt#why",
+)
+cancels_near_arrival = check_of(
+    "cancels_near_arrival",
+    *model.canceled_near_arrival,
+    title="A cancel just before arrival ends CANCELED, or SUCCEEDED at the goal, with the robot still",
+    points=1,
+    on=CANCELS,
+    needs=stops_when_canceled,
+    see="07_cancel_and_preempt#fix-read",
+)
+survives_a_cancel_after_the_end = check_of(
+    "survives_a_cancel_after_the_end",
+    model.refuses_late_cancels,
+    model.accepts,
+    model.succeeds,
+    model.stands_at_success,
+    model.stands_without_a_goal,
+    model.status_in_order,
+    model.feedback_is_true,
+    model.reports_where_it_ended,
+    title="A cancel after the result changes nothing: the next goal is walked to, and every report is true",
+    points=1,
+    on=CANCELS,
+    needs=arrives,
+    see="07_cancel_and_preempt#late-why",
+)
+survives_two_cancels = check_of(
+    "survives_two_cancels",
+    *model.canceled_twice,
+    model.answers_every_cancel,
+    model.feedback_ends_with_the_goal,
+    title="The same cancel asked for twice ends CANCELED once, and both are answered",
+    points=1,
+    on=CANCELS,
+    needs=cancels_in_mid_stride,
+    see="07_cancel_and_preempt#m12-why",
+)
+obeys_a_stranger = check_of(
+    "obeys_a_stranger",
+    *model.canceled_by_a_stranger,
+    title="Another client may cancel every goal",
+    points=1,
+    on=CANCELS,
+    needs=stops_when_canceled,
+    see="07_cancel_and_preempt#conventions",
+)
+works_in_any_namespace = standard_hidden.works_in_any_namespace(
+    "walks the robot", model.succeeds, clauses=[13], points=1, on=OTHER_NAMESPACE, needs=arrives
+)

@@ -3,81 +3,145 @@
 from __future__ import annotations
 
 import math
+from random import Random
+from typing import Any
 
-from autograder.authoring.checks import RESTING, Scenario, check
-from autograder.authoring.transcript import Transcript
-from autograder.authoring.walking.motion import require_limited_velocity, require_short_turn
-from autograder.authoring.walking.truth import require_arrival
+from autograder.authoring import standard_hidden
+from autograder.authoring.checks import Scenario
+from autograder.authoring.obligation import check_of
 
-from .checks import arrives, obeys_max_velocity, rejects_a_wrong_frame
+from . import model
+from .checks import FRAMES, REJECT, arrives, obeys_max_velocity, rejects_a_wrong_frame
+
+AFTERWARDS = 0.8  # s from a result to the next goal
 
 
-def _legs(random) -> dict:
-    """Two poses, each with its limit (m/s): the robot turns its back, then goes on ahead and to one side.
+def _steps(random: Random) -> dict[str, Any]:
+    """Turn its back, cross pi slowly on a diagonal, ask for what is impossible, and for many things at once; then fall.
 
-    On the second leg its heading crosses pi. A velocity in odom's axes leads away from that pose, and one that is
-    limited axis by axis is 1.4 times too fast.
+    A velocity in odom's axes leads away from the second pose, and one that is limited axis by axis is 1.4 times too
+    fast on the way there.
     """
     side = random.choice((-1, 1))
-    yaw = side * random.uniform(3.0, 3.05)
-    x, y = random.uniform(0.3, 0.4), random.uniform(-0.2, 0.2)
+    far = (random.uniform(0.2, 0.3), random.uniform(-0.1, 0.1), side * random.uniform(3.0, 3.1))
     ahead, left = random.uniform(0.36, 0.4), -side * random.uniform(0.36, 0.4)
-    second = (
-        x + math.cos(yaw) * ahead - math.sin(yaw) * left,
-        y + math.sin(yaw) * ahead + math.cos(yaw) * left,
-        -side * random.uniform(3.0, 3.05),
-    )
-    legs = ((x, y, yaw, random.uniform(0.2, 0.3)), (*second, random.uniform(0.07, 0.08)))
-    return {"legs": [[round(value, 3) for value in leg] for leg in legs]}
+    x = far[0] + math.cos(far[2]) * ahead - math.sin(far[2]) * left
+    y = far[1] + math.sin(far[2]) * ahead + math.cos(far[2]) * left
+    yaw = -side * random.uniform(3.0, 3.1)
+    behind = random.uniform(-0.2, -0.15)
+    steps: list[Any] = [
+        [random.choice(("go", "cancel_at_once")), "back", *far, random.choice((0.0, 5.0))],
+        *(["arrive", "back"], ["wait", AFTERWARDS]),
+        ["go", "across pi", x, y, yaw, random.uniform(0.07, 0.08)],
+        *random.sample(
+            [
+                ["cancel", "across pi"],
+                ["cancel_twice", "across pi"],
+                ["cancel_all"],
+                ["go", "meanwhile", 0.0, 0.0, 0.0],
+                ["ask", "map meanwhile", "header.frame_id", "map"],
+            ],
+            3,
+        ),
+        *(["arrive", "across pi"], ["wait", AFTERWARDS], ["cancel", "across pi"]),
+        *(["go", "here", x, y, yaw, random.uniform(0.1, 0.3)], ["arrive", "here"], ["wait", AFTERWARDS]),
+        [
+            "go_together",
+            ["one", x + behind * math.cos(yaw), y + behind * math.sin(yaw), yaw, 0.0],
+            ["other", x + behind * math.cos(yaw), y + behind * math.sin(yaw), yaw, 0.0],
+        ],
+        *(["arrive", "one"], ["arrive", "other"], ["wait", AFTERWARDS]),
+        *_impossible(random),  # when all else is done, so that one that is accepted is in nobody's way
+        *(["go", "far", 0.0, 0.0, 0.0, 0.3], ["walk_for", round(random.uniform(0.3, 1.0), 2)]),
+        *(["cut_power"], ["end", "far"], ["wait", AFTERWARDS], ["go", "lying", 0.0, 0.0, 0.0]),
+    ]
+    return {"steps": [_rounded(step) for step in steps]}
 
 
-RANDOM_POSES = Scenario("walk_in_turn", _legs)
-OTHER_FRAME = Scenario(
-    "ask_for_the_impossible",
-    lambda random: {"frame": random.choice(("base_link", "world", "odometry"))},
-    robot=RESTING,
-)
+def _impossible(random: Random) -> list[list[Any]]:
+    """Return goals that must be rejected, each wrong in one field, in any order."""
+    numbers = (math.nan, math.inf, -math.inf)
+    wrong: list[tuple[str, Any]] = [
+        ("header.frame_id", random.choice(("base_link", "world", "odometry", "", "odom_combined"))),
+        *((f"pose.position.{axis}", random.choice(numbers)) for axis in "xyz"),
+        *((f"pose.orientation.{axis}", random.choice(numbers)) for axis in "xyzw"),
+        ("pose.orientation.w", 0.0),
+        ("max_velocity", random.choice((-0.01, -3.0, *numbers))),
+    ]
+    random.shuffle(wrong)
+    return [["ask", f"impossible {number}", *each] for number, each in enumerate(wrong, start=1)]
+
+
+def _rounded(step: list[Any]) -> list[Any]:
+    return [
+        round(each, 3) if isinstance(each, float) else _rounded(each) if isinstance(each, list) else each
+        for each in step
+    ]
+
+
+ANY_ORDER = Scenario("in_order", _steps)
 OTHER_NAMESPACE = Scenario(
-    "walk", {"x": 0.3, "y": 0.0, "yaw": 0.0, "max_velocity": 0.3}, namespace="/lab_7/robot"
+    "in_order", {"steps": [["go", "walk", 0.3, 0.0, 0.0, 0.3], ["arrive", "walk"]]}, namespace="/lab_7/robot"
 )
 
+WALKED = (model.accepts, model.succeeds)  # without which nobody can tell how it walked
 
-@check(points=2, on=RANDOM_POSES, needs=arrives, see="01_robot_and_graph#frames-intro")
-def arrives_anywhere(run: Transcript) -> None:
-    """It reaches poses with any heading, one after the other"""
-    for number in range(1, len(run.params["legs"]) + 1):
-        require_arrival(run.goal(f"leg {number}"))
-
-
-@check(points=1, on=RANDOM_POSES, needs=arrives_anywhere, see="01_robot_and_graph#frames-intro")
-def turns_the_shorter_way(run: Transcript) -> None:
-    """It turns the shorter way round, also where the heading jumps from pi to -pi"""
-    require_short_turn(run.goal("leg 2"))
-
-
-@check(
+arrives_anywhere = check_of(
+    "arrives_anywhere",
+    model.accepts,
+    model.refuses_cancels,
+    model.goes_on,
+    model.succeeds,
+    model.takes_one_of_several,
+    model.status_in_order,
+    model.stands_at_success,
+    model.stands_without_a_goal,
+    model.ends_with_a_zero_twist,
+    model.does_not_steer_without_a_goal,
+    model.feedback_at_5_hz,
+    model.feedback_is_true,
+    model.reports_where_it_ended,
+    model.tells_a_fall,
+    model.says_why_it_aborted,
+    title="It reaches poses with any heading, one after the other, whatever is asked meanwhile, and keeps every clause",
+    points=2,
+    on=ANY_ORDER,
+    needs=arrives,
+    see=FRAMES,
+)
+turns_the_shorter_way = check_of(
+    "turns_the_shorter_way",
+    *WALKED,
+    model.turns_the_shorter_way,
+    title=model.turns_the_shorter_way.sentence,
     points=1,
-    on=RANDOM_POSES,
-    needs=[arrives_anywhere, obeys_max_velocity],
-    see="01_robot_and_graph#frames-intro",
+    on=ANY_ORDER,
+    needs=arrives,
+    see=FRAMES,
 )
-def obeys_any_max_velocity(run: Transcript) -> None:
-    """It is no faster than max_velocity in any direction"""
-    for number in range(1, len(run.params["legs"]) + 1):
-        require_limited_velocity(run.goal(f"leg {number}"))
-
-
-@check(points=1, on=OTHER_FRAME, needs=rejects_a_wrong_frame, see="06_walk_to_a_pose#reject-task")
-def rejects_any_other_frame(run: Transcript) -> None:
-    """It rejects a pose in any other frame than odom"""
-    frame = run.params["frame"]
-    run.goal("wrong frame").require_rejected(
-        because=f"frame {frame!r} is not 'odom'",
-        help="Accept the one frame that you know, 'odom', instead of rejecting those that you have thought of.",
-    )
-
-
-@check(points=1, on=OTHER_NAMESPACE, needs=arrives, see="01_robot_and_graph#names-why")
-def works_in_any_namespace(run: Transcript) -> None:
-    """Started in another namespace, it walks the robot there"""
-    require_arrival(run.goal("walk"))
+obeys_any_max_velocity = check_of(
+    "obeys_any_max_velocity",
+    *WALKED,
+    model.obeys_max_velocity,
+    title="It is no faster than max_velocity in any direction",
+    points=1,
+    on=ANY_ORDER,
+    needs=[arrives, obeys_max_velocity],
+    see=FRAMES,
+)
+rejects_any_other_frame = check_of(
+    "rejects_any_other_frame",
+    model.rejects_frames,
+    model.rejects_nan,
+    model.rejects_no_rotation,
+    model.rejects_velocities,
+    model.rejects_without_power,
+    title="It rejects any other frame than odom, and all that is no pose or velocity",
+    points=1,
+    on=ANY_ORDER,
+    needs=rejects_a_wrong_frame,
+    see=REJECT,
+)
+works_in_any_namespace = standard_hidden.works_in_any_namespace(
+    "walks the robot", model.succeeds, clauses=[13], points=1, on=OTHER_NAMESPACE, needs=arrives
+)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from geometry_msgs.msg import Twist
 
 from autograder.authoring.failure import Failure, expect
@@ -17,40 +19,41 @@ _STOP = (
 )
 
 
-def require_final_zero(run: Transcript, goal: Goal, topic: str = "cmd_vel") -> None:
+def require_final_zero(run: Transcript, goal: Goal, until: float = math.inf, topic: str = "cmd_vel") -> None:
     """Require that the last velocity the server published is zero, and came before the result.
 
     Args:
         run: whose scenario listened to the topic.
         goal: which succeeded.
+        until: s, when another goal was sent.
         topic: of the velocity.
     """
     result = require_accepted(goal).require_result(SUCCEEDED)
-    velocities = run.heard(topic)
+    velocities = [each for each in run.heard(topic) if each.t < until]
     if not velocities:
         raise unseen(run, f"nobody heard anything on {topic}")
-    before = [each for each in velocities if each.t <= result.t]
-    if not before or not _is_zero(before[-1].message):
+    before = [each for each in velocities if goal.sent.t <= each.t <= result.t]
+    if not before or not is_zero(before[-1].message):
         raise Failure(
             expected=f"a zero Twist as the last on {topic} before the goal SUCCEEDED",
-            observed=_shown(before[-1].message) if before else "none",
+            observed=shown(before[-1].message) if before else "none",
             help=f"The robot would walk on for 0.5 s after the last one. {_STOP}",
             at=result.t,
         )
-    moving = [each for each in velocities if each.t > result.t and not _is_zero(each.message)]
+    moving = [each for each in velocities if each.t > result.t and not is_zero(each.message)]
     expect(
         not moving,
         expected=f"nothing but zeros on {topic} after the result",
-        observed=_shown(moving[0].message) if moving else "",
+        observed=shown(moving[0].message) if moving else "",
         help=f"Somebody still steers: a timer or a thread that does not know that the goal is over. {_STOP}",
         at=moving[0].t if moving else None,
     )
 
 
-def require_standing_at_success(goal: Goal) -> None:
-    """Require that the robot stood still when the goal SUCCEEDED, and stayed so."""
+def require_standing_at_success(goal: Goal, until: float = math.inf) -> None:
+    """Require that the robot stood still when the goal SUCCEEDED, and stayed so, at most until another came (s)."""
     result = require_accepted(goal).require_result(SUCCEEDED)
-    watched = goal.run.robot_between(result.t, result.t + STANDING)
+    watched = goal.run.robot_between(result.t, min(result.t + STANDING, until))
     fastest = max(watched, key=lambda robot: robot.speed)
     expect(
         fastest.speed < STOP_SPEED,
@@ -63,11 +66,13 @@ def require_standing_at_success(goal: Goal) -> None:
     require_upright(watched)
 
 
-def _is_zero(velocity: Twist) -> bool:
+def is_zero(velocity: Twist) -> bool:
+    """Return whether a velocity lets the robot stand."""
     linear, angular = velocity.linear, velocity.angular
     return all(abs(value) <= ZERO for value in (linear.x, linear.y, angular.z))
 
 
-def _shown(velocity: Twist) -> str:
+def shown(velocity: Twist) -> str:
+    """Return a velocity in words."""
     linear = velocity.linear
     return f"x {linear.x:.2f} m/s, y {linear.y:.2f} m/s, turn {velocity.angular.z:.2f} rad/s"

@@ -57,12 +57,12 @@ def _advice_on_the_way(goal: Goal, nearest: float) -> str:
 
 
 def require_limited_velocity(goal: Goal) -> None:
-    """Require that from its acceptance to the first arrival the robot was no faster than max_velocity, on average.
+    """Require that from its sending to the first arrival the robot was no faster than max_velocity, on average.
 
     What is measured is the straight way, so that neither a turn on the spot nor the sway of the pelvis counts.
     """
     limit = goal.request.max_velocity
-    start = goal.run.robot_at(require_accepted(goal).accepted_at)
+    start = goal.run.robot_at(require_accepted(goal).sent.t)
     arrival = next((each for each in _on_its_way(goal) if error(each, goal)[0] <= POSITION_TOLERANCE), None)
     if arrival is None:
         raise unseen(goal.run, f"the robot did not come near the goal “{goal.name}”")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from geometry_msgs.msg import Pose, Quaternion
+from geometry_msgs.msg import Pose, PoseStamped, Quaternion
 
 from autograder.authoring import events as ev
 from autograder.authoring.goal import Goal
@@ -18,11 +18,15 @@ def error(robot: ev.RobotTruth, goal: Goal) -> tuple[float, float]:
     return distance, turn(robot, pose.orientation)
 
 
-def target(goal: Goal) -> Pose:
-    """Return the pose a goal asks for: that of WalkTo's target_pose, or of NavigateToPose's pose."""
+def stamped_target(goal: Goal) -> PoseStamped:
+    """Return the pose a goal asks for, with its frame: WalkTo's target_pose, or NavigateToPose's pose."""
     request = goal.request
-    stamped = request.target_pose if hasattr(request, "target_pose") else request.pose
-    return stamped.pose
+    return request.target_pose if hasattr(request, "target_pose") else request.pose
+
+
+def target(goal: Goal) -> Pose:
+    """Return the pose a goal asks for."""
+    return stamped_target(goal).pose
 
 
 def turn(robot: ev.RobotTruth, orientation: Quaternion) -> float:

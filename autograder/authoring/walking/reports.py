@@ -10,26 +10,31 @@ from geometry_msgs.msg import PoseStamped
 from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
 from autograder.authoring.feedback import end_of_feedback, require_feedback
-from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring.goal import ABORTED, Goal
 from autograder.authoring.goal_endings import why_blind, why_rclpy_aborted
-from autograder.authoring.walking.planar import error, heading, turn
+from autograder.authoring.robot_topic import DELIVERY
+from autograder.authoring.walking.planar import error, heading, target, turn
+from humanoid_interfaces.msg import RobotState
+from ros_runtime.message_constants import GoalStatus, name_of
 
 REPORT_SLACK = 0.08  # m or rad, over what the robot moved while the message was made and delivered
 REPORT_AGE = 0.6  # s that a reported pose may be old: odom's period, the feedback's period, delivery
-STEP_SLACK = 3  # footsteps between robot_state's rate and the moment of the report
+FINAL_SLACK = 0.015  # m by which final_pose may be off: odom's period, and rounding to centimetres
+TAKING_OVER = 2.0  # s in which a goal that preempts another may begin
 
 
 def require_true_feedback(goal: Goal) -> None:
-    """Require that pose, distance and steps in the feedback are those of the robot at about that time."""
-    require_feedback(goal)
-    end_of_feedback(goal)  # until then it has to be true
-    start = goal.run.robot_at(goal.sent.t).steps
+    """Require that pose, distance and steps in the feedback are those of the robot at about that time, for this goal.
+
+    Feedback that comes after the result is not judged here.
+    """
     steps = 0
     for feedback in goal.feedback:
+        if goal.result and feedback.t > goal.result.t:
+            return
         message = feedback.feedback
-        recent = _recent(goal, feedback.t)
-        _require_true_place(goal, feedback, recent)
-        _require_true_steps(message.steps_taken, start, recent, "feedback.steps_taken", feedback.t)
+        _require_true_place(goal, feedback, _recent(goal, feedback.t))
+        _require_true_steps(goal, message.steps_taken, "feedback.steps_taken", feedback.t)
         expect(
             message.steps_taken >= steps,
             expected="steps_taken never to go back",
@@ -62,14 +67,32 @@ def _require_true_place(goal: Goal, feedback: ev.FeedbackReceived, recent: Seque
     )
 
 
-def require_filled_result(goal: Goal) -> None:
-    """Require that the result holds the pose and steps of the robot at the end."""
-    end = goal.require_accepted().require_result(SUCCEEDED)
-    recent, result = _recent(goal, end.t), end.result
-    require_true_pose(result.final_pose, recent, "result.final_pose", end.t)
-    start = goal.run.robot_at(goal.sent.t).steps
-    _require_true_steps(result.total_steps, start, recent, "result.total_steps", end.t)
-    require_error_code(goal, "NONE", because="the robot has arrived")
+def require_true_result(goal: Goal) -> None:
+    """Require that the result holds the pose and steps of the robot at the end; if it did not abort, also NONE."""
+    end = goal.result
+    assert end, "ask for its result first"
+    if end.status != ABORTED:
+        require_error_code(goal, "NONE", because=f"the goal is {name_of(GoalStatus, end.status)}")
+    _require_final_pose(goal, end)
+    _require_true_steps(goal, end.result.total_steps, "result.total_steps", end.t)
+
+
+def _require_final_pose(goal: Goal, end: ev.ResultReceived) -> None:
+    """Require that final_pose was measured when the goal ended, not copied from the request."""
+    stamped, recent = end.result.final_pose, goal.run.robot_between(end.t - DELIVERY, end.t)
+    help = why_rclpy_aborted(goal)
+    position, aim = stamped.pose.position, target(goal).position
+    if (position.x, position.y) == (aim.x, aim.y):
+        help = (
+            help
+            or "This is the pose that the goal asked for: fill in where the robot really stands, from odom."
+        )
+    lying = any(robot.mode == RobotState.FALLEN for robot in recent)
+    require_true_pose(
+        *(stamped, recent, "result.final_pose", end.t, help),
+        slack=FINAL_SLACK,
+        turn_slack=math.pi if lying else 3 * FINAL_SLACK,
+    )
 
 
 def require_error_code(goal: Goal, name: str, *, because: str) -> None:
@@ -87,9 +110,18 @@ def require_error_code(goal: Goal, name: str, *, because: str) -> None:
 
 
 def require_true_pose(
-    stamped: PoseStamped, recent: Sequence[ev.RobotTruth], what: str, at: float, help: str | None = None
+    stamped: PoseStamped,
+    recent: Sequence[ev.RobotTruth],
+    what: str,
+    at: float,
+    help: str | None = None,
+    slack: float = REPORT_SLACK,
+    turn_slack: float = 2 * REPORT_SLACK,
 ) -> None:
-    """Require that a reported pose is where the simulated robot was within the last moments, in frame odom."""
+    """Require that a reported pose is where the simulated robot was within the last moments, in frame odom.
+
+    It may be `slack` (m) and `turn_slack` (rad) off.
+    """
     position, frame = stamped.pose.position, stamped.header.frame_id.lstrip("/")
     expect(
         frame in ("odom", ""),
@@ -100,34 +132,38 @@ def require_true_pose(
     )
     off = min(math.hypot(position.x - robot.x, position.y - robot.y) for robot in recent)
     expect(
-        off <= REPORT_SLACK,
-        expected=f"{what} near x {recent[-1].x:.2f}, y {recent[-1].y:.2f} m",
-        observed=f"x {position.x:.2f}, y {position.y:.2f} m",
+        off <= slack,
+        expected=f"{what} where base_link is, x {recent[-1].x:.3f}, y {recent[-1].y:.3f} m ({slack:g} m are forgiven)",
+        observed=f"x {position.x:.3f}, y {position.y:.3f} m",
         help=help
         or f"Fill {what} from the latest odom message before it is sent; the terminal call sends nothing that "
         "is set after it.",
         at=at,
     )
     expect(
-        min(turn(robot, stamped.pose.orientation) for robot in recent) <= 2 * REPORT_SLACK,
+        min(turn(robot, stamped.pose.orientation) for robot in recent) <= turn_slack,
         expected=f"{what} with yaw {recent[-1].yaw:.2f} rad",
         observed=f"{heading(stamped.pose.orientation):.2f} rad",
-        help="Copy the whole orientation of odom's pose: x, y, z and w.",
+        help=help or "Copy the whole orientation of odom's pose: x, y, z and w.",
         at=at,
     )
 
 
-def _require_true_steps(
-    claimed: int, start: int, recent: Sequence[ev.RobotTruth], what: str, at: float
-) -> None:
-    """Require true steps, which may be counted from the goal's start or from the robot's."""
-    least = recent[0].steps - start - STEP_SLACK
-    most = recent[-1].steps + STEP_SLACK
+def _require_true_steps(goal: Goal, claimed: int, what: str, at: float) -> None:
+    """Require the steps since the goal began: what robot_state said a moment ago, less what it said then."""
+    before, now = goal.run.robot_at(goal.sent.t), goal.run.robot_between(at - DELIVERY, at)
+    # A robot that stands takes no step until the goal moves it; one that walks may take some before the goal begins.
+    latest = (
+        before if before.mode != RobotState.WALKING else goal.run.robot_at(goal.accepted_at + TAKING_OVER)
+    )
+    earliest = goal.run.robot_at(goal.sent.t - DELIVERY)
+    least, most = max(0, now[0].steps - latest.steps), now[-1].steps - earliest.steps
+    since_reset = claimed == now[-1].steps and before.steps > 0
     expect(
         least <= claimed <= most,
-        expected=f"{what} about {recent[-1].steps - start}",
-        observed=f"{claimed}",
-        help="Take robot_state.steps, and subtract its value at the time the goal was accepted.",
+        expected=f"{what}: {least}" + (f" to {most}" if most > least else "") + ", for this goal",
+        observed=f"{claimed}" + (", the steps since the robot was reset" if since_reset else ""),
+        help="Take robot_state.steps, and subtract its value at the time when this goal was accepted.",
         at=at,
     )
 

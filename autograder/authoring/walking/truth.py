@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from autograder.authoring import events as ev
@@ -10,7 +11,6 @@ from autograder.authoring.failure import Failure, expect
 from autograder.authoring.falls import fall_after
 from autograder.authoring.goal import SUCCEEDED, Goal
 from autograder.authoring.robot_record import RobotRecord
-from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.planar import error
 from humanoid_interfaces.msg import RobotState
 
@@ -88,9 +88,11 @@ def require_walking(run: RobotRecord, at: float) -> None:
     )
 
 
-def require_stopped(run: Transcript, since: float, event: str = "the cancel") -> None:
-    """Require that the robot stands still and upright from 2 s after an event at `since` (s) on."""
-    watched = run.robot_between(since + STOP_TIME, since + WATCHED)
+def require_stopped(
+    run: RobotRecord, since: float, event: str = "the cancel", until: float = math.inf
+) -> None:
+    """Require that the robot stands still and upright from 2 s after an event at `since` (s), at most until `until`."""
+    watched = run.robot_between(since + STOP_TIME, min(since + WATCHED, until))
     fastest = max(watched, key=lambda robot: robot.speed)
     expect(
         fastest.speed < STOP_SPEED,

@@ -46,7 +46,8 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Grade, Path]:
     result, _ = graded(recorder)
     folder = tmp_path_factory.mktemp("recordings")
     keep(folder, recorder.files(result))
-    return result, folder / "cancel_in_mid_stride.mcap"
+    (path,) = (path for path in folder.glob("*.mcap") if Recording.read(path).first_failed)
+    return result, path
 
 
 def test_the_fall_that_cost_a_point_is_in_the_file(recorded: tuple[Grade, Path]) -> None:

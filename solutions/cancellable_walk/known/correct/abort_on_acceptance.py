@@ -92,7 +92,8 @@ class WalkServer(Node):
 
     def execute(self, goal_handle):
         walk = self.walks.pop(bytes(goal_handle.goal_id.uuid))
-        walk.over.wait()
+        while rclpy.ok() and not walk.over.wait(0.1):
+            pass
         return walk.result
 
     def end(self, terminal_call, code=WalkTo.Result.NONE, message=""):
@@ -142,6 +143,7 @@ class WalkServer(Node):
         walk.rounds += 1
         if walk.rounds % 4 == 0:
             feedback = WalkTo.Feedback(current_pose=self.pose(), distance_remaining=distance)
+            feedback.estimated_time_remaining.sec = math.ceil(distance / 0.35)
             feedback.steps_taken = self.state.steps - walk.first_step
             walk.goal_handle.publish_feedback(feedback)
 

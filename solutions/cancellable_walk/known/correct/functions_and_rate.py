@@ -77,6 +77,7 @@ def make_server(node):
             def say_where():
                 feedback = WalkTo.Feedback(current_pose=pose(), steps_taken=robot.state.steps - start)
                 feedback.distance_remaining = error_to(goal, robot.odom)[0]
+                feedback.estimated_time_remaining.sec = math.ceil(feedback.distance_remaining / 0.3)
                 goal_handle.publish_feedback(feedback)
 
             talking = node.create_timer(0.2, say_where, callback_group=group)
@@ -141,9 +142,9 @@ def main(args=None):
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
+        rclpy.try_shutdown()  # wakes a rate that sleeps
         executor.shutdown()
         node.destroy_node()
-        rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

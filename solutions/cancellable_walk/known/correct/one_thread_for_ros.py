@@ -115,9 +115,9 @@ class Walker:
             end, result = goal_handle.succeed, WalkTo.Result()
             try:
                 for distance in self.walk(goal_handle, mine):
-                    feedback = WalkTo.Feedback()
+                    feedback = WalkTo.Feedback(distance_remaining=distance)
                     feedback.current_pose = self.robot.pose()
-                    feedback.distance_remaining = distance
+                    feedback.estimated_time_remaining.sec = math.ceil(distance / 0.35)
                     feedback.steps_taken = self.robot.state.steps - first_step
                     goal_handle.publish_feedback(feedback)
             except Canceled:

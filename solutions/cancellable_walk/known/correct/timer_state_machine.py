@@ -98,9 +98,9 @@ class WalkMachine(Node):
             return self.finish("succeed")
         self.ticks += 1
         if self.ticks % 4 == 0 and walk.handle.is_active:
-            feedback = WalkTo.Feedback()
+            feedback = WalkTo.Feedback(distance_remaining=distance)
             feedback.current_pose = self.pose()
-            feedback.distance_remaining = distance
+            feedback.estimated_time_remaining.sec = math.ceil(distance / 0.35)
             feedback.steps_taken = self.state.steps - walk.first_step
             walk.handle.publish_feedback(feedback)
 

@@ -121,9 +121,9 @@ class WalkMachine(Node):
                 self.enter(Phase.WALKING)
         self.ticks += 1
         if self.ticks % 4 == 0:
-            feedback = WalkTo.Feedback()
+            feedback = WalkTo.Feedback(distance_remaining=distance)
             feedback.current_pose = self.pose()
-            feedback.distance_remaining = distance
+            feedback.estimated_time_remaining.sec = math.ceil(distance / (walk.handle.request.max_velocity or 0.35))
             feedback.steps_taken = self.state.steps - walk.first_step
             walk.handle.publish_feedback(feedback)
 

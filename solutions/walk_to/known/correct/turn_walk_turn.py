@@ -84,6 +84,8 @@ def make_server(node):
         def say_where():
             feedback = WalkTo.Feedback(current_pose=pose(), steps_taken=robot.state.steps - start)
             feedback.distance_remaining = way_to(goal)[0]
+            most = goal_handle.request.max_velocity or 0.3
+            feedback.estimated_time_remaining.sec = math.ceil(feedback.distance_remaining / most)
             goal_handle.publish_feedback(feedback)
 
         talking = node.create_timer(0.2, say_where, callback_group=group)
@@ -143,10 +145,10 @@ def main(args=None):
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
+        rclpy.try_shutdown()  # wakes a rate that sleeps
         executor.shutdown()
         server.destroy()
         node.destroy_node()
-        rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

@@ -1,0 +1,176 @@
+"""The life of a goal that walks the robot: when it was certainly active, and what else happened in it."""
+
+from __future__ import annotations
+
+import math
+from typing import cast
+
+from autograder.authoring import events as ev
+from autograder.authoring.goal import Cancel, Goal
+from autograder.authoring.robot_topic import DELIVERY
+from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.planar import error
+from humanoid_interfaces.msg import RobotState
+from ros_runtime.message_constants import GoalStatus, name_of
+
+TERMINAL = (GoalStatus.SUCCEEDED, GoalStatus.CANCELED, GoalStatus.ABORTED)
+AT_IT = 0.1  # m; a robot that is no farther from its goal need not walk
+BIG_TURN = 0.3  # rad
+NEAR = 0.25  # m and…
+TURNED = 0.3  # rad from the goal are "just before arrival"
+
+
+def run_of(goal: Goal) -> Transcript:
+    """Return the whole run that a goal belongs to."""
+    return cast(Transcript, goal.run)
+
+
+def accepted(goal: Goal) -> bool:
+    """Return whether the server accepted it."""
+    return goal.answer is not None and goal.answer.accepted
+
+
+def ended_at(goal: Goal) -> float:
+    """Return when (s) its end was first known, by its status or its result; infinity if it never was."""
+    times = [seen.t for seen in goal.statuses if seen.status in TERMINAL]
+    if goal.result:
+        times.append(goal.result.t)
+    return min(times, default=math.inf)
+
+
+def others(goal: Goal) -> list[Goal]:
+    """Return the other goals of the run."""
+    return [other for other in run_of(goal).goals if other.name != goal.name]
+
+
+def overlaps(goal: Goal, asked: Goal) -> bool | None:
+    """Return whether a goal was active all the while another was asked for and answered; None: nobody can tell."""
+    answered = asked.answer.t if asked.answer else run_of(goal).end
+    if not accepted(goal) or goal.sent.t > answered or ended_at(goal) + DELIVERY / 2 < asked.sent.t:
+        return False
+    assert goal.answer
+    certainly = goal.answer.t < asked.sent.t and ended_at(goal) > answered + DELIVERY
+    return True if certainly else None
+
+
+def successors(goal: Goal) -> list[Goal]:
+    """Return the goals that were sent and accepted while this one was active, the first of them first."""
+    if goal.answer is None or not goal.answer.accepted:
+        return []
+    return [
+        other for other in others(goal) if accepted(other) and goal.answer.t < other.sent.t < ended_at(goal)
+    ]
+
+
+def together_with(goal: Goal) -> list[Goal]:
+    """Return the accepted goals that were sent before this one was answered, or the other way round."""
+    if goal.answer is None or not goal.answer.accepted:
+        return []
+    return [
+        other
+        for other in others(goal)
+        if other.answer
+        and other.answer.accepted
+        and other.sent.t <= goal.answer.t
+        and goal.sent.t <= other.answer.t
+    ]
+
+
+def requests_to_cancel(goal: Goal) -> list[Cancel]:
+    """Return the requests to cancel it: its own, and those of every goal that came before the next one was sent."""
+    end = next_sent(goal, goal.sent.t)
+    return [
+        cancel
+        for cancel in run_of(goal).cancels
+        if cancel.sent.goal == goal.name or (not cancel.sent.goal and goal.sent.t <= cancel.sent.t < end)
+    ]
+
+
+def cancels_on_the_way(goal: Goal) -> list[Cancel]:
+    """Return the requests to cancel it that came while it was active."""
+    if goal.answer is None:
+        return []
+    start, end = goal.answer.t, ended_at(goal)
+    return [cancel for cancel in requests_to_cancel(goal) if start <= cancel.sent.t < end]
+
+
+def granted(goal: Goal) -> list[Cancel]:
+    """Return the requests to cancel it that the server agreed to."""
+    return [
+        cancel for cancel in run_of(goal).cancels if cancel.answer and goal.name in cancel.answer.canceling
+    ]
+
+
+def near_arrival(goal: Goal, t: float) -> bool:
+    """Return whether the robot was so near its goal at a time (s) that it may arrive at any moment."""
+    distance, turn = error(goal.run.robot_at(t), goal)
+    return distance <= NEAR and turn <= TURNED
+
+
+def went_down(goal: Goal) -> ev.RobotTruth | None:
+    """Return the robot when it lost its power or had fallen while the goal was active."""
+    if not accepted(goal) or not run_of(goal).ground_truth:
+        return None
+    assert goal.answer
+    last = min(ended_at(goal) + DELIVERY, goal.run.end)
+    robots = goal.run.robot_between(goal.answer.t, max(last, goal.answer.t))
+    return next((robot for robot in robots if robot.mode in (RobotState.OFF, RobotState.FALLEN)), None)
+
+
+def fallen_between(goal: Goal, start: float, end: float) -> ev.RobotTruth | None:
+    """Return the robot when it had fallen between two moments (s)."""
+    robots = goal.run.robot_between(start, max(start, end))
+    return next((robot for robot in robots if robot.mode == RobotState.FALLEN), None)
+
+
+def interrupted(goal: Goal) -> bool:
+    """Return whether Ctrl-C was pressed while the goal was active."""
+    signalled = goal.run.first(ev.NodeSignalled)
+    return signalled is not None and goal.sent.t < signalled.t < ended_at(goal)
+
+
+def is_undisturbed(goal: Goal) -> bool:
+    """Return whether nothing happened in its life but its walk: no cancel that was granted, no goal, fall or Ctrl-C."""
+    disturbed = granted(goal) or successors(goal) or went_down(goal) or interrupted(goal)
+    return accepted(goal) and not disturbed and not together_with(goal)
+
+
+def next_sent(goal: Goal, after: float) -> float:
+    """Return when (s) the next goal after a moment was sent, or the run's end."""
+    return min([other.sent.t for other in run_of(goal).goals if other.sent.t > after], default=goal.run.end)
+
+
+def began_at_rest(goal: Goal) -> bool:
+    """Return whether the robot stood when the goal was sent."""
+    return goal.run.robot_at(goal.sent.t).mode == RobotState.STANDING
+
+
+def phase(goal: Goal) -> str:
+    """Return, for the table of clauses, what the goal came after: 'at first', 'after SUCCEEDED' and so on."""
+    before = [other for other in others(goal) if other.sent.t < goal.sent.t]
+    if not before:
+        return "at first"
+    last = before[-1]
+    if not accepted(last):
+        return "after a rejected one"
+    if ended_at(last) > goal.sent.t:
+        return "while another is active"
+    return f"after {name_of(GoalStatus, last.status or GoalStatus.UNKNOWN)}"
+
+
+# -- the robot, and the scenario --------------------------------------------------------------------------------------
+
+
+def is_walking(goal: Goal, t: float) -> bool:
+    """Return whether the robot walked just before a moment (s)."""
+    return any(robot.mode == RobotState.WALKING for robot in goal.run.robot_between(t - 0.3, t))
+
+
+def left_alone(goal: Goal) -> bool:
+    """Return whether the scenario ended before the goal did, and had not waited for its end."""
+    return goal.result is None and goal.run.given_up("result", goal.name) is None
+
+
+def way_to(goal: Goal) -> float:
+    """Return how far (m) the goal was when it was sent."""
+    return error(goal.run.robot_at(goal.sent.t), goal)[0]

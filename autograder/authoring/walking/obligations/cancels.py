@@ -1,0 +1,146 @@
+"""What a request to cancel a goal brings about, or does not.
+
+Each function is what an obligation of an exercise's model requires:
+
+refuses_cancels = obligation(9, of=goals)(cancels.refuses_cancels)
+"""
+
+from __future__ import annotations
+
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED, Goal
+from autograder.authoring.goal_endings import why_rclpy_aborted
+from autograder.authoring.walking.life import (
+    ended_at,
+    granted,
+    is_walking,
+    left_alone,
+    near_arrival,
+    next_sent,
+    requests_to_cancel,
+    run_of,
+    successors,
+    went_down,
+)
+from autograder.authoring.walking.truth import (
+    STOP_TIME,
+    require_stopped,
+    require_walking,
+)
+
+GETTING_GOING = 1.0  # s
+AT_LEAST = 0.5  # s of watching that prove that the robot stands
+
+
+def refuses_cancels(goal: Goal) -> str | None:
+    """It refuses every request to cancel, at any moment."""
+    if not goal.cancels:
+        return None
+    for cancel in goal.cancels:
+        result = goal.result
+        ended = result and result.t <= cancel.sent.t and result.status == ABORTED
+        if result and ended and not went_down(goal) and not successors(goal):
+            raise Failure(
+                expected="a goal that is still active when the request to cancel comes",
+                observed=f"it had ended at {result.t:.1f} s",
+                help=why_rclpy_aborted(goal)
+                or "A walk of 2 m takes longer: end the goal when the robot is there.",
+                at=result.t,
+            )
+        if cancel.answer is None:
+            cancel.require_agreed(goal)  # says why nobody answered
+            return None
+        expect(
+            not cancel.answer.canceling,
+            expected="the request to cancel refused (no goal in goals_canceling)",
+            observed="it was accepted",
+            help="Give ActionServer no cancel_callback: rclpy refuses every cancel then. Do not promise what execute "
+            "does not do; chapter 7 is about it.",
+            at=cancel.answer.t,
+        )
+    return f"{len(goal.cancels)} asked, {_when(goal, goal.cancels[0].sent.t)}"
+
+
+def grants_cancels(goal: Goal) -> str | None:
+    """A cancel while the goal is active is agreed to, and the goal ends CANCELED."""
+    asked = requests_to_cancel(goal)
+    if not asked:
+        return None
+    accepted_at, result = goal.accepted_at, goal.result
+    early = [cancel for cancel in granted(goal) if cancel.sent.t < accepted_at]
+    first = next((cancel for cancel in asked if cancel.sent.t >= accepted_at), None)
+    if early or first is None:
+        return _ends_canceled(goal, early[0].sent.t) if early else None
+    down = went_down(goal)
+    if any(other.sent.t < first.sent.t for other in successors(goal)) or (down and down.t < first.sent.t):
+        return None
+    if result and result.t <= first.sent.t and goal.status == SUCCEEDED and near_arrival(goal, result.t):
+        return None  # the cancel came after the end
+    if goal.status == SUCCEEDED and near_arrival(goal, first.sent.t):
+        return "just before arrival"
+    first.require_agreed(goal)
+    return _ends_canceled(goal, first.sent.t)
+
+
+def walks_until_canceled(goal: Goal) -> str | None:
+    """The robot walks when the cancel comes."""
+    asked = requests_to_cancel(goal)
+    if not asked or asked[0].sent.t < goal.accepted_at + GETTING_GOING or near_arrival(goal, asked[0].sent.t):
+        return None
+    require_walking(run_of(goal), asked[0].sent.t)
+    return "in mid-stride"
+
+
+def refuses_late_cancels(goal: Goal) -> str | None:
+    """A cancel after the end is refused and changes nothing."""
+    late = [cancel for cancel in goal.cancels if goal.result and goal.result.t < cancel.sent.t]
+    for cancel in late:
+        expect(
+            cancel.answer is not None and not cancel.answer.canceling,
+            expected="the cancel of a goal that has ended to be refused",
+            observed="no answer" if cancel.answer is None else "the server agreed to cancel it",
+            help="Keep no list of goals of your own: rclpy knows which goals are active and refuses the others.",
+            at=cancel.sent.t,
+        )
+    return "after the end" if late else None
+
+
+def answers_every_cancel(goal: Goal) -> str | None:
+    """Every request to cancel is answered, also the second for the same goal."""
+    for cancel in goal.cancels:
+        if cancel.answer is None:
+            cancel.require_agreed(goal)  # says why nobody answered
+    return f"{len(goal.cancels)} asked" if goal.cancels else None
+
+
+def stops_when_canceled(goal: Goal) -> str | None:
+    """Within 2 s of the cancel the robot stands still and upright, and stays so."""
+    active = [cancel for cancel in requests_to_cancel(goal) if cancel.sent.t < ended_at(goal)]
+    obeyed = active if goal.status == SUCCEEDED else [cancel for cancel in active if cancel in granted(goal)]
+    if not obeyed or successors(goal):
+        return None
+    asked = obeyed[0].sent.t
+    end = min(next_sent(goal, asked), run_of(goal).end)
+    if end < asked + STOP_TIME + AT_LEAST:
+        return None
+    require_stopped(goal.run, asked, until=end)
+    return _when(goal, asked)
+
+
+def _when(goal: Goal, t: float) -> str:
+    """Return, for the table of clauses, at which moment of a goal's life something came at `t` s."""
+    if goal.answer is None or t < goal.answer.t:
+        return "before acceptance"
+    if t > ended_at(goal):
+        return "after the end"
+    return "in mid-stride" if is_walking(goal, t) else "before the first step"
+
+
+def _ends_canceled(goal: Goal, asked: float) -> str | None:
+    """Require that a goal whose cancel was agreed to ends CANCELED, or SUCCEEDED if that was just before arrival."""
+    if successors(goal) or went_down(goal) or left_alone(goal):
+        return None
+    if goal.status == SUCCEEDED and near_arrival(goal, asked):
+        return "just before arrival"
+    goal.require_result(CANCELED)
+    return _when(goal, asked)

@@ -1,0 +1,211 @@
+"""How a goal ends: it is reached, another takes its place, or the robot falls.
+
+Each function is what an obligation of an exercise's model requires:
+
+comes_near = obligation(9, of=goals)(ends.comes_near)
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
+from autograder.authoring.goal_endings import why_rclpy_aborted
+from autograder.authoring.missing import unseen
+from autograder.authoring.walking import reports
+from autograder.authoring.walking.life import (
+    AT_IT,
+    BIG_TURN,
+    TERMINAL,
+    accepted,
+    cancels_on_the_way,
+    ended_at,
+    fallen_between,
+    granted,
+    interrupted,
+    is_undisturbed,
+    left_alone,
+    near_arrival,
+    phase,
+    run_of,
+    successors,
+    together_with,
+    went_down,
+)
+from autograder.authoring.walking.motion import (
+    require_reached,
+)
+from autograder.authoring.walking.planar import error
+from autograder.authoring.walking.truth import (
+    require_arrival,
+)
+from humanoid_interfaces.msg import RobotState
+from ros_runtime.message_constants import GoalStatus, name_of
+
+FALLING = 1.0  # s before the simulator calls it a fall, in which a server may already see one
+GIVING_WAY = 5.0  # s
+
+
+def comes_near(goal: Goal) -> str | None:
+    """It walks: the robot comes within 0.10 m and 0.15 rad of the goal."""
+    if not is_undisturbed(goal) or left_alone(goal):
+        return None
+    require_reached(goal)
+    return _whereto(goal)
+
+
+def succeeds(goal: Goal) -> str | None:
+    """It SUCCEEDS, and the robot is then within 0.10 m and 0.15 rad of the goal."""
+    if not is_undisturbed(goal) or left_alone(goal):
+        return None
+    require_arrival(goal)
+    return _whereto(goal)
+
+
+def goes_on(goal: Goal) -> str | None:
+    """A goal goes on, whatever is asked meanwhile and refused."""
+    if not accepted(goal) or goal.answer is None:
+        return None
+    rejected = [
+        other.sent.t
+        for other in run_of(goal).goals
+        if other.answer and not other.answer.accepted and goal.answer.t < other.sent.t < ended_at(goal)
+    ]
+    refused = [
+        cancel.sent.t for cancel in cancels_on_the_way(goal) if cancel.answer and not cancel.answer.canceling
+    ]
+    if not rejected and not refused:
+        return None
+    what = "another was rejected" if rejected else "the cancel was refused"
+    down, result = went_down(goal), goal.result
+    if (
+        result
+        and not down
+        and not interrupted(goal)
+        and not (result.status == SUCCEEDED and near_arrival(goal, result.t))
+    ):
+        raise Failure(
+            expected=f"the first goal to go on after {what}",
+            observed=f"it ended {name_of(GoalStatus, result.status)} at {result.t:.1f} s",
+            help=why_rclpy_aborted(goal) or f"Leave the goal that runs alone when {what}.",
+            at=result.t,
+        )
+    return what
+
+
+def gives_way(goal: Goal) -> str | None:
+    """A goal that was accepted later aborts the one that is active, with PREEMPTED."""
+    newer = successors(goal)
+    if not newer:
+        return None
+    came = newer[0].sent.t
+    canceled = any(cancel.sent.t <= came for cancel in granted(goal))
+    if canceled or went_down(goal) or (goal.status == SUCCEEDED and near_arrival(goal, came)):
+        return None
+    end = goal.require_result(
+        ABORTED,
+        help="The old goal went on after the new one was accepted. How does its loop learn that it is no longer the "
+        "newest? (handle_accepted_callback)",
+    )
+    reports.require_error_code(goal, "PREEMPTED", because="a new goal has taken its place")
+    expect(
+        end.t <= came + GIVING_WAY,
+        expected=f"the old goal to end within {GIVING_WAY:g} s of the new one",
+        observed=f"it ended {end.t - came:.1f} s after it",
+        help="Look in every round of the old goal's loop whether it is still the newest.",
+        at=end.t,
+    )
+    return f"by {len(newer)} newer"
+
+
+def only_one_is_newest(goal: Goal) -> str | None:
+    """Of goals that are accepted in the same moment all but one give way."""
+    rivals = together_with(goal)
+    if not rivals or goal.result is None:
+        return None
+    together = [goal, *rivals]
+    if successors(goal) or any(went_down(each) or granted(each) for each in together):
+        return None
+    kept = [each for each in together if each.result is None or not _was_preempted(each)]
+    expect(
+        len(kept) == 1,
+        expected="one of the goals that were accepted together to go on, and the others to end PREEMPTED",
+        observed=f"{len(kept)} of {len(together)} went on",
+        help="Two goals can be accepted before either executes: let handle_accepted_callback note which is the newest, "
+        "and let one loop at a time steer.",
+        at=goal.result.t,
+    )
+    return f"{len(together)} together"
+
+
+def tells_a_fall(goal: Goal) -> str | None:
+    """When the robot falls, pushed or without power, the goal is ABORTED with FELL."""
+    down = went_down(goal)
+    if down is None or any(cancel.sent.t < down.t for cancel in granted(goal)):
+        return None
+    if any(other.sent.t < down.t for other in successors(goal)) or together_with(goal):
+        return None
+    fallen = fallen_between(goal, down.t, goal.run.end)
+    if fallen is None:
+        raise unseen(goal.run, "the robot did not fall")
+    if goal.result is None and left_alone(goal):
+        return None
+    if goal.result and goal.status == SUCCEEDED and goal.result.t <= fallen.t:
+        return None
+    result = goal.require_result(
+        ABORTED,
+        help=f"The robot fell at {fallen.t:.1f} s and execute went on. Look at robot_state.mode in every round.",
+    )
+    expect(
+        result.t >= down.t - FALLING,
+        expected="the goal to go on until the robot falls",
+        observed=f"it ended {down.t - result.t:.1f} s before the robot fell",
+        help="A push alone is no reason to give up: abort when robot_state.mode is FALLEN.",
+        at=result.t,
+    )
+    if result.t >= fallen.t or down.mode == RobotState.FALLEN:
+        reports.require_error_code(goal, "FELL", because="the robot has fallen")
+    return "pushed" if down.mode == RobotState.FALLEN else "without power"
+
+
+def status_in_order(goal: Goal) -> str | None:
+    """A goal's status goes forward: accepted, executing, at most canceling, and then its one end."""
+    seen = [each.status for each in goal.statuses]
+    if not seen or not accepted(goal):
+        return None
+    for earlier, later in pairwise(seen):
+        expect(
+            later > earlier and earlier not in TERMINAL,
+            expected=f"no other status after {name_of(GoalStatus, earlier)}",
+            observed=name_of(GoalStatus, later),
+            help="Make one terminal call for a goal, and none after it.",
+            at=goal.statuses[-1].t,
+        )
+    if goal.result:
+        final = [status for status in seen if status in TERMINAL]
+        expect(
+            not final or final == [goal.result.status],
+            expected=f"the status {name_of(GoalStatus, goal.result.status)} that came with the result",
+            observed=", ".join(name_of(GoalStatus, status) for status in final),
+            help="Make one terminal call for a goal, and none after it.",
+            at=goal.result.t,
+        )
+    return name_of(GoalStatus, seen[-1])
+
+
+def _whereto(goal: Goal) -> str:
+    distance, turn = error(goal.run.robot_at(goal.sent.t), goal)
+    way = "here" if distance < AT_IT else "a walk"
+    return (
+        f"{way}, {'turning back' if turn > 2.0 else 'turning' if turn > BIG_TURN else 'ahead'}; {phase(goal)}"
+    )
+
+
+def _was_preempted(goal: Goal) -> bool:
+    result = goal.result
+    return (
+        result is not None
+        and result.status == ABORTED
+        and result.result.error_code == result.result.PREEMPTED
+    )

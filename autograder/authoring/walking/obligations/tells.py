@@ -1,0 +1,125 @@
+"""What a server says of a goal, in feedback and result.
+
+Each function is what an obligation of an exercise's model requires:
+
+feedback_at_5_hz = obligation(9, of=goals)(tells.feedback_at_5_hz)
+"""
+
+from __future__ import annotations
+
+from builtin_interfaces.msg import Duration
+
+from autograder.authoring.failure import expect
+from autograder.authoring.feedback import require_good_feedback_rate
+from autograder.authoring.goal import ABORTED, LISTENED, SUCCEEDED, Goal
+from autograder.authoring.goal_endings import why_rclpy_aborted
+from autograder.authoring.walking import reports
+from autograder.authoring.walking.life import (
+    TERMINAL,
+    accepted,
+    ended_at,
+    interrupted,
+    is_undisturbed,
+    left_alone,
+    way_to,
+)
+from ros_runtime.message_constants import GoalStatus, name_of
+
+LONG = 3.0  # s; a goal of less tells little about a rate
+CLEARLY = 0.5  # m; with so much left, an estimate of the time left is not 0
+FASTEST = 0.4  # m/s that the robot can walk
+
+
+def feedback_at_5_hz(goal: Goal) -> str | None:
+    """Feedback comes at 5 Hz without a gap over 1 s."""
+    if (
+        not accepted(goal)
+        or left_alone(goal)
+        or interrupted(goal)
+        or goal.accepted_at + LONG > ended_at(goal)
+    ):
+        return None
+    require_good_feedback_rate(goal)
+    return "all the way"
+
+
+def feedback_is_true(goal: Goal) -> str | None:
+    """Pose, distance and steps in the feedback are the robot's, for this goal; the estimate is one."""
+    if not accepted(goal) or not goal.feedback:
+        return None
+    reports.require_true_feedback(goal)
+    return "the first goal" if goal.run.robot_at(goal.sent.t).steps == 0 else "a later goal"
+
+
+def estimates_the_time(goal: Goal) -> str | None:
+    """The estimate of the time left is not negative, positive while much is left, and smaller near the end."""
+    if not accepted(goal) or not goal.feedback:
+        return None
+    estimates = [_seconds(each.feedback.estimated_time_remaining) for each in goal.feedback]
+    for each, estimate in zip(goal.feedback, estimates, strict=True):
+        much = each.feedback.distance_remaining > CLEARLY and goal.request.max_velocity <= FASTEST
+        expect(
+            estimate > 0.0 if much else estimate >= 0.0,
+            expected=f"an estimated_time_remaining {'above' if much else 'of at least'} 0 s with "
+            f"{each.feedback.distance_remaining:.2f} m left",
+            observed=f"{estimate:.1f} s",
+            help="Divide the distance left by the velocity that you walk at: Duration(seconds=…).to_msg() of "
+            "rclpy.duration.",
+            at=each.t,
+        )
+    if (
+        not (is_undisturbed(goal) and goal.status == SUCCEEDED)
+        or way_to(goal) < CLEARLY
+        or len(estimates) < 8
+    ):
+        return None
+    if goal.request.max_velocity > FASTEST:
+        return None
+    quarter = len(estimates) // 4
+    first, last = max(estimates[: 2 * quarter]), min(estimates[-quarter:])
+    expect(
+        last < first,
+        expected="estimated_time_remaining to be smaller near the end than at first",
+        observed=f"{first:.1f} s at first, {last:.1f} s near the end",
+        help="It is the time that is left from now on, not the time of the whole walk nor the time since its start.",
+        at=goal.feedback[-1].t,
+    )
+    return "a walk"
+
+
+def feedback_ends_with_the_goal(goal: Goal) -> str | None:
+    """After the result no more feedback comes."""
+    if not accepted(goal) or goal.result is None or goal.run.end < goal.result.t + LISTENED:
+        return None
+    if not goal.feedback:
+        return None
+    goal.require_silence_afterwards()
+    return name_of(GoalStatus, goal.result.status)
+
+
+def reports_where_it_ended(goal: Goal) -> str | None:
+    """The result holds where the robot ended, the steps for this goal, and the error_code of its status."""
+    if not accepted(goal) or goal.result is None or goal.status not in TERMINAL or interrupted(goal):
+        return None
+    reports.require_true_result(goal)
+    return name_of(GoalStatus, goal.result.status)
+
+
+def says_why_it_aborted(goal: Goal) -> str | None:
+    """A goal that is ABORTED says why, in error_msg."""
+    if goal.status != ABORTED or not accepted(goal) or interrupted(goal):
+        return None
+    assert goal.result
+    expect(
+        bool(goal.result.result.error_msg.strip()),
+        expected="a sentence in error_msg",
+        observed="an empty text",
+        help=why_rclpy_aborted(goal)
+        or "Say in result.error_msg what happened, for people, before you call abort().",
+        at=goal.result.t,
+    )
+    return "aborted"
+
+
+def _seconds(duration: Duration) -> float:
+    return float(duration.sec + duration.nanosec * 1e-9)

@@ -1,0 +1,157 @@
+"""How the robot goes to a goal, and that it stands when none is active.
+
+Each function is what an obligation of an exercise's model requires:
+
+obeys_max_velocity = obligation(9, of=goals)(walks.obeys_max_velocity)
+"""
+
+from __future__ import annotations
+
+import math
+
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring.robot_topic import DELIVERY
+from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking import halt
+from autograder.authoring.walking.life import (
+    AT_IT,
+    BIG_TURN,
+    accepted,
+    began_at_rest,
+    ended_at,
+    granted,
+    is_undisturbed,
+    left_alone,
+    next_sent,
+    run_of,
+    successors,
+    way_to,
+    went_down,
+)
+from autograder.authoring.walking.motion import (
+    require_limited_velocity,
+    require_short_turn,
+)
+from autograder.authoring.walking.planar import heading, target
+from autograder.authoring.walking.truth import (
+    STOP_SPEED,
+    STOP_TIME,
+)
+from humanoid_interfaces.msg import RobotState
+from ros_runtime.angles import wrap
+
+FAR = 0.25  # m; a shorter way tells little about a speed
+FASTEST = 0.4  # m/s that the robot can walk
+AT_LEAST = 0.5  # s of watching that prove that the robot stands
+BEGINNING = 3.0  # s in which a goal makes the robot walk
+
+
+def obeys_max_velocity(goal: Goal) -> str | None:
+    """From the start to the arrival the robot's mean speed is at most max_velocity."""
+    limit = goal.request.max_velocity
+    if not accepted(goal) or not limit or limit > FASTEST or not began_at_rest(goal):
+        return None
+    if not is_undisturbed(goal) or left_alone(goal) or way_to(goal) < FAR:
+        return None
+    require_limited_velocity(goal)
+    return "slow" if limit < 0.1 else "fast"
+
+
+def walks_at_its_own_velocity(goal: Goal) -> str | None:
+    """With max_velocity 0 it walks at a velocity of its own."""
+    if not accepted(goal) or goal.request.max_velocity != 0.0 or way_to(goal) < FAR:
+        return None
+    assert goal.answer
+    enough = goal.answer.t + BEGINNING
+    end = max(goal.answer.t, min(enough, ended_at(goal), goal.run.end))
+    if any(robot.mode == RobotState.WALKING for robot in goal.run.robot_between(goal.answer.t, end)):
+        return "max_velocity 0"
+    if end < enough or went_down(goal) or granted(goal) or successors(goal):
+        return None
+    raise Failure(
+        expected="the robot walking to its goal by then",
+        observed=f"it does not walk at {end:.1f} s",
+        help="max_velocity 0 asks for a velocity of your own: goal_handle.request.max_velocity or DEFAULT_VELOCITY. "
+        "Publish it on cmd_vel as soon as the goal executes, and again all the time: the robot stops by itself 0.5 s "
+        "after the last one.",
+        at=end,
+    )
+
+
+def turns_the_shorter_way(goal: Goal) -> str | None:
+    """It turns the shorter way round, also where the heading jumps from pi to -pi."""
+    if not is_undisturbed(goal) or goal.result is None or not began_at_rest(goal):
+        return None
+    start = goal.run.robot_at(goal.sent.t).yaw
+    aim = heading(target(goal).orientation)
+    if abs(wrap(aim - start)) < BIG_TURN and abs(aim) < math.pi - BIG_TURN:
+        return None
+    require_short_turn(goal)
+    return "across pi" if abs(aim - start) > math.pi else "elsewhere"
+
+
+def stands_at_success(goal: Goal) -> str | None:
+    """When it SUCCEEDS the robot stands still, and stays so."""
+    if goal.status != SUCCEEDED or successors(goal):
+        return None
+    assert goal.result
+    end = next_sent(goal, goal.result.t)
+    if end - goal.result.t < AT_LEAST:
+        return None
+    halt.require_standing_at_success(goal, end)
+    return "a goal where it stands" if way_to(goal) < AT_IT else "a walk"
+
+
+def ends_with_a_zero_twist(goal: Goal) -> str | None:
+    """The last Twist before it SUCCEEDS is zero, and no other follows."""
+    if goal.status != SUCCEEDED or successors(goal):
+        return None
+    assert goal.result
+    run, end = run_of(goal), next_sent(goal, goal.result.t)
+    if not any(goal.sent.t <= each.t < end for each in run.heard("cmd_vel")) and way_to(goal) < AT_IT:
+        return "nothing published where it stands"
+    halt.require_final_zero(run, goal, until=end)
+    return "walked" if way_to(goal) >= AT_IT else "stood there"
+
+
+def does_not_steer_without_a_goal(run: Transcript) -> str | None:
+    """Without an active goal it publishes no velocity but zero."""
+    moving = [each for each in run.heard("cmd_vel") if not halt.is_zero(each.message)]
+    for each in moving:
+        expect(
+            _has_goal(run, each.t),
+            expected="nothing but zeros on cmd_vel while no goal is active",
+            observed=halt.shown(each.message),
+            help="Somebody steers without a goal: a timer or a thread that does not know that the goal is over, or a "
+            "goal that was rejected.",
+            at=each.t,
+        )
+    return "all the time" if run.goals else None
+
+
+def stands_without_a_goal(run: Transcript) -> str | None:
+    """Without an active goal the robot stands where it is."""
+    if not run.ground_truth or not run.goals:
+        return None
+    for robot in run.ground_truth:
+        if robot.mode in (RobotState.FALLEN, RobotState.OFF):
+            break
+        if robot.t < run.goals[0].sent.t - DELIVERY or _has_goal(run, robot.t, STOP_TIME):
+            continue
+        expect(
+            robot.speed < STOP_SPEED,
+            expected=f"the robot slower than {STOP_SPEED:.2f} m/s while no goal is active",
+            observed=f"{robot.speed:.2f} m/s",
+            help="Publish a zero Twist on cmd_vel before the terminal call, and nothing else on it afterwards.",
+            at=robot.t,
+        )
+    return "all the time"
+
+
+def _has_goal(run: Transcript, t: float, afterwards: float = DELIVERY / 2) -> bool:
+    """Return whether a goal was active at a time (s), or had been so shortly before."""
+    return any(
+        goal.sent.t <= t <= (ended_at(goal) + afterwards if accepted(goal) else goal.sent.t)
+        for goal in run.goals
+    )

@@ -1,0 +1,66 @@
+"""What must hold of every goal of a walk that can be cancelled, and of the robot while none is active."""
+
+from __future__ import annotations
+
+from autograder.authoring.goal import Goal
+from autograder.authoring.obligation import Obligation, goals, obligation, whole_run
+from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.objections import (
+    FRAME,
+    NO_POWER,
+    NOT_FINITE,
+    UNSAID_ROTATION,
+    UNSAID_VELOCITY,
+    accepting,
+    rejecting,
+)
+from autograder.authoring.walking.obligations import cancels, ends, tells, walks
+
+accepts = obligation(1, 3, 11, of=goals)(
+    accepting(FRAME, NOT_FINITE, NO_POWER, UNSAID_ROTATION, UNSAID_VELOCITY)
+)
+rejects_frames = obligation(1, of=goals)(
+    rejecting("rejects_frames", FRAME, "It rejects a pose in any other frame than odom")
+)
+rejects_nan = obligation(2, of=goals)(
+    rejecting("rejects_nan", NOT_FINITE, "It rejects a pose that holds NaN or infinity")
+)
+rejects_without_power = obligation(3, of=goals)(
+    rejecting("rejects_without_power", NO_POWER, "It rejects a goal while the motors are off")
+)
+walks_at_its_own_velocity = obligation(4, of=goals)(walks.walks_at_its_own_velocity)
+succeeds = obligation(5, 6, of=goals)(ends.succeeds)
+status_in_order = obligation(5, of=goals)(ends.status_in_order)
+stands_at_success = obligation(5, of=goals)(walks.stands_at_success)
+stands_without_a_goal = obligation(5, 9, of=whole_run)(walks.stands_without_a_goal)
+turns_the_shorter_way = obligation(6, of=goals)(walks.turns_the_shorter_way)
+goes_on = obligation(1, of=goals)(ends.goes_on)
+feedback_at_5_hz = obligation(7, of=goals)(tells.feedback_at_5_hz)
+feedback_is_true = obligation(7, of=goals)(tells.feedback_is_true)
+estimates_the_time = obligation(7, of=goals)(tells.estimates_the_time)
+feedback_ends_with_the_goal = obligation(7, of=goals)(tells.feedback_ends_with_the_goal)
+reports_where_it_ended = obligation(8, of=goals)(tells.reports_where_it_ended)
+says_why_it_aborted = obligation(8, of=goals)(tells.says_why_it_aborted)
+grants_cancels = obligation(9, of=goals)(cancels.grants_cancels)
+walks_until_canceled = obligation(9, of=goals)(cancels.walks_until_canceled)
+stops_when_canceled = obligation(9, of=goals)(cancels.stops_when_canceled)
+answers_every_cancel = obligation(9, of=goals)(cancels.answers_every_cancel)
+refuses_late_cancels = obligation(10, of=goals)(cancels.refuses_late_cancels)
+gives_way = obligation(11, of=goals)(ends.gives_way)
+only_one_is_newest = obligation(11, of=goals)(ends.only_one_is_newest)
+tells_a_fall = obligation(12, of=goals)(ends.tells_a_fall)
+
+
+def _of(*names: str) -> tuple[Obligation, Obligation]:
+    """Return that a cancel is granted, and that the robot stops: of the goals with these names."""
+
+    def some(run: Transcript) -> list[Goal]:
+        return [run.goal(name) for name in names]
+
+    return obligation(9, of=some)(cancels.grants_cancels), obligation(9, of=some)(cancels.stops_when_canceled)
+
+
+canceled_at_the_start = _of("at once", "first feedback")
+canceled_near_arrival = _of("near")
+canceled_twice = _of("twice")
+canceled_by_a_stranger = _of("stranger")
