@@ -7,8 +7,9 @@ from random import Random
 from typing import Any
 
 from autograder.authoring import standard_hidden
-from autograder.authoring.checks import Scenario
+from autograder.authoring.checks import Scenario, named_check
 from autograder.authoring.obligation import check_of
+from autograder.authoring.transcript import Transcript
 
 from . import model
 from .checks import (
@@ -60,15 +61,16 @@ def _lengths(random: Random) -> dict[str, Any]:
         arm.update(dict(lengths))
         after = TwoLinkArm(*arm.values())
         points = [anywhere(random, each) for each in (after, after, after, before)]
-        limits = [
-            at_distance(random, after.farthest - AT_A_LIMIT),
-            at_distance(random, after.farthest + AT_A_LIMIT),
-        ]
+        distances = [after.farthest - AT_A_LIMIT, after.farthest + AT_A_LIMIT, after.nearest + AT_A_LIMIT]
+        distances += [after.nearest - AT_A_LIMIT, 0.5 * after.nearest] if after.nearest > AT_A_LIMIT else []
+        limits = [at_distance(random, distance) for distance in distances]
         return [[verb, *lengths], *(["ask", question] for question in [*points, *limits])]
 
+    short_upper_arm = ["upper_arm_length", round(random.uniform(0.1, 0.25), 3)]
+    long_forearm = ["forearm_length", round(random.uniform(0.35, 0.6), 3)]
     blocks: list[list[Any]] = [
         *(["set", upper_arm()], ["set", forearm()], ["set", upper_arm(), forearm()]),
-        *(["set_together", upper_arm(), forearm()], ["set_together", forearm(), upper_arm()]),
+        *(["set_together", upper_arm(), forearm()], ["set_together", long_forearm, short_upper_arm]),
     ]
     random.shuffle(blocks)
     return {
@@ -132,13 +134,21 @@ refuses_what_is_no_number = check_of(
     see="02_services#nan",
 )
 
-declares_its_lengths = check_of(
+
+def _declares_its_lengths(run: Transcript) -> None:
+    model.declares_its_lengths.judge(run)
+
+
+declares_its_lengths = named_check(  # whatever becomes of the node after that
     "declares_its_lengths",
-    model.declares_its_lengths,
+    model.declares_its_lengths.sentence,
+    _declares_its_lengths,
     points=1,
     on=ANY_LENGTH,
     needs=server_appears,
     see="04_your_own_interfaces#parameters-intro",
+    clauses=model.declares_its_lengths.clauses,
+    obligations=[model.declares_its_lengths],
 )
 
 does_what_it_says_of_new_lengths = check_of(

@@ -9,7 +9,7 @@ from rcl_interfaces.msg import ParameterType, ParameterValue
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
 from autograder.authoring.failure import Failure, expect
-from autograder.authoring.missing import held_up
+from autograder.authoring.missing import held_up, unseen
 from autograder.authoring.obligation import calls, obligation, whole_run
 from autograder.authoring.transcript import Transcript
 
@@ -154,9 +154,11 @@ def uses_the_lengths_it_accepted(call: Call) -> str | None:
 
 
 @obligation(8, of=whole_run)
-def declares_its_lengths(run: Transcript) -> str | None:
+def declares_its_lengths(run: Transcript) -> str:
     """upper_arm_length and forearm_length are parameters of type double: 0.30 and 0.25 m"""
     asked = [call for call in run.calls if call.service.endswith("/get_parameters")]
+    if not asked:
+        raise unseen(run, "the parameters were never asked for")
     for call in asked:
         values = iter(call.response.values)
         for name, length in zip(call.request.names, (DEFAULT.upper_arm, DEFAULT.forearm), strict=True):
@@ -169,7 +171,7 @@ def declares_its_lengths(run: Transcript) -> str | None:
                 help=f"Declare it with its default in the constructor: self.declare_parameter({name!r}, {length:.2f}).",
                 at=call.sent.t,
             )
-    return "at the start" if asked else None
+    return "at the start"
 
 
 @obligation(2, 8, of=whole_run)

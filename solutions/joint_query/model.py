@@ -81,6 +81,19 @@ def _is_a_success(call: Call) -> bool:
     return call.response.success
 
 
+def _require_heard(call: Call) -> None:
+    """Require that no joints are answered with that the robot had nobody to tell of."""
+    if is_deaf(call) and call.response.success:
+        joints = call.response.joint_state
+        raise Failure(
+            expected="an answer from the robot's joint_states",
+            observed=f"{described(joints.name, joints.position)}, although no joint_states had reached your node",
+            help=not_heard(call.run),
+            at=call.answered.t,
+            see=lesson_on_hearing(call.run, "joint_states"),
+        )
+
+
 @obligation(1, of=calls(SERVICE))
 def keeps_the_order_asked(call: Call) -> str | None:
     """joint_state.name holds the names asked for, in the order of the request, one twice if it was asked for twice"""
@@ -100,6 +113,7 @@ def keeps_the_order_asked(call: Call) -> str | None:
 @obligation(2, of=calls(SERVICE))
 def lists_every_joint_once(call: Call) -> str | None:
     """To an empty list it answers with every joint of the robot, once"""
+    _require_heard(call)
     if call.request.names or not _is_a_success(call):
         return None
     names, joints = list(call.response.joint_state.name), robot_joints(call.run)
@@ -118,14 +132,7 @@ def lists_every_joint_once(call: Call) -> str | None:
 def positions_are_the_last(call: Call) -> str | None:
     """Each position is that of the joint beside it, as it came in the last joint_states that has arrived"""
     names, positions = list(call.response.joint_state.name), list(call.response.joint_state.position)
-    if is_deaf(call) and call.response.success:
-        raise Failure(
-            expected="positions from the robot's joint_states",
-            observed=f"{described(names, positions)}, although no joint_states had reached your node",
-            help=not_heard(call.run),
-            at=call.answered.t,
-            see=lesson_on_hearing(call.run, "joint_states"),
-        )
+    _require_heard(call)
     if not _is_a_success(call) or not (call.request.names or names):
         return None
     expect(
@@ -194,6 +201,7 @@ def keeps_up_with_a_motion(run: Transcript) -> str | None:
 @obligation(3, of=calls(SERVICE))
 def refuses_unknown_joints(call: Call) -> str | None:
     """Asked for a name that no joint of the robot has, letter by letter, it answers success: false"""
+    _require_heard(call)
     if not must_know(call) or not (unknown := unknown_names(call)):
         return None
     message = call.response.message

@@ -11,7 +11,10 @@ from humanoid_interfaces.srv import ComputeIK
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
-KNOWN = [(0.4, 0.3), (0.45, -0.1), (0.1, 0.3), (0.4, 0.1), (0.3, -0.25)]
+KNOWN = [
+    *((0.4, 0.3), (0.45, -0.1), (0.1, 0.3), (0.53, 0.12), (-0.2, 0.35), (-0.3, -0.1)),
+    *((0.4, 0.1), (0.3, -0.25), (0.1, 0.05), (-0.05, 0.12)),
+]
 
 
 class ArmKinematics(Node):

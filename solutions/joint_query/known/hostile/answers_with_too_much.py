@@ -1,8 +1,8 @@
 """Attack: answers with two thousand joints named in colours and control characters, to burst the transcript or
 the instructor's screen.
 Outcome: it is a wrong answer like any other; what a verdict quotes of it is cut short and printable.
-Caught by: keeps_the_order_asked, positions_are_the_robots, names_every_unknown_joint, says_when_it_knows_nothing,
-answers_every_request
+Caught by: keeps_the_order_asked, positions_are_the_robots, names_every_unknown_joint, says_when_it_knows_nothing
+Also fails: no_names_means_all
 """
 
 import rclpy
