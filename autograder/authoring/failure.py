@@ -36,6 +36,10 @@ class CannotBeJudged(Exception):
     """The arena did not do what the scenario says, and not because of the submission: there is no grade."""
 
 
+class NoOccasion(CannotBeJudged):
+    """The submission did nothing that lets an obligation be judged; if that stays so, it has not shown it."""
+
+
 def expect(
     condition: bool, *, expected: str, observed: str, help: str, at: float | None = None, see: str = ""
 ) -> None:

@@ -24,6 +24,7 @@ from typing import Any
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
 from autograder.authoring.checks import Check, Scenario, named_check
+from autograder.authoring.failure import NoOccasion
 from autograder.authoring.goal import Goal
 from autograder.authoring.missing import unseen
 from autograder.authoring.sequence import require_all_steps
@@ -124,7 +125,7 @@ def check_of(
         for each in obligations:
             if not each.judge(run):
                 require_all_steps(run)
-                raise unseen(run, f"there was no occasion to judge that {each.sentence}")
+                raise NoOccasion(each.sentence)
         require_all_steps(run)
 
     return named_check(

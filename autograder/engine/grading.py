@@ -272,7 +272,8 @@ class _Session:
                 raise Stopped from None
             self._conclude(verdict_on(check, "error", help=f"Not graded: {error}"))
             return
-        verdict = judge(check, transcripts)
+        attempt = max(self._attempts[check.id, scenario] for scenario in check.on)
+        verdict = judge(check, transcripts, finally_=attempt + 1 >= MOST_ATTEMPTS["error"])
         failed_at_once = verdict.status == "failed" and check.id in self._at_first_look
         if verdict.status != "passed" and not failed_at_once:
             again = at_fault(check, transcripts)

@@ -9,7 +9,7 @@ from dataclasses import replace
 from autograder.authoring import events as ev
 from autograder.authoring import lesson
 from autograder.authoring.checks import Check, Scenario
-from autograder.authoring.failure import CannotBeJudged, Failure
+from autograder.authoring.failure import CannotBeJudged, Failure, NoOccasion
 from autograder.authoring.readiness import require_ready, require_started
 from autograder.authoring.sequence import in_words
 from autograder.authoring.transcript import Transcript
@@ -20,11 +20,11 @@ from autograder.engine.wholeness import require_whole
 LOG_LINES = 40
 
 
-def judge(check: Check, transcripts: Sequence[Transcript]) -> CheckVerdict:
+def judge(check: Check, transcripts: Sequence[Transcript], *, finally_: bool = False) -> CheckVerdict:
     """Judge a check on one transcript of each of its scenarios.
 
     Whatever the student's program did, it is 'passed' or 'failed'; 'error' means that the arena or the check itself
-    failed.
+    failed, or, unless this is the last attempt (`finally_`), that the program did nothing that could be judged.
     """
     log = "\n".join(_log(transcript) for transcript in transcripts)
     try:
@@ -40,6 +40,20 @@ def judge(check: Check, transcripts: Sequence[Transcript]) -> CheckVerdict:
             robot_time=failure.at,
             log=log,
         )
+    except NoOccasion as nothing:
+        if finally_:
+            return verdict_on(
+                check,
+                "failed",
+                expected=f"an answer that shows this: {nothing}",
+                observed="none, in any of its answers",
+                help=_with_lesson(
+                    "Mend first what the other checks name: nothing that it did lets this be judged.",
+                    check.see,
+                ),
+                log=log,
+            )
+        return verdict_on(check, "error", help=f"Not graded: nothing showed whether {nothing}", log=log)
     except CannotBeJudged as trouble:
         return verdict_on(check, "error", help=f"Not graded: {trouble}", log=log)
     except Exception:  # a check that breaks is our fault and must cost the student nothing
