@@ -2,92 +2,133 @@
 
 from __future__ import annotations
 
-import random
+from random import Random
+from typing import Any
 
 from autograder.authoring import standard_hidden
-from autograder.authoring.checks import Scenario, check
-from autograder.authoring.robot_topic import DELIVERY
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.checks import Scenario
+from autograder.authoring.obligation import check_of
 
+from . import model
 from .checks import (
     ON_A_STAND,
     SILENT_ROBOT,
     powers_on,
     refuses_off_while_walking,
-    says_when_it_knows_nothing,
+    server_appears,
     tells_the_status,
 )
-from .judging import (
-    require_granted,
-    require_refused,
-    require_standing_as_told,
-    require_status,
-    require_switched,
-    require_walking_as_told,
-    require_walking_on,
-)
 
 
-def _any_way_but_ahead(random: random.Random) -> dict:
-    """Turning on the spot, sideways or backwards (m/s, m/s, rad/s)."""
+def _on_the_floor(random: Random) -> dict[str, Any]:
+    """Power while it walks any way but ahead, once it stands, while it falls, and when it lies there."""
     side = random.choice((-1, 1))
     velocities = (
         [0.0, 0.0, side * random.uniform(0.25, 0.4)],
         [0.0, side * random.uniform(0.07, 0.11), 0.0],
         [-random.uniform(0.1, 0.18), 0.0, 0.0],
     )
-    return {"velocity": [round(value, 3) for value in random.choice(velocities)]}
+    walking: list[list[list[Any]]] = [
+        [["switch", False, random.randint(1, 3)], ["wait", 1.6]],
+        [["switch", True], ["wait", 1.6]],
+        [["ask", 1]],
+        [["switch", False], ["switch", True], ["switch", False], ["wait", 0.5]],
+    ]
+    random.shuffle(walking)
+    fallen: list[list[list[Any]]] = [[["switch", True]], [["switch", False]], [["ask", 2]]]
+    random.shuffle(fallen)
+    return {
+        "steps": [
+            ["walk", [round(value, 3) for value in random.choice(velocities)]],
+            *(step for block in walking for step in block),
+            *(["stop"], ["ask", 1], ["wait", 1.0], ["switch", False], ["ask", 1], ["wait", 2.5]),
+            *(step for block in fallen for step in block),
+            ["settle"],
+        ]
+    }
 
 
-RANDOM_WALK = Scenario("switch_while_walking_and_after", _any_way_but_ahead)
-MANY_AT_ONCE = Scenario("ask_many_at_once", {"bursts": 3, "switches": 3, "questions": 5}, robot=ON_A_STAND)
-OTHER_NAMESPACE = Scenario("switch_off_and_on", robot=ON_A_STAND, namespace="/lab_7/robot")
+def _on_the_stand(random: Random) -> dict[str, Any]:
+    """Before the first robot_state, then in any order: repeats, another node, silences, many at once."""
+    first = random.choice((True, False))
+    silence = round(random.uniform(1.0, 4.0), 1)
+    blocks: list[list[list[Any]]] = [
+        [["switch", False], ["switch_elsewhere", True], ["switch", False], ["settle"], ["ask", 1]],
+        [["switch", True], ["switch_elsewhere", False], ["switch", True], ["settle"], ["ask", 1]],
+        [["switch_elsewhere", False], ["switch", False], ["ask", 1], ["switch_and_ask", True, 4, 4]],
+        [
+            *(["switch_elsewhere", first], ["publish_state", False], ["switch_elsewhere", not first]),
+            *(["wait", silence], ["ask", 1], ["switch", first], ["switch", not first], ["ask", 1]),
+            *(["publish_state", True], ["ask", 1]),
+        ],
+    ]
+    random.shuffle(blocks)
+    before = [["ask", 1], ["switch", True], ["wait", round(random.uniform(0.5, 2.0), 1)], ["ask", 2]]
+    return {
+        "steps": [*before, ["publish_state", True], ["ask", 1], *(step for block in blocks for step in block)]
+    }
 
 
-@check(points=1, on=RANDOM_WALK, needs=refuses_off_while_walking, see="02_services#set-refuse-why")
-def refuses_however_it_walks(run: Transcript) -> None:
-    """Turning on the spot, sideways or backwards is walking, too"""
-    require_refused(run.call("off while walking"))
-
-
-@check(
-    points=2, on=RANDOM_WALK, needs=[powers_on, refuses_however_it_walks], see="02_services#set-refuse-why"
+FLOOR = Scenario("in_order", _on_the_floor)
+STAND = Scenario("in_order", _on_the_stand, robot=(*ON_A_STAND, "--robot-state-unpublished"))
+OTHER_NAMESPACE = Scenario(
+    "in_order",
+    {"steps": [["switch", False], ["settle"], ["ask", 1], ["switch", True], ["settle"], ["ask", 1]]},
+    robot=ON_A_STAND,
+    namespace="/lab_7/robot",
 )
-def refuses_nothing_else(run: Transcript) -> None:
-    """Power on is granted while the robot walks, and power off once it stands again"""
-    on, off = run.call("on while walking"), run.call("off once it stands")
-    require_walking_as_told(on)
-    require_granted(on)
-    require_walking_on(on)
-    require_standing_as_told(off)
-    require_switched(off)
 
-
-@check(
+refuses_however_it_walks = check_of(
+    "refuses_however_it_walks",
+    model.refuses_power_off,
+    model.lets_it_walk,
+    title="Turning on the spot, sideways or backwards is walking, too",
     points=1,
-    on=SILENT_ROBOT,
-    needs=[tells_the_status, says_when_it_knows_nothing],
+    on=FLOOR,
+    needs=refuses_off_while_walking,
+    see="02_services#set-refuse-why",
+)
+
+refuses_nothing_else = check_of(
+    "refuses_nothing_else",
+    model.grants_power_on,
+    model.grants_power_off,
+    model.commands_only_what_was_granted,
+    title="Power on is always granted, and power off whenever it does not walk; a refused request never takes effect",
+    points=2,
+    on=[FLOOR, STAND],
+    needs=powers_on,
+    see="02_services#set-refuse-why",
+)
+
+recovers_when_the_robot_speaks = check_of(
+    "recovers_when_the_robot_speaks",
+    model.tells_the_motors,
+    title="Once a robot_state has come, get_status answers with the last one, whatever happened before",
+    points=1,
+    on=[SILENT_ROBOT, STAND, FLOOR],
+    needs=tells_the_status,
     see="02_services#m9-fix-why",
 )
-def recovers_when_the_robot_speaks(run: Transcript) -> None:
-    """Once the first robot_state has come, get_status answers with it"""
-    call = run.call("after the first message")
-    run.told("robot_state", before=call.sent.t - DELIVERY, published=True)
-    require_status(call, on=True)
 
-
-answers_every_request = standard_hidden.answers_every_request(
-    24,
-    help="Publish and answer: the callback must not sleep while others wait for the same thread.",
+answers_every_request = check_of(
+    "answers_every_request",
+    model.status_in_time,
+    model.status_from_memory,
+    model.power_in_time,
+    model.power_never_sleeps,
+    model.says_when_it_knows_nothing,
+    title="Every request is answered in time, get_status from memory, also while nothing is known",
     points=1,
-    on=MANY_AT_ONCE,
-    needs=[tells_the_status, powers_on],
+    on=STAND,
+    needs=server_appears,
+    see="02_services#m4-why",
 )
 
-
-@check(points=1, on=OTHER_NAMESPACE, needs=[tells_the_status, powers_on], see="01_robot_and_graph#names-why")
-def works_in_any_namespace(run: Transcript) -> None:
-    """Started in another namespace, it serves the robot there"""
-    require_switched(run.call("off"))
-    require_status(run.call("status after off"), on=False)
-    require_switched(run.call("on"))
+works_in_any_namespace = standard_hidden.works_in_any_namespace(
+    "serves the robot",
+    model.serves_the_robot,
+    points=1,
+    on=OTHER_NAMESPACE,
+    needs=[tells_the_status, powers_on],
+)

@@ -12,7 +12,7 @@ from autograder.authoring import events as ev
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.msg import RobotState
 
-MOTORS = exercise_module("motor_services", "judging")
+MOTORS = exercise_module("motor_services", "model")
 
 
 def truth(*, motors: Any = lambda t: True, mode: int = RobotState.STANDING) -> list[Any]:
@@ -50,7 +50,7 @@ def switch(call: str, on: bool, t: float, *, success: bool = True, message: str 
 )
 def test_motors_that_stay_on_are_explained_by_what_came_on_motor_power(events: list[Any], seen: str) -> None:
     run = run_of(*truth(), *events, *switch("off", False, 4.0))
-    failure = failure_of(MOTORS.require_switched, run.call("off"))
+    failure = failure_of(MOTORS.grants_power_off.require, run.call("off"))
     assert failure.help.startswith(f"On motor_power the grader saw {seen}")
 
 
@@ -93,7 +93,7 @@ def test_a_wrong_status_is_explained_by_the_answers_so_far(
     events: list[Any], call: str, next_step: str
 ) -> None:
     run = run_of(*truth(motors=off_from_5_to_9), *events)
-    failure = failure_of(MOTORS.require_status, run.call(call), on=call != "status 1")
+    failure = failure_of(MOTORS.tells_the_motors.require, run.call(call))
     assert failure.help.startswith(next_step)
     lesson = {
         "Your node does not": "01_robot_and_graph#listen-intro",
@@ -118,4 +118,4 @@ def test_a_refusal_that_says_success_is_told_from_none(motors: Any, message: str
     walk = ev.RobotCommanded(t=2.0, command={"do": "walk", "velocity": [0.3, 0.0, 0.0]})
     off = switch("off", False, 4.0, message=message)
     run = run_of(*truth(motors=motors, mode=RobotState.WALKING), walk, *off)
-    assert failure_of(MOTORS.require_refused, run.call("off")).help.startswith(next_step)
+    assert failure_of(MOTORS.refuses_power_off.require, run.call("off")).help.startswith(next_step)

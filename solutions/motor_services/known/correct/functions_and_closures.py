@@ -1,4 +1,4 @@
-"""Style: functions and closures over a dictionary, no class; refuses all it cannot judge; spin_once in a loop."""
+"""Style: functions and closures over a dictionary, no class; refuses power off as long as it cannot judge; spin_once in a loop."""
 
 import sys
 
@@ -14,11 +14,11 @@ STATUS = {True: "Motors: ON", False: "Motors: OFF"}
 
 def why_not(on, state):
     """Return why power may not be switched, or an empty string."""
+    if on:
+        return ""
     if state is None:
         return "the robot has not been heard of"
-    if state.mode == RobotState.WALKING and not on:
-        return "it would fall: it is walking"
-    return ""
+    return "it would fall: it is walking" if state.mode == RobotState.WALKING else ""
 
 
 def add_services(node):

@@ -1,0 +1,374 @@
+"""What must hold of every answer of the motor services, and of every command to the motors, in every scenario."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from autograder.authoring import events as ev
+from autograder.authoring.call import Call
+from autograder.authoring.connections import lesson_on_hearing
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.fields import shown_fields
+from autograder.authoring.obligation import calls, obligation, whole_run
+from autograder.authoring.robot_record import RobotRecord
+from autograder.authoring.robot_topic import DELIVERY
+from autograder.authoring.standard_obligations import (
+    ENOUGH_ANSWERS,
+    FROM_MEMORY,
+    FROM_MEMORY_TIME,
+    answered_within,
+    answers_from_memory,
+)
+from autograder.authoring.transcript import Transcript
+from ros_runtime.message_constants import RobotMode, name_of
+
+from .advice import (
+    advice_on_granting,
+    advice_on_power,
+    advice_on_refusing,
+    advice_on_status,
+    on_or_off,
+    question,
+)
+
+ENABLE, STATUS = "enable_motors", "get_status"
+TEXTS = {True: "Motors: ON", False: "Motors: OFF"}
+PERIOD = 0.3  # s between two robot_state, and a little more
+SAMPLE = 0.1  # s; the record samples the robot at 50 Hz, and robot_state comes on every change
+OBEYED = 2.0  # s after the answer in which the command must have reached the robot
+IN_TIME = 2.0  # s for every answer
+UNCONFIRMED = 5.0  # s for one that waits for a confirmation that does not come
+LEAST_WAIT = 1.0  # s before anybody may say that the robot did not confirm
+CONFIRMED_TIME = FROM_MEMORY_TIME + PERIOD  # s for the fastest of several answers that wait for the robot
+STARTS_TO_WALK = 3.0  # s
+TOGETHER = 0.5  # s between requests that come at once
+AS_TOLD = "Publish nothing unasked: motor_power only when a request is granted, and cmd_vel never."
+
+
+# -- what the node can know -------------------------------------------------------------------------------------------
+
+
+def published_spans(run: RobotRecord) -> list[tuple[float, float]]:
+    """Return from when to when (s) the robot published robot_state to the node."""
+    verbs = [step[1] for step in run.params.get("steps", ()) if step[0] == "publish_state"]
+    ready = run.first(ev.NodeReady)
+    changes = [
+        (event.t, event.command["published"])
+        for event in run.all(ev.RobotCommanded)
+        if event.command.get("do") == "robot_state"
+    ]
+    begin = [(ready.t if ready else 0.0, not (verbs and verbs[0]))]
+    return [
+        (start, end)
+        for (start, published), (end, _) in pairwise([*begin, *changes, (run.end, False)])
+        if published
+    ]
+
+
+def last_states(call: Call) -> list[ev.RobotTruth] | None:
+    """Return what the node's last robot_state may have said between request and answer, oldest first.
+
+    It is empty if certainly none had come, and None if nobody can tell whether one had.
+    """
+    end = call.answered.t + SAMPLE
+    spans = [(start, stop) for start, stop in published_spans(call.run) if start <= call.answered.t]
+    if not spans:
+        return []
+    arrived = [min(stop, call.sent.t - DELIVERY) for start, stop in spans if call.sent.t - DELIVERY >= start]
+    heard = [at for at, (start, _) in zip(arrived, spans, strict=False) if at >= start + PERIOD]
+    if not heard:
+        return None
+    return [
+        robot
+        for robot in call.run.robot_between(heard[-1] - SAMPLE, end)
+        if any(start - SAMPLE <= robot.t <= stop + SAMPLE for start, stop in spans)
+    ]
+
+
+def _may_grant(call: Call) -> set[bool]:
+    """Return whether the request may be granted (True), or refused (False)."""
+    if call.request.data:
+        return {True}
+    states = last_states(call)
+    return {robot.mode != RobotMode.WALKING for robot in states} if states else {True, False}
+
+
+def _is_so_already(call: Call) -> bool:
+    """Return whether the last robot_state says already what is asked for."""
+    states = [robot for robot in last_states(call) or () if robot.t <= call.sent.t]
+    return bool(states) and all(robot.motors_enabled is call.request.data for robot in states)
+
+
+def _confirmed_at(call: Call) -> float | None:
+    """Return when (s) a robot_state after the request first said what was asked for; None: never."""
+    spans = published_spans(call.run)
+    return next(
+        (
+            robot.t
+            for robot in call.run.ground_truth
+            if call.sent.t <= robot.t and robot.motors_enabled is call.request.data
+            if any(start <= robot.t <= stop for start, stop in spans)
+        ),
+        None,
+    )
+
+
+def _waits_in_vain(call: Call) -> bool:
+    """Return whether an answer that waits for a robot_state to confirm it cannot be in time."""
+    confirmed = _confirmed_at(call)
+    return _may_grant(call) != {False} and (confirmed is None or confirmed > call.sent.t + IN_TIME - DELIVERY)
+
+
+def _commands(call: Call) -> list[ev.MotorPowerReceived]:
+    """Return the commands to the motors that the request may have led to."""
+    end = call.answer.t + OBEYED if call.answer else call.run.end
+    commands = call.run.all(ev.MotorPowerReceived)
+    return [each for each in commands if each.on is call.request.data and call.sent.t <= each.t <= end]
+
+
+def _was_not_confirmed(call: Call) -> bool:
+    """Return whether the answer may say that the command was sent, and that the robot did not confirm it in time."""
+    confirmed = _confirmed_at(call)
+    return (
+        call.latency >= LEAST_WAIT
+        and bool(_commands(call))
+        and (confirmed is None or call.answered.t < confirmed + DELIVERY)
+    )
+
+
+def _situation(call: Call) -> str:
+    states = last_states(call)
+    if not states:
+        return "before the first robot_state"
+    modes = dict.fromkeys(name_of(RobotMode, robot.mode) for robot in states)
+    silent = not any(start <= call.sent.t <= stop for start, stop in published_spans(call.run))
+    return "/".join(modes) + (", robot_state silent" if silent else "")
+
+
+# -- power ------------------------------------------------------------------------------------------------------------
+
+
+@obligation(1, 2, of=calls(ENABLE))
+def grants_power_on(call: Call) -> str | None:
+    """Power on is always granted: success is true, and the command reaches the robot"""
+    return _require_granted(call) if call.request.data else None
+
+
+@obligation(1, 2, of=calls(ENABLE))
+def grants_power_off(call: Call) -> str | None:
+    """Power off is granted unless the robot walks: success is true, and the command reaches the robot"""
+    return _require_granted(call) if not call.request.data and _may_grant(call) == {True} else None
+
+
+def _require_granted(call: Call) -> str:
+    on = call.request.data
+    expect(
+        call.response.success or _was_not_confirmed(call),
+        expected=f"success: true to {question(call)} while the robot is {_situation(call)}",
+        observed=shown_fields(call.response, "success", "message"),
+        help=advice_on_granting(call, _situation(call)),
+        at=call.answered.t,
+    )
+    expect(
+        bool(_commands(call)) or _is_so_already(call),
+        expected=f"{question(call)} to reach the robot's motors within {OBEYED:.0f} s of the answer",
+        observed=f"nothing switched them {on_or_off(on)}, though the answer was success",
+        help=advice_on_power(call),
+        at=call.answered.t,
+    )
+    return _situation(call)
+
+
+@obligation(2, of=calls(ENABLE))
+def refuses_power_off(call: Call) -> str | None:
+    """While the robot walks, power off is refused: success is false, and the message says why"""
+    if (may := _may_grant(call)) == {True}:
+        return None
+    if may == {False}:
+        call.expect(
+            "success",
+            False,
+            because="the robot was WALKING when power off was asked for",
+            help=advice_on_refusing(call),
+        )
+    elif call.response.success:
+        return None
+    expect(
+        bool(call.response.message.strip()),
+        expected="a message that says why power off is refused",
+        observed="an empty message",
+        help='Set response.message, for example to "the robot is walking: stop it first".',
+        at=call.answered.t,
+    )
+    return _situation(call)
+
+
+@obligation(1, 2, of=whole_run)
+def commands_only_what_was_granted(run: Transcript) -> str:
+    """On motor_power comes what was granted, and nothing else: not when a request is refused, and not later"""
+    asked = calls(ENABLE)(run)
+    for command in run.all(ev.MotorPowerReceived):
+        causes = [call for call in asked if command in _commands(call)]
+        if any(call.answer is None or _is_granted(call) for call in causes):
+            continue
+        earlier = [call for call in asked if call.sent.t <= command.t]
+        refused = [call for call in earlier if call.answer and call.request.data is command.on and not causes]
+        wrong = "" if not causes and not refused else f" after {question((causes or refused)[-1])}"
+        raise Failure(
+            expected="no command to the motors but what was granted",
+            observed=f"motor_power: {str(command.on).lower()}{wrong}"
+            + (", which was refused" if causes else f", {_since(refused[-1:] or earlier[-1:], command.t)}"),
+            help="Return before anything is published when a request is refused, and do not keep it for later; where "
+            "it is granted, publish what data says, at once.",
+            at=command.t,
+        )
+    return "commands" if run.all(ev.MotorPowerReceived) else "no command"
+
+
+def _is_granted(call: Call) -> bool:
+    return call.response.success or (True in _may_grant(call) and _was_not_confirmed(call))
+
+
+def _since(calls_before: list[Call], t: float) -> str:
+    return (
+        f"{t - calls_before[0].answered.t:.1f} s after the answer" if calls_before else "before any request"
+    )
+
+
+@obligation(2, of=whole_run)
+def lets_it_walk(run: Transcript) -> str | None:
+    """A robot that was told to walk walks on, whatever the node is asked"""
+    told = run.all(ev.RobotCommanded)
+    judged = []
+    for number, event in enumerate(told):
+        if event.command.get("do") != "walk" or not any(event.command["velocity"]):
+            continue
+        end = min([later.t for later in told[number + 1 :]] + [run.end]) - SAMPLE
+        seen = [robot for robot in run.ground_truth if event.t <= robot.t <= end]
+        began = next((robot.t for robot in seen if robot.mode == RobotMode.WALKING), None)
+        if began is None and end < event.t + STARTS_TO_WALK:
+            continue
+        idle = (
+            next((each for each in seen if each.t >= began and each.mode != RobotMode.WALKING), None)
+            if began is not None
+            else seen[-1]
+        )
+        asked = [call for call in calls(ENABLE)(run) if event.t < call.sent.t <= (idle.t if idle else end)]
+        after = f" after {question(asked[-1])}" if asked else ""
+        if idle:
+            raise Failure(
+                expected=f"the robot walking on as it was told{after}",
+                observed=f"it is {name_of(RobotMode, idle.mode)}, its motors are {on_or_off(idle.motors_enabled)}",
+                help=AS_TOLD,
+                at=idle.t,
+            )
+        judged += ["walking"] * bool(asked)
+    return judged[0] if judged else None
+
+
+# -- status -----------------------------------------------------------------------------------------------------------
+
+
+@obligation(3, 4, of=calls(STATUS))
+def tells_the_motors(call: Call) -> str | None:
+    """get_status answers success true and the text, letter by letter, by motors_enabled in the last robot_state"""
+    states = last_states(call)
+    if not states:
+        return None
+    possible = {robot.motors_enabled for robot in states}
+    wanted = TEXTS[states[-1].motors_enabled]
+    expect(
+        call.response.success and call.response.message in [TEXTS[on] for on in possible],
+        expected=f"success: true, message: {wanted!r}; in the last robot_state the motors are "
+        f"{on_or_off(states[-1].motors_enabled)}, the robot {_situation(call)}",
+        observed=shown_fields(call.response, "success", "message"),
+        help=advice_on_status(call, wanted),
+        at=call.answered.t,
+        see=lesson_on_hearing(call.run, "robot_state"),
+    )
+    return _situation(call) if len(possible) == 1 else "while they are switched"
+
+
+@obligation(4, of=calls(STATUS))
+def says_when_it_knows_nothing(call: Call) -> str | None:
+    """Before the first robot_state get_status answers success false, and the message is neither of the two"""
+    if last_states(call) != []:
+        return None
+    response = call.response
+    expect(
+        not response.success and response.message.strip(" .").lower() not in map(str.lower, TEXTS.values()),
+        expected="success: false and a message that claims neither ON nor OFF: robot_state has not arrived yet",
+        observed=shown_fields(response, "success", "message"),
+        help="Start with no message (None) and answer success: false as long as none has arrived."
+        if response.success
+        else "Say in message that nothing is known yet: neither ON nor OFF.",
+        at=call.answered.t,
+    )
+    return "before the first robot_state"
+
+
+# -- time -------------------------------------------------------------------------------------------------------------
+
+
+def _knowledge(call: Call) -> str:
+    if not last_states(call):
+        return "before the first robot_state"
+    together = any(0 <= call.sent.t - each < TOGETHER for each in _asked_for_power(call.run))
+    return "together with enable_motors" if together else "alone"
+
+
+def _asked_for_power(run: RobotRecord) -> list[float]:
+    """Return when (s) power was asked for."""
+    return [asked.t for asked in run.all(ev.ServiceCalled) if asked.service == ENABLE]
+
+
+status_in_time = answered_within(IN_TIME, STATUS, clause=5)
+status_from_memory = answers_from_memory(STATUS, _knowledge, clause=5)
+
+
+@obligation(5, of=calls(ENABLE))
+def power_in_time(call: Call) -> str:
+    """Every request for power is answered within 2 s; within 5 s if it waits for what the robot does not confirm"""
+    waits = _waits_in_vain(call)
+    limit = UNCONFIRMED if waits else IN_TIME
+    expect(
+        call.latency <= limit,
+        expected=f"an answer to {question(call)} within {limit:g} s",
+        observed=f"it took {call.latency:.1f} s",
+        help="Publish and answer: the callback must not sleep while others wait for the same thread."
+        if not waits
+        else "Nothing confirms it: give the wait for robot_state an end, and say so in the answer.",
+        at=call.answered.t,
+    )
+    together = sum(abs(each - call.sent.t) < TOGETHER for each in _asked_for_power(call.run))
+    return "one at a time" if together == 1 else "several together"
+
+
+@obligation(5, of=whole_run)
+def power_never_sleeps(run: Transcript) -> str | None:
+    """A refusal comes from memory, and so does a grant, unless it waits for the next robot_state"""
+    by_kind: dict[str, list[Call]] = {}
+    for call in calls(ENABLE)(run):
+        if _may_grant(call) == {False}:
+            by_kind.setdefault("refused", []).append(call)
+        elif not _waits_in_vain(call):
+            by_kind.setdefault("granted", []).append(call)
+    judged = {kind: each for kind, each in by_kind.items() if len(each) >= ENOUGH_ANSWERS}
+    for kind, each in judged.items():
+        fastest = min(each, key=lambda call: call.answered.t - call.sent.t)
+        expect(
+            fastest.latency <= (FROM_MEMORY_TIME if kind == "refused" else CONFIRMED_TIME),
+            expected=f"answers to {question(fastest)}, {kind}, without sleeping",
+            observed=f"the fastest of {len(each)} took {fastest.latency:.1f} s",
+            help=FROM_MEMORY,
+            at=fastest.answered.t,
+        )
+    return ", ".join(sorted(judged)) or None
+
+
+@obligation(6, of=whole_run)
+def serves_the_robot(run: Transcript) -> str | None:
+    """All names are relative: the robot in the node's namespace is commanded and heard"""
+    if all(each.judge(run) for each in (grants_power_off, tells_the_motors, grants_power_on)):
+        return "another namespace"
+    return None
