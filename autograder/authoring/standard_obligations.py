@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from autograder.authoring import events as ev
 from autograder.authoring.call import Call
 from autograder.authoring.failure import expect
 from autograder.authoring.obligation import Obligation, calls, obligation, whole_run
@@ -31,7 +32,8 @@ def answered_within(timeout: float, service: str, *, clause: int, help: str = FR
             help=help,
             at=call.answered.t,
         )
-        together = sum(abs(other.sent.t - call.sent.t) < 0.5 for other in calls(service)(call.run))
+        asked = [each.t for each in call.run.all(ev.ServiceCalled) if each.service == service]
+        together = sum(abs(t - call.sent.t) < 0.5 for t in asked)
         return "one at a time" if together == 1 else "several together"
 
     answers_in_time.__doc__ = f"Every request is answered within {timeout:g} s, also when many come together"

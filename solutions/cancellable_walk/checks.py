@@ -13,14 +13,14 @@ from . import model
 FAR = [2.0, 0.0, 0.0]  # m, m, rad
 STANDING = 2.6  # s after the result of a cancelled goal in which the robot is watched
 
-# The second goal lies ahead of a robot that has turned and has taken steps before. A rotation by 2 pi less is the same
-# heading, and its quaternion has another sign.
+# The second goal lies ahead of a robot that has turned and has taken steps before. Its heading lies beyond pi, so its
+# quaternion has a negative w.
 WALK = Scenario(
     "in_order",
     {
         "steps": [
-            *(["go", "walk", 0.55, 0.2, 1.5], ["arrive", "walk"], ["wait", 1.0]),
-            *(["go", "again", 0.55, 0.55, 1.5 - math.tau], ["arrive", "again"], ["wait", 1.5]),
+            *(["go", "walk", 0.55, 0.2, 2.0], ["arrive", "walk"], ["wait", 1.0]),
+            *(["go", "again", 0.4, 0.5, 4.0], ["arrive", "again"], ["wait", 1.5]),
         ]
     },
 )
@@ -51,8 +51,13 @@ PREEMPT = Scenario(
     "in_order",
     {
         "steps": [
-            *(["go", "old", *FAR], ["walk_for", 2.0], ["go", "new", 0.9, 0.2, 0.3]),
-            *(["end", "old"], ["arrive", "new"], ["wait", 1.0]),
+            *(
+                ["go", "old", *FAR],
+                ["walk_for", 1.7],
+                ["ask", "in map", "header.frame_id", "map"],
+                ["wait", 0.3],
+            ),
+            *(["go", "new", 0.9, 0.2, 0.3], ["end", "old"], ["arrive", "new"], ["wait", 1.0]),
             *(["go", "interrupted", *FAR], ["walk_for", 0.3], ["interrupt"]),
         ]
     },
@@ -79,6 +84,8 @@ arrives = check_of(
     "arrives",
     model.succeeds,
     model.stands_at_success,
+    model.turns_the_short_way,
+    title="It SUCCEEDS, the robot stands within 0.10 m and 0.15 rad of the goal, and it has turned the shorter way",
     points=2,
     on=WALK,
     needs=accepts_a_goal,
@@ -179,11 +186,12 @@ walks_again_after_a_cancel = check_of(
 new_goal_preempts_the_old = check_of(
     "new_goal_preempts_the_old",
     model.accepts,
+    model.goes_on,
     model.gives_way,
     model.says_why_it_aborted,
     model.succeeds,
     model.reports_where_it_ended,
-    title="A new goal aborts the old one with PREEMPTED and is walked to, and both results hold what was measured",
+    title="A new goal, but none that is rejected, aborts the old one with PREEMPTED and is walked to; results are true",
     points=2,
     on=PREEMPT,
     needs=arrives,

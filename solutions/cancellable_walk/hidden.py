@@ -35,11 +35,12 @@ def _walks(random: Random) -> dict[str, Any]:
             *(["go", "third", *aside, 0.0], ["end", "first"], ["end", "second"], ["arrive", "third"]),
         ],
         [
-            ["go_together", ["one", *aside, 0.0], ["other", *beyond, 0.0]],
-            *(["arrive", "one"], ["arrive", "other"]),
+            ["go_together", ["one", *aside, 0.0], ["two", *beyond, 0.0], ["three", *aside, 0.0]],
+            *(["arrive", "one"], ["arrive", "two"], ["arrive", "three"]),
         ],
         [
             *(["go_on", "canceled", *FAR], ["walk_for", random.uniform(0.2, 0.8)], ["cancel", "canceled"]),
+            ["wait", random.uniform(0.35, 0.6)],
             *(["go", "at once", *aside, 0.0], ["end", "canceled"], ["arrive", "at once"]),
         ],
         [["go", "here", *beyond, 0.0], *impossible[4:], ["arrive", "here"]],
@@ -88,7 +89,10 @@ def _phases(random: Random) -> dict[str, Any]:
 
 
 def _cancels(random: Random) -> dict[str, Any]:
-    """Cancel before acceptance, at first feedback, twice, by a stranger, near arrival, after the end, in any order."""
+    """Cancel before acceptance, at first feedback, twice, by a stranger, near arrival, after the end, in any order.
+
+    At last the robot goes down when it has stopped near its goal.
+    """
     ahead = random.uniform(0.5, 0.6)
 
     def walking(name: str, *cancel: Any) -> Steps:
@@ -110,13 +114,32 @@ def _cancels(random: Random) -> dict[str, Any]:
             *(["cancel", "near"], ["end", "near"], ["wait", STANDING]),
         ],
         [
+            *(
+                ["go_on", "settled", 0.25, 0.0, 0.0],
+                ["settle", "settled"],
+                ["cancel", "settled"],
+                ["end", "settled"],
+            ),
+            *(["wait", AFTERWARDS], ["go_on", "after that", 0.25, 0.0, 0.0], ["arrive", "after that"]),
+            ["wait", AFTERWARDS],
+        ],
+        [
             *(["go_on", "arrived", random.uniform(-0.2, -0.15), 0.0, 0.0], ["arrive", "arrived"]),
             *(["wait", AFTERWARDS], ["cancel", "arrived"]),
             *(["go_on", "after it", 0.2, 0.0, 0.3], ["arrive", "after it"], ["wait", AFTERWARDS]),
         ],
     ]
     random.shuffle(blocks)
-    return {"steps": _rounded([step for block in blocks for step in block])}
+    down: Steps = [
+        *(
+            ["go_on", "down", 0.25, 0.0, 0.0],
+            ["settle", "down"],
+            ["cut_power"],
+            ["end", "down"],
+            ["wait", AFTERWARDS],
+        ),
+    ]
+    return {"steps": _rounded([*(step for block in blocks for step in block), *down])}
 
 
 def _rounded(value: Any) -> Any:
@@ -140,7 +163,7 @@ arrives_anywhere = check_of(
     model.rejects_without_power,
     model.goes_on,
     model.succeeds,
-    model.turns_the_shorter_way,
+    model.turns_the_short_way,
     model.status_in_order,
     model.stands_at_success,
     model.stands_without_a_goal,
@@ -196,7 +219,8 @@ survives_a_cancel_after_the_end = check_of(
     model.status_in_order,
     model.feedback_is_true,
     model.reports_where_it_ended,
-    title="A cancel after the result changes nothing: the next goal is walked to, and every report is true",
+    model.tells_a_fall,
+    title="A cancel at or after the end changes nothing: the next goal is walked to, and every report is true",
     points=1,
     on=CANCELS,
     needs=arrives,

@@ -112,8 +112,8 @@ arrives_anywhere = check_of(
 turns_the_shorter_way = check_of(
     "turns_the_shorter_way",
     *WALKED,
-    model.turns_the_shorter_way,
-    title=model.turns_the_shorter_way.sentence,
+    model.turns_the_short_way,
+    title=model.turns_the_short_way.sentence,
     points=1,
     on=ANY_ORDER,
     needs=arrives,

@@ -44,13 +44,18 @@ def others(goal: Goal) -> list[Goal]:
 
 
 def overlaps(goal: Goal, asked: Goal) -> bool | None:
-    """Return whether a goal was active all the while another was asked for and answered; None: nobody can tell."""
+    """Return whether a goal was active all the while another was asked for and answered; None: nobody can tell.
+
+    One that is ABORTED then has not run out by itself: it was active, and gave way.
+    """
     answered = asked.answer.t if asked.answer else run_of(goal).end
     if not accepted(goal) or goal.sent.t > answered or ended_at(goal) + DELIVERY / 2 < asked.sent.t:
         return False
     assert goal.answer
-    certainly = goal.answer.t < asked.sent.t and ended_at(goal) > answered + DELIVERY
-    return True if certainly else None
+    if goal.answer.t >= asked.sent.t:
+        return None
+    gave_way = goal.status == GoalStatus.ABORTED and ended_at(goal) > asked.sent.t
+    return True if gave_way or ended_at(goal) > answered + DELIVERY else None
 
 
 def successors(goal: Goal) -> list[Goal]:

@@ -29,6 +29,7 @@ from autograder.authoring.walking.truth import (
 )
 
 GETTING_GOING = 1.0  # s
+OVERTAKING = 0.3  # s
 AT_LEAST = 0.5  # s of watching that prove that the robot stands
 
 
@@ -137,10 +138,15 @@ def _when(goal: Goal, t: float) -> str:
 
 
 def _ends_canceled(goal: Goal, asked: float) -> str | None:
-    """Require that a goal whose cancel was agreed to ends CANCELED, or SUCCEEDED if that was just before arrival."""
-    if successors(goal) or went_down(goal) or left_alone(goal):
+    """Require that a goal whose cancel was agreed to ends CANCELED, or SUCCEEDED if that was just before arrival.
+
+    A goal that comes after the cancel changes nothing about that, but what comes at once may overtake it.
+    """
+    if went_down(goal) or left_alone(goal):
+        return None
+    if any(other.sent.t < asked + OVERTAKING for other in successors(goal)):
         return None
     if goal.status == SUCCEEDED and near_arrival(goal, asked):
         return "just before arrival"
     goal.require_result(CANCELED)
-    return _when(goal, asked)
+    return "and another came" if successors(goal) else _when(goal, asked)

@@ -78,13 +78,10 @@ def goes_on(goal: Goal) -> str | None:
     if not rejected and not refused:
         return None
     what = "another was rejected" if rejected else "the cancel was refused"
-    down, result = went_down(goal), goal.result
-    if (
-        result
-        and not down
-        and not interrupted(goal)
-        and not (result.status == SUCCEEDED and near_arrival(goal, result.t))
-    ):
+    result, newer = goal.result, successors(goal)
+    gave_way = result and newer and result.t >= newer[0].sent.t
+    arrived = result and result.status == SUCCEEDED and near_arrival(goal, result.t)
+    if result and not (gave_way or arrived or went_down(goal) or interrupted(goal)):
         raise Failure(
             expected=f"the first goal to go on after {what}",
             observed=f"it ended {name_of(GoalStatus, result.status)} at {result.t:.1f} s",
@@ -152,7 +149,7 @@ def tells_a_fall(goal: Goal) -> str | None:
     if goal.result is None and left_alone(goal):
         return None
     if goal.result and goal.status == SUCCEEDED and goal.result.t <= fallen.t:
-        return None
+        return "as it arrived"
     result = goal.require_result(
         ABORTED,
         help=f"The robot fell at {fallen.t:.1f} s and execute went on. Look at robot_state.mode in every round.",

@@ -26,7 +26,7 @@ from autograder.authoring.walking.life import (
 from ros_runtime.message_constants import GoalStatus, name_of
 
 LONG = 3.0  # s; a goal of less tells little about a rate
-CLEARLY = 0.5  # m; with so much left, an estimate of the time left is not 0
+CLEARLY, LEAST = 0.5, 1.0  # m, s; the robot needs more than so long for so much
 FASTEST = 0.4  # m/s that the robot can walk
 
 
@@ -58,11 +58,12 @@ def estimates_the_time(goal: Goal) -> str | None:
     estimates = [_seconds(each.feedback.estimated_time_remaining) for each in goal.feedback]
     for each, estimate in zip(goal.feedback, estimates, strict=True):
         much = each.feedback.distance_remaining > CLEARLY and goal.request.max_velocity <= FASTEST
+        least = LEAST if much else 0.0
         expect(
-            estimate > 0.0 if much else estimate >= 0.0,
-            expected=f"an estimated_time_remaining {'above' if much else 'of at least'} 0 s with "
+            estimate >= least,
+            expected=f"an estimated_time_remaining of at least {least:g} s with "
             f"{each.feedback.distance_remaining:.2f} m left",
-            observed=f"{estimate:.1f} s",
+            observed=f"{estimate:.3g} s",
             help="Divide the distance left by the velocity that you walk at: Duration(seconds=…).to_msg() of "
             "rclpy.duration.",
             at=each.t,

@@ -79,7 +79,7 @@ def walks_at_its_own_velocity(goal: Goal) -> str | None:
     )
 
 
-def turns_the_shorter_way(goal: Goal) -> str | None:
+def turns_the_short_way(goal: Goal) -> str | None:
     """It turns the shorter way round, also where the heading jumps from pi to -pi."""
     if not is_undisturbed(goal) or goal.result is None or not began_at_rest(goal):
         return None
@@ -93,7 +93,7 @@ def turns_the_shorter_way(goal: Goal) -> str | None:
 
 def stands_at_success(goal: Goal) -> str | None:
     """When it SUCCEEDS the robot stands still, and stays so."""
-    if goal.status != SUCCEEDED or successors(goal):
+    if goal.status != SUCCEEDED or successors(goal) or went_down(goal):
         return None
     assert goal.result
     end = next_sent(goal, goal.result.t)

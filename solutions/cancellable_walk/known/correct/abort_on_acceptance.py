@@ -85,7 +85,9 @@ class WalkServer(Node):
 
     def on_accepted(self, goal_handle):
         with self.lock:
-            if self.walk:
+            if self.walk and self.walk.goal_handle.is_cancel_requested:
+                self.end(self.walk.goal_handle.canceled)
+            elif self.walk:
                 self.end(self.walk.goal_handle.abort, WalkTo.Result.PREEMPTED, "preempted")
             self.walk = self.walks[bytes(goal_handle.goal_id.uuid)] = Walk(goal_handle, self.state.steps)
             goal_handle.execute()
