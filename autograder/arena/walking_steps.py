@@ -23,6 +23,7 @@ SETTLING = 1.0  # s for the first odom and robot_state to arrive
 SOON = 10.0  # s for the end of a goal that is cancelled, preempted or out of reach
 STARTING = 5.0  # s in which a robot begins to walk
 COMING_NEAR = 15.0  # s
+NEAR = 0.12  # m
 
 MakeGoal = Callable[[PoseStamped, float], Any]  # of a pose and max_velocity (m/s)
 
@@ -64,6 +65,7 @@ class _Walker:
             "cancel_all": lambda: self._action.cancel_all(by=STRANGER).wait(),
             "walk_for": self.walk_for,
             "come_near": self.come_near,
+            "settle": self.settle,
             "hear_of": lambda name: self._goals[name].wait_for_feedback(1, STARTING),
             "arrive": self.arrive,
             "end": self.end,
@@ -149,6 +151,13 @@ class _Walker:
         aim = self._poses[name].pose.position
         self._stage.robot.wait_for(
             lambda robot: math.hypot(robot.x - aim.x, robot.y - aim.y) < distance, COMING_NEAR
+        )
+
+    def settle(self, name: str) -> None:
+        """Wait until the robot stands near where a goal sends it, and the goal has not ended yet, if it waits there."""
+        self.come_near(name, NEAR)
+        self._stage.robot.wait_for(
+            lambda robot: self._goals[name].has_ended or robot.mode == RobotState.STANDING, COMING_NEAR
         )
 
     def cut_power(self) -> None:

@@ -20,6 +20,7 @@ from ros_runtime.message_constants import GoalStatus, name_of
 REPORT_SLACK = 0.08  # m or rad, over what the robot moved while the message was made and delivered
 REPORT_AGE = 0.6  # s that a reported pose may be old: odom's period, the feedback's period, delivery
 FINAL_SLACK = 0.015  # m by which final_pose may be off: odom's period, and rounding to centimetres
+TRUTH_LATE = 0.5  # s that the simulator's word may come after a report that is made of it
 TAKING_OVER = 2.0  # s in which a goal that preempts another may begin
 
 
@@ -79,7 +80,7 @@ def require_true_result(goal: Goal) -> None:
 
 def _require_final_pose(goal: Goal, end: ev.ResultReceived) -> None:
     """Require that final_pose was measured when the goal ended, not copied from the request."""
-    stamped, recent = end.result.final_pose, goal.run.robot_between(end.t - DELIVERY, end.t)
+    stamped, recent = end.result.final_pose, _recent(goal, end.t, DELIVERY)
     help = why_rclpy_aborted(goal)
     position, aim = stamped.pose.position, target(goal).position
     if (position.x, position.y) == (aim.x, aim.y):
@@ -151,7 +152,7 @@ def require_true_pose(
 
 def _require_true_steps(goal: Goal, claimed: int, what: str, at: float) -> None:
     """Require the steps since the goal began: what robot_state said a moment ago, less what it said then."""
-    before, now = goal.run.robot_at(goal.sent.t), goal.run.robot_between(at - DELIVERY, at)
+    before, now = goal.run.robot_at(goal.sent.t), _recent(goal, at, DELIVERY)
     # A robot that stands takes no step until the goal moves it; one that walks may take some before the goal begins.
     latest = (
         before if before.mode != RobotState.WALKING else goal.run.robot_at(goal.accepted_at + TAKING_OVER)
@@ -168,5 +169,6 @@ def _require_true_steps(goal: Goal, claimed: int, what: str, at: float) -> None:
     )
 
 
-def _recent(goal: Goal, t: float) -> Sequence[ev.RobotTruth]:
-    return goal.run.robot_between(t - REPORT_AGE, t)
+def _recent(goal: Goal, t: float, age: float = REPORT_AGE) -> Sequence[ev.RobotTruth]:
+    """Return the robot at what may be the time of a report that came at `t` s: at most `age` s before."""
+    return goal.run.robot_between(t - age, min(t + TRUTH_LATE, goal.run.ground_truth[-1].t))

@@ -163,6 +163,13 @@ def test_a_goal_that_comes_as_another_ends_may_get_either_answer():
     assert rejecting("busy", BUSY, "…")(run.goal("next")) is None
 
 
+def test_a_goal_that_gives_way_was_active():
+    gone = ended("walk", 3.15, 0.4, 4, status=GoalStatus.ABORTED)
+    run = run_of(*goal("walk", 1.0, 2.0), *goal("second", 3.0, 0.5), gone, motions=[a_walk(1.2, 0.0, 0.4)])
+    with pytest.raises(Failure, match="it was accepted"):
+        rejecting("busy", BUSY, "…")(run.goal("second"))
+
+
 @pytest.mark.parametrize(("answers", "taken"), [((True, True), 2), ((False, False), 0)])
 def test_of_two_goals_in_the_same_moment_one_is_accepted(answers, taken):
     one, other = goal("one", 1.0, 1.0, accepted=answers[0]), goal("other", 1.01, 1.0, accepted=answers[1])

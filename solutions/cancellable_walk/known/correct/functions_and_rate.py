@@ -42,7 +42,7 @@ def error_to(goal, odom):
 
 
 def make_server(node):
-    robot = SimpleNamespace(odom=None, state=None)
+    robot = node.robot = SimpleNamespace(odom=None, state=None, rate=None)
     goals = SimpleNamespace(newest=None)
     one_at_a_time = threading.Lock()
     group = ReentrantCallbackGroup()
@@ -92,7 +92,7 @@ def make_server(node):
             return result
 
     def walk(goal_handle, goal):
-        rate = node.create_rate(RATE)
+        rate = robot.rate = node.create_rate(RATE)
         near_since = 0
         try:
             while True:
@@ -142,9 +142,11 @@ def main(args=None):
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
-        rclpy.try_shutdown()  # wakes a rate that sleeps
+        if node.robot.rate:
+            node.robot.rate.destroy()  # Ctrl-C does not wake a rate that sleeps
         executor.shutdown()
         node.destroy_node()
+        rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

@@ -46,7 +46,7 @@ def is_sensible(request):
 
 
 def make_server(node):
-    robot = SimpleNamespace(odom=None, state=None)
+    robot = node.robot = SimpleNamespace(odom=None, state=None, rate=None)
     legs = threading.Lock()
     group = ReentrantCallbackGroup()
     cmd_vel = node.create_publisher(Twist, "cmd_vel", 10)
@@ -104,7 +104,7 @@ def make_server(node):
         return result
 
     def walk(goal, most):
-        rate = node.create_rate(RATE)
+        rate = robot.rate = node.create_rate(RATE)
         try:
             while True:
                 distance, _, turn = way_to(goal)
@@ -145,10 +145,12 @@ def main(args=None):
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
-        rclpy.try_shutdown()  # wakes a rate that sleeps
+        if node.robot.rate:
+            node.robot.rate.destroy()  # Ctrl-C does not wake a rate that sleeps
         executor.shutdown()
         server.destroy()
         node.destroy_node()
+        rclpy.try_shutdown()
 
 
 if __name__ == "__main__":
