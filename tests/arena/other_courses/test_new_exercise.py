@@ -60,4 +60,9 @@ def test_the_page_leads_to_an_exercise_that_is_graded(tmp_path):
     assert "mode in UPRIGHT" not in released
     with zipfile.ZipFile(tmp_path / "students.zip") as archive:
         names = [name for name in archive.namelist() if "is_upright" in name]
-    assert sorted(Path(name).name for name in names) == ["checks.py", "is_upright.ipynb", "model.py", "scenarios.py"]
+    assert sorted(Path(name).name for name in names) == [
+        "checks.py",
+        "is_upright.ipynb",
+        "model.py",
+        "scenarios.py",
+    ]
