@@ -122,6 +122,12 @@ def went_down(goal: Goal) -> ev.RobotTruth | None:
     return next((robot for robot in robots if robot.mode in (RobotState.OFF, RobotState.FALLEN)), None)
 
 
+def was_put_down(goal: Goal) -> bool:
+    """Return whether the scenario pushed the robot or cut its power while the goal was active."""
+    commands = [each for each in goal.run.all(ev.RobotCommanded) if goal.sent.t <= each.t <= ended_at(goal)]
+    return any(each.command.get("do") in ("push", "motor_power") for each in commands)
+
+
 def fallen_between(goal: Goal, start: float, end: float) -> ev.RobotTruth | None:
     """Return the robot when it had fallen between two moments (s)."""
     robots = goal.run.robot_between(start, max(start, end))

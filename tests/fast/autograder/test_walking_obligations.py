@@ -194,6 +194,18 @@ def test_a_cancel_is_granted_and_the_robot_stops():
         walks.stands_without_a_goal(goes_on)
 
 
+def test_a_robot_that_the_server_itself_brings_down_was_canceled_and_did_not_stop():
+    run = run_of(
+        *(*goal("walk", 1.0, 2.0), *canceled("walk", 3.0, granted=True)),
+        ended("walk", 3.2, 0.4, 4, status=GoalStatus.CANCELED),
+        motions=[a_walk(1.2, 0.0, 0.4)],
+        down=3.5,
+    )
+    assert cancels.grants_cancels(run.goal("walk")) == "in mid-stride"
+    with pytest.raises(Failure, match="it fell"):
+        cancels.stops_when_canceled(run.goal("walk"))
+
+
 def test_a_cancel_that_is_refused_changes_nothing():
     run = run_of(
         *(*goal("walk", 1.0, 2.0), *canceled("walk", 3.0, granted=False)),

@@ -20,6 +20,7 @@ from autograder.authoring.walking.life import (
     requests_to_cancel,
     run_of,
     successors,
+    was_put_down,
     went_down,
 )
 from autograder.authoring.walking.truth import (
@@ -142,7 +143,7 @@ def _ends_canceled(goal: Goal, asked: float) -> str | None:
 
     A goal that comes after the cancel changes nothing about that, but what comes at once may overtake it.
     """
-    if went_down(goal) or left_alone(goal):
+    if left_alone(goal) or (went_down(goal) and was_put_down(goal)):
         return None
     if any(other.sent.t < asked + OVERTAKING for other in successors(goal)):
         return None
