@@ -59,6 +59,10 @@ class ScriptedService:
         """The number of requests it has had."""
         return self._log.count(ev.RequestReceived, service=self.name, server=self._server)
 
+    def reply_with(self, reply: Reply | None) -> None:
+        """Give the requests that come from now on this reply."""
+        self._replies = [reply]
+
     def withdraw(self) -> None:
         """Destroy the service, together with any request it is working on."""
         self._log.append(ev.ServiceWithdrawn(service=self.name, server=self._server))

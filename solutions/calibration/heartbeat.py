@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
+
 from autograder.authoring import events as ev
-from autograder.authoring.call import Call
 from autograder.authoring.failure import expect
 from autograder.authoring.missing import unseen
 from autograder.authoring.readiness import require_alive
@@ -14,16 +16,21 @@ GAP = 0.3  # s without a heartbeat
 JITTER = 0.06  # s of real time by which a message may be late on a busy machine
 MOST_JITTER = 1.0  # s; a callback that blocks costs 2 s at least
 SLOWEST, FASTEST = 7.5, 13.0  # Hz, heartbeats
+LONG_ENOUGH = 2.5  # s at work, or without a request, for a rate of its own
+Times = Sequence[tuple[float, float]]  # from when to when, s
 
 
-def require_heartbeat(run: Transcript, call: Call, meanwhile: str) -> None:
-    """Require heartbeats at 10 Hz without a gap, from the first to the end of the scenario; `call` falls into it."""
-    beats = [event.t for event in run.heard("heartbeat")]
+def require_heartbeat(run: Transcript) -> None:
+    """Require heartbeats at 10 Hz without a gap, from the first to the end of the scenario or Ctrl-C."""
     require_alive(run)
-    if call.answer is None and not run.given_up("call", call.name):
-        raise unseen(run, f"calibrate_imu was not at work to the end of “{call.name}”")
+    signalled = run.first(ev.NodeSignalled)
+    end = signalled.t if signalled else run.end
+    beats = [event.t for event in run.heard("heartbeat") if event.t <= end]
+    working = _at_work(run, end)
+    if not working:
+        raise unseen(run, "calibrate_imu was never asked")
     expect(
-        len(beats) > 1 and beats[0] <= call.sent.t,
+        len(beats) > 1 and beats[0] <= working[0][0],
         expected="messages on heartbeat, ten a second, from the start on",
         observed=f"{len(beats)} messages" if len(beats) < 2 else f"the first one at {beats[0]:.1f} s",
         help="Make a publisher (std_msgs/Empty) and a timer of 0.1 s in the constructor, with relative names.",
@@ -31,29 +38,47 @@ def require_heartbeat(run: Transcript, call: Call, meanwhile: str) -> None:
     late = [woken.late for woken in run.all(ev.WokenLate)] + [robot.lag for robot in run.ground_truth]
     late += [starved.seconds for starved in run.all(ev.Starved)]
     limit = GAP + JITTER * run.scale + min(max(late, default=0.0), MOST_JITTER)
-    ends = [*beats[1:], run.end]
-    start, end = max(zip(beats, ends, strict=True), key=lambda pair: pair[1] - pair[0])
-    during = any(since - GAP <= start <= until for since, until in _at_work(run))
+    start, stop = max(zip(beats, [*beats[1:], end], strict=True), key=lambda pair: pair[1] - pair[0])
+    during = any(since - GAP <= start <= until for since, until in working)
     expect(
-        end - start <= limit,
+        stop - start <= limit,
         expected=f"no gap of more than {GAP:g} s between two heartbeats",
-        observed=f"{end - start:.1f} s without one, from {start:.1f} s on{f', {meanwhile}' if during else ''}",
+        observed=f"{stop - start:.1f} s without one, from {start:.1f} s on"
+        + (", while calibrate_imu was at work" if during else ""),
         help=_advice_on_the_gap(run, during),
         at=start,
     )
-    rate = (len(beats) - 1) / (beats[-1] - beats[0])
+    idle = [(before, after) for (_, before), (after, _) in pairwise(working)]
+    for times, when in ((working, "while calibrate_imu is at work"), (idle, "between requests")):
+        _require_rate(beats, times, when)
+
+
+def _require_rate(beats: Sequence[float], times: Times, when: str) -> None:
+    long_ones = [(start, end) for start, end in times if end - start >= LONG_ENOUGH]
+    if not long_ones:
+        return
+    seconds = sum(end - start for start, end in long_ones)
+    rate = sum(start <= beat < end for beat in beats for start, end in long_ones) / seconds
     expect(
         SLOWEST <= rate <= FASTEST,
-        expected="10 heartbeats a second",
+        expected=f"10 heartbeats a second, also {when}",
         observed=f"{rate:.1f} a second",
         help="Make one timer with a period of 0.1 s that publishes one message each time.",
+        at=long_ones[0][0],
     )
 
 
-def _at_work(run: Transcript) -> list[tuple[float, float]]:
-    """Return from when to when (s) each request to the student's node waited for its answer."""
+def _at_work(run: Transcript, end: float) -> list[tuple[float, float]]:
+    """Return from when to when (s) requests waited for their answers, joined where they overlap."""
     answered = {event.call: event.t for event in run.all(ev.ServiceAnswered)}
-    return [(event.t, answered.get(event.call, run.end)) for event in run.all(ev.ServiceCalled)]
+    joined: list[tuple[float, float]] = []
+    for event in run.all(ev.ServiceCalled):
+        until = answered.get(event.call, end)
+        if joined and event.t <= joined[-1][1]:
+            joined[-1] = (joined[-1][0], max(joined[-1][1], until))
+        else:
+            joined.append((event.t, until))
+    return joined
 
 
 def _advice_on_the_gap(run: Transcript, during: bool) -> str:

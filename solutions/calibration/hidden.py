@@ -2,205 +2,228 @@
 
 from __future__ import annotations
 
-import random
+from random import Random
+from typing import Any
 
-from autograder.authoring import events as ev
 from autograder.authoring import standard_hidden
-from autograder.authoring.checks import RESTING, Scenario, check
+from autograder.authoring.checks import RESTING, Scenario
 from autograder.authoring.missing import unseen
-from autograder.authoring.robot_topic import DELIVERY
+from autograder.authoring.obligation import check_of
 from autograder.authoring.transcript import Transcript
 
+from . import model, truth
 from .checks import (
     ASKS,
     BIASES,
     GROUPS,
     KNOWS_NOTHING,
+    SETTLE,
+    SILENT_AT_FIRST,
     SILENT_ROBOT,
-    SILENT_STATUS,
     WAITS,
     calibrates,
     fails_when_it_begins_to_walk,
     fails_without_samples,
+    in_order,
     keeps_its_heartbeat,
     lives_while_it_waits,
     publishes_the_bias,
     refuses_a_second_caller,
     refuses_before_the_first_state,
     refuses_without_an_answer,
-)
-from .heartbeat import require_heartbeat
-from .judging import (
-    ASKING,
-    COLLECTING,
-    LATE,
-    require_bias_published,
-    require_calibrated,
-    require_imu_lost,
-    require_refused,
-    require_refused_meanwhile,
-    require_walk_begun_meanwhile,
-    status_request,
+    tells_what_it_measured,
 )
 
-
-def _bias(random: random.Random) -> list[float]:
-    """Return a bias (rad/s) no axis of which is near zero."""
-    return [round(random.choice((-1, 1)) * random.uniform(0.004, 0.014), 4) for _ in "xyz"]
-
-
-def _two_biases(random: random.Random) -> dict:
-    """Return two that are 0.004 rad/s apart at least, about every axis."""
-    first = _bias(random)
-    return {"biases": [first, [round(-value, 4) for value in first]]}
+Step = list[Any]
+AT_ONCE: Step = ["status_answers", 0.0]
+FOUND = 3.5  # s for a server that was started again to be found
 
 
-def _slow_status(random: random.Random) -> dict:
-    return {"status_after": round(random.uniform(1.1, 1.4), 2), "bias": _bias(random)}
+def _bias(random: Random) -> Step:
+    """Give the gyro a bias no axis of which is near zero, and let it be known."""
+    return ["set_bias", *(round(random.choice((-1, 1)) * random.uniform(0.004, 0.014), 4) for _ in "xyz")]
 
 
-def _a_few_steps(random: random.Random) -> dict:
-    """Turning on the spot or backwards for two steps (m/s, m/s, rad/s)."""
-    velocity = random.choice(([0.0, 0.0, 0.35], [0.0, 0.0, -0.35], [-0.15, 0.0, 0.0]))
-    return {"begin": round(random.uniform(0.1, 0.4), 2), "velocity": velocity, "steps": 2}
+def _steps(random: Random) -> dict[str, Any]:
+    """Ask before the first robot_state, then in any order; get_status, imu and other callers change between."""
+
+    def seconds(least: float, most: float) -> float:
+        return round(random.uniform(least, most), 2)
+
+    def calibrate() -> list[Step]:
+        return [_bias(random), SETTLE, ["calibrate"]]
+
+    blocks: list[list[Step]] = [
+        [["status_answers", seconds(0.6, 1.3)], *calibrate(), AT_ONCE],
+        [["status_is_silent"], ["calibrate"], AT_ONCE, *calibrate()],
+        [
+            *(["status_answers", seconds(2.8, 3.2)], ["calibrate"], ["status_is_silent"], ["calibrate"]),
+            *(AT_ONCE, ["calibrate"]),
+        ],
+        [["status_says_no", 0.0], *calibrate(), AT_ONCE],
+        [["begin"], ["wait", seconds(0.8, 1.2)], ["unplug_imu"], ["end"], ["plug_in_imu"], *calibrate()],
+        [["begin"], ["wait", seconds(2.4, 2.6)], ["unplug_imu"], ["end"], ["plug_in_imu"]],
+        [
+            *(["status_answers", 1.3], ["begin"], ["wait", seconds(0.1, 0.5)], ["send"]),
+            *(["wait", seconds(1.8, 2.6)], ["send"], ["end"], AT_ONCE),
+        ],
+        [["begin", random.randint(2, 4)], ["end"]],
+    ]
+    random.shuffle(blocks)
+    before: list[Step] = [["calibrate"], ["publish_robot_state"], SETTLE]
+    return {"steps": [*before, *(step for block in blocks for step in block), SETTLE]}
 
 
-ANY_BIAS_TWICE = Scenario("calibrate_twice", _two_biases, robot=RESTING)
-SLOW_STATUS = Scenario("calibrate_with_slow_status", _slow_status, robot=RESTING)
-LATE_ANSWER = Scenario("answer_the_request_before", {"status_after": 3.0}, robot=RESTING)
-NO_STATUS = Scenario("calibrate_without_status", robot=RESTING)
-TWO_WHILE_ASKING = Scenario("calibrate_from_two_clients", {"apart": 0.3, "status_after": 1.3}, robot=RESTING)
-A_FEW_STEPS = Scenario("begin_to_walk_meanwhile", _a_few_steps)
-FEW_SAMPLES = Scenario("lose_the_imu", {"begin": 1.3}, robot=RESTING)
-ENOUGH_SAMPLES = Scenario("lose_the_imu", {"begin": 2.5}, robot=RESTING)
-OTHER_NAMESPACE = Scenario("calibrate_twice", {"biases": BIASES[:1]}, robot=RESTING, namespace="/lab_7/robot")
+def _steps_and_walks(random: Random) -> dict[str, Any]:
+    """Walk before, between and within calibrations; the way of walking is drawn."""
+
+    def way() -> list[float]:
+        return random.choice(([0.0, 0.0, 0.35], [0.0, 0.0, -0.35], [-0.15, 0.0, 0.0], [0.3, 0.0, 0.0]))
+
+    def begin_at() -> float:
+        return round(random.uniform(0.3, 0.6), 2)
+
+    stand: list[Step] = [["stand"], ["wait", 2.5]]
+    blocks: list[list[Step]] = [
+        [["walk", *way()], SETTLE, ["calibrate"], *stand, ["calibrate"]],
+        [["begin"], ["wait", begin_at()], ["walk_steps", 2, *way()], ["end"], *stand],
+        [["status_answers", 0.9], ["begin"], ["wait", 0.4], ["walk", *way()], ["end"], *stand, AT_ONCE],
+    ]
+    random.shuffle(blocks)
+    return {"steps": [*(step for block in blocks for step in block), ["calibrate"], SETTLE]}
 
 
-@check(points=2, on=ANY_BIAS_TWICE, needs=publishes_the_bias, see=WAITS)
-def calibrates_afresh(run: Transcript) -> None:
-    """A second calibration is made of its own samples, whatever the bias"""
-    require_calibrated(run.call("first"))
-    second = run.call("second")
-    require_calibrated(second)
-    require_bias_published(second)
+ANY_ORDER = Scenario("in_order", _steps, robot=SILENT_AT_FIRST)
+WALKS_IN_ANY_ORDER = Scenario("in_order", _steps_and_walks)
+NO_STATUS = in_order(
+    *(["withdraw_status"], ["wait", 0.5], ["calibrate"]),
+    *(["offer_status"], ["wait", FOUND], ["calibrate"], SETTLE),
+)
+OTHER_NAMESPACE = Scenario(
+    "in_order",
+    {"steps": [["set_bias", *BIASES[1]], SETTLE, ["calibrate"], SETTLE]},
+    robot=RESTING,
+    namespace="/lab_7/robot",
+)
 
+calibrates_afresh = check_of(
+    "calibrates_afresh",
+    model.tells_the_means,
+    model.tells_the_count,
+    model.collects_for_three_seconds,
+    model.publishes_the_means,
+    model.beats,
+    title="Whatever came before, each calibration is made of its own samples, and heartbeat goes on",
+    points=2,
+    on=ANY_ORDER,
+    needs=[tells_what_it_measured, publishes_the_bias, keeps_its_heartbeat],
+    see=WAITS,
+)
 
-@check(points=1, on=SLOW_STATUS, needs=calibrates, see=ASKS)
-def waits_for_a_slow_status(run: Transcript) -> None:
-    """When get_status takes more than a second, it still waits, and then collects for 3 s"""
-    call = run.call("slow status")
-    request = status_request(call)
-    if request is not None and request.reply is None and request.received.t + ASKING < run.end:
-        raise unseen(run, "get_status did not answer")
-    require_calibrated(call)
-
-
-@check(points=1, on=SILENT_STATUS, needs=[calibrates_afresh, refuses_without_an_answer], see=ASKS)
-def recovers_when_status_answers(run: Transcript) -> None:
-    """After a refusal it can calibrate again"""
-    require_calibrated(run.call("status is back"))
-
-
-@check(
+waits_for_a_slow_status = check_of(
+    "waits_for_a_slow_status",
+    model.ends_right(truth.SLOW),
+    model.ends_right(truth.SAYS_NO),
+    title="A slow answer of get_status will do, and so will success: false; then it collects for 3 s",
     points=1,
-    on=LATE_ANSWER,
-    needs=[calibrates, refuses_without_an_answer, waits_for_a_slow_status],
+    on=ANY_ORDER,
+    needs=calibrates,
+    see=ASKS,
+)
+
+recovers_when_status_answers = check_of(
+    "recovers_when_status_answers",
+    model.ends_right(truth.PROMPT, after="a failure"),
+    title="However a calibration was refused or failed, the next one can succeed",
+    points=1,
+    on=[ANY_ORDER, WALKS_IN_ANY_ORDER],
+    needs=calibrates,
+    see=ASKS,
+)
+
+takes_no_answer_for_another = check_of(
+    "takes_no_answer_for_another",
+    model.ends_right(*model.GETS_NO_ANSWER),
+    model.wastes_no_time,
+    model.ends_right(truth.ANOTHERS_ANSWER),
+    title="No answer within 2 s is none: a late one counts for nothing, nor does that of an earlier request",
+    points=1,
+    on=ANY_ORDER,
+    needs=recovers_when_status_answers,
     see="03b_clients_in_bad_company#late-fix-run",
 )
-def takes_no_answer_for_another(run: Transcript) -> None:
-    """A late answer of get_status is not taken for the answer to the next request"""
-    late, other = run.call("late answer"), run.call("answer of another")
-    for call in (late, other):
-        require_refused(
-            call,
-            because="its own request to get_status had no answer within 2 s",
-            within=ASKING + LATE,
-            help="Look at the future of this request only; forget it with remove_pending_request after 2 s.",
-        )
-    replies = [request.reply.t for request in run.requests("get_status") if request.reply]
-    if not any(other.sent.t < t < other.sent.t + ASKING for t in replies):
-        raise unseen(run, "the late answer did not come during the second calibration")
 
+refuses_without_a_server = check_of(
+    "refuses_without_a_server",
+    model.ends_right(truth.MISSING),
+    model.beats,
+    model.ends_right(truth.PROMPT, after="a failure"),
+    title="When nobody offers get_status, it fails after 2 s at most, heartbeat goes on, and the next can succeed",
+    points=1,
+    on=NO_STATUS,
+    needs=[refuses_without_an_answer, lives_while_it_waits],
+    see=ASKS,
+)
 
-@check(points=1, on=NO_STATUS, needs=[refuses_without_an_answer, lives_while_it_waits], see=ASKS)
-def refuses_without_a_server(run: Transcript) -> None:
-    """When nobody offers get_status, it refuses within 2 s, and heartbeat goes on"""
-    if run.all(ev.ServiceOffered):
-        raise unseen(run, "somebody offered get_status")
-    call = run.call("nobody offers get_status")
-    require_refused(
-        call,
-        because="nobody offers get_status",
-        within=ASKING + LATE,
-        help="Give wait_for_service a timeout_sec, or leave it out: the limit of 2 s to the answer covers it.",
-    )
-    require_heartbeat(run, call, "while it looked for get_status")
+is_busy_while_it_asks = check_of(
+    "is_busy_while_it_asks",
+    model.ends_right(truth.ASKS),
+    model.ends_right(*model.BUSY),
+    model.calibrates_one_at_a_time,
+    title="A calibration has begun as soon as it is asked for: any other is refused until it ends",
+    points=1,
+    on=ANY_ORDER,
+    needs=[refuses_a_second_caller, recovers_when_status_answers],
+    see=GROUPS,
+)
 
+fails_after_a_few_steps = check_of(
+    "fails_after_a_few_steps",
+    model.ends_right(truth.WALKED_SHORTLY),
+    model.ends_right(*model.WALKED),
+    model.ends_right(truth.WALKS),
+    title="A robot that walked for a moment, and stands again at the end, has walked",
+    points=1,
+    on=WALKS_IN_ANY_ORDER,
+    needs=fails_when_it_begins_to_walk,
+    see="05_executors#why",
+)
 
-@check(points=1, on=TWO_WHILE_ASKING, needs=[refuses_a_second_caller, waits_for_a_slow_status], see=GROUPS)
-def is_busy_while_it_asks(run: Transcript) -> None:
-    """A calibration has begun as soon as it is asked for, also while it waits for get_status"""
-    first, second = run.call("first caller"), run.call("second caller")
-    request = status_request(first)
-    if request is None or (request.reply and request.reply.t < second.sent.t + DELIVERY / 4):
-        raise unseen(run, "the second request did not come while get_status was asked")
-    require_refused_meanwhile(first, second)
-    require_calibrated(first)
+fails_with_few_samples = check_of(
+    "fails_with_few_samples",
+    model.ends_right(truth.FEW_SAMPLES),
+    title="Some samples are not enough: with fewer than 100 the calibration fails",
+    points=1,
+    on=ANY_ORDER,
+    needs=[fails_without_samples, recovers_when_status_answers],
+    see=KNOWS_NOTHING,
+)
 
+is_content_with_enough_samples = check_of(
+    "is_content_with_enough_samples",
+    model.ends_right(truth.ENOUGH_SAMPLES),
+    title="100 samples are enough, also when some are missing",
+    points=1,
+    on=ANY_ORDER,
+    needs=recovers_when_status_answers,
+    see=WAITS,
+)
 
-@check(points=1, on=A_FEW_STEPS, needs=fails_when_it_begins_to_walk, see="05_executors#why")
-def fails_after_a_few_steps(run: Transcript) -> None:
-    """A robot that walked for a moment, and stands again at the end, has walked"""
-    call = run.call("it begins to walk")
-    require_walk_begun_meanwhile(call)
-    run.told("walk", before=call.sent.t + COLLECTING, velocity=[0.0, 0.0, 0.0])
-    require_refused(
-        call,
-        because="the robot walked while the samples were collected",
-        within=COLLECTING + LATE,
-        help="Remember in the callback of robot_state that it walked: at the end it may stand again.",
-    )
-
-
-@check(points=1, on=FEW_SAMPLES, needs=fails_without_samples, see=KNOWS_NOTHING)
-def fails_with_few_samples(run: Transcript) -> None:
-    """Some samples are not enough: with fewer than 100 the calibration fails"""
-    call = run.call("the imu falls silent")
-    require_imu_lost(call, fewest=30, most=90)
-    require_refused(
-        call,
-        because="the imu fell silent after about 65 samples",
-        within=COLLECTING + LATE,
-        help="Fail when there are fewer than 100 samples, not only when there is none.",
-    )
-
-
-@check(points=1, on=ENOUGH_SAMPLES, needs=calibrates, see=WAITS)
-def is_content_with_enough_samples(run: Transcript) -> None:
-    """100 samples are enough, also when some are missing"""
-    call = run.call("the imu falls silent")
-    require_imu_lost(call, fewest=112, most=134)
-    require_calibrated(call)
-
-
-@check(
+recovers_when_the_robot_speaks = check_of(
+    "recovers_when_the_robot_speaks",
+    model.ends_right(*model.SUCCEEDS, after="a failure"),
+    title="Once the first robot_state has come, it calibrates",
     points=1,
     on=SILENT_ROBOT,
     needs=[calibrates, refuses_before_the_first_state],
     see=KNOWS_NOTHING,
 )
-def recovers_when_the_robot_speaks(run: Transcript) -> None:
-    """Once the first robot_state has come, it calibrates"""
-    call = run.call("after the first state")
-    run.told("robot_state", before=call.sent.t - DELIVERY, published=True)
-    require_calibrated(call)
 
 
 def _calibrates(run: Transcript) -> None:
-    call = run.call("first")
-    require_calibrated(call)
-    require_bias_published(call)
-    require_heartbeat(run, call, "while calibrate_imu was at work")
+    for each in (model.ends_right(*model.SUCCEEDS), model.publishes_the_means, model.beats):
+        if not each.judge(run):
+            raise unseen(run, f"there was no occasion to judge that {each.sentence}")
 
 
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
