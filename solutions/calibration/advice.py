@@ -72,22 +72,22 @@ def advice_on_failing(call: Call, story: Story, published: int) -> str:
     for topic in ("imu", "robot_state"):
         if deaf := why_nothing_is_heard(call.run, topic):
             return deaf
-    waited = call.latency
+    waited, asked = call.latency, status_requests(call)
+    if asked and story.situation == truth.SAYS_NO:
+        return (
+            f"get_status answered success: false, and your answer was {said}: any answer will do, as it shows that "
+            "the node of the motors is alive."
+        )
     if waited < AT_ONCE:
         before = f", even after {story.after}" if story.after else ""
         return (
             f"You refused at once ({said}), though the robot stood and nothing else was at work: look again at each "
             f"request, and forget a calibration however it ends{before} (try … finally)."
         )
-    if not status_requests(call) and call.run.all(ev.ServiceOffered):
+    if not asked and call.run.all(ev.ServiceOffered):
         return (
             f"The grader's get_status was never asked, and your answer was {said}: did the request get as far as "
             "call_async?"
-        )
-    if story.situation == truth.SAYS_NO:
-        return (
-            f"get_status answered success: false, and your answer was {said}: any answer will do, as it shows that "
-            "the node of the motors is alive."
         )
     if story.situation == truth.SLOW and waited < COLLECTING:
         return (

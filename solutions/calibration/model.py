@@ -114,7 +114,9 @@ def _require_no_success(call: Call, story: truth.Story) -> None:
         story.situation not in GETS_NO_ANSWER or "get_status" in text,
         expected="a message that names get_status, which gave no answer",
         observed=f"message: {shown(text)}",
-        help="Say in the message what was missing: that get_status gave no answer.",
+        help="Say in the message what was missing: that get_status gave no answer."
+        if truth.status_requests(call) or story.situation == truth.MISSING
+        else "get_status was not even asked: forget a calibration however it ends, and ask afresh in the next one.",
         at=at,
     )
     refused = story.end == "is refused"
@@ -123,7 +125,7 @@ def _require_no_success(call: Call, story: truth.Story) -> None:
         call.latency <= due + LATER,
         expected=f"success: false within {due + 1.0:.1f} s",
         observed=f"it came {call.latency:.1f} s after the request",
-        help="Look at the reasons to refuse before you begin, and return at once."
+        help=f"{help} Look at that before you begin, and return at once."
         if refused
         else "Answer as soon as it is certain that there will be no calibration.",
         at=at,
