@@ -9,6 +9,7 @@ from autograder.authoring.call import Request
 from autograder.authoring.transcript import Transcript
 
 ENABLE, STATUS = "enable_motors", "get_status"
+TYPES = {ENABLE: "std_srvs/srv/SetBool", STATUS: "std_srvs/srv/Trigger"}
 SOONEST = 1.5  # s between a request and its repetition; 2 s are asked for
 TRACEBACK = "Traceback (most recent call last)"
 
@@ -159,7 +160,7 @@ def _gave_up_early(run: Transcript, service: str, exited: ev.NodeExited) -> Advi
             "never sent.",
             "When no answer has come within 2 s, remove that request and send it once more before you give up.",
         )
-    gave_up = _gave_up_at(run, exited)
+    gave_up = gave_up_at(run, exited)
     if last.reply is None or last.reply.t > gave_up:
         return Advice(
             f"It gave up {gave_up - last.received.t:.1f} s after request {len(requests)} to {service}, before the "
@@ -182,16 +183,28 @@ def _last_request(run: Transcript) -> Request | None:
     return max(requests, key=lambda request: request.received.t, default=None)
 
 
-def _gave_up_at(run: Transcript, exited: ev.NodeExited) -> float:
+def gave_up_at(run: Transcript, exited: ev.NodeExited) -> float:
     """Return when it said so on stderr; ending takes a while longer."""
     return max((line.t for line in run.all(ev.NodeOutput) if line.stream == "stderr"), default=exited.t)
 
 
 def _offers(run: Transcript, service: str) -> int:
     """Return how many servers with the task's type offered a service."""
-    wanted = "std_srvs/srv/SetBool" if service == ENABLE else "std_srvs/srv/Trigger"
-    return len({e.server for e in run.all(ev.ServiceOffered) if (e.service, e.type) == (service, wanted)})
+    return len(
+        {e.server for e in run.all(ev.ServiceOffered) if (e.service, e.type) == (service, TYPES[service])}
+    )
 
 
 def _is_refused(run: Transcript) -> bool:
     return any(request.reply and not request.reply.response.success for request in run.requests(ENABLE))
+
+
+def how_to_print_one(run: Transcript, lines: int, prefix: str) -> str:
+    """Say how the status gets on stdout, once."""
+    if lines > 1 and lines <= sum(request.reply is not None for request in run.requests(STATUS)):
+        return "A callback left on a request you gave up on prints as well: remove that request."
+    if lines:
+        return "Print once: when get_status has answered, and nothing before."
+    if prefix.rstrip() in run.output("stderr"):
+        return "It stands on stderr, where a logger writes: use print(f'Robot status: {response.message}')."
+    return "print(f'Robot status: {response.message}') when get_status has answered."

@@ -2,125 +2,75 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Mapping, Sequence
+from typing import Any
+
 from std_srvs.srv import SetBool, Trigger
 
 from autograder.arena.client_stage import ClientStage
 from autograder.arena.scripted_service import SILENCE, Reply, ScriptedService
 
-FIRST_REQUEST_TIMEOUT = 15.0  # s
 END_OF_A_CALL = 5.0  # s from the first request, for a second one
-RESTART = 0.4  # s; a client may ask again 2 s after its first request
+TICK = 0.03  # s
+LONGEST = 25.0  # s
+TYPES = {"SetBool": SetBool, "Trigger": Trigger}
+
+# What is known of one service: None, or some of
+#   replies: each None for silence, or [success, message, s until it is sent]; the last one is repeated
+#   appears: s after the program's node; servers: how many; type: another one
+#   dies_after: requests; returns: s after its death, with the replies `then`
+Script = Mapping[str, Any]
 
 
-def _enabled(after: float = 0.0) -> Reply:
-    return Reply(SetBool.Response(success=True, message="the motors are on"), after)
+class Play:
+    """The servers of one service, which come and go as a script says."""
+
+    def __init__(self, stage: ClientStage, name: str, type_name: str, script: Script) -> None:
+        self._stage, self._name, self._script = stage, name, script
+        self._type = TYPES[script.get("type", type_name)]
+        self._servers: list[ScriptedService] = []
+        self._died_at: float | None = None
+        if not script.get("appears"):
+            self._offer(script["replies"])
+
+    def go_on(self, t: float) -> None:
+        """Do what is due `t` s after the program's node appeared."""
+        script = self._script
+        if not self._servers and t >= script.get("appears", 0.0):
+            self._offer(script["replies"])
+        if (
+            self._died_at is None
+            and self._servers
+            and self._servers[0].requests >= script.get("dies_after", 99)
+        ):
+            for server in self._servers:
+                server.withdraw()
+            self._died_at = t
+        if self._died_at is not None and "returns" in script and t >= self._died_at + script["returns"]:
+            self._offer(script["then"])
+            self._died_at = float("inf")
+
+    def _offer(self, replies: Sequence[Sequence[Any] | None]) -> None:
+        made = [
+            SILENCE if each is None else Reply(self._type.Response(success=each[0], message=each[1]), each[2])
+            for each in replies
+        ]
+        for _ in range(self._script.get("servers", 1)):
+            self._servers.append(self._stage.offer_service(self._name, self._type, *made))
 
 
-def _status(message: str, after: float = 0.0) -> Reply:
-    return Reply(Trigger.Response(success=True, message=message), after)
-
-
-def _offer_enable(stage: ClientStage, *replies: Reply | None) -> ScriptedService:
-    return stage.offer_service("enable_motors", SetBool, *(replies or [_enabled()]))
-
-
-def _offer_status(stage: ClientStage, *replies: Reply | None) -> ScriptedService:
-    return stage.offer_service("get_status", Trigger, *replies)
-
-
-def _run(stage: ClientStage) -> None:
+def servers(stage: ClientStage, enable: Script | None = None, status: Script | None = None) -> None:
+    """Offer what the scripts say, run the program, and let servers come and go until it ends."""
+    wanted = (("enable_motors", "SetBool", enable), ("get_status", "Trigger", status))
+    plays = [Play(stage, name, type_name, script) for name, type_name, script in wanted if script is not None]
     stage.start_program()
+    started = time.monotonic()
+    while not stage.has_ended() and (t := time.monotonic() - started) < LONGEST:
+        for play in plays:
+            play.go_on(t)
+        stage.wait_until(stage.has_ended, TICK)
     stage.wait_for_end()
-
-
-def good(stage: ClientStage, status: str) -> None:
-    """Both servers answer soon; enable_motors takes long enough to see whether it is waited for."""
-    _offer_enable(stage, _enabled(after=0.3))
-    _offer_status(stage, _status(status))
-    _run(stage)
-
-
-def nobody(stage: ClientStage) -> None:
-    """There is no server at all."""
-    _run(stage)
-
-
-def one_of_two(stage: ClientStage) -> None:
-    """Only enable_motors is there."""
-    _offer_enable(stage)
-    _run(stage)
-
-
-def another_type(stage: ClientStage) -> None:
-    """get_status is there with another type."""
-    _offer_enable(stage)
-    stage.offer_service("get_status", SetBool, Reply())
-    _run(stage)
-
-
-def silent_enable(stage: ClientStage) -> None:
-    """enable_motors takes every request and answers none."""
-    _offer_enable(stage, SILENCE)
-    _offer_status(stage, _status("Motors: OFF"))
-    _run(stage)
-
-
-def silent_status(stage: ClientStage) -> None:
-    """get_status takes every request and answers none."""
-    _offer_enable(stage)
-    _offer_status(stage, SILENCE)
-    _run(stage)
-
-
-def first_lost(stage: ClientStage, status: str) -> None:
-    """Each server leaves its first request unanswered and answers the second."""
-    _offer_enable(stage, SILENCE, _enabled())
-    _offer_status(stage, SILENCE, _status(status))
-    _run(stage)
-
-
-def slow(stage: ClientStage, status: str, after: float) -> None:
-    """Each answer takes `after` s."""
-    _offer_enable(stage, _enabled(after))
-    _offer_status(stage, _status(status, after))
-    _run(stage)
-
-
-def late(stage: ClientStage, statuses: tuple[str, str], after: tuple[float, float]) -> None:
-    """The answer to the first get_status comes `after[0]` s later, when the second request waits for its own."""
-    _offer_enable(stage)
-    _offer_status(stage, *(_status(status, delay) for status, delay in zip(statuses, after, strict=True)))
-    _run(stage)
-
-
-def dying(stage: ClientStage) -> None:
-    """get_status dies while it works on the first request."""
-    _offer_enable(stage)
-    status = _offer_status(stage, SILENCE)
-    stage.start_program()
-    if stage.wait_for_requests(status, 1, FIRST_REQUEST_TIMEOUT):
-        status.withdraw()
-    stage.wait_for_end()
-
-
-def restarting(stage: ClientStage, status: str) -> None:
-    """get_status dies while it works on the first request and is soon started again."""
-    _offer_enable(stage)
-    first = _offer_status(stage, SILENCE)
-    stage.start_program()
-    if stage.wait_for_requests(first, 1, FIRST_REQUEST_TIMEOUT):
-        first.withdraw()
-        stage.wait(RESTART)
-        _offer_status(stage, _status(status))
-    stage.wait_for_end()
-
-
-def two_of_one_name(stage: ClientStage, status: str) -> None:
-    """Two servers offer get_status, and both answer."""
-    _offer_enable(stage)
-    _offer_status(stage, _status(status))
-    _offer_status(stage, _status(status))
-    _run(stage)
 
 
 def late_and_silent(stage: ClientStage, appears: float, answers: float) -> None:
@@ -131,15 +81,13 @@ def late_and_silent(stage: ClientStage, appears: float, answers: float) -> None:
     """
     stage.start_program()
     stage.wait(appears)
-    enable = _offer_enable(stage, SILENCE, _enabled(after=answers))
+    enable = stage.offer_service(
+        "enable_motors",
+        SetBool,
+        SILENCE,
+        Reply(SetBool.Response(success=True, message="the motors are on"), answers),
+    )
     if stage.wait_for_requests(enable, 1, appears) and stage.wait_for_requests(enable, 2, END_OF_A_CALL):
         stage.wait(answers + appears)
-    _offer_status(stage, SILENCE)
+    stage.offer_service("get_status", Trigger, SILENCE)
     stage.wait_for_end()
-
-
-def refusing(stage: ClientStage, reason: str) -> None:
-    """enable_motors says no."""
-    _offer_enable(stage, Reply(SetBool.Response(success=False, message=reason)))
-    _offer_status(stage, _status("Motors: OFF"))
-    _run(stage)

@@ -83,9 +83,7 @@ def test_a_crash_below_python_is_named() -> None:
 
 
 def test_a_silent_server_is_told_that_its_topic_went_on() -> None:
-    published = [
-        ev.BatteryPublished(t=2.5 + second, message=BatteryState()) for second in range(4)
-    ]
+    published = [ev.BatteryPublished(t=2.5 + second, message=BatteryState()) for second in range(4)]
     failure = failure_of(
         lambda: run_of(asked(), *published, given_up("call", "first")).call("first").response
     )
