@@ -179,9 +179,10 @@ def moves_the_real_hand(run: Transcript) -> str | None:
     """The angles bring the robot's hand to the point, as far as its servos allow"""
     reports = run.all(ev.ArmReported)
     for arm in reports:
-        reply = Reply(
-            [call for call in calls(SERVICE)(run) if call.answer and call.answer.t < arm.t][-1], DEFAULT
-        )
+        answered = [call for call in calls(SERVICE)(run) if call.answer and call.answer.t < arm.t]
+        if not answered:
+            raise unseen(run, "the arm was moved before there were angles for it")
+        reply = Reply(answered[-1], DEFAULT)
         if run.told("move_joints", before=arm.t).t < reply.at:
             raise held_up(run, f"the arm was not moved to the angles for {reply.question}")
         x, y = reply.target

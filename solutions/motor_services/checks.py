@@ -122,5 +122,5 @@ refuses_off_while_walking = check_of(
 )
 
 ends_cleanly = standard.ends_cleanly(
-    points=1, on=INTERRUPT, needs=server_appears, see="02_services#conventions"
+    points=1, on=INTERRUPT, needs=server_appears, see="02_services#conventions", clauses=[7]
 )

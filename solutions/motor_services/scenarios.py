@@ -11,6 +11,7 @@ from autograder.arena.stage import Stage
 from humanoid_interfaces.msg import RobotState
 
 SETTLING = 1.4  # s for a change to be known everywhere; longer than a message may be on its way
+APART = 0.2  # s from an answer to the next step, so that it is plain what the robot was like at the answer
 CONFIRMING = 6.0  # s for an answer, also one that waits for the robot to confirm
 
 
@@ -26,6 +27,7 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
 
     def answered(calls: list[Any]) -> bool:
         came = [call.wait(CONFIRMING) for call in calls]
+        stage.wait(APART)
         return all(came)
 
     def settle() -> None:
