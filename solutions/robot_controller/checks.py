@@ -59,7 +59,7 @@ asks_once_more = check_of(
     model.repeats_enable_once,
     model.ends_as_it_went,
     model.says_why_it_fails,
-    model.enables_then_asks,
+    model.switches_on,
     title="Without an answer it asks once more after 2 s, then gives up with status 1",
     points=2,
     on=SILENT_ENABLE,

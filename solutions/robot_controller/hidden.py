@@ -232,7 +232,8 @@ copes_with_two_servers = check_of(
 
 reports_a_refusal = check_of(
     "reports_a_refusal",
-    *ASKS,
+    model.switches_on,
+    model.repeats_enable_once,
     *FAILS,
     title="When enable_motors answers success: false, it asks no more, and ends with status 1",
     points=1,

@@ -322,3 +322,10 @@ def test_the_scenario_leaves_no_doubt_whether_there_is_a_deadline():
     appears, answers = scenario.draw(0)["appears"], scenario.draw(0)["answers"]
     assert appears < 2.0 > answers
     assert 2 * appears + 2.0 + answers + 2 * 2.0 > MODEL.WITHIN + MODEL.DEADLINE_SLACK
+
+
+def test_a_program_that_looks_for_both_servers_at_once_may_find_one_missing_and_ask_nothing():
+    servers = [*offered(ENABLE, 2.6), *offered(STATUS, 4.2)]
+    CHECKS["keeps_one_deadline"].run(
+        [run_of([servers, said(3.1, "nobody offers get_status"), ended(3.2, 1)])]
+    )
