@@ -185,7 +185,7 @@ def require_end(run: Transcript) -> ev.NodeExited:
     return client_checks.require_end(run, WITHIN)
 
 
-@obligation(3, 6, 8, 9, 12, of=whole_run)
+@obligation(3, 4, 6, 8, 9, 12, of=whole_run)
 def ends_as_it_went(run: Transcript) -> str:
     """It ends with status 0 if both services answered, and with 1 if one was missing, silent or refused"""
     exited = require_end(run)
