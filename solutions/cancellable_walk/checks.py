@@ -186,7 +186,6 @@ walks_again_after_a_cancel = check_of(
 new_goal_preempts_the_old = check_of(
     "new_goal_preempts_the_old",
     model.accepts,
-    model.goes_on,
     model.gives_way,
     model.says_why_it_aborted,
     model.succeeds,

@@ -133,7 +133,7 @@ rejects_before_the_first_odom = check_of(
 rejects_without_power = check_of(
     "rejects_without_power",
     model.rejects_without_power,
-    model.accepts,
+    model.accepts_unless_busy,
     title="It rejects a goal while the motors are off, also later on, and accepts it when they are on",
     points=1,
     on=[UNREADY, FALL],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from autograder.authoring.goal import Goal
 from autograder.authoring.obligation import Obligation, goals, obligation, whole_run
 from autograder.authoring.walking.objections import (
     BUSY,
@@ -23,9 +24,16 @@ def _rejects(clause: int, name: str, objection: Objection, sentence: str) -> Obl
     return obligation(clause, of=goals)(rejecting(name, objection, sentence))
 
 
-accepts = obligation(1, 4, 5, of=goals)(
-    accepting(FRAME, NOT_FINITE, NO_ROTATION, VELOCITY, NO_ODOM, NO_POWER, BUSY)
-)
+_accept = accepting(FRAME, NOT_FINITE, NO_ROTATION, VELOCITY, NO_ODOM, NO_POWER, BUSY)
+
+
+def _accept_unless_busy(goal: Goal) -> str | None:
+    """It accepts a pose in frame odom when nothing speaks against it but perhaps a goal that it should have rejected"""
+    return "while another is active" if BUSY.holds(goal) is not False else _accept(goal)
+
+
+accepts = obligation(1, 4, 5, of=goals)(_accept)
+accepts_unless_busy = obligation(4, of=goals)(_accept_unless_busy)
 rejects_frames = _rejects(1, "rejects_frames", FRAME, "It rejects a pose in any other frame than odom")
 rejects_nan = _rejects(2, "rejects_nan", NOT_FINITE, "It rejects a pose that holds NaN or infinity")
 rejects_no_rotation = _rejects(

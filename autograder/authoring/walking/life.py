@@ -7,6 +7,7 @@ from typing import cast
 
 from autograder.authoring import events as ev
 from autograder.authoring.goal import Cancel, Goal
+from autograder.authoring.missing import unseen
 from autograder.authoring.robot_topic import DELIVERY
 from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.planar import error
@@ -26,7 +27,10 @@ def run_of(goal: Goal) -> Transcript:
 
 
 def accepted(goal: Goal) -> bool:
-    """Return whether the server accepted it."""
+    """Return whether the server accepted it; what came for it shows whether the record lacks its answer."""
+    has_begun = goal.result or goal.feedback or goal.statuses
+    if goal.answer is None and has_begun and goal.run.given_up("goal", goal.name) is None:
+        raise unseen(goal.run, f"the record lacks the answer to the goal “{goal.name}”")
     return goal.answer is not None and goal.answer.accepted
 
 

@@ -21,11 +21,13 @@ from autograder.authoring.walking.life import (
     interrupted,
     is_undisturbed,
     left_alone,
+    near_arrival,
     way_to,
 )
 from ros_runtime.message_constants import GoalStatus, name_of
 
 LONG = 3.0  # s; a goal of less tells little about a rate
+ENOUGH = 8  # feedback messages
 CLEARLY, LEAST = 0.5, 1.0  # m, s; the robot needs more than so long for so much
 FASTEST = 0.4  # m/s that the robot can walk
 
@@ -68,14 +70,15 @@ def estimates_the_time(goal: Goal) -> str | None:
             "rclpy.duration.",
             at=each.t,
         )
+    result = goal.result
+    arrived = goal.status == SUCCEEDED and result is not None and near_arrival(goal, result.t)
+    is_slow = goal.request.max_velocity <= FASTEST
     if (
-        not (is_undisturbed(goal) and goal.status == SUCCEEDED)
+        not (is_undisturbed(goal) and arrived and is_slow)
         or way_to(goal) < CLEARLY
-        or len(estimates) < 8
+        or len(estimates) < ENOUGH
     ):
-        return None
-    if goal.request.max_velocity > FASTEST:
-        return None
+        return "on the way"
     quarter = len(estimates) // 4
     first, last = max(estimates[: 2 * quarter]), min(estimates[-quarter:])
     expect(
