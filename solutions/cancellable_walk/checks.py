@@ -85,6 +85,7 @@ arrives = check_of(
     model.succeeds,
     model.stands_at_success,
     model.turns_the_short_way,
+    model.walks_at_its_own_velocity,
     title="It SUCCEEDS, the robot stands within 0.10 m and 0.15 rad of the goal, and it has turned the shorter way",
     points=2,
     on=WALK,
