@@ -125,6 +125,7 @@ class HumanoidNode(Node):
             capacity=design_charge,
             design_capacity=design_charge,
             location="torso",
+            serial_number="8S-0001",
             power_supply_status=BatteryState.POWER_SUPPLY_STATUS_DISCHARGING,
             power_supply_health=BatteryState.POWER_SUPPLY_HEALTH_GOOD,
             power_supply_technology=BatteryState.POWER_SUPPLY_TECHNOLOGY_LION,

@@ -228,5 +228,10 @@ def _calibrates(run: Transcript) -> None:
 
 
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    "calibrates", _calibrates, points=1, on=OTHER_NAMESPACE, needs=[publishes_the_bias, keeps_its_heartbeat]
+    "calibrates",
+    _calibrates,
+    points=1,
+    on=OTHER_NAMESPACE,
+    needs=[publishes_the_bias, keeps_its_heartbeat],
+    clauses=[18],
 )
