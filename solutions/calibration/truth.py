@@ -12,9 +12,10 @@ from typing import Literal
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call, Request
+from autograder.authoring.missing import unseen
 from autograder.authoring.obligation import calls
 from autograder.authoring.robot_topic import DELIVERY
-from autograder.authoring.sequence import steps_until
+from autograder.authoring.sequence import STEPS, steps_until
 from autograder.authoring.transcript import Transcript
 from ros_runtime.message_constants import RobotMode
 
@@ -208,6 +209,9 @@ def _status(call: Call) -> tuple[str, float] | None:
         return None
     if replies:
         return ANSWERED_LATE, math.nan
+    steps = run.params.get(STEPS, ())
+    if steps and not withdrawn and not any(step[0].startswith("status_") for step in steps):
+        raise unseen(run, "the record lacks the reply of get_status")
     earlier = [request for request in run.requests("get_status") if request.received.t < sent]
     meanwhile = any(each.reply and sent < each.reply.t < sent + IN_TIME for each in earlier)
     return (ANOTHERS_ANSWER if meanwhile else SILENT), math.nan
