@@ -15,7 +15,6 @@ class BatteryParameters:
     """A pack of lithium cells in series and the robot's consumption."""
 
     cells: int = 8
-
     capacity: float = 120.0  # W·h
     full_voltage: float = 33.6  # V, open circuit
     empty_voltage: float = 25.6  # V, open circuit

@@ -13,9 +13,8 @@ from autograder.audit.recorded import Case, cases
 from autograder.engine.clauses import clauses_in
 from autograder.engine.exercise import exercises_folder, load_exercise
 
-Judged = dict[
-    str, Counter[str]
-]  # by the sentence of an obligation or the title of a check, how often, by situation
+# By an obligation's sentence or a check's title: how often it was judged, by situation.
+Judged = dict[str, Counter[str]]
 
 
 def clause_table(exercise: str) -> str:

@@ -191,7 +191,7 @@ class Goal:
         return request.sent
 
     def require_reason(self) -> None:
-        """Require that error_msg of its result, which must be there, says something."""
+        """Require that its result has an error_msg that is not empty; the result must have come."""
         assert self.result, "ask for its result first"
         expect(
             bool(self.result.result.error_msg.strip()),

@@ -86,7 +86,7 @@ def goals(run: Transcript) -> list[Goal]:
     """Occasions: every goal that was sent."""
     sent = run.all(ev.GoalSent)
     _require_sent(run, {answer.goal for answer in run.all(ev.GoalAnswered)}, sent, "goal")
-    return [run.goal(name) for name in dict.fromkeys(each.goal for each in sent)]
+    return run.goals
 
 
 def _require_sent(run: Transcript, answered: set[str], sent: Sequence[Any], key: str) -> None:

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, TypeVar
+from typing import Any
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
 from autograder.authoring.missing import unseen
 from autograder.authoring.robot_record import RobotRecord
-
-E = TypeVar("E", bound=ev.Event)
 
 # s a message may be on its way: 0.2 s of real time at scale 5, 0.1 s at scale 10. Scenarios wait a little longer.
 DELIVERY = 1.0
@@ -73,18 +71,3 @@ def _connected_for(run: RobotRecord, sensor: Sensor, start: float, end: float) -
         if start < event.t < end and event.command.get("do") == sensor.switch:
             return end - event.t if event.command["connected"] else 0.0
     return end - start
-
-
-def last_messages(call: Call, kind: type[E], *, since: float = 0.0) -> list[E]:
-    """Return what may be the last message at a server; one published after `since` (s) had to arrive."""
-    published = [message for message in call.run.all(kind) if message.t <= call.answered.t]
-    arrived = [message for message in published if message.t <= call.sent.t - DELIVERY]
-    if not arrived or arrived[-1].t <= since:
-        raise unseen(call.run, f"the robot published nothing in time for the request “{call.name}”")
-    return published[len(arrived) - 1 :]
-
-
-def require_nothing_published(call: Call, kind: type[ev.Event], what: str) -> None:
-    """Require that the robot published no message of a topic, `what` in words, before the answer."""
-    if any(message.t <= call.answered.t for message in call.run.all(kind)):
-        raise unseen(call.run, f"{what} was published too early")

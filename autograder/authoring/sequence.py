@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from autograder.authoring import events as ev
 from autograder.authoring.missing import Missing
 from autograder.authoring.transcript import Transcript
 
@@ -47,7 +48,7 @@ def _shown(argument: Any) -> str:
 def _ends(run: Transcript) -> list[float]:
     """Return when (s) each step ended, in order, up to the first that did not."""
     steps = run.params.get(STEPS, ())
-    marks = {mark.name: mark.t for mark in run.marks}
+    marks = {mark.name: mark.t for mark in run.all(ev.Mark)}
     ends: list[float] = []
     for number in range(1, len(steps) + 1):
         if (end := marks.get(f"step {number}")) is None:

@@ -3,26 +3,12 @@
 from __future__ import annotations
 
 from autograder.authoring import events as ev
-from autograder.authoring.call import Call
 from autograder.authoring.checks import Failure, expect
 from autograder.authoring.ending import end_in_words, remedy_for_the_end
-from autograder.authoring.missing import Missing, unseen
+from autograder.authoring.missing import unseen
 from autograder.authoring.readiness import require_within_limits
 from autograder.authoring.standing import where_it_stood
 from autograder.authoring.transcript import Transcript
-
-
-def require_calls(run: Transcript, number: int) -> list[Call]:
-    """Return every call of the scenario, of which there must be `number`, each answered."""
-    answers = [call.answered for call in run.calls]
-    if len(answers) < number:
-        raise Missing(
-            run,
-            expected=f"answers to {number} requests",
-            never=f"only {len(answers)} of {number} were sent",
-        )
-    return run.calls
-
 
 _CLEAN_END = (
     "Catch KeyboardInterrupt and ExternalShutdownException around spin(), destroy the node and call "

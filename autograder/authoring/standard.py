@@ -38,19 +38,15 @@ def ends_cleanly(
     needs: Needs,
     see: str = "02_services#conventions",
     clauses: Sequence[int] = (),
-    clause: int = 0,
 ) -> Check:
-    """Make the check that Ctrl-C, which each scenario presses, ends the node with exit status 0.
-
-    `clause` is another way to say `clauses` where there is one.
-    """
+    """Make the check that Ctrl-C, which each scenario presses, ends the node with exit status 0."""
 
     def exits_with_status_0(run: Transcript) -> str:
         """Ctrl-C ends the node with exit status 0."""
         require_clean_exit(run)
         return "Ctrl-C"
 
-    exits = obligation(*(clauses or filter(None, [clause])), of=whole_run)(exits_with_status_0)
+    exits = obligation(*clauses, of=whole_run)(exits_with_status_0)
 
     def judge(run: Transcript) -> None:
         exits.judge(run)

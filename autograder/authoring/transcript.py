@@ -20,11 +20,6 @@ from autograder.authoring.scripted_goal import ScriptedGoal, scripted_goals
 class Transcript(RobotRecord):
     """The record of an arena, asked for what its client did and what came back."""
 
-    @property
-    def marks(self) -> Sequence[ev.Mark]:
-        """The moments that the scenario named, in order."""
-        return self.all(ev.Mark)
-
     def mark(self, name: str) -> float:
         """Return the time (s) of a moment that the scenario named."""
         if mark := self.one(ev.Mark, "name", name):

@@ -13,16 +13,8 @@ from robot_sim.ros.ground_truth import GroundTruthWriter
 from robot_sim.ros.node import HumanoidNode
 
 COMMANDS = (
-    *(
-        "push",
-        "walk",
-        "take_over",
-        "set_battery",
-        "battery_sensor",
-        "charge_sensor",
-        "robot_state",
-        "motor_power",
-    ),
+    *("push", "walk", "take_over", "set_battery", "battery_sensor", "charge_sensor"),
+    *("robot_state", "motor_power"),
     *("joint_sensors", "joint_states", "joint_readings", "imu_sensor", "gyro_bias"),
     *("move_joints", "report_arm", "reset"),
     *("hold_joint", "release_joint", "report_joints", "report_feet", "move_body"),

@@ -175,4 +175,4 @@ latches_the_bias = check_of(
     see=LATCHES,
 )
 
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears, clause=19)
+ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears, clauses=[19])

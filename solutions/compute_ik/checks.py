@@ -117,5 +117,5 @@ moves_the_real_hand = check_of(
 )
 
 ends_cleanly = standard.ends_cleanly(
-    points=1, on=POINTS, needs=server_appears, see="02_services#conventions", clause=11
+    points=1, on=POINTS, needs=server_appears, see="02_services#conventions", clauses=[11]
 )

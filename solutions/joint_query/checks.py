@@ -141,5 +141,5 @@ says_when_it_knows_nothing = check_of(
 )
 
 ends_cleanly = standard.ends_cleanly(
-    points=1, on=ASK, needs=server_appears, see="02_services#conventions", clause=8
+    points=1, on=ASK, needs=server_appears, see="02_services#conventions", clauses=[8]
 )
