@@ -62,7 +62,7 @@ def _costs(exercise: Exercise, submission: Submission, jobs: int) -> Table:
     shortest = exercise.checks[0].on[0]
     run = ArenaRun(exercise, submission.files, shortest, 0, highest_scale())
     table.add_row(
-        f"one arena, from start to end (scenario {shortest.name})",
+        f"one arena, from start to end (for check {exercise.checks[0].id})",
         f"{_seconds(lambda: run_in_arena(run)):.2f}",
     )
     seconds = _seconds_of_verdicts(submission, load_exercise(EXERCISE, hidden=False), jobs)
@@ -99,7 +99,7 @@ def _print_fairness(
     scales: Sequence[float],
     jobs: int,
 ) -> None:
-    walk = next(check.on[0] for check in exercise.checks if check.on[0].name == "walk")
+    walk = next(check.on[0] for check in exercise.checks if check.id == "arrives")
     table = Table(title="The same sound MultiThreadedExecutor walk server, again and again")
     for heading in ("scale", "fair", "feedback Hz", "largest gap s", "simulator late s"):
         table.add_column(heading, justify="right")

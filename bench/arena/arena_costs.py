@@ -14,11 +14,11 @@ from typing import Any
 from bench.arena.processor_time import metered_group
 from ros_runtime.project import PROJECT
 
-ARENAS = (
-    ("battery_service", "ask_once"),  # the robot rests
-    ("robot_controller", "good"),  # no robot
-    ("joint_query", "ask"),  # it stands and moves its arms
-    ("cancellable_walk", "walk"),
+ARENAS = (  # the first scenario of a check
+    ("battery_service", "answers_with_the_last_message"),  # the robot rests
+    ("robot_controller", "prints_the_status"),  # no robot
+    ("joint_query", "positions_are_the_robots"),  # it stands and moves its arms
+    ("cancellable_walk", "arrives"),
 )
 
 

@@ -68,7 +68,7 @@ def _judged(transcript: Transcript, exercise: Exercise, scenario: Scenario) -> F
             check.run([transcript])
         except (Failure, LookupError) as failure:
             failed.append(f"{check.id}: {failure}")
-    times = [feedback.t for feedback in transcript.goal("walk").feedback]
+    times = [feedback.t for feedback in transcript.goals[0].feedback]
     gaps = [later - earlier for earlier, later in pairwise(times)]
     rate = len(gaps) / sum(gaps) if gaps else 0.0
     return FairRun(transcript.scale, rate, max(gaps, default=0.0), lateness(transcript), tuple(failed))

@@ -49,7 +49,7 @@ def main() -> None:
 
 def _arenas(task: dict[str, Any], exercise: Exercise, submission: Submission) -> Iterator[dict[str, Any]]:
     """Run a scenario again and again; if an arena serves several, the run that opens it is marked."""
-    named = (s for check in exercise.checks for s in check.on if s.name == task["scenario"])
+    named = (check.on[0] for check in exercise.checks if check.id == task["scenario"])
     run = arena_run.ArenaRun(exercise, submission.files, next(named))
     with _shared_arenas(exercise) as arenas:
         is_shared = arenas is not None

@@ -110,7 +110,7 @@ OTHER_NAMESPACE = Scenario("in_order", {"steps": [["ask", [0.4, 0.3]]]}, robot=N
 
 reaches_any_point = check_of(
     "reaches_any_point",
-    model.answers_every_request,
+    model.answers_every_call,
     model.reaches_the_point,
     model.bends_the_elbow_as_asked,
     model.says_what_is_out_of_reach,
@@ -124,8 +124,8 @@ reaches_any_point = check_of(
 
 refuses_what_is_no_number = check_of(
     "refuses_what_is_no_number",
-    model.answers_every_request,
-    model.refuses_what_is_no_number,
+    model.answers_every_call,
+    model.refuses_a_pose_that_is_not_finite,
     model.refuses_nothing_within_reach,
     title="Coordinates and lengths that are no numbers: no success, and the node lives on and answers as ever",
     points=1,
@@ -136,19 +136,19 @@ refuses_what_is_no_number = check_of(
 
 
 def _declares_its_lengths(run: Transcript) -> None:
-    model.declares_its_lengths.judge(run)
+    model.lengths_are_parameters.judge(run)
 
 
 declares_its_lengths = named_check(  # whatever becomes of the node after that
     "declares_its_lengths",
-    model.declares_its_lengths.sentence,
+    model.lengths_are_parameters.sentence,
     _declares_its_lengths,
     points=1,
     on=ANY_LENGTH,
     needs=server_appears,
     see="04_your_own_interfaces#parameters-intro",
-    clauses=model.declares_its_lengths.clauses,
-    obligations=[model.declares_its_lengths],
+    clauses=model.lengths_are_parameters.clauses,
+    obligations=[model.lengths_are_parameters],
 )
 
 does_what_it_says_of_new_lengths = check_of(

@@ -24,7 +24,7 @@ ARM_TOLERANCE = 0.01  # m; the servos of the robot's arm bring the hand within 2
 
 
 @obligation(7, of=calls(SERVICE))
-def answers_every_request(call: Call) -> str:
+def answers_every_call(call: Call) -> str:
     """Every request gets an answer, whatever it asks for and whatever lengths were set"""
     _ = Reply(call, DEFAULT).response
     return "with lengths that are none" if _arm(call) is None else "with an arm"
@@ -128,7 +128,7 @@ def refuses_other_frames(call: Call) -> str:
 
 
 @obligation(6, of=calls(SERVICE))
-def refuses_what_is_no_number(call: Call) -> str | None:
+def refuses_a_pose_that_is_not_finite(call: Call) -> str | None:
     """A target whose x or y is NaN or infinite is no success"""
     reply = Reply(call, DEFAULT)
     if reply.frame != "shoulder" or all(map(math.isfinite, reply.target)):
@@ -154,7 +154,7 @@ def uses_the_lengths_it_accepted(call: Call) -> str | None:
 
 
 @obligation(8, of=whole_run)
-def declares_its_lengths(run: Transcript) -> str:
+def lengths_are_parameters(run: Transcript) -> str:
     """upper_arm_length and forearm_length are parameters of type double: 0.30 and 0.25 m"""
     asked = [call for call in run.calls if call.service.endswith("/get_parameters")]
     if not asked:

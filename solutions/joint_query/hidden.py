@@ -145,7 +145,7 @@ answers_every_request = check_of(
 
 looks_joints_up_by_name = check_of(
     "looks_joints_up_by_name",
-    model.looks_joints_up_by_name,
+    model.goes_by_names_not_places,
     points=1,
     on=ANY_ORDER,
     needs=positions_are_the_robots,

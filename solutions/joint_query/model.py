@@ -168,7 +168,7 @@ def positions_are_the_last(call: Call) -> str | None:
 
 
 @obligation(5, of=calls(SERVICE))
-def looks_joints_up_by_name(call: Call) -> str | None:
+def goes_by_names_not_places(call: Call) -> str | None:
     """When joint_states lists the joints in another order, each position is still its own joint's"""
     orders = [message.names for message in known_messages(call, JOINTS) or ()]
     changed = any(names != robot_joints(call.run) for names in orders)

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from autograder.audit.known_submission import known_submission
 from bench import overview
-from bench.arena import tables
+from bench.arena import arena_costs, tables
 from bench.arena.arena_costs import ArenaCost, BenchFailed, Cost, Costs, SubmissionCost, measure
 from bench.arena.other_version import version_of
 from bench.arena.processor_time import CannotBeMeasured, metered_group
@@ -28,11 +28,9 @@ def is_metered():
 
 @pytest.mark.skipif(not is_metered(), reason="processor time needs control groups, which only root can make")
 def test_an_arena_and_a_grading_are_measured():
-    (costs,) = measure(
-        [tables.Version()], arenas=[("robot_controller", "good")], submissions=["patterns"], runs=1
-    )
+    (costs,) = measure([tables.Version()], arenas=[arena_costs.ARENAS[1]], submissions=["patterns"], runs=1)
     (arena,), (graded,) = costs.arenas, costs.submissions
-    assert (arena.exercise, arena.scenario, graded.exercise) == ("robot_controller", "good", "patterns")
+    assert (arena.exercise, arena.scenario, graded.exercise) == (*arena_costs.ARENAS[1], "patterns")
     assert set(arena.phases) >= PHASES
     assert 0 < arena.floor_s < arena.wall_s
     assert arena.cpu_s > 0

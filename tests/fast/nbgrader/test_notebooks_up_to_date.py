@@ -20,6 +20,7 @@ from autograder.nbgrader_bridge.release import (
     out_of_date,
     source_notebooks,
 )
+from course_cli.student_bundle import require_no_leak, visible_checks
 
 ROOT = Path(__file__).resolve().parents[3]
 SOLUTIONS = ROOT / "solutions"
@@ -85,6 +86,10 @@ def test_a_release_holds_no_solution_and_does_not_tell_what_is_hidden(exercise):
         if check.hidden:
             assert check.id not in release
             assert check.title not in release
+
+
+def test_no_module_with_visible_checks_names_a_hidden_one():
+    require_no_leak(dict(visible_checks()))
 
 
 @pytest.mark.parametrize("exercise", all_names())
