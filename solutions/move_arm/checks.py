@@ -77,14 +77,14 @@ def feedback_keeps_its_rate(run: Transcript) -> None:
     require_good_feedback_rate(run.goal("move"), wanted=10.0, lowest=6.0, highest=15.0)
 
 
-@check(points=1, on=MOVE, needs=feedback_keeps_its_rate, see="09_arms#bend-why", clauses=[13])
+@check(points=1, on=MOVE, needs=accepts_a_trajectory, see="09_arms#bend-why", clauses=[13])
 def feedback_is_true(run: Transcript) -> None:
     """waypoint, max_error and progress_percentage in the feedback are the arm's"""
     require_true_feedback(run.goal("move"))
 
 
 feedback_ends_with_the_goal = standard.feedback_ends_with_the_goal(
-    "move", points=1, on=MOVE, needs=[arrives, feedback_keeps_its_rate], clauses=[13]
+    "move", points=1, on=MOVE, needs=arrives, clauses=[13]
 )
 
 

@@ -93,7 +93,7 @@ def feedback_keeps_its_rate(run: Transcript) -> None:
 @check(
     points=1,
     on=FETCH,
-    needs=[places_the_cup, feedback_keeps_its_rate],
+    needs=places_the_cup,
     see="09_arms#phases-intro",
     clauses=[6],
 )
@@ -108,22 +108,20 @@ def stages_are_true(run: Transcript) -> None:
     require_true_stages(run.goal("fetch"))
 
 
-@check(points=1, on=FETCH, needs=feedback_keeps_its_rate, see="09_arms#force-why", clauses=[8])
+@check(points=1, on=FETCH, needs=accepts_a_goal, see="09_arms#force-why", clauses=[8])
 def feedback_is_measured(run: Transcript) -> None:
     """hand_pose, distance_to_object and grasp_force in the feedback are measured"""
     require_true_values(run.goal("fetch"))
 
 
-@check(
-    points=1, on=FETCH, needs=[places_the_cup, feedback_keeps_its_rate], see="09_arms#phases-why", clauses=[9]
-)
+@check(points=1, on=FETCH, needs=places_the_cup, see="09_arms#phases-why", clauses=[9])
 def percentage_rises(run: Transcript) -> None:
     """percent_complete rises from 0 towards 100 and never falls"""
     require_rising_percentage(run.goal("fetch"))
 
 
 feedback_ends_with_the_goal = standard.feedback_ends_with_the_goal(
-    "fetch", points=1, on=FETCH, needs=[places_the_cup, feedback_keeps_its_rate], clauses=[7]
+    "fetch", points=1, on=FETCH, needs=places_the_cup, clauses=[7]
 )
 
 

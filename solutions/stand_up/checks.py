@@ -106,13 +106,13 @@ def feedback_keeps_its_rate(run: Transcript) -> None:
     require_good_feedback_rate(run.goal("rise"))
 
 
-@check(points=1, on=RISE, needs=[rises, feedback_keeps_its_rate], see="09_arms#phases-why", clauses=[9])
+@check(points=1, on=RISE, needs=rises, see="09_arms#phases-why", clauses=[9])
 def names_its_phases(run: Transcript) -> None:
     """Phase is shifting, rising, settling, each while the robot does it"""
     require_named_phases(run.goal("rise"))
 
 
-@check(points=1, on=RISE, needs=[rises, feedback_keeps_its_rate], see="08_navigation#zero-why", clauses=[10])
+@check(points=1, on=RISE, needs=rises, see="08_navigation#zero-why", clauses=[10])
 def percent_is_measured(run: Transcript) -> None:
     """percent_complete is the share of the height gained, and ends at 100"""
     require_measured_percent(run.goal("rise"))
@@ -121,7 +121,7 @@ def percent_is_measured(run: Transcript) -> None:
 @check(
     points=1,
     on=GLIDES,
-    needs=[accepts_a_goal, feedback_keeps_its_rate],
+    needs=accepts_a_goal,
     see="08_navigation#zero-why",
     clauses=[11],
 )
@@ -132,7 +132,7 @@ def percent_never_falls(run: Transcript) -> None:
 
 
 feedback_ends_with_the_goal = standard.feedback_ends_with_the_goal(
-    "rise", points=1, on=RISE, needs=[rises, feedback_keeps_its_rate], clauses=[8]
+    "rise", points=1, on=RISE, needs=rises, clauses=[8]
 )
 
 
