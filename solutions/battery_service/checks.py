@@ -11,24 +11,17 @@ from . import model
 UNPLUGGED_ROBOT = (*RESTING, "--battery-sensor-unplugged")
 ASK_ONCE = Scenario("in_order", {"steps": [["let_publish", 2], ["ask", 1]], "interrupt": True}, robot=RESTING)
 UNPLUGGED = Scenario(
-    "in_order", {"steps": [["ask", 4], ["plug_in"], ["let_publish", 1], ["ask", 1]]}, robot=UNPLUGGED_ROBOT
+    "in_order", {"steps": [["ask", 8], ["plug_in"], ["let_publish", 1], ["ask", 1]]}, robot=UNPLUGGED_ROBOT
 )
-LEVELS = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["set_battery", 0.8], ["let_publish", 1], ["ask", 1]),
-            *(["set_battery", 0.35], ["let_publish", 1], ["ask", 1]),
-        ]
-    },
-    robot=RESTING,
-)
+NEW_LEVELS = [
+    step for level in (0.8, 0.35) for step in (["set_battery", level], ["let_publish", 1], ["ask", 1])
+]
+LEVELS = Scenario("in_order", {"steps": NEW_LEVELS}, robot=RESTING)
 INTERRUPT = Scenario("in_order", {"steps": [], "interrupt": True}, robot=UNPLUGGED_ROBOT)
 
+BATTERY_RULES, KNOWS_NOTHING = "02_services#battery-rules", "02_services#m9-fix-why"
 
-server_appears = standard.server_appears(
-    "get_battery_status", points=1, on=INTERRUPT, see="02_services#first-file", clauses=[5]
-)
+server_appears = standard.server_appears("get_battery_status", points=1, on=INTERRUPT, clauses=[5])
 
 answers_with_the_last_message = check_of(
     "answers_with_the_last_message",
@@ -37,18 +30,19 @@ answers_with_the_last_message = check_of(
     points=1,
     on=ASK_ONCE,
     needs=server_appears,
-    see="02_services#battery-rules",
+    see=BATTERY_RULES,
 )
 
 says_when_it_knows_nothing = check_of(
     "says_when_it_knows_nothing",
+    model.answers_in_time,
     model.never_waits,
     model.says_when_it_knows_nothing,
     title="Before the first message it answers at once, with available: false and every number NaN",
     points=2,
     on=UNPLUGGED,
     needs=server_appears,
-    see="02_services#m9-fix-why",
+    see=KNOWS_NOTHING,
 )
 
 follows_the_battery = check_of(
@@ -58,9 +52,7 @@ follows_the_battery = check_of(
     points=1,
     on=LEVELS,
     needs=answers_with_the_last_message,
-    see="02_services#battery-rules",
+    see=BATTERY_RULES,
 )
 
-ends_cleanly = standard.ends_cleanly(
-    points=1, on=[INTERRUPT, ASK_ONCE], needs=server_appears, see="02_services#conventions", clauses=[6]
-)
+ends_cleanly = standard.ends_cleanly(points=1, on=[INTERRUPT, ASK_ONCE], needs=server_appears, clauses=[6])

@@ -9,15 +9,8 @@ from autograder.authoring import standard_hidden
 from autograder.authoring.checks import RESTING, Scenario
 from autograder.authoring.obligation import check_of
 
-from . import model
-from .checks import (
-    UNPLUGGED,
-    UNPLUGGED_ROBOT,
-    answers_with_the_last_message,
-    follows_the_battery,
-    says_when_it_knows_nothing,
-    server_appears,
-)
+from . import checks, model
+from .checks import BATTERY_RULES, UNPLUGGED, UNPLUGGED_ROBOT
 
 
 def _steps(random: Random) -> dict[str, Any]:
@@ -31,17 +24,20 @@ def _steps(random: Random) -> dict[str, Any]:
         [["set_battery", level()], ["ask", 1], ["let_publish", 2], ["ask", 2]],
         [["unplug"], ["wait", round(random.uniform(2.0, 6.0), 1)], ["ask", 2], ["plug_in"]],
         [
-            ["unplug"],
-            ["set_battery", level()],
-            ["wait", round(random.uniform(11.0, 15.0), 1)],
-            ["ask", 1],
-            ["plug_in"],
+            *(["unplug"], ["set_battery", level()], ["wait", round(random.uniform(11.0, 15.0), 1)]),
+            *(["ask", 1], ["plug_in"]),
         ],
         [["measure_charge", False], ["let_publish", 1], ["ask", 1], ["measure_charge", True]],
+        [
+            ["set_clock", -round(random.uniform(60.0, 4000.0))],
+            ["let_publish", 1],
+            ["ask", 2],
+            ["set_clock", 0],
+        ],
         [["let_publish", 1], ["ask", 8]],
     ]
     random.shuffle(blocks)
-    before = [["ask", 1], ["wait", round(random.uniform(1.0, 6.0), 1)], ["ask", random.randint(2, 4)]]
+    before = [["ask", 1], ["wait", round(random.uniform(1.0, 6.0), 1)], ["ask", 8]]
     first = [["plug_in"], ["let_publish", 1], ["ask", 1]]
     return {"steps": [*before, *first, *(step for block in blocks for step in block)]}
 
@@ -57,29 +53,27 @@ recovers_when_the_sensor_appears = check_of(
     title="Once the first message has come, it answers with it",
     points=1,
     on=UNPLUGGED,
-    needs=[answers_with_the_last_message, says_when_it_knows_nothing],
-    see="02_services#m9-fix-why",
+    needs=[checks.answers_with_the_last_message, checks.says_when_it_knows_nothing],
+    see=checks.KNOWS_NOTHING,
 )
 
 keeps_the_last_message = check_of(
     "keeps_the_last_message",
-    model.repeats_the_last_message,
-    model.says_when_it_knows_nothing,
+    *(model.repeats_the_last_message, model.says_when_it_knows_nothing),
     title="Whatever came before, and however long the sensor is silent, it answers with the last message",
     points=1,
     on=ANY_ORDER,
-    needs=follows_the_battery,
-    see="02_services#battery-rules",
+    needs=checks.follows_the_battery,
+    see=BATTERY_RULES,
 )
 
 answers_every_request = check_of(
     "answers_every_request",
-    model.answers_in_time,
-    model.never_waits,
+    *(model.answers_in_time, model.never_waits),
     title="Every request is answered from memory, also eight at once",
     points=1,
     on=ANY_ORDER,
-    needs=server_appears,
+    needs=checks.server_appears,
     see="02_services#m4-why",
 )
 
@@ -88,6 +82,6 @@ works_in_any_namespace = standard_hidden.works_in_any_namespace(
     model.repeats_the_last_message,
     points=1,
     on=OTHER_NAMESPACE,
-    needs=answers_with_the_last_message,
+    needs=checks.answers_with_the_last_message,
     clauses=[5],
 )

@@ -28,6 +28,7 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
             "unplug": lambda: stage.robot.connect_battery_sensor(False),
             "plug_in": stage.robot.connect_battery_sensor,
             "measure_charge": stage.robot.connect_charge_sensor,
+            "set_clock": stage.robot.set_clock,
             "let_publish": let_publish,
             "wait": stage.wait,
         },

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario
 from autograder.authoring.obligation import check_of
@@ -18,65 +20,39 @@ SOME_JOINTS = [
     "l_elbow",
     "r_shoulder_pitch",
 ]
-POSTURE = {
-    "r_elbow": -0.9,
-    "l_wrist_yaw": 0.3,
-    "l_shoulder_pitch": -0.5,
-    "head_pan": 0.7,
-    "r_shoulder_roll": -0.8,
-    "l_elbow": -1.4,
-}  # rad
+POSTURE = {"r_elbow": -0.9, "l_wrist_yaw": 0.3, "l_shoulder_pitch": -0.5}  # rad
+POSTURE |= {"head_pan": 0.7, "r_shoulder_roll": -0.8, "l_elbow": -1.4}  # rad
 STRANGERS = ["tail_yaw", "l_knee", "r_wing_pitch", "head_pan", "antenna_2", "l_wheel", "gripper"]
 UNPLUGGED_ROBOT = (*RESTING, "--joint-sensors-unplugged")
 
-ASK = Scenario(
-    "in_order",
-    {"steps": [["let_arrive"], ["ask", SOME_JOINTS], ["ask", []]], "interrupt": True},
-    robot=RESTING,
+
+def in_order(*steps: list[Any], robot: tuple[str, ...] = RESTING, **options: Any) -> Scenario:
+    """Return the scenario of these steps; `options` are its other inputs."""
+    return Scenario("in_order", {"steps": list(steps), **options}, robot=robot)
+
+
+ASK = in_order(["let_arrive"], ["ask", SOME_JOINTS], ["ask", []], interrupt=True)
+MOVED = in_order(
+    *(["let_arrive"], ["ask", [*POSTURE]], ["reverse", True], ["move", POSTURE], ["ask", [*POSTURE]]),
+    *(["unplug"], ["wait", 5.5], ["ask", [*POSTURE]]),
 )
-MOVED = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["let_arrive"], ["ask", [*POSTURE]], ["reverse", True], ["move", POSTURE], ["ask", [*POSTURE]]),
-            *(["unplug"], ["wait", 5.5], ["ask", [*POSTURE]]),
-        ]
-    },
-    robot=RESTING,
+STRANGE = in_order(
+    *(["let_arrive"], ["ask", STRANGERS], ["ask", ["l_knee"]]),
+    *(["ask", ["elbow"]], ["ask", ["R_Elbow"]], ["ask", ["head_pan"]]),
 )
-STRANGE = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["let_arrive"], ["ask", STRANGERS], ["ask", ["l_knee"]]),
-            *(["ask", ["elbow"]], ["ask", ["R_Elbow"]], ["ask", ["head_pan"]]),
-        ]
-    },
-    robot=RESTING,
-)
-UNPLUGGED = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["ask", SOME_JOINTS], ["ask", []], ["ask", ["l_knee"], STRANGERS]),
-            *(["plug_in"], ["let_arrive"], ["ask", SOME_JOINTS]),
-        ]
-    },
+UNPLUGGED = in_order(
+    *(["ask", SOME_JOINTS], ["ask", []], ["ask", ["l_knee"], STRANGERS]),
+    *(["plug_in"], ["let_arrive"], ["ask", SOME_JOINTS]),
     robot=UNPLUGGED_ROBOT,
 )
 
+ALL_JOINTS, ITS_JOINTS = "01_robot_and_graph#joints-intro", "01_robot_and_graph#joints-run"
+REFUSES, KNOWS_NOTHING = "02_services#set-refuse-why", "02_services#m9-fix-why"
 
-server_appears = standard.server_appears(
-    "get_joint_positions", points=1, on=ASK, see="02_services#first-file", clauses=[7]
-)
+server_appears = standard.server_appears("get_joint_positions", points=1, on=ASK, clauses=[7])
 
 finds_the_joints = check_of(
-    "finds_the_joints",
-    model.finds_the_joints,
-    points=1,
-    on=ASK,
-    needs=server_appears,
-    see="01_robot_and_graph#joints-intro",
+    "finds_the_joints", model.finds_the_joints, points=1, on=ASK, needs=server_appears, see=ALL_JOINTS
 )
 
 keeps_the_order_asked = check_of(
@@ -85,7 +61,7 @@ keeps_the_order_asked = check_of(
     points=1,
     on=ASK,
     needs=finds_the_joints,
-    see="01_robot_and_graph#joints-run",
+    see=ITS_JOINTS,
 )
 
 positions_are_the_robots = check_of(
@@ -94,7 +70,7 @@ positions_are_the_robots = check_of(
     points=2,
     on=ASK,
     needs=finds_the_joints,
-    see="01_robot_and_graph#joints-run",
+    see=ITS_JOINTS,
 )
 
 no_names_means_all = check_of(
@@ -103,13 +79,12 @@ no_names_means_all = check_of(
     points=1,
     on=ASK,
     needs=finds_the_joints,
-    see="01_robot_and_graph#joints-intro",
+    see=ALL_JOINTS,
 )
 
 follows_the_robot = check_of(
     "follows_the_robot",
-    model.finds_the_joints,
-    model.positions_are_the_last,
+    *(model.finds_the_joints, model.positions_are_the_last),
     title="When the arms have moved, so has the answer, in any order of the joints; in a silence the last one stays",
     points=1,
     on=MOVED,
@@ -119,27 +94,22 @@ follows_the_robot = check_of(
 
 names_every_unknown_joint = check_of(
     "names_every_unknown_joint",
-    model.refuses_unknown_joints,
-    model.names_every_unknown_joint,
-    model.finds_the_joints,
+    *(model.refuses_unknown_joints, model.names_every_unknown_joint, model.finds_the_joints),
     title="Unknown joints: success: false and a message that names each of them; then it serves on",
     points=2,
     on=STRANGE,
     needs=finds_the_joints,
-    see="02_services#set-refuse-why",
+    see=REFUSES,
 )
 
 says_when_it_knows_nothing = check_of(
     "says_when_it_knows_nothing",
-    model.never_waits,
-    model.says_when_it_knows_nothing,
+    *(model.never_waits, model.says_when_it_knows_nothing),
     title="Before the first joint_states it answers at once with success: false, whatever was asked",
     points=1,
     on=UNPLUGGED,
     needs=server_appears,
-    see="02_services#m9-fix-why",
+    see=KNOWS_NOTHING,
 )
 
-ends_cleanly = standard.ends_cleanly(
-    points=1, on=ASK, needs=server_appears, see="02_services#conventions", clauses=[8]
-)
+ends_cleanly = standard.ends_cleanly(points=1, on=ASK, needs=server_appears, clauses=[8])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from random import Random
 from typing import Any
 
@@ -9,31 +10,16 @@ from autograder.authoring import standard_hidden
 from autograder.authoring.checks import RESTING, Scenario
 from autograder.authoring.obligation import check_of
 
-from . import model
-from .checks import (
-    SOME_JOINTS,
-    STRANGERS,
-    UNPLUGGED,
-    UNPLUGGED_ROBOT,
-    follows_the_robot,
-    keeps_the_order_asked,
-    names_every_unknown_joint,
-    positions_are_the_robots,
-    says_when_it_knows_nothing,
-)
+from . import checks, model
+from .checks import ITS_JOINTS, KNOWS_NOTHING, SOME_JOINTS, STRANGERS, UNPLUGGED, UNPLUGGED_ROBOT
 
 PARTS = [
     *("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll"),
     *("shoulder_pitch", "shoulder_roll", "shoulder_yaw", "elbow", "wrist_yaw", "wrist_pitch", "wrist_roll"),
 ]
 FINGERS = ["l_finger_1", "l_finger_2", "r_finger_1", "r_finger_2"]
-JOINTS = [
-    "waist_yaw",
-    "waist_pitch",
-    "head_pan",
-    "head_tilt",
-    *(f"{side}_{part}" for part in PARTS for side in "lr"),
-]
+TRUNK = ["waist_yaw", "waist_pitch", "head_pan", "head_tilt"]
+JOINTS = [*TRUNK, *(f"{side}_{part}" for part in PARTS for side in "lr")]
 MOST_AT_ONCE = 8  # a service keeps its last 10 requests
 
 
@@ -45,9 +31,8 @@ def _steps(random: Random) -> dict[str, Any]:
 
     def strangers() -> list[str]:
         name = random.choice(JOINTS)
-        return random.sample(
-            [name.upper(), name.title(), f" {name}", f"{name} ", random.choice(PARTS), "", *STRANGERS], 3
-        )
+        near = [name.upper(), name.title(), f" {name}", f"{name} ", random.choice(PARTS), ""]
+        return random.sample([*near, *STRANGERS], 3)
 
     def mixed() -> list[str]:
         names = [*joints(), *(unknown := strangers()), unknown[0]]
@@ -70,23 +55,13 @@ def _steps(random: Random) -> dict[str, Any]:
     keeping_on: list[list[Any]] = [["ask", ["head_pan"]], ["wait", 0.1]] * 12
     blocks: list[list[list[Any]]] = [
         [
-            *(["read", first], ["let_arrive"], ["ask", [*first]]),
-            *(
-                ["read", second],
-                ["reverse", True],
-                ["let_arrive"],
-                ["ask", [*first, *second]],
-                ["reverse", False],
-            ),
+            *(["read", first], ["let_arrive"], ["ask", [*first]], ["read", second]),
+            *(["reverse", True], ["let_arrive"], ["ask", [*first, *second]], ["reverse", False]),
         ],
         [["alternate", True], ["let_arrive"], *(["ask", joints()] for _ in range(4)), ["alternate", False]],
         [
-            ["unplug"],
-            ["read", third],
-            ["wait", seconds(6.0, 10.0)],
-            ["ask", [*third]],
-            ["ask", []],
-            ["plug_in"],
+            *(["unplug"], ["read", third], ["wait", seconds(6.0, 10.0)]),
+            *(["ask", [*third]], ["ask", []], ["plug_in"]),
         ],
         [["ask", *random.sample(burst, MOST_AT_ONCE)]],
         [["ask", strangers()[:1]], ["ask", mixed()], ["ask", joints()], ["ask", repeated()]],
@@ -106,61 +81,48 @@ OTHER_NAMESPACE = Scenario(
     "in_order", {"steps": [["let_arrive"], ["ask", SOME_JOINTS]]}, robot=RESTING, namespace="/lab_7/robot"
 )
 
+in_any_order = partial(check_of, points=1, on=ANY_ORDER)
+
 recovers_when_the_sensors_appear = check_of(
     "recovers_when_the_sensors_appear",
-    model.finds_the_joints,
-    model.positions_are_the_last,
+    *(model.finds_the_joints, model.positions_are_the_last),
     title="Once the first message has come, it answers with it",
     points=1,
     on=UNPLUGGED,
-    needs=[positions_are_the_robots, says_when_it_knows_nothing],
-    see="02_services#m9-fix-why",
+    needs=[checks.positions_are_the_robots, checks.says_when_it_knows_nothing],
+    see=KNOWS_NOTHING,
 )
 
-answers_in_any_posture = check_of(
+answers_in_any_posture = in_any_order(
     "answers_in_any_posture",
-    model.finds_the_joints,
-    model.positions_are_the_last,
-    model.keeps_up_with_a_motion,
-    model.lists_every_joint_once,
-    model.says_when_it_knows_nothing,
+    *(model.finds_the_joints, model.positions_are_the_last, model.keeps_up_with_a_motion),
+    *(model.lists_every_joint_once, model.says_when_it_knows_nothing),
     title="Whatever came before, and however long the robot is silent, it answers with the last message as it came",
-    points=1,
-    on=ANY_ORDER,
-    needs=follows_the_robot,
-    see="01_robot_and_graph#joints-intro",
+    needs=checks.follows_the_robot,
+    see=checks.ALL_JOINTS,
 )
 
-answers_every_request = check_of(
+answers_every_request = in_any_order(
     "answers_every_request",
-    model.answers_in_time,
-    model.never_waits,
-    model.keeps_the_order_asked,
+    *(model.answers_in_time, model.never_waits, model.keeps_the_order_asked),
     title="Every request is answered at once with its own joints, also eight different ones together",
-    points=1,
-    on=ANY_ORDER,
-    needs=keeps_the_order_asked,
+    needs=checks.keeps_the_order_asked,
     see="02_services#m4-why",
 )
 
-looks_joints_up_by_name = check_of(
+looks_joints_up_by_name = in_any_order(
     "looks_joints_up_by_name",
     model.goes_by_names_not_places,
-    points=1,
-    on=ANY_ORDER,
-    needs=positions_are_the_robots,
-    see="01_robot_and_graph#joints-run",
+    needs=checks.positions_are_the_robots,
+    see=ITS_JOINTS,
 )
 
-takes_no_joint_for_another = check_of(
+takes_no_joint_for_another = in_any_order(
     "takes_no_joint_for_another",
-    model.refuses_unknown_joints,
-    model.names_every_unknown_joint,
+    *(model.refuses_unknown_joints, model.names_every_unknown_joint),
     title="Names count letter by letter: unknown ones among known ones, parts, capitals and blanks are refused by name",
-    points=1,
-    on=ANY_ORDER,
-    needs=names_every_unknown_joint,
-    see="02_services#set-refuse-why",
+    needs=checks.names_every_unknown_joint,
+    see=checks.REFUSES,
 )
 
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
@@ -168,6 +130,6 @@ works_in_any_namespace = standard_hidden.works_in_any_namespace(
     model.positions_are_the_last,
     points=1,
     on=OTHER_NAMESPACE,
-    needs=positions_are_the_robots,
+    needs=checks.positions_are_the_robots,
     clauses=[7],
 )
