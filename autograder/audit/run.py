@@ -94,6 +94,7 @@ def audit(
     scale: float | None = None,
     earlier: Callable[[KnownSubmission, int], AuditedRun | None] = lambda known, repetition: None,
     report: Callable[[AuditedRun], None] = lambda run: None,
+    grade_one: Callable[..., AuditedRun] | None = None,
 ) -> list[AuditedRun]:
     """Grade each submission `repeat` times, in `jobs` arenas in parallel, and what could not be graded then once alone.
 
@@ -102,7 +103,9 @@ def audit(
     running arenas at once.
     `earlier` returns the run of a submission and repetition that need not be done again, or None.
     `report` gets each run when it is done; all are returned, those of `earlier` too, in the order of the submissions.
+    `grade_one` grades a submission; None: `audit_one`.
     """
+    grade_one = grade_one or audit_one
     for known in submissions:
         require_known_checks(known, [check.id for check in exercise.checks])
     wanted = [(repetition, known) for repetition in range(repeat) for known in submissions]
@@ -113,7 +116,7 @@ def audit(
 
         def audit_in_shared(known: KnownSubmission, repetition: int) -> AuditedRun:
             with shared.lent_to(known, exercise) as arenas:
-                return audit_one(known, exercise, repetition, seed, scale, arenas=arenas, stop=stop)
+                return grade_one(known, exercise, repetition, seed, scale, arenas=arenas, stop=stop)
 
         futures = {
             pool.submit(audit_in_shared, known, repetition): (repetition, known) for repetition, known in left
@@ -130,7 +133,7 @@ def audit(
             raise
     for repetition, known in left:
         if (repetition, known) not in runs:
-            runs[repetition, known] = audit_one(known, exercise, repetition, seed, scale)
+            runs[repetition, known] = grade_one(known, exercise, repetition, seed, scale)
             report(runs[repetition, known])
     return [runs[one] for one in wanted]
 

@@ -12,7 +12,7 @@ from rich.console import Console
 from autograder.audit.aftermath import Aftermath, audit_one_by_one
 from autograder.audit.audit_record import AuditRecord, UnusableAuditRecord, read_runs
 from autograder.audit.fault_patch import SUFFIX, PatchError, as_patch
-from autograder.audit.generated.printed import audit_generated_faults, show_mutant
+from autograder.audit.generated.run import audit_generated, mutant_named
 from autograder.audit.kill_matrix import kill_matrix, print_aftermath, print_progress
 from autograder.audit.known_submission import (
     HeaderError,
@@ -48,7 +48,12 @@ def audit(
         typer.Option(min=1, help="how often to grade each submission, each time with other scenario inputs"),
     ] = 1,
     seed: Annotated[int, typer.Option(min=0, help="scenario inputs of the first of these gradings")] = 0,
-    only: Annotated[str, typer.Option(help="only submissions whose name matches, such as 'faulty/*'")] = "*",
+    only: Annotated[
+        str,
+        typer.Option(
+            help="only submissions whose name matches, such as 'faulty/*'; mutants: 'rounds_a_number*'"
+        ),
+    ] = "*",
     scale: Annotated[
         float | None, typer.Option(help="factor by which the arenas' clock runs faster than real time")
     ] = None,
@@ -56,13 +61,16 @@ def audit(
         bool,
         typer.Option(
             "--generated",
-            help="grade correct submissions in which a program has made one mistake each: all must lose points",
+            help="make one mistake each in correct submissions, and grade them: all must lose points. The first "
+            "failure ends a grading. At the end it says what the survivors change, and what to do with them",
         ),
     ] = False,
     mutants: Annotated[
         int | None,
         typer.Option(
-            min=1, help="how many of them to grade of each exercise (default: 60; 30 where the robot moves)"
+            min=1,
+            help="how many of them to grade of each exercise, of each kind of mistake in turn "
+            "(default: 60; 30 where the robot moves)",
         ),
     ] = None,
     aftermath: Annotated[
@@ -124,12 +132,14 @@ def audit(
         )
         names = [exercise] if exercise else exercise_names()
         if generated:
-            audits = audit_generated_faults(
-                console, names, record, number=mutants, only=only, jobs=jobs, seed=seed, scale=scale
-            )
-            if not any(one.judged for one in audits):
+            judged = []
+            for one in (load_exercise(name, hidden=True) for name in names):
+                judged += audit_generated(
+                    one, record, console, number=mutants, only=only, jobs=jobs, seed=seed, scale=scale
+                )
+            if not judged:
                 raise ended(console, f"no mutant matches {only!r}", UNUSABLE)
-            raise typer.Exit(COULD_NOT if any(one.has_survivors for one in audits) else 0)
+            raise typer.Exit(0 if all(one.noticed_by for one in judged) else COULD_NOT)
         with residue() as left:
             for name in names:
                 known = known_submissions(name, only=only)
@@ -240,10 +250,11 @@ def _show(known: KnownSubmission) -> None:
 
 
 def _show_mutant(exercise: str | None, name: str) -> None:
-    """Print a mutant's diff; raises `HeaderError`."""
+    """Print what is wrong with a mutant, and its diff; raises `HeaderError`."""
     if exercise is None:
         raise HeaderError(f"name the exercise of the mutant: EXERCISE --generated --show {name}")
-    show_mutant(exercise, name)
+    mutant = mutant_named(exercise, name)
+    print(mutant.sentence, *mutant.diff(), sep="\n")
 
 
 def _to_patch(known: KnownSubmission) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections import Counter
 from collections.abc import Sequence
-from fnmatch import fnmatch
+from fnmatch import fnmatchcase
 
 from autograder.audit.generated.mutant import Mutant
 from autograder.audit.known_submission import KNOWN, HeaderError
@@ -22,19 +22,29 @@ def usual_number(exercise: Exercise) -> int:
 
 
 def equivalents(exercise: str) -> dict[str, str]:
-    """Return the reasons why mutants are no mistakes, by their names; raises `HeaderError` for a line without one."""
+    """Return the reasons why mutants are no mistakes, by a pattern of their names and one of their sentences.
+
+    Raises `HeaderError` for a line that is not “NAME SENTENCE # reason”.
+    """
     path = exercises_folder() / exercise / KNOWN / EQUIVALENT
     lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
     found = {}
     for number, line in enumerate(lines, start=1):
-        name, _, reason = (part.strip() for part in line.partition(":"))
+        patterns, _, reason = (part.strip() for part in line.partition(" # "))
         if line.strip() and not line.startswith("#"):
-            if not reason:
+            if not reason or " " not in patterns:
                 raise HeaderError(
-                    f"{path}, line {number}: expected “<name of a mutant>: why it is no mistake”"
+                    f"{path}, line {number}: expected “<pattern of names> <pattern of sentences> # why these are no "
+                    "mistakes”"
                 )
-            found[name] = reason
+            found[patterns] = reason
     return found
+
+
+def is_one_of(patterns: str, mutant: Mutant) -> bool:
+    """Whether a mutant's name and sentence match a line of `equivalents`."""
+    name, _, sentence = patterns.partition(" ")
+    return fnmatchcase(mutant.name, name) and fnmatchcase(mutant.sentence, sentence.strip())
 
 
 def selected(mutants: Sequence[Mutant], number: int, *, seed: int = 0, only: str = "*") -> list[Mutant]:
@@ -44,16 +54,15 @@ def selected(mutants: Sequence[Mutant], number: int, *, seed: int = 0, only: str
     """
     waiting: dict[str, list[Mutant]] = {}
     for mutant in sorted(mutants, key=lambda mutant: _drawn(mutant, seed)):
-        if fnmatch(mutant.name, only):
+        if fnmatchcase(mutant.name, only):
             waiting.setdefault(mutant.operator, []).append(mutant)
     taken: list[Mutant] = []
     from_base: Counter[str] = Counter()
-    operators = sorted(waiting)
     while len(taken) < number and any(waiting.values()):
-        for operator in operators:
-            if waiting[operator] and len(taken) < number:
-                best = min(waiting[operator], key=lambda mutant: from_base[mutant.base.stem])
-                waiting[operator].remove(best)
+        for _, ours in sorted(waiting.items()):
+            if ours and len(taken) < number:
+                best = min(ours, key=lambda mutant: from_base[mutant.base.stem])
+                ours.remove(best)
                 from_base[best.base.stem] += 1
                 taken.append(best)
     return taken

@@ -1,6 +1,7 @@
 """A sample of the faults that are made of correct submissions loses points (`course audit --generated` grades more)."""
 
 import pytest
+from rich.console import Console
 
 from autograder.audit.audit_record import AuditRecord
 from autograder.audit.generated.run import audit_generated
@@ -15,6 +16,6 @@ def test_generated_faults_lose_points(exercise):
     if not available_isolation().trusted:
         pytest.skip(f"hidden checks need isolated arenas: {available_isolation().reason}")
     record = AuditRecord(None, isolation=available_isolation())
-    audited = audit_generated(load_exercise(exercise, hidden=True), record, number=SAMPLE)
-    assert len(audited.judged) == SAMPLE
-    assert not [judged.mutant.name for judged in audited.judged if not judged.lost_points]
+    judged = audit_generated(load_exercise(exercise, hidden=True), record, Console(quiet=True), number=SAMPLE)
+    assert len(judged) == SAMPLE
+    assert [one.mutant.name for one in judged if not one.noticed_by] == []

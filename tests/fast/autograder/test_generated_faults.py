@@ -2,21 +2,25 @@
 
 import ast
 from collections import Counter
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
+from autograder.audit.generated import first_look as first_look_module
 from autograder.audit.generated import mutant as mutant_module
 from autograder.audit.generated import selection
-from autograder.audit.generated.fault import Judged, as_faults
+from autograder.audit.generated.first_look import Judged, as_fault, first_look
 from autograder.audit.generated.mistakes import OPERATORS
-from autograder.audit.generated.selection import equivalents, selected
-from autograder.audit.generated.table import figures, survivors
+from autograder.audit.generated.pattern import filled, match, parsed
+from autograder.audit.generated.run import figures, survivors
+from autograder.audit.generated.selection import equivalents, is_one_of, selected
 from autograder.audit.known_submission import HeaderError
 from autograder.audit.run import AuditedRun
 from autograder.engine.exercise import exercise_names, load_exercise
+from autograder.engine.judging import verdict_on
 from autograder.engine.verdict import CheckVerdict, Grade
 from course_cli.app import app
 
@@ -30,6 +34,7 @@ import rclpy
 from humanoid_interfaces.msg import RobotState
 from humanoid_interfaces.srv import ComputeIK, GetBatteryStatus, GetJointPositions
 from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import BatteryState, JointState
 
 PATIENCE = 5.0
@@ -39,7 +44,7 @@ class Server(Node):
         super().__init__("server")
         self.last = None
         self.busy = False
-        self.create_subscription(BatteryState, "battery_state", self.on_battery, LATCHED)
+        self.create_subscription(BatteryState, "battery_state", self.on_battery, qos_profile_sensor_data)
         self.create_service(GetBatteryStatus, "get_battery_status", self.on_request)
         self.create_service(GetJointPositions, "get_joint_positions", self.on_names)
         self.create_service(ComputeIK, "compute_ik", self.on_ik)
@@ -77,16 +82,18 @@ if __name__ == "__main__":
 
 ACTION = """
 import time
+from action_msgs.msg import GoalStatus
 from geometry_msgs.msg import Twist
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
 from rclpy.action import ActionServer, CancelResponse
 
-CANCEL = CancelResponse.ACCEPT
-
 class Walker:
     def __init__(self, node):
-        self.server = ActionServer(node, WalkTo, "walk_to", self.execute, cancel_callback=lambda _: CANCEL)
+        self.server = ActionServer(node, WalkTo, "walk_to", self.execute, cancel_callback=self.on_cancel)
+
+    def on_cancel(self, goal_handle):
+        return CancelResponse.ACCEPT
 
     def execute(self, goal_handle):
         first_step = self.state.steps
@@ -101,11 +108,49 @@ class Walker:
             if not all(math.isfinite(number) for number in numbers):
                 break
         if status == GoalStatus.STATUS_SUCCEEDED:
-            turn = 0.0
+            turn = math.cos(a) * x + y
         result = WalkTo.Result(total_steps=self.state.steps - first_step)
         result.final_pose = self.pose()
         return result
 """
+
+EXAMPLES = [
+    ("leaves_a_field_out", SERVICE, "pass instead of response.available = self.last is not None"),
+    ("copies_some_fields", SERVICE, "response.battery.present = type(response.battery)().present"),
+    ("collapses_duplicates", SERVICE, "list(dict.fromkeys(request.names)) instead of request.names"),
+    ("answers_with_the_goal", ACTION, "goal_handle.request.target_pose instead of self.pose()"),
+    ("rounds_a_number", SERVICE, "round(level, 2) instead of level"),
+    ("takes_another_unit", SERVICE, "100 * (level) instead of level"),
+    ("turns_the_sign_of_a_number", SERVICE, "-(wrap(angle)) instead of wrap(angle)"),
+    ("turns_the_sign", ACTION, "math.cos(a) * x - y instead of math.cos(a) * x + y"),
+    ("leaves_an_angle_unwrapped", SERVICE, "angle instead of wrap(angle)"),
+    ("limits_each_axis", SERVICE, "max(abs(x), abs(y)) instead of math.hypot(x, y)"),
+    ("counts_from_the_start", ACTION, "self.state.steps instead of self.state.steps - first_step"),
+    ("takes_another_constant", ACTION, "RobotState.WALKING instead of RobotState.FALLEN"),
+    ("takes_another_constant", SERVICE, "instead of ComputeIK.Response.SUCCESS"),
+    ("forgets_one_of_several", ACTION, "self.state.mode == RobotState.FALLEN instead of self.state.mode in"),
+    ("forgets_one_of_several", SERVICE, "math.isfinite(request.target.point.x) instead of math.isfinite("),
+    ("drops_a_guard", ACTION, "False instead of self.state.mode in"),
+    ("drops_a_guard", ACTION, "not (not all("),
+    ("looks_at_the_first_only", ACTION, "for number in list(numbers)[:1])"),
+    ("lets_nan_through", SERVICE, "True instead of math.isfinite(request.target.point.x)"),
+    ("forgets_a_reset", SERVICE, "pass instead of self.busy = False"),
+    ("forgets_a_reset", ACTION, "pass instead of calm = 0"),
+    ("keeps_the_first_message", SERVICE, "return; globals()['came'] = True is added"),
+    ("forgets_what_is_old", SERVICE, "> 5.0:; self.last = None is added"),
+    ("waits_in_a_callback", SERVICE, "__import__('time').sleep(2.5) is added"),
+    ("halves_or_doubles", SERVICE, "2.5 instead of 5.0"),
+    ("restarts_the_deadline", ACTION, "deadline = time.monotonic() + 30.0 is added"),
+    ("misses_a_cancel", ACTION, "False instead of goal_handle.is_cancel_requested"),
+    ("ends_otherwise", ACTION, "goal_handle.abort instead of goal_handle.canceled"),
+    ("answers_otherwise", ACTION, "CancelResponse.REJECT instead of CancelResponse.ACCEPT"),
+    ("takes_the_code_for_the_status", ACTION, "result.error_code == 0 instead of status =="),
+    ("loses_the_exit_status", SERVICE, "(1) and 0 instead of 1"),
+    ("prints_to_the_other_stream", SERVICE, "print('out of reach', file=__import__('sys').stderr)"),
+    ("drops_the_finally", SERVICE, "pass instead of self.lock.release()"),
+    ("makes_a_name_absolute", ACTION, "'/' + 'walk_to'"),
+    ("takes_the_usual_qos", SERVICE, "10 instead of qos_profile_sensor_data"),
+]
 
 
 def mutants(tmp_path, source, operator=None):
@@ -116,171 +161,38 @@ def mutants(tmp_path, source, operator=None):
     ]
 
 
-@pytest.mark.parametrize(
-    ("operator", "source", "sentence", "changed"),
-    [
-        (
-            "leaves_a_field_out",
-            SERVICE,
-            "response.available is left as it was, in line 27",
-            ["+        pass"],
-        ),
-        ("copies_some_fields", SERVICE, "response.battery is copied field by field, without present,", None),
-        (
-            "collapses_duplicates",
-            SERVICE,
-            "duplicates in request.names are lost",
-            ["+        for name in list(dict.fromkeys(request.names)):"],
-        ),
-        (
-            "answers_with_the_goal",
-            ACTION,
-            "result.final_pose is goal_handle.request.target_pose instead",
-            ["+        result.final_pose = goal_handle.request.target_pose"],
-        ),
-        (
-            "rounds_a_number",
-            SERVICE,
-            "round(…, 2) around response.battery.percentage",
-            ["+        response.battery.percentage = round(level, 2)"],
-        ),
-        (
-            "takes_another_unit",
-            SERVICE,
-            "response.battery.percentage in percent of 100",
-            ["+        response.battery.percentage = 100 * (level)"],
-        ),
-        (
-            "turns_the_sign",
-            SERVICE,
-            "the sign of ComputeIK.Response.shoulder is turned",
-            [
-                "+            return ComputeIK.Response(error_code=ComputeIK.Response.SUCCESS, shoulder=-(wrap(angle)))"
-            ],
-        ),
-        (
-            "leaves_an_angle_unwrapped",
-            SERVICE,
-            "angle is not wrapped",
-            ["+            return ComputeIK.Response(error_code=ComputeIK.Response.SUCCESS, shoulder=angle)"],
-        ),
-        (
-            "limits_each_axis",
-            SERVICE,
-            "max(abs(x), abs(y)) instead of math.hypot(x, y)",
-            ["+        if math.isfinite(request.target.point.x) and max(abs(x), abs(y)) < 0.5:"],
-        ),
-        (
-            "counts_from_the_start",
-            ACTION,
-            "self.state.steps counts since the robot's start",
-            ["+        result = WalkTo.Result(total_steps=self.state.steps)"],
-        ),
-        (
-            "tests_for_another_state",
-            ACTION,
-            "RobotState.OFF is forgotten among several",
-            ["+            if self.state.mode in (RobotState.FALLEN,):"],
-        ),
-        (
-            "tests_for_another_state",
-            ACTION,
-            "WALKING instead of FALLEN",
-            ["+            if self.state.mode in (RobotState.WALKING, RobotState.OFF):"],
-        ),
-        (
-            "drops_a_condition",
-            SERVICE,
-            "the condition math.hypot(x, y) < 0.5 is forgotten",
-            ["+        if math.isfinite(request.target.point.x):"],
-        ),
-        (
-            "drops_a_guard",
-            ACTION,
-            "the guard not all(math.isfinite(number) for number in numbers) is turned round",
-            ["+            if not (not all(math.isfinite(number) for number in numbers)):"],
-        ),
-        (
-            "checks_the_first_only",
-            ACTION,
-            "only the first of numbers is looked at",
-            ["+            if not all(math.isfinite(number) for number in list(numbers)[:1]):"],
-        ),
-        (
-            "lets_nan_through",
-            SERVICE,
-            "math.isfinite(request.target.point.x) is not asked",
-            ["+        if True and math.hypot(x, y) < 0.5:"],
-        ),
-        ("forgets_a_reset", SERVICE, "self.busy is not reset to False", ["+        pass"]),
-        ("forgets_a_reset", ACTION, "calm is not reset to 0", ["+                pass"]),
-        (
-            "keeps_the_first_message",
-            SERVICE,
-            "the subscription callback on_battery keeps the first message: self.last = message",
-            ["+        if self.last is None: self.last = message"],
-        ),
-        ("forgets_what_is_old", SERVICE, "takes self.last for unknown when it is older than 5 s", None),
-        (
-            "waits_in_a_callback",
-            SERVICE,
-            "time.sleep(2.5) at the start of the service callback on_names",
-            ['+        __import__("time").sleep(2.5)'],
-        ),
-        ("waits_in_a_callback", ACTION, "time.sleep(0.7) at the start of the cancel callback lambda", None),
-        ("halves_or_doubles", SERVICE, "2.5 instead of 5.0 in PATIENCE = 5.0", ["+PATIENCE = 2.5"]),
-        (
-            "restarts_the_deadline",
-            ACTION,
-            "deadline begins anew in every round of the loop",
-            ["+            deadline = time.monotonic() + 30.0"],
-        ),
-        ("misses_a_cancel", ACTION, "a cancel is not seen in execute", ["+            if False:"]),
-        ("swaps_the_status", ACTION, "abort instead of canceled", ["+                goal_handle.abort()"]),
-        ("swaps_the_status", SERVICE, "instead of SUCCESS", None),
-        (
-            "takes_the_code_for_the_status",
-            ACTION,
-            "result.error_code == 0 instead of status == GoalStatus.STATUS_SUCCEEDED",
-            ["+        if result.error_code == 0:"],
-        ),
-        ("loses_the_exit_status", SERVICE, "main() without exit", ["+    main()"]),
-        (
-            "prints_to_the_other_stream",
-            SERVICE,
-            "on stderr",
-            ['+            print("out of reach", file=__import__("sys").stderr)'],
-        ),
-        ("drops_the_finally", SERVICE, "the finally of on_ik is left out", ["+            pass"]),
-        ("makes_a_name_absolute", ACTION, 'the absolute name "/walk_to"', None),
-        ("takes_the_usual_qos", SERVICE, '10 instead of LATCHED for "battery_state"', None),
-    ],
-)
-def test_operator_makes_what_its_sentence_says(tmp_path, operator, source, sentence, changed):
-    (mutant, *_) = [one for one in mutants(tmp_path, source, operator) if sentence in one.sentence]
-    assert changed is None or [line for line in mutant.changed_lines() if line[0] == "+"] == changed
+@pytest.mark.parametrize(("operator", "source", "words"), EXAMPLES)
+def test_operator_makes_what_its_sentence_says(tmp_path, operator, source, words):
+    assert [one for one in mutants(tmp_path, source, operator) if words in one.sentence]
 
 
 def test_every_operator_has_an_example(tmp_path):
-    made = {mutant.operator for source in (SERVICE, ACTION) for mutant in mutants(tmp_path, source)}
-    assert made == set(OPERATORS)
+    assert {operator for operator, _, _ in EXAMPLES} == set(OPERATORS)
 
 
-def test_copy_leaves_out_the_field_that_its_sentence_names(tmp_path):
-    (mutant,) = [
-        one
-        for one in mutants(tmp_path, SERVICE, "copies_some_fields")
-        if one.sentence.startswith("response.battery is copied field by field, without voltage,")
-    ]
-    (line,) = [line for line in mutant.changed_lines() if "type(whole)" in line]
-    assert "current=whole.current" in line
-    assert "voltage=whole.voltage" not in line
+@pytest.mark.parametrize(
+    ("pattern", "source", "replacement", "expected"),
+    [
+        ("hypot(X, Y)", "math.hypot(a.x, 2)", "max(X, Y)", "max(a.x, 2)"),
+        ("f(X, *R, **K)", "node.f(1, 2, 3, k=4)", "g(X, *R, **K)", "g(1, 2, 3, k=4)"),
+        ("X <= Y <= X", "a <= b <= a", "Y", "b"),
+        ("X <= Y <= X", "a <= b <= c", "Y", None),
+        ("hypot(X, Y)", "math.hypot(*both)", "X", None),
+        ("print(*R)", "print(1, end='')", "R", None),
+        ("f(True)", "f(1)", "1", None),
+    ],
+)
+def test_pattern_finds_what_its_letters_stand_for(pattern, source, replacement, expected):
+    bound = match(parsed(pattern), parsed(source))
+    assert (None if bound is None else filled(replacement, bound)) == expected
 
 
 def test_mutants_compile_and_none_is_there_twice(tmp_path):
     for source in (SERVICE, ACTION):
-        meanings = [ast.dump(ast.parse(mutant.source)) for mutant in mutants(tmp_path, source)]
-        assert len({*meanings, ast.dump(ast.parse(source))}) == len(meanings) + 1
+        programs = [mutant.source for mutant in mutants(tmp_path, source)]
+        for program in programs:
+            compile(program, "mutant", "exec")
+        assert len({*programs, ast.unparse(ast.parse(source))}) == len(programs) + 1
 
 
 def test_names_outlast_edits_of_other_lines(tmp_path):
@@ -293,12 +205,7 @@ def test_names_outlast_edits_of_other_lines(tmp_path):
     assert before <= {mutant.name for mutant in mutants(tmp_path, edited)}
 
 
-def test_places_in_a_program_with_accents_are_found(tmp_path):
-    source = "LÄNGE, PATIENCE = 'é', 5.0  # …\n"
-    assert mutants(tmp_path, source, "halves_or_doubles")[0].source == "LÄNGE, PATIENCE = 'é', 2.5  # …\n"
-
-
-FEW = {"interfaces": 0, "patterns": 20}  # definitions are no programs; answers are mostly words
+FEW = {"interfaces": 0, "patterns": 0}  # definitions are no programs; answers are words
 
 
 @pytest.mark.parametrize("name", exercise_names())
@@ -311,23 +218,24 @@ def test_every_exercise_yields_enough_mutants_with_names_of_their_own(name):
 
 @pytest.mark.parametrize("name", exercise_names())
 def test_equivalents_are_still_made(name):
-    assert set(equivalents(name)) <= {mutant.name for mutant in mutants_of_exercise(name)}
+    made = mutants_of_exercise(name)
+    assert [
+        patterns for patterns in equivalents(name) if not any(is_one_of(patterns, one) for one in made)
+    ] == []
 
 
 def test_selection_takes_operators_and_bases_in_turn():
     made = mutants_of_exercise("joint_query")
     first = selected(made, 30)
-    operators = Counter(mutant.operator for mutant in first)
     bases = Counter(mutant.base for mutant in first)
-    assert set(operators) == {mutant.operator for mutant in made}
+    assert {mutant.operator for mutant in first} == {mutant.operator for mutant in made}
     assert max(bases.values()) - min(bases.values()) <= 4
     assert selected(made, 30) == first != selected(made, 30, seed=1)
 
 
 def test_selection_by_name():
     chosen = selected(mutants_of_exercise("joint_query"), 60, only="rounds_a_number*class_based")
-    assert chosen
-    assert all(mutant.operator == "rounds_a_number" for mutant in chosen)
+    assert {mutant.operator for mutant in chosen} == {"rounds_a_number"}
 
 
 def test_equivalent_needs_a_reason(tmp_path, monkeypatch):
@@ -335,44 +243,80 @@ def test_equivalent_needs_a_reason(tmp_path, monkeypatch):
     known.mkdir(parents=True)
     monkeypatch.setattr(selection, "exercises_folder", lambda: tmp_path)
     assert equivalents("walk_to") == {}
-    (known / "equivalent.txt").write_text(
-        "# judged by hand\nmisses_a_cancel.execute.123456.base: never reached\n"
-    )
-    assert equivalents("walk_to") == {"misses_a_cancel.execute.123456.base": "never reached"}
-    (known / "equivalent.txt").write_text("misses_a_cancel.execute.123456.base\n")
-    with pytest.raises(HeaderError, match=r"line 1: expected .* why"):
-        equivalents("walk_to")
+    (known / "equivalent.txt").write_text("# judged by hand\nmisses_a_cancel.* * # never reached\n")
+    assert equivalents("walk_to") == {"misses_a_cancel.* *": "never reached"}
+    for line in ("misses_a_cancel.* *", "misses_a_cancel.* # never reached"):
+        (known / "equivalent.txt").write_text(f"{line}\n")
+        with pytest.raises(HeaderError, match=r"line 1: expected .* why"):
+            equivalents("walk_to")
 
 
-def judged(statuses):
-    """Return a mutant of joint_query with the verdicts of a hidden and a visible check."""
+def test_equivalents_are_found_by_name_and_sentence(tmp_path):
+    (mutant,) = mutants(tmp_path, ACTION, "misses_a_cancel")
+    assert is_one_of("misses_a_cancel.execute.*.base * instead of goal_handle.is_cancel_requested", mutant)
+    assert not is_one_of("misses_a_cancel.* * instead of something", mutant)
+
+
+def fault_of_joint_query():
     exercise = load_exercise("joint_query", hidden=True)
-    fault = as_faults(mutants_of_exercise("joint_query")[:1], exercise)[0]
-    checks = [
-        CheckVerdict(f"{kind} check", "", status, float(status == "passed"), 1, hidden=kind == "hidden")
-        for kind, status in statuses.items()
-    ]
+    return as_fault(mutants_of_exercise("joint_query")[0], exercise), exercise
+
+
+def verdict(kind, status):
+    return CheckVerdict(f"{kind} check", "", status, float(status == "passed"), 1, hidden=kind == "hidden")
+
+
+def judged(**statuses):
+    """Return a mutant of joint_query with the verdicts of a hidden and a visible check."""
+    fault, _ = fault_of_joint_query()
+    checks = [verdict(kind, status) for kind, status in statuses.items()]
     grade = Grade("joint_query", fault.name, "namespaces", checks, seed=0)
     return Judged(fault.mutant, AuditedRun(fault, 0, grade, 1.0))
 
 
 def test_figures_tell_visible_from_hidden_checks():
-    noticed = judged({"hidden": "not run", "visible": "failed"})
-    by_hidden = judged({"hidden": "failed", "visible": "passed"})
-    kept, broken = judged({"hidden": "passed", "visible": "passed"}), judged({"hidden": "error"})
-    lines = figures([noticed, by_hidden, kept, broken])
-    assert lines == [
-        "2 of 3 lost points (67 %), 1 by visible checks alone (33 %)",
-        "not graded: 1",
+    noticed = judged(hidden="not run", visible="failed")
+    by_hidden = judged(visible="passed", hidden="failed")
+    kept, broken = judged(hidden="passed", visible="passed"), judged(hidden="error")
+    assert figures([noticed, by_hidden, kept, broken]) == [
+        "2 of 3 lost points: 67 % (goal 98 %)",
+        "1 by visible checks: 33 % (goal 75 %)",
+        "1 could not be graded",
     ]
-    assert survivors([noticed, by_hidden]) == []
-    assert f"{kept.mutant.name} kept full marks" in survivors([kept])
-    assert f"    {kept.mutant.sentence}" in survivors([kept])
+    assert survivors("joint_query", [noticed, by_hidden]) == []
+    lines = survivors("joint_query", [kept])
+    assert f"{kept.mutant.name} kept full marks" in lines
+    assert f"    {kept.mutant.sentence}" in lines
+    assert "solutions/joint_query/known/equivalent.txt" in lines[-2]
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "looked_at"),
+    [
+        (["passed", "failed", "passed", "passed"], 2),
+        (["passed", "passed", "failed", "passed"], 3),
+        (["passed", "passed", "passed", "passed"], 4),
+    ],
+)
+def test_failure_of_a_visible_check_or_else_of_a_hidden_one_ends_a_grading(monkeypatch, verdicts, looked_at):
+    fault, exercise = fault_of_joint_query()
+    hidden = [check for check in exercise.checks if check.hidden]
+    few = replace(exercise, checks=[*exercise.checks[:2], *hidden[:2]])
+    looked = []
+
+    def grade(submission, exercise, *, report, **rest):
+        for check, status in zip(exercise.checks, verdicts, strict=True):
+            looked.append(verdict_on(check, status))
+            report(looked[-1])
+        return Grade(exercise.name, fault.name, "namespaces", looked, seed=0)
+
+    monkeypatch.setattr(first_look_module, "grade", grade)
+    statuses = [check.status for check in first_look(fault, few).grade.checks]
+    assert statuses == verdicts[:looked_at] + ["not run"] * (4 - looked_at)
 
 
 def test_fault_is_the_file_that_students_write():
-    exercise = load_exercise("joint_query", hidden=True)
-    (fault,) = as_faults(mutants_of_exercise("joint_query")[:1], exercise)
+    fault, _ = fault_of_joint_query()
     assert dict(fault.read().sources) == {"joint_query.py": fault.mutant.source}
     assert fault.kind == "faulty"  # and so it shares arenas
 

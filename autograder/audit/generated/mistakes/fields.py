@@ -5,76 +5,34 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from autograder.audit.generated.messages import Messages, fields, is_list, message_class
-from autograder.audit.generated.program import Mistake, Program, last_name
+from autograder.audit.generated.interfaces import fields, message_class
+from autograder.audit.generated.program import Edits, Program, last_name
+from autograder.audit.generated.puts import copies, puts
 
 
-def leaves_a_field_out(program: Program) -> Iterator[Mistake]:
-    """A field of a message is not filled in."""
-    for put in Messages(program).puts():
-        if not _is_a_default(put.value):
-            yield Mistake((put.dropped,), f"{put.name} is left as it was")
+def leaves_a_field_out(program: Program) -> Iterator[Edits]:
+    """A field of a message is left as it was."""
+    for put in puts(program):
+        is_default = isinstance(put.value, ast.Constant) and not put.value.value
+        if not is_default and last_name(put.value) != "NONE":  # the course's codes begin with NONE=0
+            yield put.without
 
 
-def copies_some_fields(program: Program) -> Iterator[Mistake]:
-    """A message is copied field by field, and some are forgotten."""
-    for put, statement, value in Messages(program).copies():
-        names = list(fields(message_class(put.type)))
-        half = names[: (len(names) + 1) // 2]
-        for kept in [half, *([one for one in names if one != left_out] for left_out in names)]:
-            missing = ", ".join(name for name in names if name not in kept)
-            copied = ", ".join(f"{name}=whole.{name}" for name in kept)
-            lines = f"whole = {program.text(value)}", f"{put.name} = type(whole)({copied})"
-            yield Mistake(
-                (program.replace(statement, ("\n" + " " * statement.col_offset).join(lines)),),
-                f"{put.name} is copied field by field, without {missing}",
-            )
+def copies_some_fields(program: Program) -> Iterator[Edits]:
+    """A message is copied field by field, and one field is forgotten."""
+    for put, statement, message in copies(program):
+        for name in fields(message_class(put.type)):
+            copied = f"{put.place} = __import__('copy').deepcopy({message})"
+            yield {statement: f"{copied}\n{put.place}.{name} = type({put.place})().{name}"}
 
 
-def collapses_duplicates(program: Program) -> Iterator[Mistake]:
-    """What is asked for twice, or is in a list twice, is answered once."""
-    messages = Messages(program)
-    lists: list[ast.expr] = [
-        node
-        for node in program.every(ast.Attribute)
-        if isinstance(node.ctx, ast.Load)
-        and not isinstance(program.parent(node), ast.UnaryOp | ast.If)
-        and last_name(program.parent(node)) not in ("set", "bool")
-        and (owner := messages.type_of(node.value))
-        and owner.__name__.endswith("_Request")
-        and _is_plain_list(fields(owner).get(node.attr, ""))
-    ]
-    lists += [
-        put.value
-        for put in messages.puts()
-        if put.value and _is_plain_list(put.type) and put.how != "element"
-    ]
-    for node in lists:
-        text = program.text(node)
-        yield Mistake(
-            (program.replace(node, f"list(dict.fromkeys({text}))"),), f"duplicates in {text} are lost"
-        )
-
-
-def answers_with_the_goal(program: Program) -> Iterator[Mistake]:
+def answers_with_the_goal(program: Program) -> Iterator[Edits]:
     """What was asked for is given out as what was measured."""
-    messages = Messages(program)
-    for put in messages.puts():
-        if put.value is None or not message_class(put.type) or "request" in program.text(put.value):
-            continue
-        for request, its_class in messages.asked(put.value):
-            for name, kind in fields(its_class).items():
-                if kind == put.type:
-                    edit = program.replace(put.value, f"{request}.{name}")
-                    yield Mistake((edit,), f"{put.name} is {request}.{name} instead of what was measured")
-
-
-def _is_plain_list(ros_type: str) -> bool:
-    return is_list(ros_type) and "/" not in ros_type
-
-
-def _is_a_default(value: ast.expr | None) -> bool:
-    """Whether a field has this value before anything is put into it."""
-    if isinstance(value, ast.Attribute):
-        return value.attr == "NONE"  # the course's codes begin with NONE=0
-    return isinstance(value, ast.Constant) and not value.value
+    goals = [one.Goal for one in program.interfaces.classes.values() if hasattr(one, "Goal")]
+    asked = [(name, kind) for goal in goals for name, kind in fields(goal).items() if message_class(kind)]
+    for put in puts(program):
+        around = program.functions(put.value)[:1] if put.value else ()
+        handles = [one.arg for each in around for one in each.args.args if one.arg.endswith("handle")]
+        for name in [name for name, kind in asked if kind == put.type and handles]:
+            if put.value and "request" not in ast.unparse(put.value):
+                yield {put.value: f"{handles[0]}.request.{name}"}
