@@ -116,6 +116,10 @@ class Robot:
         """Measure the charge again, or no more: battery_state has a percentage of NaN then."""
         self._command("charge_sensor", connected=connected)
 
+    def set_clock(self, offset: float) -> None:
+        """Stamp all messages with the time plus `offset` (s), as after somebody has set the robot's clock."""
+        self._command("clock_offset", seconds=offset)
+
     def connect_joint_sensors(self, connected: bool = True) -> None:
         """Begin, or stop, publishing joint_states."""
         self._command("joint_sensors", connected=connected)

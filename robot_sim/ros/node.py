@@ -57,6 +57,7 @@ class HumanoidNode(Node):
         super().__init__("humanoid", namespace=namespace)
         self.humanoid = humanoid
         self.battery_sensor_connected = True
+        self.clock_offset = 0  # ns, from the system's clock to the robot's, which stamps the messages
         self.charge_measured = True  # if not, battery_state has a percentage of NaN
         self.joint_sensors_connected = True
         self.imu_connected = True
@@ -120,10 +121,12 @@ class HumanoidNode(Node):
         self._odom_message = Odometry(child_frame_id="base_link")
         self._odom_message.header.frame_id = "odom"
         design_charge = self.humanoid.battery.parameters.design_charge
+        cells = self.humanoid.battery.parameters.cells
         self._battery_message = BatteryState(
             temperature=math.nan,
             capacity=design_charge,
             design_capacity=design_charge,
+            cell_temperature=[math.nan] * cells,
             location="torso",
             serial_number="8S-0001",
             power_supply_status=BatteryState.POWER_SUPPLY_STATUS_DISCHARGING,
@@ -138,6 +141,7 @@ class HumanoidNode(Node):
             *(self._battery_message, self._state_message),
         ):
             message.header.stamp = self._stamp
+        self._battery_message.header.frame_id = "base_link"
 
     @property
     def next_due(self) -> float:
@@ -314,4 +318,5 @@ class HumanoidNode(Node):
 
     def _read_clock(self) -> None:
         """Stamp the messages: system clock."""
-        self._stamp.sec, self._stamp.nanosec = divmod(self.get_clock().now().nanoseconds, 10**9)
+        now = self.get_clock().now().nanoseconds + self.clock_offset
+        self._stamp.sec, self._stamp.nanosec = divmod(now, 10**9)

@@ -14,7 +14,7 @@ from robot_sim.ros.node import HumanoidNode
 
 COMMANDS = (
     *("push", "walk", "take_over", "set_battery", "battery_sensor", "charge_sensor"),
-    *("robot_state", "motor_power"),
+    *("robot_state", "motor_power", "clock_offset"),
     *("joint_sensors", "joint_states", "joint_readings", "imu_sensor", "gyro_bias"),
     *("move_joints", "report_arm", "reset"),
     *("hold_joint", "release_joint", "report_joints", "report_feet", "move_body"),
@@ -63,6 +63,8 @@ def apply_command(
             node.battery_sensor_connected = connected
         case {"do": "charge_sensor", "connected": connected}:
             node.charge_measured = connected
+        case {"do": "clock_offset", "seconds": seconds}:
+            node.clock_offset = round(seconds * 1e9)
         case {"do": "joint_sensors", "connected": connected}:
             node.joint_sensors_connected = connected
         case {"do": "joint_states", "reversed": is_reversed}:

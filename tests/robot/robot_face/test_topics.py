@@ -51,6 +51,10 @@ def test_a_late_subscriber_still_gets_battery_and_state(robot):
     assert battery.current < 0.0, "negative while discharging"
     assert battery.voltage > 0.0
     assert math.isnan(battery.temperature), "NaN where nothing is measured"
+    unset = BatteryState()
+    fields = {name: getattr(battery, name) for name in battery.get_fields_and_field_types()}
+    bare = [name for name, value in fields.items() if value == getattr(unset, name)]
+    assert bare == [], "a copy without this field would be taken for whole"
     state = robot.one(RobotState, "robot_state", LATCHED)
     assert (state.mode, state.motors_enabled) == (RobotState.STANDING, True)
 
