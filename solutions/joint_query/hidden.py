@@ -44,7 +44,7 @@ def _steps(random: Random) -> dict[str, Any]:
 
     def readings() -> dict[str, float]:
         names = random.sample(JOINTS, 6)
-        away = {name: round(random.uniform(-3.1, 3.1), 7) for name in names}
+        away = {name: round(random.uniform(-7.0, 7.0), 7) for name in names}
         return {**away, names[0]: 0.0, names[1]: away[names[1]] / 1000, random.choice(FINGERS): 0.0234567}
 
     def seconds(least: float, most: float) -> float:
@@ -64,7 +64,7 @@ def _steps(random: Random) -> dict[str, Any]:
             *(["ask", [*third]], ["ask", []], ["plug_in"]),
         ],
         [["ask", *random.sample(burst, MOST_AT_ONCE)]],
-        [["ask", strangers()[:1]], ["ask", mixed()], ["ask", joints()], ["ask", repeated()]],
+        [["ask", [""], strangers()[:1]], ["ask", mixed()], ["ask", joints()], ["ask", repeated()]],
         [["read", {}], ["turn", "head_pan", random.choice([-0.8, 0.8])], *keeping_on],
     ]
     random.shuffle(blocks)
