@@ -75,9 +75,9 @@ def first_look(
     arenas: SubmissionArenas | None = None,
     stop: Stop | None = None,
 ) -> AuditedRun:
-    """Grade a mutant until a visible check fails; a hidden one ends it when all visible ones have passed.
+    """Grade a mutant until a visible check fails; a hidden one ends it when all visible ones are judged.
 
-    One failure counts, since no points can be lost. The checks that nobody came to are “not run” then.
+    One failure counts, since no points can be lost. Checks that were not judged until then are “not run”.
     """
     started = time.monotonic()
     verdicts: dict[str, CheckVerdict] = {}
@@ -103,7 +103,8 @@ def first_look(
             shortens=False,
         )
     except _Plain:
-        checks = [verdicts.get(check.id) or verdict_on(check, "not run") for check in exercise.checks]
+        settled = {one.id: one for one in verdicts.values() if one.status != "error"}
+        checks = [settled.get(check.id) or verdict_on(check, "not run") for check in exercise.checks]
         isolation = available_isolation().label
         result = Grade(exercise.name, known.name, isolation, checks, seed=seed + repetition)
     return AuditedRun(known, repetition, result, time.monotonic() - started)
