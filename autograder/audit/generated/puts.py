@@ -31,14 +31,14 @@ def puts(program: Program) -> Iterator[Put]:
     """Yield what is put into fields by assignments, `append`, `extend` and constructors."""
     types = program.interfaces.types
     for target, value, without in assignments(program):
-        if last_name(target) in types and _is_of_a_message(target):
+        if last_name(target) in types and is_field(target):
             yield Put(ast.unparse(target), types[last_name(target)], value, without)
     for call in program.every(ast.Call):
         into, name = getattr(call.func, "value", call.func), last_name(call)
         if name in program.interfaces.classes or name in PARTS:
             for word in call.keywords:
                 yield Put(word.arg or "", types.get(word.arg or "", ""), word.value, program.without(word))
-        elif name in ("append", "extend") and last_name(into) in types and _is_of_a_message(into):
+        elif name in ("append", "extend") and last_name(into) in types and is_field(into):
             kind = element_of(types[last_name(into)]) if name == "append" else types[last_name(into)]
             yield Put(ast.unparse(into), kind, call.args[0], {program.statement(call): "pass"})
 
@@ -64,5 +64,6 @@ def assignments(program: Program) -> Iterator[tuple[ast.expr, ast.expr | None, E
             yield target, value, {statement: "pass"}
 
 
-def _is_of_a_message(target: ast.expr) -> bool:
+def is_field(target: ast.expr) -> bool:
+    """Whether it may be a field of a message: an attribute, but none of the node."""
     return isinstance(target, ast.Attribute) and last_name(target.value) != "self"

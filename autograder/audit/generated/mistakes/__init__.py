@@ -5,23 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from autograder.audit.generated.mistakes import clean_up, conditions, fields, memory, numbers, timing
-from autograder.audit.generated.mistakes.rewrites import REWRITES, rewritten
+from autograder.audit.generated.mistakes import clean_up, conditions, fields, memory, timing
+from autograder.audit.generated.mistakes.numbers import NUMBERS, with_wrong_numbers
+from autograder.audit.generated.mistakes.rewrites import rewrites, rewritten
 from autograder.audit.generated.program import Edits, Program
 
 Operator = Callable[[Program], Iterator[Edits]]
 
 # By name, each with its sentence. Where two make the same program it is the first one's: the general ones come last.
 OPERATORS: dict[str, tuple[str, Operator]] = {
-    **{name: (sentence, partial(rewritten, rewrites=each)) for name, (sentence, each) in REWRITES.items()},
+    **{name: (words, partial(rewritten, instead=each)) for name, (words, each) in rewrites().items()},
+    **{name: (words, partial(with_wrong_numbers, changes=each)) for name, (words, each) in NUMBERS.items()},
     **{
         operator.__name__: ((operator.__doc__ or "").rstrip("."), operator)
         for operator in (
             fields.copies_some_fields,
             fields.answers_with_the_goal,
-            numbers.rounds_a_number,
-            numbers.takes_another_unit,
-            numbers.turns_the_sign_of_a_number,
             memory.forgets_a_reset,
             memory.keeps_the_first_message,
             memory.forgets_what_is_old,

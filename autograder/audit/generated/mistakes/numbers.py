@@ -4,60 +4,44 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from autograder.audit.generated.interfaces import FLOATS, element_of, floats_in
 from autograder.audit.generated.program import Edits, Program, last_name
 from autograder.audit.generated.puts import copies, puts
 
-_COMMAND = re.compile(r"linear|angular\.")  # of which two decimals are enough
-_OTHER_UNITS = {  # by the first pattern that is found in the name of a field
-    "perc": 100,  # instead of a share
-    "time|sec": 1000,  # ms
-    "angle|yaw|roll|pitch|turn|heading|shoulder|elbow|joint_?state|angular": 57.29578,  # degrees
-    "": 100,  # cm
+Changes = dict[str, str]  # of numbers, by the first pattern that is found in the name of the field
+
+_ANGLES = "angle|yaw|roll|pitch|turn|heading|shoulder|elbow|joint_?state|angular"
+
+NUMBERS: dict[str, tuple[str, Changes]] = {
+    "rounds_a_number": (
+        "A number is rounded to two decimals",
+        {r"linear|angular\.": "{}", "": "round({}, 2)"},  # which are enough for a velocity that is asked for
+    ),
+    "takes_another_unit": (
+        "A number is in percent, milliseconds, degrees or centimetres",
+        {"perc": "100 * ({})", "time|sec": "1000 * ({})", _ANGLES: "57.29578 * ({})", "": "100 * ({})"},
+    ),
+    "turns_the_sign_of_a_number": ("A number has the wrong sign", {"": "-({})"}),
 }
 
 
-def rounds_a_number(program: Program) -> Iterator[Edits]:
-    """A number is rounded to two decimals."""
-    yield from _changed(program, lambda name, number: "" if _COMMAND.search(name) else f"round({number}, 2)")
+def with_wrong_numbers(program: Program, changes: Changes) -> Iterator[Edits]:
+    """Change each number with a fraction that is put into a message."""
 
-
-def turns_the_sign_of_a_number(program: Program) -> Iterator[Edits]:
-    """A number has the wrong sign."""
-    yield from _changed(program, lambda name, number: f"-({number})")
-
-
-def takes_another_unit(program: Program) -> Iterator[Edits]:
-    """A number is in degrees, percent, centimetres or milliseconds."""
-
-    def in_another_unit(name: str, number: str) -> str:
-        factor = next(factor for words, factor in _OTHER_UNITS.items() if re.search(words, name.lower()))
-        return f"{factor} * ({number})"
-
-    yield from _changed(program, in_another_unit)
-
-
-def _changed(program: Program, change: Callable[[str, str], str]) -> Iterator[Edits]:
-    """Change each number with a fraction that is put into a message, unless `change` of its name and source is ""."""
-
-    def changed(name: str, number: str, *, is_list: bool) -> str:
-        wrong = change(name, "each" if is_list else number)
-        return f"[{wrong} for each in {number}]" if is_list and wrong else wrong
+    def changed(field: str, number: str, *, is_list: bool) -> str:
+        change = next(change for name, change in changes.items() if re.search(name, field.lower()))
+        return f"[{change.format('each')} for each in {number}]" if is_list else change.format(number)
 
     for put in puts(program):
-        is_computed = not isinstance(put.value, ast.Constant) and last_name(put.value).lower() not in (
-            "nan",
-            "inf",
-        )
-        if put.value and is_computed and element_of(put.type) in FLOATS:
-            each = put.value.elt if isinstance(put.value, ast.ListComp) else put.value
-            is_list = put.type not in FLOATS and each is put.value
-            if wrong := changed(put.place, ast.unparse(each), is_list=is_list):
-                yield {each: wrong}
+        value = put.value.elt if isinstance(put.value, ast.ListComp) else put.value
+        is_constant = isinstance(value, ast.Constant) or last_name(value).lower() in ("nan", "inf")
+        is_list = put.type not in FLOATS and value is put.value
+        if value and not is_constant and element_of(put.type) in FLOATS:
+            yield {value: changed(put.place, ast.unparse(value), is_list=is_list)}
     for put, statement, message in copies(program):
-        for field, kind in [(f"{put.place}.{path}", kind) for path, kind in floats_in(put.type).items()]:
-            if wrong := changed(field, field, is_list=kind not in FLOATS):
-                copied = f"{put.place} = __import__('copy').deepcopy({message})"
-                yield {statement: f"{copied}\n{field} = {wrong}"}
+        for path, kind in floats_in(put.type).items():
+            field = f"{put.place}.{path}"
+            copied = f"{put.place} = __import__('copy').deepcopy({message})"
+            yield {statement: f"{copied}\n{field} = {changed(field, field, is_list=kind not in FLOATS)}"}

@@ -38,32 +38,28 @@ def restarts_the_deadline(program: Program) -> Iterator[Edits]:
         target, text, around = statement.targets[0], ast.unparse(statement), program.functions(statement)
         if not _READS_A_CLOCK.search(text) or not around or last_name(target) == "stamp":
             continue
-        for loop in program.every(ast.While, around[0]) if isinstance(target, ast.Name) else ():
-            if loop.lineno > statement.lineno and last_name(target) in _names(loop):
-                yield {loop.body[0]: f"{text}\n{ast.unparse(loop.body[0])}"}
-        if isinstance(target, ast.Attribute):
-            if program.function_name(statement) != "__init__":
-                yield {statement: "pass"}
-            for callback in callbacks(program, "subscription", "feedback", "timer"):
-                speaks_of_self_alone = all(
-                    re.fullmatch("self|time|[A-Z_]+", name) for name in _names(statement)
-                )
-                if program.parent(callback) is program.parent(around[0]) and speaks_of_self_alone:
-                    yield program.begun_with(callback, text)
+        if isinstance(target, ast.Name):
+            for loop in program.every(ast.While, around[0]):
+                if loop.lineno > statement.lineno and target.id in _names(loop):
+                    yield {loop.body[0]: f"{text}\n{ast.unparse(loop.body[0])}"}
+            continue
+        if program.function_name(statement) != "__init__":
+            yield {statement: "pass"}
+        is_of_self_alone = all(re.fullmatch("self|time|[A-Z_]+", name) for name in _names(statement))
+        for callback in callbacks(program, "subscription", "feedback", "timer") if is_of_self_alone else ():
+            if program.parent(callback) is program.parent(around[0]):
+                yield program.begun_with(callback, text)
 
 
 def _is_a_limit(program: Program, constant: ast.Constant) -> bool:
     """Whether a number is a constant of the module, one to compare with, or a time to wait."""
     parent, *above = program.above(constant)
-    if isinstance(parent, ast.keyword):
-        return (
-            parent.arg in ("timeout_sec", "seconds") and last_name(above[0]) != "spin_once"
-        )  # which is repeated
+    if isinstance(parent, ast.keyword):  # spin_once is called again and again
+        return parent.arg in ("timeout_sec", "seconds") and last_name(above[0]) != "spin_once"
     if isinstance(parent, ast.Call):
         return last_name(parent) in _TAKING_SECONDS and constant in parent.args[:1]
-    return isinstance(parent, ast.Compare) or (
-        isinstance(parent, ast.Assign) and not program.functions(parent)
-    )
+    in_module = isinstance(parent, ast.Assign) and not program.functions(parent)
+    return isinstance(parent, ast.Compare) or in_module
 
 
 def _names(node: ast.AST) -> set[str]:
