@@ -9,6 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from itertools import repeat
 from typing import Any
 
 from action_msgs.msg import GoalInfo, GoalStatus, GoalStatusArray
@@ -56,7 +57,7 @@ class GoalScript:
         after: from the goal's request to the answer.
         early_feedback: published before the answer.
         feedback: published one by one from the acceptance on, as long as the goal is active.
-        every: between two of them.
+        every: from each of them to the next; a sequence: from the first, the second, …
         ends_after: from the acceptance to the end; None: it never ends by itself.
         status: how it ends, of action_msgs/GoalStatus.
         result: the action's Result; None: an empty one.
@@ -70,7 +71,7 @@ class GoalScript:
     after: float = 0.0
     early_feedback: Sequence[Any] = ()
     feedback: Sequence[Any] = ()
-    every: float = 0.2
+    every: float | Sequence[float] = 0.2
     ends_after: float | None = 0.0
     status: int = GoalStatus.STATUS_SUCCEEDED
     result: Any = None
@@ -100,6 +101,7 @@ class ScriptedAction:
     Attributes:
         name: of the action.
         feedbacks: the number of feedback messages it has published.
+        answers: the number of goals it has accepted or rejected.
     """
 
     def __init__(
@@ -124,6 +126,7 @@ class ScriptedAction:
         self._goals: dict[bytes, _Goal] = {}
         self._withdrawn = False
         self.feedbacks = 0
+        self.answers = 0
         types = action_type.Impl
         self._services = [
             offer(node, types.SendGoalService, f"{name}/_action/send_goal", self._on_goal),
@@ -172,6 +175,7 @@ class ScriptedAction:
             self._publish_feedback(name, request.goal_id, feedback)
         await pause(self._node, script.after)
         response.accepted, response.stamp = bool(script.accepted), _now()
+        self.answers += 1
         self._log.append(ev.GoalReplySent(goal=name, accepted=response.accepted))
         if script.accepted and not self._withdrawn:
             goal = self._goals[goal_id] = _Goal(name, request.goal_id, script)
@@ -226,11 +230,13 @@ class ScriptedAction:
     # -- the life of a goal -------------------------------------------------------------------------------------------
 
     async def _send_feedback(self, goal: _Goal) -> None:
-        for feedback in goal.script.feedback:
+        every = goal.script.every
+        gaps = repeat(every) if isinstance(every, float) else every
+        for feedback, gap in zip(goal.script.feedback, gaps, strict=False):
             if goal.finished.done() or self._withdrawn:
                 return
             self._publish_feedback(goal.name, goal.info.goal_id, feedback)
-            await pause(self._node, goal.script.every)
+            await pause(self._node, gap)
 
     async def _come_to_an_end(self, goal: _Goal) -> None:
         if goal.script.ends_after is not None:

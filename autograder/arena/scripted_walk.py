@@ -1,91 +1,93 @@
-"""A scripted `walk_to`, with feedback and results of a robot that might be on its way, and what befalls its clients."""
+"""A scripted `walk_to`, and a person at its client's keyboard: what they do is data, which the checks write or draw."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from autograder.arena.client_stage import ClientStage
 from autograder.arena.poses import pose_at
 from autograder.arena.scripted_action import CancelScript, GoalScript, ScriptedAction
+from autograder.arena.sequence import Steps, carry_out
 from humanoid_interfaces.action import WalkTo
 
-ARGUMENTS = ("1.0", "0.5", "0.3")  # x m, y m, yaw rad
-ARRIVED = (1.0, 0.5, 0.3)  # m, m, rad
+ARRIVED = (0.97, 0.52, 0.31)  # m, m, rad
 ON_THE_WAY = (0.4, 0.1, 0.2)  # m, m, rad
-UNDER_WAY = 3  # feedback messages
 SOON = 15.0  # s for a goal to come
 
+# What a server does: the fields of a GoalScript, but for
+#   distances, early: of the feedback (m), instead of feedback and early_feedback
+#   final, error_code, error_msg: of the result
+#   cancel: the fields of a CancelScript
+Server = Mapping[str, Any]
 
-def offer(stage: ClientStage, **script: object) -> ScriptedAction:
-    """Offer `walk_to`; `script` are the fields of a GoalScript, by which every goal is treated."""
-    return stage.offer_action("walk_to", WalkTo, GoalScript(**script))  # type: ignore[arg-type]
 
-
-def run(stage: ClientStage, arguments: Sequence[str] = ARGUMENTS) -> None:
-    """Run the student's program to its end."""
+def in_order(stage: ClientStage, arguments: Sequence[str], server: Server | None, steps: Steps) -> None:
+    """Offer `walk_to` as the script says (None: nobody does), run the program, carry out the steps, await its end."""
+    walk_to = stage.offer_action("walk_to", WalkTo, _goal_script(**server)) if server is not None else None
     stage.start_program(arguments)
+    carry_out(stage, steps, _Person(stage, walk_to).vocabulary())
     stage.wait_for_end()
 
 
-def is_under_way(stage: ClientStage, walk_to: ScriptedAction) -> bool:
-    """Wait until there was some feedback, and return whether there was."""
-    stage.wait_until(lambda: walk_to.feedbacks >= UNDER_WAY or stage.has_ended(), SOON)
-    return walk_to.feedbacks >= UNDER_WAY
+class _Person:
+    """Waits, types, presses Ctrl-C, and ends the server; a program that has ended is left alone."""
+
+    def __init__(self, stage: ClientStage, walk_to: ScriptedAction | None) -> None:
+        self._stage, self._walk_to = stage, walk_to
+
+    def vocabulary(self) -> dict[str, Any]:
+        return {
+            "await_goal": lambda: self._await("goals"),
+            "await_answer": lambda: self._await("answers"),
+            "wait": lambda duration: self._stage.wait_until(self._stage.has_ended, duration) or None,
+            "type": lambda line: self._do(self._stage.type_line, line),
+            "end_input": lambda: self._do(self._stage.end_input),
+            "press_ctrl_c": lambda: self._do(self._stage.interrupt_program),
+            "end_server": lambda: self._do(self._walk_to.withdraw) if self._walk_to else None,
+        }
+
+    def _await(self, what: str) -> bool:
+        """Wait until the server has got a goal, or answered one; return whether it has."""
+
+        def has_come() -> int:
+            return getattr(self._walk_to, what)
+
+        self._stage.wait_until(lambda: has_come() or self._stage.has_ended(), SOON)
+        return has_come() > 0
+
+    def _do(self, act: Any, *arguments: Any) -> None:
+        if not self._stage.has_ended():
+            act(*arguments)
 
 
-def interrupt(
-    stage: ClientStage, *, ends_after: float | None = None, arrives_after: float | None = None
-) -> None:
-    """Press Ctrl-C while the robot walks; the server agrees to the cancel.
-
-    The goal is CANCELED `ends_after` s later, or it has SUCCEEDED `arrives_after` s after its acceptance; None: never.
-    """
-    cancel = CancelScript(ends_after=ends_after, result=result_at(ON_THE_WAY))
-    walk_to = offer(
-        stage, feedback=way(500), ends_after=arrives_after, result=result_at(ARRIVED), cancel=cancel
+def _goal_script(
+    distances: Sequence[float] = (),
+    early: Sequence[float] = (),
+    final: Sequence[float] = ARRIVED,
+    error_code: int = 0,
+    error_msg: str = "",
+    cancel: Mapping[str, Any] | None = None,
+    **others: Any,
+) -> GoalScript:
+    return GoalScript(
+        feedback=[_feedback(distance) for distance in distances],
+        early_feedback=[_feedback(distance) for distance in early],
+        result=_result(final, error_code, error_msg),
+        cancel=CancelScript(result=_result(ON_THE_WAY), **(cancel or {})),
+        **others,
     )
-    stage.start_program(ARGUMENTS)
-    if is_under_way(stage, walk_to):
-        stage.interrupt_program()
-    stage.wait_for_end()
 
 
-def die(stage: ClientStage) -> None:
-    """Let the server die while the robot walks."""
-    walk_to = offer(stage, feedback=way(500), ends_after=None)
-    stage.start_program(ARGUMENTS)
-    if is_under_way(stage, walk_to):
-        walk_to.withdraw()
-    stage.wait_for_end()
-
-
-def send_early_feedback(stage: ClientStage, distance: float) -> None:
-    """Send feedback of this distance (m) a second before the goal is accepted."""
-    offer(
-        stage,
-        early_feedback=[feedback(distance)],
-        after=1.0,
-        feedback=way(5),
-        ends_after=1.0,
-        result=result_at(ARRIVED),
-    )
-    run(stage)
-
-
-def way(messages: int) -> list[WalkTo.Feedback]:
-    """Return the feedback of a robot that comes nearer and never arrives."""
-    return [feedback(1.1 * 0.9**number) for number in range(messages)]
-
-
-def feedback(distance: float) -> WalkTo.Feedback:
-    """Return the feedback of a robot so far (m) from its goal."""
+def _feedback(distance: float) -> WalkTo.Feedback:
     message = WalkTo.Feedback(distance_remaining=distance)
     message.current_pose.header.frame_id = "odom"
     message.current_pose.pose.orientation.w = 1.0
     return message
 
 
-def result_at(final: Sequence[float]) -> WalkTo.Result:
-    """Return the result of a walk that ended at a pose (m, m, rad)."""
+def _result(final: Sequence[float], error_code: int = 0, error_msg: str = "") -> WalkTo.Result:
     x, y, yaw = final
-    return WalkTo.Result(final_pose=pose_at(x, y, yaw), total_steps=9)
+    return WalkTo.Result(
+        final_pose=pose_at(x, y, yaw), total_steps=9, error_code=error_code, error_msg=error_msg
+    )

@@ -1,18 +1,16 @@
-"""Requirements on a client of a scripted action: what it sent, when it gave up, whom it cancelled, what it printed."""
+"""Requirements on a client of a scripted action: what it sent, whom it cancelled, how it ended, what it printed."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 
 from autograder.authoring import events as ev
-from autograder.authoring.client_checks import SLACK, require_end
+from autograder.authoring.client_checks import require_end
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.missing import Missing, unseen
 from autograder.authoring.scripted_goal import ScriptedCancel, ScriptedGoal
 from autograder.authoring.transcript import Transcript
 
-PROMPT_SLACK = 0.5  # s on the arena's clock: 0.1 s of real time at scale 5, on a busy machine
 GAVE_UP = 1  # the exit status of a client that has heard nothing for too long
 LIVELY = 4.0  # s since the last feedback, in which a goal is not silent yet
 MANY_NUMBERS = 20  # in one line
@@ -65,7 +63,7 @@ def require_goal_finished(run: Transcript, goal: ScriptedGoal, status: int) -> e
         raise Failure(
             expected="a client that follows the goal to its end",
             observed=f"it ended with status {exited.returncode} at {exited.t:.1f} s, while the goal was under way",
-            help=_why_it_left(goal, exited),
+            help=why_it_left(goal, exited),
             at=exited.t,
         )
     if goal.finished is None or goal.finished.status != status:
@@ -78,7 +76,7 @@ def require_goal_finished(run: Transcript, goal: ScriptedGoal, status: int) -> e
     return goal.finished
 
 
-def _why_it_left(goal: ScriptedGoal, exited: ev.NodeExited) -> str:
+def why_it_left(goal: ScriptedGoal, exited: ev.NodeExited) -> str:
     """Return what to do about a client that left its goal, by what it was told last."""
     heard = [feedback.t for feedback in goal.feedback if feedback.t < exited.t]
     if exited.returncode == GAVE_UP and heard and exited.t - heard[-1] < LIVELY:
@@ -152,21 +150,6 @@ def require_refused_cancel(goal: ScriptedGoal, run: Transcript, return_code: int
     return reply
 
 
-def require_said(
-    run: Transcript, words: re.Pattern[str], since: float, until: float, *, expected: str, help: str
-) -> None:
-    """Require a line, on either stream, that holds one of these words and came between two times (s)."""
-    lines = [event.text for event in run.all(ev.NodeOutput) if since <= event.t <= until]
-    if not any(words.search(line) for line in lines):
-        others = [line for line in lines if not NUMBER.search(line)]
-        raise Failure(
-            expected=expected,
-            observed=" | ".join((others or lines)[:4]) or "nothing was printed meanwhile",
-            help=help,
-            at=until,
-        )
-
-
 def require_no_cancel(goal: ScriptedGoal, *, because: str) -> None:
     """Require that the client cancelled nothing."""
     if goal.cancels:
@@ -178,19 +161,26 @@ def require_no_cancel(goal: ScriptedGoal, *, because: str) -> None:
         )
 
 
+def why_not_this_status(run: Transcript, exited: ev.NodeExited, help: str) -> tuple[str, str]:
+    """Return how it ended with a status that is not the right one, and what to do: `help`, if nothing else shows."""
+    if _HELD_INPUT in run.output("stderr"):
+        return f"exit status {exited.returncode}; Python aborted", _NO_INPUT
+    lost = exited.returncode == 0 and bool(run.last_words)  # it failed and said so, but not with its status
+    said = f"exit status {exited.returncode}; the last line on stderr: {run.last_words or 'none'}"
+    return said, _LOST_STATUS if lost else help
+
+
 def require_exit(
     run: Transcript, within: float, status: int, *, because: str, stream: str, help: str
 ) -> ev.NodeExited:
     """Require that the program ended in time with a status and a line on a stream, and printed no traceback."""
     exited = require_end(run, within)
-    held_input = _HELD_INPUT in run.output("stderr")
-    lost = exited.returncode == 0 and bool(run.last_words)  # it failed and said so, but not with its status
+    observed, help = why_not_this_status(run, exited, help)
     expect(
         exited.returncode == status,
         expected=f"exit status {status}: {because}",
-        observed=f"exit status {exited.returncode}; "
-        + ("Python aborted" if held_input else f"the last line on stderr: {run.last_words or 'none'}"),
-        help=_NO_INPUT if held_input else _LOST_STATUS if lost else help,
+        observed=observed,
+        help=help,
         at=exited.t,
     )
     expect(
@@ -210,69 +200,7 @@ def require_exit(
     return exited
 
 
-def require_numbers(
-    lines: Sequence[str], wanted: Sequence[float], *, what: str, help: str, at: float
-) -> None:
-    """Require that the numbers stand in the lines, in this order, each in a line of its own, rounded to 0.01."""
-    rest = iter(lines)
-    for number in wanted:
-        if not any(has_number(line, number) for line in rest):
-            raise Failure(
-                expected=f"{what}: a line with {number:.2f}",
-                observed=" | ".join(lines[:6]) or "nothing on stdout",
-                help=help,
-                at=at,
-            )
-
-
-def require_prompt_numbers(
-    run: Transcript, sent: Sequence[tuple[float, float]], delay: float, *, help: str
-) -> None:
-    """Require that each number stands in a line on stdout at most `delay` s after its time; `sent`: (s, number)."""
-    lines = iter([event for event in run.all(ev.NodeOutput) if event.stream == "stdout"])
-    for at, number in sent:
-        line = next((line for line in lines if has_number(line.text, number)), None)
-        took = "it never came" if line is None else f"it came {line.t - at:.1f} s after it"
-        if line is None or line.t - at > delay + PROMPT_SLACK:
-            raise Failure(
-                expected=f"a line with {number:.2f} at most {delay:g} s after the feedback",
-                observed=took,
-                help=help,
-                at=at,
-            )
-
-
 def has_number(line: str, number: float) -> bool:
     """Return whether a number, rounded to 0.01 or better, stands in a line that is not a whole table of them."""
     numbers = NUMBER.findall(line)
     return len(numbers) <= MANY_NUMBERS and any(abs(float(found) - number) <= 0.0101 for found in numbers)
-
-
-def require_no_flood(run: Transcript, most: int, at: float) -> None:
-    """Require at most so many lines on stdout with a number: some line of a flood always has the one looked for."""
-    lines = sum(bool(NUMBER.search(line)) for line in run.output("stdout").splitlines())
-    expect(
-        lines <= most,
-        expected=f"at most {most} lines with numbers on stdout",
-        observed=f"{lines}",
-        help="Print one line for each feedback, in the feedback callback and nowhere else.",
-        at=at,
-    )
-
-
-def heard_last(run: Transcript, goal: ScriptedGoal) -> float:
-    """Return when (s) the client last heard of the goal: its answer, or feedback."""
-    heard = [goal.received.t, *(feedback.t for feedback in goal.feedback)]
-    return max([*heard, goal.reply.t] if goal.reply else heard)
-
-
-def require_patience(run: Transcript, since: float, until: float, patience: float, *, what: str) -> None:
-    """Require that the client waited so long (s) in silence, not much shorter and not much longer."""
-    waited = until - since
-    expect(
-        patience - 0.5 <= waited <= patience + SLACK,
-        expected=f"{what} {patience:g} s after it last heard of the server",
-        observed=f"{waited:.1f} s after it",
-        help=f"Note the time of the acceptance and of each feedback, and give up when the last is {patience:g} s old.",
-        at=until,
-    )

@@ -2,207 +2,174 @@
 
 from __future__ import annotations
 
-import random
+from functools import partial
+from random import Random
+from typing import Any
 
-from action_msgs.srv import CancelGoal
-
-from autograder.authoring import events as ev
-from autograder.authoring.action_client_checks import require_one_goal, require_single_cancel
-from autograder.authoring.checks import check, program
-from autograder.authoring.missing import unseen
-from autograder.authoring.transcript import Transcript
-from autograder.authoring.walking.client import (
-    WALK,
-    GoalStatus,
-    require_abort,
-    require_goal_at,
-    require_rejection,
-    require_success,
-    require_success_after_early_feedback,
-    require_usage,
-)
-from autograder.authoring.walking.silence import (
-    require_death_noticed,
-    require_no_answer_noticed,
-    require_silence_on_the_way_noticed,
+from autograder.authoring.checks import program
+from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.client_scenarios import (
+    ABORTED,
+    ABORTING,
+    EARLY_FEEDBACK,
+    UNANSWERED,
+    WRONG_ARGUMENTS,
+    any_course,
+    any_walk,
+    ctrl_c,
+    silence_on_the_way,
+    typed,
+    walk,
+    way,
 )
 
-from .checks import (
-    WITHIN,
-    believes_the_end,
-    gives_up_in_silence,
-    gives_up_without_a_server,
-    goes_on_at_the_end_of_input,
-    prints_feedback_at_once,
-    q_cancels_the_goal,
-    remembers_an_early_q,
-    reports_a_refusal,
-    walks,
+from . import checks, model
+from .checks import AGREED_AND_OVER, ARRIVES
+
+
+def _ctrl_c_after_q(random: Random) -> dict[str, Any]:
+    """Ctrl-C comes after a q that was agreed to, refused or not answered, and the goal SUCCEEDED all the same."""
+    cancel = random.choice([{"ends_after": None}, {"agreed": False}, {"agreed": None}])
+    return ctrl_c(random, {"ends_after": 4.2, "cancel": cancel}, "q")
+
+
+ANY_WALK = program("in_order", any_walk, namespace="/lab_7/robot")
+ANY_COURSE = program("in_order", lambda random: any_course(random, types=True))
+WRONG = program(
+    "in_order",
+    lambda random: {"arguments": random.choice(WRONG_ARGUMENTS), "server": {}, "steps": []},
 )
-from .judging import (
-    require_agreed,
-    require_canceled_by_q,
-    require_told_refusal,
-    require_typed,
-    require_walk_without_q,
+REJECTED_EARLY = walk({"accepted": False, "after": 2.0}, ["await_goal"], ["type", "q"])
+ABORTED_ANYWAY = walk(
+    {**AGREED_AND_OVER, "status": ABORTED, "error_msg": "it fell while it stopped"}, *typed("q")
+)
+TOO_LATE = walk({"distances": way(3), "ends_after": 1.0, "result_after": 2.5}, *typed("q", after=1.3))
+DEAF = walk({"distances": way(60), "ends_after": 8.0, "cancel": {"agreed": None}}, *typed("q"))
+CTRL_C_AFTER_Q = program("in_order", _ctrl_c_after_q)
+TWICE = walk({**ARRIVES, "cancel": {"ends_after": 2.5}}, *typed("q", "q", "q"))
+OTHER_LINES = walk(ARRIVES, *typed("", "quit", "stop"))
+NO_INPUT = walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, ["end_input"])
+SILENT_ON_THE_WAY = program("in_order", lambda random: silence_on_the_way(random, types=True))
+
+for_a_point = partial(check_of, points=1)
+
+walks_anywhere = for_a_point(
+    "walks_anywhere",
+    model.sends_one_goal,
+    model.follows_its_goal(1),
+    title="Another namespace, another pose with negative numbers",
+    on=ANY_WALK,
+    needs=checks.walks,
+    see="01_robot_and_graph#names-why",
 )
 
-
-def _any_walk(generator: random.Random) -> dict:
-    """A pose with negative numbers, feedback that falls, and an end beside the pose."""
-    pose = [-round(generator.uniform(0.3, 2.0), 2), round(generator.uniform(-2.0, -0.3), 2)]
-    pose += [round(generator.uniform(-3.0, 3.0), 2)]
-    distances = sorted((round(generator.uniform(0.05, 2.5), 2) for _ in range(8)), reverse=True)
-    distances[4] = round(distances[3] + generator.uniform(0.1, 0.5), 2)  # a detour
-    final = [round(value + generator.uniform(-0.08, 0.08), 2) for value in pose[:2]]
-    return {"arguments": [str(value) for value in pose], "distances": distances, "final": [*final, pose[2]]}
-
-
-ANY_WALK = program("good", _any_walk, namespace="/lab_7/robot")
-TOO_FEW = program("without_node", {"arguments": ["1.0"]})
-ABORTING = program("aborting", {"error_code": 1, "error_msg": "the robot fell at x 0.42 m"})
-REJECTED_EARLY = program("typed_early", {"accepted": False})
-ABORTED_ANYWAY = program(
-    "agreed_and_over", {"status": GoalStatus.STATUS_ABORTED, "error_msg": "it fell while it stopped"}
+refuses_wrong_arguments = for_a_point(
+    "refuses_wrong_arguments",
+    model.refuses_what_is_no_pose,
+    on=WRONG,
+    needs=checks.walks,
+    see="03_clients_that_survive#fix-frame",
 )
-TOO_LATE = program("too_late")
-DEAF = program("deaf_to_cancels")
-TWICE = program("typed", {"lines": ["q", "q", "q"], "ends_after": 2.5})
-OTHER_LINES = program("typed", {"lines": ["", "w", "stop"], "ends_after": 1.0})
-NO_INPUT = program("end_of_input", {"at_once": True})
-UNANSWERED = program("unanswered")
-FALLING_SILENT = program("falling_silent")
-DYING = program("dying")
-EARLY = program("early_feedback", lambda generator: {"distance": round(generator.uniform(3.0, 9.0), 2)})
 
+tells_an_abort = for_a_point(
+    "tells_an_abort",
+    model.follows_its_goal(1),
+    title="An aborted goal ends it with status 3, and error_msg stands on stderr",
+    on=ABORTING,
+    needs=checks.walks,
+    see="06_walk_to_a_pose#hopeful-why",
+)
 
-@check(points=1, on=ANY_WALK, needs=walks, see="01_robot_and_graph#names-why", clauses=[1])
-def walks_anywhere(run: Transcript) -> None:
-    """Another namespace, another pose with negative numbers"""
-    require_success(run, require_goal_at(run, *map(float, run.params["arguments"])), WITHIN)
-
-
-@check(points=1, on=TOO_FEW, needs=walks, see="03_clients_that_survive#fix-frame", clauses=[1])
-def refuses_wrong_arguments(run: Transcript) -> None:
-    """Wrong arguments end it with status 2 and the usage, before a node is started"""
-    require_usage(run, WITHIN)
-
-
-@check(points=1, on=ABORTING, needs=walks, see="06_walk_to_a_pose#hopeful-why", clauses=[1])
-def tells_an_abort(run: Transcript) -> None:
-    """An aborted goal ends it with status 3, and error_msg stands on stderr"""
-    require_abort(run, WITHIN)
-
-
-@check(
-    points=1,
+a_rejected_goal_needs_no_cancel = for_a_point(
+    "a_rejected_goal_needs_no_cancel",
+    model.follows_its_goal(1, 4),
+    title="A goal that is rejected after a q ends it with status 2",
     on=REJECTED_EARLY,
-    needs=remembers_an_early_q,
+    needs=checks.remembers_an_early_q,
     see="06_walk_to_a_pose#reject-task",
-    clauses=[1, 4],
 )
-def a_rejected_goal_needs_no_cancel(run: Transcript) -> None:
-    """A goal that is rejected after a q ends it with status 2"""
-    require_typed(run)
-    require_rejection(run, WITHIN)
 
-
-@check(
-    points=1,
+tells_an_abort_after_q = for_a_point(
+    "tells_an_abort_after_q",
+    model.follows_its_goal(3),
+    title="A goal that is ABORTED after the server had agreed to cancel it ends it with status 3",
     on=ABORTED_ANYWAY,
-    needs=[believes_the_end, tells_an_abort],
+    needs=[checks.believes_the_end, tells_an_abort],
     see="07_cancel_and_preempt#late-why",
-    clauses=[3],
 )
-def tells_an_abort_after_q(run: Transcript) -> None:
-    """A goal that is ABORTED after the server had agreed to cancel it ends it with status 3"""
-    require_agreed(run, GoalStatus.STATUS_ABORTED)
-    require_abort(run, WITHIN)
 
-
-@check(points=2, on=TOO_LATE, needs=reports_a_refusal, see="07_cancel_and_preempt#late-why", clauses=[3, 7])
-def reports_a_late_cancel(run: Transcript) -> None:
-    """A cancel that comes when the goal has ended (code 3) is reported, and the goal's end decides"""
-    goal = require_told_refusal(
-        run,
-        CancelGoal.Response.ERROR_GOAL_TERMINATED,
-        when="because the return_code was ERROR_GOAL_TERMINATED",
-        help="Every answer without your goal in goals_canceling is a refusal, whatever its return_code.",
-    )
-    require_success(run, goal, WITHIN, canceled=True)
-
-
-@check(points=2, on=DEAF, needs=q_cancels_the_goal, see="03_clients_that_survive#kill-why", clauses=[8])
-def does_not_wait_for_the_answer(run: Transcript) -> None:
-    """A cancel that gets no answer holds up nothing: the goal is followed to its end"""
-    goal = require_one_goal(run, WALK)
-    require_typed(run)
-    cancel = require_single_cancel(run, goal, because="you typed q", help="Call cancel_goal_async() at a q.")
-    if cancel.reply is not None:
-        raise unseen(run, "the cancel was answered")
-    require_success(run, goal, WITHIN, canceled=True)
-
-
-@check(points=1, on=TWICE, needs=q_cancels_the_goal, see="07_cancel_and_preempt#late-why", clauses=[2])
-def cancels_once(run: Transcript) -> None:
-    """However often q is typed, the goal is cancelled once"""
-    if len(run.all(ev.NodeTyped)) < 2:
-        raise unseen(run, "q was typed only once")
-    require_canceled_by_q(run, WITHIN)
-
-
-@check(
-    points=1, on=OTHER_LINES, needs=q_cancels_the_goal, see="07_cancel_and_preempt#button-code", clauses=[5]
+reports_a_late_cancel = check_of(
+    "reports_a_late_cancel",
+    model.follows_its_goal(3, 7),
+    model.says_what_was_refused,
+    title="A cancel that comes when the goal has ended (code 3) is reported, and the goal's end decides",
+    points=2,
+    on=TOO_LATE,
+    needs=checks.reports_a_refusal,
+    see="07_cancel_and_preempt#late-why",
 )
-def other_lines_cancel_nothing(run: Transcript) -> None:
-    """Only q cancels: an empty line or another word does not"""
-    require_walk_without_q(run, WITHIN)
 
-
-@check(
-    points=1,
-    on=NO_INPUT,
-    needs=goes_on_at_the_end_of_input,
-    see="07_cancel_and_preempt#button-code",
-    clauses=[5],
-)
-def walks_without_an_input(run: Transcript) -> None:
-    """Started where there is no input, it walks all the same"""
-    require_walk_without_q(run, WITHIN)
-
-
-@check(
-    points=1,
-    on=UNANSWERED,
-    needs=[walks, gives_up_without_a_server],
-    see="03_clients_that_survive#fix-why",
-    clauses=[1],
-)
-def gives_up_without_an_answer(run: Transcript) -> None:
-    """A goal that is never answered ends it with status 1 after 5 s"""
-    require_no_answer_noticed(run)
-
-
-@check(
-    points=1,
-    on=[FALLING_SILENT, DYING],
-    needs=gives_up_in_silence,
+does_not_wait_for_the_answer = check_of(
+    "does_not_wait_for_the_answer",
+    model.follows_its_goal(3, 8),
+    title="A cancel that gets no answer holds up nothing; after a q, too, Ctrl-C ends it with status 4 in any case",
+    points=2,
+    on=[DEAF, CTRL_C_AFTER_Q],
+    needs=[checks.q_cancels_the_goal, checks.ctrl_c_cancels_the_goal],
     see="03_clients_that_survive#kill-why",
-    clauses=[1],
 )
-def notices_silence_on_the_way(silent: Transcript, dying: Transcript) -> None:
-    """A server that falls silent or dies on the way ends it with status 1, 5 s after the last feedback"""
-    require_silence_on_the_way_noticed(silent)
-    require_death_noticed(dying)
 
+cancels_once = for_a_point(
+    "cancels_once",
+    model.follows_its_goal(2),
+    title="However often q is typed, the goal is cancelled once",
+    on=TWICE,
+    needs=checks.q_cancels_the_goal,
+    see="07_cancel_and_preempt#late-why",
+)
 
-@check(
-    points=1,
-    on=EARLY,
-    needs=[walks, prints_feedback_at_once],
+other_lines_cancel_nothing = for_a_point(
+    "other_lines_cancel_nothing",
+    model.follows_its_goal(5),
+    title="Only q cancels: an empty line or another word, such as quit, does not",
+    on=OTHER_LINES,
+    needs=checks.q_cancels_the_goal,
+    see="07_cancel_and_preempt#button-code",
+)
+
+walks_without_an_input = for_a_point(
+    "walks_without_an_input",
+    model.follows_its_goal(5),
+    title="Started where there is no input, it walks all the same",
+    on=NO_INPUT,
+    needs=checks.goes_on_at_the_end_of_input,
+    see="07_cancel_and_preempt#button-code",
+)
+
+gives_up_without_an_answer = for_a_point(
+    "gives_up_without_an_answer",
+    model.follows_its_goal(1),
+    title="A goal that is never answered ends it with status 1 after 5 s",
+    on=UNANSWERED,
+    needs=[checks.walks, checks.gives_up_without_a_server],
+    see="03_clients_that_survive#fix-why",
+)
+
+notices_silence_on_the_way = for_a_point(
+    "notices_silence_on_the_way",
+    model.holds_whatever_happens,
+    title="A server that falls silent or dies on the way ends it with status 1, after a q, too; whatever happens, "
+    "every clause holds",
+    on=[SILENT_ON_THE_WAY, ANY_COURSE],
+    needs=[checks.gives_up_in_silence, checks.ctrl_c_cancels_the_goal],
+    see="03_clients_that_survive#kill-why",
+)
+
+survives_early_feedback = for_a_point(
+    "survives_early_feedback",
+    model.follows_its_goal(1),
+    title="Feedback that comes before the goal is accepted disturbs nothing",
+    on=EARLY_FEEDBACK,
+    needs=[checks.walks, checks.prints_feedback_at_once],
     see="06_walk_to_a_pose#slow-end-why",
-    clauses=[1],
 )
-def survives_early_feedback(run: Transcript) -> None:
-    """Feedback that comes before the goal is accepted disturbs nothing"""
-    require_success_after_early_feedback(run, WITHIN)
