@@ -2,50 +2,43 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from autograder.authoring import events as ev
 from autograder.authoring.call import Request
+from autograder.authoring.fields import shown_fields
 from autograder.authoring.transcript import Transcript
 
-ENABLE, STATUS = "enable_motors", "get_status"
-TYPES = {ENABLE: "std_srvs/srv/SetBool", STATUS: "std_srvs/srv/Trigger"}
-SOONEST = 1.5  # s between a request and its repetition; 2 s are asked for
+from .truth import ENABLE, STATUS, offered
+
+SOONEST = 1.5  # s between a request and its repetition, or for a search; 2 s are asked for
 TRACEBACK = "Traceback (most recent call last)"
-
-
-@dataclass(frozen=True)
-class Advice:
-    """What the record knows of a fault, and what to do."""
-
-    observed: str
-    help: str
+Advice = tuple[str, str]  # what the record knows of a fault, and what to do
 
 
 def why_it_hung(run: Transcript) -> Advice:
     """Say of a program that has not ended by itself what it waits for."""
-    last = _last_request(run)
+    requests = [*run.requests(ENABLE), *run.requests(STATUS)]
+    last = max(requests, key=lambda request: request.received.t, default=None)
     if last is None:
-        return Advice("It hung before any request was sent (wait_for_service).", _LIMIT_THE_FINDING)
+        return ("It hung before any request was sent (wait_for_service).", _LIMIT_THE_FINDING)
     service, number = last.received.service, len(run.requests(last.received.service))
     if number > 2:
-        return Advice(
+        return (
             f"It sent {number} requests to {service} and went on asking.",
             "Ask once more, then give up: `for _ in range(2)` ends, `while` need not.",
         )
     if last.reply is None:
         return _waiting_for_an_answer(run, last, number)
     if service == STATUS:
-        return Advice(
+        return (
             "It went on after get_status had answered.",
             "Return from main() when the status is printed: spin no longer, and end every thread of your own.",
         )
-    if not _offers(run, STATUS):
-        return Advice(
+    if not offered(run, STATUS):
+        return (
             "It hung after enable_motors had answered, while nobody offered get_status (wait_for_service).",
             _LIMIT_THE_FINDING,
         )
-    return Advice(
+    return (
         "It hung after enable_motors had answered, and never asked get_status.",
         "The answer came and your node did not take it: spin the node while you wait for a future, and do not wait "
         "in a callback, which keeps the node from spinning.",
@@ -55,13 +48,22 @@ def why_it_hung(run: Transcript) -> Advice:
 def why_it_failed(run: Transcript, exited: ev.NodeExited) -> Advice:
     """Say of a program whose servers were there why its exit status is not 0."""
     status = exited.returncode
-    if _crashed(run):
-        return _crash(run, exited)
+    if TRACEBACK in run.output("stderr"):
+        return (
+            f"An exception ended it with status {status}: {run.last_words}",
+            "Nobody catches that exception: the end of the log names the line of your file that raised it.",
+        )
     if not run.requests(ENABLE):
         return _never_asked(run, ENABLE, status)
     if not run.requests(STATUS):
         return _gave_up_early(run, ENABLE, exited) or _never_asked(run, STATUS, status)
-    return _gave_up_early(run, STATUS, exited) or Advice(
+    if answer := _odd_answer(run, gave_up_at(run, exited)):
+        return (
+            f"Status {status}, although get_status has answered {answer}.",
+            "An answer is an answer, also where its message is empty or its success false: print it, and return 0. "
+            "Only enable_motors can refuse.",
+        )
+    return _gave_up_early(run, STATUS, exited) or (
         f"Status {status}, although both services have answered.",
         "Return 0 from main() when the answers have come, and end the file with sys.exit(main()).",
     )
@@ -70,19 +72,20 @@ def why_it_failed(run: Transcript, exited: ev.NodeExited) -> Advice:
 def why_not_one(run: Transcript, exited: ev.NodeExited) -> Advice:
     """Say of a program that had to give up with exit status 1 why it ended with another one."""
     status = exited.returncode
-    if status == 0 and _is_refused(run) and run.requests(STATUS):
-        return Advice(
+    refused = any(each.reply and not each.reply.response.success for each in run.requests(ENABLE))
+    if status == 0 and refused and run.requests(STATUS):
+        return (
             "You asked get_status although enable_motors answered success: false.",
             "Look at response.success and return 1.",
         )
     if status == 0:
-        return Advice(
+        return (
             f"Status 0, which says that all went well; the last line on stderr: {run.last_words or 'none'}",
             "Return 1 from main() and end the file with sys.exit(main()): without that line Python ends with 0.",
         )
     if status < 0:
-        return Advice(f"Signal {-status} ended it.", "Read the end of the log: it says what happened last.")
-    return Advice(
+        return (f"Signal {-status} ended it.", "Read the end of the log: it says what happened last.")
+    return (
         f"Status {status}; the last line on stderr: {run.last_words or 'none'}",
         "Return 1 where a service is missing, refuses or is silent. 2 to 4 are for goals of actions.",
     )
@@ -100,75 +103,53 @@ _LIMIT_THE_ANSWER = (
 def _waiting_for_an_answer(run: Transcript, last: Request, number: int) -> Advice:
     service = last.received.service
     if any(gone.server == last.received.server for gone in run.all(ev.ServiceWithdrawn)):
-        return Advice(
+        return (
             f"It hung after request {number} to {service} was sent, when the server had died.",
             "Give every wait a limit, the one for the answer and the one for the server to come back: it may never.",
         )
-    return Advice(
-        f"It hung after request {number} to {service} was sent (waiting for its answer).", _LIMIT_THE_ANSWER
-    )
-
-
-def _crashed(run: Transcript) -> bool:
-    return TRACEBACK in run.output("stderr")
-
-
-def _crash(run: Transcript, exited: ev.NodeExited) -> Advice:
-    return Advice(
-        f"An exception ended it with status {exited.returncode}: {run.last_words}",
-        "Nobody catches that exception: the end of the log names the line of your file that raised it.",
+    return (
+        f"It hung after request {number} to {service} was sent (waiting for its answer).",
+        _LIMIT_THE_ANSWER,
     )
 
 
 def _never_asked(run: Transcript, service: str, status: int) -> Advice:
-    if _offers(run, service) > 1:
-        return Advice(
-            f"Status {status}, and {service} was never asked, although {_offers(run, service)} servers offer it.",
+    if (servers := len({each.server for each in offered(run, service)})) > 1:
+        return (
+            f"Status {status}, and {service} was never asked, although {servers} servers offer it.",
             "Any server of that name will do: send the request, and take the first answer.",
         )
     if status == 0:
-        return Advice(
+        return (
             f"Status 0, and {service} was never asked.",
             "Send the request, and wait for the answer before you return 0.",
         )
-    return Advice(
+    return (
         f"Status {status}, and {service} was never asked; the last line on stderr: {run.last_words or 'none'}",
         "Compare the client's name and type with the task, letter by letter: wait_for_service finds no other.",
     )
 
 
+def _odd_answer(run: Transcript, by: float) -> str:
+    """Return an answer of get_status (by a time, s) that is empty or not a success, in words; "" if none is."""
+    replies = [each.reply for each in run.requests(STATUS) if each.reply and each.reply.t <= by]
+    odd = [reply.response for reply in replies if not (reply.response.success and reply.response.message)]
+    return shown_fields(odd[-1], "success", "message") if odd else ""
+
+
 def _gave_up_early(run: Transcript, service: str, exited: ev.NodeExited) -> Advice | None:
     """Say why the answer of a service was not waited for or not used; None if nothing speaks for that."""
     requests, status = run.requests(service), exited.returncode
-    first, last = requests[0], requests[-1]
-    first_reply = first.reply
-    if len(requests) > 1:
-        pause = requests[1].received.t - first.received.t
-        if pause < SOONEST:
-            return Advice(
-                f"It waited only {pause:.1f} s for the answer to request 1 to {service}.", _TWO_SECONDS
-            )
-        if first_reply and first_reply.t < requests[1].received.t:
-            return Advice(
-                f"{service} answered request 1 after {first_reply.t - first.received.t:.1f} s, and was asked again "
-                "all the same.",
-                "Take answers for all of the 2 s: spin the node while you wait. time.sleep takes none.",
-            )
-    elif first_reply is None:
-        return Advice(
-            f"Status {status} after one request to {service}: the second one, which would have been answered, was "
-            "never sent.",
-            "When no answer has come within 2 s, remove that request and send it once more before you give up.",
-        )
+    last = requests[-1]
     gave_up = gave_up_at(run, exited)
     if last.reply is None or last.reply.t > gave_up:
-        return Advice(
+        return (
             f"It gave up {gave_up - last.received.t:.1f} s after request {len(requests)} to {service}, before the "
             "answer came.",
             _TWO_SECONDS,
         )
     if len(requests) > 1:
-        return Advice(
+        return (
             f"Status {status}, although request {len(requests)} to {service} was answered.",
             "An answer to the second request counts like one to the first: look at future.done() after each.",
         )
@@ -178,25 +159,9 @@ def _gave_up_early(run: Transcript, service: str, exited: ev.NodeExited) -> Advi
 _TWO_SECONDS = "An answer may take 2 s, each time: wait with timeout_sec=2.0."
 
 
-def _last_request(run: Transcript) -> Request | None:
-    requests = [*run.requests(ENABLE), *run.requests(STATUS)]
-    return max(requests, key=lambda request: request.received.t, default=None)
-
-
 def gave_up_at(run: Transcript, exited: ev.NodeExited) -> float:
     """Return when it said so on stderr; ending takes a while longer."""
     return max((line.t for line in run.all(ev.NodeOutput) if line.stream == "stderr"), default=exited.t)
-
-
-def _offers(run: Transcript, service: str) -> int:
-    """Return how many servers with the task's type offered a service."""
-    return len(
-        {e.server for e in run.all(ev.ServiceOffered) if (e.service, e.type) == (service, TYPES[service])}
-    )
-
-
-def _is_refused(run: Transcript) -> bool:
-    return any(request.reply and not request.reply.response.success for request in run.requests(ENABLE))
 
 
 def how_to_print_one(run: Transcript, lines: int, prefix: str) -> str:

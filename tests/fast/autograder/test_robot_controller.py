@@ -15,6 +15,7 @@ MODEL = exercise_module("robot_controller", "model")
 ENABLE, STATUS = "enable_motors", "get_status"
 ON = SetBool.Response(success=True, message="the motors are on")
 REFUSED = SetBool.Response(success=False, message="the emergency stop is pressed")
+EMPTY = Trigger.Response(success=True)
 STATUS_ON = Trigger.Response(success=True, message="Motors: ON")
 TRACEBACK = (
     "Traceback (most recent call last):",
@@ -144,7 +145,7 @@ def test_a_program_that_hangs_is_not_told_that_it_gave_up():
         ),
         (
             [BOTH, asked(ENABLE, 2.0, 3.0), asked(ENABLE, 2.5), ended(3.1, 1)],
-            "It waited only 0.5 s for the answer to request 1 to enable_motors",
+            "0.5 s after it",
             "timeout_sec=2.0",
         ),
         (
@@ -161,13 +162,18 @@ def test_a_program_that_hangs_is_not_told_that_it_gave_up():
         ),
         (
             [BOTH, asked(ENABLE, 2.0, 3.0), asked(ENABLE, 4.0, 5.0), ended(6.0, 1)],
-            "enable_motors answered request 1 after 1.0 s, and was asked again all the same",
+            "2 requests: the first was answered after 1.0 s",
             "time.sleep takes none",
         ),
         (
             [BOTH, ENABLED, asked(STATUS, 3.0, 3.1), PRINTED, ended(3.2, 1)],
             "Status 1, although both services have answered",
             "Return 0 from main()",
+        ),
+        (
+            [BOTH, ENABLED, asked(STATUS, 3.0, 3.1, EMPTY), said(3.2, "no status"), ended(3.3, 1)],
+            "Status 1, although get_status has answered success: true, message: ''.",
+            "also where its message is empty",
         ),
         (
             [BOTH, ENABLED, said(3.0, *TRACEBACK), ended(3.2, 1)],
@@ -318,7 +324,7 @@ def test_limits_of_their_own_are_no_deadline():
 
 def test_the_scenario_leaves_no_doubt_whether_there_is_a_deadline():
     """Without one the waits take longer than what is allowed, whether the servers are found at once or in turn."""
-    (scenario,) = CHECKS["keeps_one_deadline"].on
+    scenario, _refused = CHECKS["keeps_one_deadline"].on
     appears, answers = scenario.draw(0)["appears"], scenario.draw(0)["answers"]
     assert appears < 2.0 > answers
     assert 2 * appears + 2.0 + answers + 2 * 2.0 > MODEL.WITHIN + MODEL.DEADLINE_SLACK
@@ -329,3 +335,30 @@ def test_a_program_that_looks_for_both_servers_at_once_may_find_one_missing_and_
     CHECKS["keeps_one_deadline"].run(
         [run_of([servers, said(3.1, "nobody offers get_status"), ended(3.2, 1)])]
     )
+
+
+# -- how long it looks for a server -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("gave_up", [3.0, 5.2])
+def test_a_program_may_look_for_both_servers_at_once_or_in_turn(gave_up):
+    run = run_of([said(gave_up, "nobody is there"), ended(gave_up + 0.2, 1)])
+    assert MODEL.looks_for_two_seconds.judge(run)
+
+
+@pytest.mark.parametrize(
+    ("parts", "observed"),
+    [
+        ([said(1.3, "nobody is there"), ended(1.5, 1)], "it gave up 0.3 s after its start"),
+        ([said(7.1, "nobody is there"), ended(7.3, 1)], "it gave up 6.1 s after its start"),
+        (
+            [offered(ENABLE), ENABLED, said(7.1, "no get_status"), ended(7.3, 1)],
+            "it gave up 5.0 s after enable_motors had answered",
+        ),
+    ],
+)
+def test_a_search_that_is_too_short_or_too_long(parts, observed):
+    with pytest.raises(Failure) as told:
+        MODEL.looks_for_two_seconds.judge(run_of(parts))
+    assert told.value.observed == observed
+    assert "timeout_sec=2.0" in told.value.help
