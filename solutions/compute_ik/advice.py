@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from autograder.authoring.fields import shown
 
 from .reply import side_in_words
-from .two_link_arm import DEFAULT, TOLERANCE, Point, TwoLinkArm
+from .two_link_arm import TOLERANCE, Point, TwoLinkArm
 
 SAME = 1e-3  # rad
 NEARLY = 0.01  # m; rounding to two digits moves the hand no farther
@@ -45,8 +45,10 @@ _MISREADINGS: list[tuple[Reading, str]] = [
 ]
 
 
-def advice_for(shoulder: float, elbow: float, target: Point, arm: TwoLinkArm) -> str:
-    """Say what to do about angles (rad) that do not bring the hand of `arm` to the target (m)."""
+def advice_for(
+    shoulder: float, elbow: float, target: Point, arm: TwoLinkArm, before: Sequence[TwoLinkArm]
+) -> str:
+    """Say what to do about angles (rad) that do not bring the hand of `arm` to the target (m); `before`: other arms."""
     if not math.isfinite(shoulder + elbow):
         return "An angle is not a number: find the step that divides by 0 or takes acos of more than 1."
     if shoulder == elbow == 0:
@@ -62,11 +64,12 @@ def advice_for(shoulder: float, elbow: float, target: Point, arm: TwoLinkArm) ->
             return advice
     if arm.misses(shoulder, elbow, target[::-1]) <= TOLERANCE:
         return "That is the target with x and y exchanged: it is math.atan2(y, x), in this order."
-    if arm != DEFAULT and DEFAULT.misses(shoulder, elbow, target) <= TOLERANCE:
-        return (
-            "That is right for 0.30 and 0.25 m: read the parameters upper_arm_length and forearm_length in the "
-            "callback, and compute with what they are then."
-        )
+    for other in before:
+        if other != arm and other.misses(shoulder, elbow, target) <= TOLERANCE:
+            return (
+                f"That is right for {other.upper_arm:.2f} and {other.forearm:.2f} m: read the parameters "
+                "upper_arm_length and forearm_length in the callback, and compute with what they are then."
+            )
     if arm.misses(shoulder, elbow, target) <= NEARLY and _are_rounded(shoulder, elbow):
         return "The angles are rounded, and 0.01 rad moves the hand by millimetres: leave out round()."
     if _is_bent_right(elbow, target, arm):

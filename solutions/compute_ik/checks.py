@@ -2,58 +2,40 @@
 
 from __future__ import annotations
 
+import math
+
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario
 from autograder.authoring.obligation import check_of
 
 from . import model
 
+CODES_WHY, COSINE = "04_your_own_interfaces#server-why", "04_your_own_interfaces#cosine-why"
 FRAMES = ["shoulder", "base_link", "l_shoulder", "", "/shoulder", "Shoulder"]
 ROBOTS_ARM = {
     "upper_arm_length": 0.22,
     "forearm_length": 0.30,
 }  # m: to the elbow, and on to between the fingers
+OTHER_ARM = [["upper_arm_length", 0.35], ["forearm_length", 0.2]]  # m
+REACHED = [[0.4, 0.3], [0.45, -0.1], [0.1, 0.3], [0.53, 0.12], [-0.2, 0.35], [-0.3, -0.1]]
+NEAR_THE_LIMITS = [[0.4, 0.3], [0.1, 0.5378], [-0.3, 0.463], [0.053, 0.0, True]]
+BEYOND = [[0.5, 0.4], [0.56, 0.0], [-0.3, -0.5], [0.03, 0.02], [0.0, 0.0], [0.4, math.nan]]
+OF_ROBOTS_ARM = [[0.1, 0.05], [-0.05, 0.12]]
+OF_OTHER_ARM = [[0.5, 0.1], [0.2, -0.1, True], [0.3, -0.2]]
 
 # It has a robot, which notices a busy machine; on such a machine Python takes seconds to end.
-POINTS = Scenario(
-    "in_order",
-    {
-        "steps": [
-            ["ask", [x, y, elbow_up]]
-            for x, y in ((0.4, 0.3), (0.45, -0.1), (0.1, 0.3), (0.53, 0.12), (-0.2, 0.35), (-0.3, -0.1))
-            for elbow_up in (False, True)
-        ],
-        "interrupt": True,
-    },
-    robot=RESTING,
-)
-LIMITS = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["ask", [0.4, 0.3]], ["ask", [0.5, 0.4]], ["ask", [0.56, 0.0]], ["ask", [-0.3, -0.5]]),
-            *(
-                ["ask", [0.03, 0.02]],
-                ["ask", [0.0, 0.0]],
-                ["ask", [0.1, 0.5378]],
-                ["ask", [-0.3, 0.463]],
-                ["ask", [0.053, 0.0, True]],
-            ),
-        ]
-    },
-    robot=None,
-)
+ANSWERS = [["ask", [*point, elbow_up]] for point in REACHED for elbow_up in (False, True)]
+POINTS = Scenario("in_order", {"steps": ANSWERS, "interrupt": True}, robot=RESTING)
+LIMITS = Scenario("in_order", {"steps": [["ask", point] for point in NEAR_THE_LIMITS + BEYOND]}, robot=None)
 IN_FRAMES = Scenario(
-    "in_order",
-    {"steps": [["ask", [0.4, 0.3, False, frame]] for frame in FRAMES]},
-    robot=None,
+    "in_order", {"steps": [["ask", [0.4, 0.3, False, frame]] for frame in FRAMES]}, robot=None
 )
 REAL_ARM = Scenario(
     "in_order",
     {
         "steps": [
-            *(["move_to", 0.4, 0.1], ["move_to", 0.3, -0.25]),
-            *(["ask", [0.1, 0.05]], ["ask", [-0.05, 0.12]]),
+            *(["move_to", 0.4, 0.1], ["move_to", 0.3, -0.25], *(["ask", point] for point in OF_ROBOTS_ARM)),
+            *(["set_together", *OTHER_ARM], *(["ask", point] for point in OF_OTHER_ARM)),
         ],
         "started_with": ROBOTS_ARM,
     },
@@ -61,39 +43,36 @@ REAL_ARM = Scenario(
 )
 
 
-server_appears = standard.server_appears(
-    "compute_ik", points=1, on=POINTS, see="02_services#first-file", clauses=[10]
-)
+server_appears = standard.server_appears("compute_ik", points=1, on=POINTS, clauses=[10])
 
 reaches_the_point = check_of(
     "reaches_the_point",
-    model.reaches_the_point,
-    title="The angles it answers with bring the hand to the point, within 1 mm",
+    *(model.reaches_the_point, model.answers_in_time, model.never_waits),
+    title="The angles it answers with bring the hand to the point, within 1 mm, and come at once",
     points=2,
     on=POINTS,
     needs=server_appears,
-    see="04_your_own_interfaces#cosine-why",
+    see=COSINE,
 )
 
 bends_the_elbow_as_asked = check_of(
     "bends_the_elbow_as_asked",
     model.bends_the_elbow_as_asked,
-    title="The elbow is above the line to the target with elbow_up, below it without",
     points=2,
     on=POINTS,
     needs=reaches_the_point,
-    see="04_your_own_interfaces#cosine-why",
+    see=COSINE,
 )
 
 says_what_is_out_of_reach = check_of(
     "says_what_is_out_of_reach",
-    model.refuses_nothing_within_reach,
-    model.says_what_is_out_of_reach,
-    title="Too far and too near is NO_IK_SOLUTION, and what can be reached is not",
+    *(model.refuses_nothing_within_reach, model.says_what_is_out_of_reach),
+    model.refuses_a_pose_that_is_not_finite,
+    title="Too far and too near is NO_IK_SOLUTION, what can be reached is not, and NaN is no success",
     points=2,
     on=LIMITS,
     needs=server_appears,
-    see="04_your_own_interfaces#cosine-why",
+    see=COSINE,
 )
 
 refuses_other_frames = check_of(
@@ -102,20 +81,18 @@ refuses_other_frames = check_of(
     points=1,
     on=IN_FRAMES,
     needs=server_appears,
-    see="04_your_own_interfaces#server-why",
+    see=CODES_WHY,
 )
 
 moves_the_real_hand = check_of(
     "moves_the_real_hand",
-    model.reaches_the_point,
-    model.moves_the_real_hand,
-    title="Started with the robot's own lengths as parameters, its angles bring the robot's hand to the point",
+    *(model.reaches_the_point, model.moves_the_real_hand, model.uses_the_lengths_it_accepted),
+    title="Started with the robot's own lengths as parameters, its angles bring the robot's hand to the point; "
+    "lengths that are set later are used, or refused",
     points=2,
     on=REAL_ARM,
     needs=bends_the_elbow_as_asked,
     see="04_your_own_interfaces#parameters-why",
 )
 
-ends_cleanly = standard.ends_cleanly(
-    points=1, on=POINTS, needs=server_appears, see="02_services#conventions", clauses=[11]
-)
+ends_cleanly = standard.ends_cleanly(points=1, on=POINTS, needs=server_appears, clauses=[11])

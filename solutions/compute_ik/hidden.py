@@ -11,14 +11,7 @@ from autograder.authoring.checks import Scenario, named_check
 from autograder.authoring.obligation import check_of
 from autograder.authoring.transcript import Transcript
 
-from . import model
-from .checks import (
-    bends_the_elbow_as_asked,
-    reaches_the_point,
-    refuses_other_frames,
-    says_what_is_out_of_reach,
-    server_appears,
-)
+from . import checks, model
 from .questions import AT_A_LIMIT, anywhere, at_distance
 from .two_link_arm import DEFAULT, TwoLinkArm
 
@@ -36,6 +29,7 @@ def _targets(random: Random) -> dict[str, Any]:
         for away in (-AT_A_LIMIT, -AT_A_LIMIT, 0.0, AT_A_LIMIT, AT_A_LIMIT)
     ]
     beyond = [at_distance(random, random.uniform(0.56, 5.0)), at_distance(random, random.uniform(0.0, 0.04))]
+    beyond += [[random.choice([-1e200, 1e200]), 0.3]]  # its square is no float
     within = [anywhere(random, DEFAULT) for _ in range(12)]
     frames = [[*anywhere(random, DEFAULT), frame] for frame in random.sample(OTHER_FRAMES, 4)]
     high = [[*anywhere(random, DEFAULT), "shoulder", random.choice([-1.0, 0.3, 40.0])] for _ in range(3)]
@@ -47,14 +41,9 @@ def _targets(random: Random) -> dict[str, Any]:
 
 def _lengths(random: Random) -> dict[str, Any]:
     """Read the lengths, set one, the other, both, and some that are none; ask all over the reach after each."""
-
-    def upper_arm() -> list[Any]:
-        return ["upper_arm_length", round(random.uniform(0.1, 0.6), 3)]
-
-    def forearm() -> list[Any]:
-        return ["forearm_length", round(random.uniform(0.1, 0.6), 3)]
-
-    arm = {"upper_arm_length": DEFAULT.upper_arm, "forearm_length": DEFAULT.forearm}
+    names = list(DEFAULT.parameters)
+    upper_arm, forearm, *_ = lengths = [[name, round(random.uniform(0.1, 0.6), 3)] for name in 3 * names]
+    arm = DEFAULT.parameters
 
     def set_and_ask(verb: str, *lengths: list[Any]) -> list[list[Any]]:
         before = TwoLinkArm(*arm.values())
@@ -66,16 +55,15 @@ def _lengths(random: Random) -> dict[str, Any]:
         limits = [at_distance(random, distance) for distance in distances]
         return [[verb, *lengths], *(["ask", question] for question in [*points, *limits])]
 
-    short_upper_arm = ["upper_arm_length", round(random.uniform(0.1, 0.25), 3)]
-    long_forearm = ["forearm_length", round(random.uniform(0.35, 0.6), 3)]
+    forearm_first = [["forearm_length", round(random.uniform(0.35, 0.6), 3)], ["upper_arm_length", 0.2]]
     blocks: list[list[Any]] = [
-        *(["set", upper_arm()], ["set", forearm()], ["set", upper_arm(), forearm()]),
-        *(["set_together", upper_arm(), forearm()], ["set_together", long_forearm, short_upper_arm]),
+        *(["set", upper_arm], ["set", forearm], ["set", *lengths[2:4]]),
+        *(["set_together", *lengths[4:]], ["set_together", *forearm_first]),
     ]
     random.shuffle(blocks)
     return {
         "steps": [
-            ["get", "upper_arm_length", "forearm_length"],
+            ["get", *names],
             *(["ask", anywhere(random, DEFAULT)] for _ in range(2)),
             *(step for block in blocks for step in set_and_ask(*block)),
         ]
@@ -93,7 +81,7 @@ def _no_numbers(random: Random) -> dict[str, Any]:
     ]
     random.shuffle(points)
     asked = [["ask", question] for bad in points for question in (bad, anywhere(random, DEFAULT))]
-    names = ["upper_arm_length", "forearm_length"]
+    names = list(DEFAULT.parameters)
     set_badly = [
         step
         for bad in NO_LENGTHS
@@ -110,27 +98,30 @@ OTHER_NAMESPACE = Scenario("in_order", {"steps": [["ask", [0.4, 0.3]]]}, robot=N
 
 reaches_any_point = check_of(
     "reaches_any_point",
-    model.answers_every_call,
-    model.reaches_the_point,
-    model.bends_the_elbow_as_asked,
-    model.says_what_is_out_of_reach,
-    model.refuses_other_frames,
-    title="All around the shoulder, up to both limits and in any frame, the answer is right",
+    *(
+        model.answers_every_call,
+        model.answers_in_time,
+        model.reaches_the_point,
+        model.bends_the_elbow_as_asked,
+    ),
+    *(model.says_what_is_out_of_reach, model.refuses_other_frames),
+    title="All around the shoulder, up to both limits and in any frame, the answer is right, also of eight at once",
     points=2,
     on=ANY_TARGET,
-    needs=[bends_the_elbow_as_asked, says_what_is_out_of_reach, refuses_other_frames],
-    see="04_your_own_interfaces#fk-why",
+    needs=[
+        *(checks.bends_the_elbow_as_asked, checks.says_what_is_out_of_reach),
+        checks.refuses_other_frames,
+    ],
+    see=checks.COSINE,
 )
 
 refuses_what_is_no_number = check_of(
     "refuses_what_is_no_number",
-    model.answers_every_call,
-    model.refuses_a_pose_that_is_not_finite,
-    model.refuses_nothing_within_reach,
+    *(model.answers_every_call, model.refuses_a_pose_that_is_not_finite, model.refuses_nothing_within_reach),
     title="Coordinates and lengths that are no numbers: no success, and the node lives on and answers as ever",
     points=1,
     on=NO_NUMBER,
-    needs=says_what_is_out_of_reach,
+    needs=checks.says_what_is_out_of_reach,
     see="02_services#nan",
 )
 
@@ -145,7 +136,7 @@ declares_its_lengths = named_check(  # whatever becomes of the node after that
     _declares_its_lengths,
     points=1,
     on=ANY_LENGTH,
-    needs=server_appears,
+    needs=checks.server_appears,
     see="04_your_own_interfaces#parameters-intro",
     clauses=model.lengths_are_parameters.clauses,
     obligations=[model.lengths_are_parameters],
@@ -154,18 +145,16 @@ declares_its_lengths = named_check(  # whatever becomes of the node after that
 does_what_it_says_of_new_lengths = check_of(
     "does_what_it_says_of_new_lengths",
     model.uses_the_lengths_it_accepted,
-    title="Lengths that are set while it runs, one or both, are taken into account, or refused",
     points=1,
     on=ANY_LENGTH,
-    needs=[bends_the_elbow_as_asked, says_what_is_out_of_reach, declares_its_lengths],
+    needs=[checks.bends_the_elbow_as_asked, checks.says_what_is_out_of_reach, declares_its_lengths],
     see="04_your_own_interfaces#parameters-why",
 )
 
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    "serves",
-    model.reaches_the_point,
+    *("serves", model.reaches_the_point),
     points=1,
     on=OTHER_NAMESPACE,
-    needs=reaches_the_point,
+    needs=checks.reaches_the_point,
     clauses=[10],
 )

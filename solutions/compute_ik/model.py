@@ -11,6 +11,7 @@ from autograder.authoring.call import Call
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.missing import held_up, unseen
 from autograder.authoring.obligation import calls, obligation, whole_run
+from autograder.authoring.standard_obligations import answered_within, answers_from_memory
 from autograder.authoring.transcript import Transcript
 
 from .advice import advice_for, advice_on_the_side
@@ -21,13 +22,32 @@ SERVICE = "compute_ik"
 SETTING = ("set_parameters", "set_parameters_atomically")
 AHEAD = 0.02  # m; farther back, "above the line" may be read in two ways
 ARM_TOLERANCE = 0.01  # m; the servos of the robot's arm bring the hand within 2 mm
+COMPUTE = "Compute and answer: the callback must not sleep, nor wait for anything."
+
+answers_in_time = answered_within(2.0, SERVICE, clause=7, help=COMPUTE)
+never_waits = answers_from_memory(SERVICE, lambda call: "any request", clause=7, help=COMPUTE)
 
 
 @obligation(7, of=calls(SERVICE))
 def answers_every_call(call: Call) -> str:
     """Every request gets an answer, whatever it asks for and whatever lengths were set"""
-    _ = Reply(call, DEFAULT).response
+    Reply(call, DEFAULT)
     return "with lengths that are none" if _arm(call) is None else "with an arm"
+
+
+@obligation(1, of=calls(SERVICE))
+def refuses_nothing_within_reach(call: Call) -> str | None:
+    """What can be reached is SUCCESS"""
+    reply = _reply(call)
+    if reply is None or not reply.is_within_reach:
+        return None
+    _require_code(
+        reply,
+        Response.SUCCESS,
+        because=reply.reach,
+        help="Compare the distance of the target with the lengths in metres: their sum is the farthest it may be.",
+    )
+    return "within reach"
 
 
 @obligation(1, 2, of=calls(SERVICE))
@@ -36,9 +56,7 @@ def reaches_the_point(call: Call) -> str | None:
     reply = _reply(call)
     if reply is None or reply.is_out_of_reach:
         return None
-    if reply.is_within_reach:
-        _require_success(reply)
-    elif not reply.is_a_success:
+    if refuses_nothing_within_reach.require(call) is None and not reply.is_a_success:
         return None
     missed_by = reply.arm.misses(*reply.shoulder_and_elbow, reply.target)
     if missed_by > TOLERANCE:
@@ -46,7 +64,7 @@ def reaches_the_point(call: Call) -> str | None:
             expected=f"angles that bring the hand within 1 mm of {reply.question}, with links of "
             f"{reply.arm.upper_arm:.2f} and {reply.arm.forearm:.2f} m",
             observed=f"{reply.angles}: {_where_that_is(reply, missed_by)}",
-            help=advice_for(*reply.shoulder_and_elbow, reply.target, reply.arm),
+            help=advice_for(*reply.shoulder_and_elbow, reply.target, reply.arm, _arms_before(call)),
             at=reply.at,
         )
     if not reply.is_within_reach:
@@ -76,16 +94,6 @@ def bends_the_elbow_as_asked(call: Call) -> str | None:
         at=reply.at,
     )
     return f"the elbow {side}"
-
-
-@obligation(1, of=calls(SERVICE))
-def refuses_nothing_within_reach(call: Call) -> str | None:
-    """What can be reached is SUCCESS"""
-    reply = _reply(call)
-    if reply is None or not reply.is_within_reach:
-        return None
-    _require_success(reply)
-    return "within reach"
 
 
 @obligation(4, of=calls(SERVICE))
@@ -161,7 +169,8 @@ def lengths_are_parameters(run: Transcript) -> str:
         raise unseen(run, "the parameters were never asked for")
     for call in asked:
         values = iter(call.response.values)
-        for name, length in zip(call.request.names, (DEFAULT.upper_arm, DEFAULT.forearm), strict=True):
+        for name in call.request.names:
+            length = DEFAULT.parameters[name]
             value = next(values, ParameterValue())  # a node that lacks one may say nothing of any
             expect(
                 value.type == ParameterType.PARAMETER_DOUBLE
@@ -225,48 +234,44 @@ def _accepted(setting: Call) -> dict[str, float]:
     }
 
 
-def _arm(call: Call) -> TwoLinkArm | None:
-    """Return the arm that the node computes with at a call: each length as given at the start, or as it accepted it.
-
-    None: it accepted one that is none: 0, negative, infinite or no number.
-    """
-    arm = {"upper_arm_length": DEFAULT.upper_arm, "forearm_length": DEFAULT.forearm}
-    arm |= call.run.params.get("started_with") or {}
+def _lengths(call: Call) -> list[dict[str, float]]:
+    """Return the lengths (m) that the node has had up to a call: at its start, then as it accepted them."""
+    lengths = [DEFAULT.parameters | (call.run.params.get("started_with") or {})]
     for setting in _settings(call):
-        arm |= _accepted(setting)
-    if not all(math.isfinite(length) and length > 0.0 for length in arm.values()):
-        return None
-    return TwoLinkArm(arm["upper_arm_length"], arm["forearm_length"])
+        lengths.append(lengths[-1] | _accepted(setting))
+    return lengths
+
+
+def _arm(call: Call) -> TwoLinkArm | None:
+    """Return the arm that the node computes with at a call; None: it accepted a length that is none."""
+    upper_arm, forearm = (_lengths(call)[-1][name] for name in DEFAULT.parameters)
+    return TwoLinkArm(upper_arm, forearm) if upper_arm > 0.0 < forearm < math.inf > upper_arm else None
+
+
+def _arms_before(call: Call) -> list[TwoLinkArm]:
+    """Return the arms of lengths that the node has had before a call, or has been told of one by one."""
+    uppers, forearms = (
+        [DEFAULT.parameters[name], *(each[name] for each in _lengths(call))] for name in DEFAULT.parameters
+    )
+    return [TwoLinkArm(upper_arm, forearm) for upper_arm in uppers for forearm in forearms]
 
 
 def _reply(call: Call) -> Reply | None:
     """Return the answer to a call for a point in frame shoulder; None if it asks for none, or the arm is none."""
     arm, point = _arm(call), call.request.target.point
     reply = Reply(call, arm or DEFAULT)
-    _ = reply.response
     is_a_point = reply.frame == "shoulder" and all(map(math.isfinite, (point.x, point.y, point.z)))
     return reply if arm and is_a_point else None
 
 
 def _side_of_the_twin(reply: Reply) -> bool | None:
     """Return the side of the elbow in the answer for the same target with the other elbow_up, if there is one."""
-    for other in calls(SERVICE)(_transcript(reply.call)):
-        twin = Reply(other, reply.arm)
-        if other.answer and twin.target == reply.target and twin.elbow_up != reply.elbow_up:
-            return twin.elbow_is_above
-    return None
+    others = (Reply(each, reply.arm) for each in calls(SERVICE)(_transcript(reply.call)) if each.answer)
+    twins = (each for each in others if each.target == reply.target and each.elbow_up != reply.elbow_up)
+    return next((twin.elbow_is_above for twin in twins), None)
 
 
 # -- requirements -----------------------------------------------------------------------------------------------------
-
-
-def _require_success(reply: Reply) -> None:
-    _require_code(
-        reply,
-        Response.SUCCESS,
-        because=reply.reach,
-        help="Compare the distance of the target with the lengths in metres: their sum is the farthest it may be.",
-    )
 
 
 def _require_code(reply: Reply, code: int, *, because: str, help: str) -> None:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
 
 from autograder.authoring.call import Call
 from autograder.authoring.failure import Failure
@@ -17,62 +15,34 @@ Response = ComputeIK.Response
 CODES = {getattr(Response, name): name for name in ("SUCCESS", "NO_IK_SOLUTION", "FRAME_TRANSFORM_FAILURE")}
 
 
-@dataclass(frozen=True)
 class Reply:
-    """The answer to a call of the node that computes with `arm`."""
+    """The answer to a call of the node that computes with `arm`.
 
-    call: Call
-    arm: TwoLinkArm
+    Attributes:
+        target, frame, elbow_up: what was asked for.
+        distance: of the target from the shoulder (m).
+        error_code, shoulder_and_elbow: what was answered, at `at` (s).
 
-    @property
-    def target(self) -> Point:
-        """The point asked for."""
-        point = self.call.request.target.point
-        return point.x, point.y
+    Raises:
+        Failure: there is none.
+    """
 
-    @property
-    def frame(self) -> str:
-        """The frame asked in."""
-        return self.call.request.target.header.frame_id
-
-    @property
-    def elbow_up(self) -> bool:
-        """The side asked for."""
-        return self.call.request.elbow_up
-
-    @property
-    def response(self) -> Any:
-        """The answer, which must have come."""
+    def __init__(self, call: Call, arm: TwoLinkArm) -> None:
+        target = call.request.target
+        self.call, self.arm = call, arm
+        self.target: Point = (target.point.x, target.point.y)
+        self.distance = math.hypot(*self.target)
+        self.frame: str = target.header.frame_id
+        self.elbow_up: bool = call.request.elbow_up
         try:
-            return self.call.response
+            response = call.response
         except Failure as failure:
             failure.expected = f"an answer to {self.question}"
             raise
-
-    @property
-    def error_code(self) -> int:
-        """The code of the answer."""
-        return self.response.error_code
-
-    @property
-    def is_a_success(self) -> bool:
-        """Whether the answer is SUCCESS."""
-        return self.error_code == Response.SUCCESS
-
-    @property
-    def shoulder_and_elbow(self) -> tuple[float, float]:
-        """The angles of the answer."""
-        return self.response.shoulder, self.response.elbow
-
-    @property
-    def at(self) -> float:
-        """When (s) it was answered."""
-        return self.call.answered.t
-
-    @property
-    def distance(self) -> float:
-        """How far the target is from the shoulder."""
-        return math.hypot(*self.target)
+        self.at = call.answered.t
+        self.error_code: int = response.error_code
+        self.is_a_success = self.error_code == Response.SUCCESS
+        self.shoulder_and_elbow: tuple[float, float] = (response.shoulder, response.elbow)
 
     @property
     def is_within_reach(self) -> bool:

@@ -38,6 +38,11 @@ class TwoLinkArm:
         return target[0] * y - target[1] * x > 0
 
     @property
+    def parameters(self) -> dict[str, float]:
+        """Its lengths as the node's parameters."""
+        return {"upper_arm_length": self.upper_arm, "forearm_length": self.forearm}
+
+    @property
     def nearest(self) -> float:
         """How near (m) to the shoulder the hand can come."""
         return abs(self.upper_arm - self.forearm)

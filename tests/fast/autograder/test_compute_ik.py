@@ -200,7 +200,7 @@ def test_a_length_that_was_refused_is_not_used():
 @pytest.mark.parametrize("length", [0.0, -0.25, math.nan])
 def test_with_a_length_that_is_none_any_answer_will_do(length):
     asked = run(answer(1.0, 1.0), lengths=(length,))
-    assert MODEL.answers_every_request.judge(asked) == {"with lengths that are none": 1}
+    assert MODEL.answers_every_call.judge(asked) == {"with lengths that are none": 1}
     assert not MODEL.reaches_the_point.judge(asked)
 
 
