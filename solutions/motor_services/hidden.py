@@ -9,15 +9,7 @@ from autograder.authoring import standard_hidden
 from autograder.authoring.checks import Scenario
 from autograder.authoring.obligation import check_of
 
-from . import model
-from .checks import (
-    ON_A_STAND,
-    SILENT_ROBOT,
-    powers_on,
-    refuses_off_while_walking,
-    server_appears,
-    tells_the_status,
-)
+from . import checks, model
 
 
 def _on_the_floor(random: Random) -> dict[str, Any]:
@@ -70,35 +62,30 @@ def _on_the_stand(random: Random) -> dict[str, Any]:
 
 
 FLOOR = Scenario("in_order", _on_the_floor)
-STAND = Scenario("in_order", _on_the_stand, robot=(*ON_A_STAND, "--robot-state-unpublished"))
+STAND = Scenario("in_order", _on_the_stand, robot=(*checks.ON_A_STAND, "--robot-state-unpublished"))
+SWITCH_AND_ASK = [step for on in (False, True) for step in (["switch", on], ["settle"], ["ask", 1])]
 OTHER_NAMESPACE = Scenario(
-    "in_order",
-    {"steps": [["switch", False], ["settle"], ["ask", 1], ["switch", True], ["settle"], ["ask", 1]]},
-    robot=ON_A_STAND,
-    namespace="/lab_7/robot",
+    "in_order", {"steps": SWITCH_AND_ASK}, robot=checks.ON_A_STAND, namespace="/lab_7/robot"
 )
 
 refuses_however_it_walks = check_of(
     "refuses_however_it_walks",
-    model.refuses_power_off,
-    model.lets_it_walk,
+    *(model.refuses_power_off, model.lets_it_walk),
     title="Turning on the spot, sideways or backwards is walking, too",
     points=1,
     on=FLOOR,
-    needs=refuses_off_while_walking,
-    see="02_services#set-refuse-why",
+    needs=checks.refuses_off_while_walking,
+    see=checks.REFUSES,
 )
 
 refuses_nothing_else = check_of(
     "refuses_nothing_else",
-    model.grants_power_on,
-    model.grants_power_off,
-    model.commands_only_what_was_granted,
+    *(model.grants_power_on, model.grants_power_off, model.commands_only_what_was_granted),
     title="Power on is always granted, and power off whenever it does not walk; a refused request never takes effect",
     points=2,
     on=[FLOOR, STAND],
-    needs=powers_on,
-    see="02_services#set-refuse-why",
+    needs=checks.powers_on,
+    see=checks.REFUSES,
 )
 
 recovers_when_the_robot_speaks = check_of(
@@ -106,29 +93,25 @@ recovers_when_the_robot_speaks = check_of(
     model.tells_the_motors,
     title="Once a robot_state has come, get_status answers with the last one, whatever happened before",
     points=1,
-    on=[SILENT_ROBOT, STAND, FLOOR],
-    needs=tells_the_status,
-    see="02_services#m9-fix-why",
+    on=[checks.SILENT_ROBOT, STAND, FLOOR],
+    needs=checks.tells_the_status,
+    see=checks.KNOWS_NOTHING,
 )
 
 answers_every_request = check_of(
     "answers_every_request",
-    model.status_in_time,
-    model.status_from_memory,
-    model.power_in_time,
-    model.power_never_sleeps,
-    model.says_when_it_knows_nothing,
+    *(model.status_in_time, model.status_from_memory, model.says_when_it_knows_nothing),
+    *(model.power_in_time, model.power_never_sleeps),
     title="Every request is answered in time, get_status from memory, also while nothing is known",
     points=1,
     on=STAND,
-    needs=server_appears,
+    needs=checks.server_appears,
     see="02_services#m4-why",
 )
 
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    "serves the robot",
-    model.serves_the_robot,
+    *("serves the robot", model.serves_the_robot),
     points=1,
     on=OTHER_NAMESPACE,
-    needs=[tells_the_status, powers_on],
+    needs=[checks.tells_the_status, checks.powers_on],
 )

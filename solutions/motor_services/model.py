@@ -162,9 +162,10 @@ def grants_power_off(call: Call) -> str | None:
 
 def _require_granted(call: Call) -> str:
     on = call.request.data
+    when = f"while the robot is {_situation(call)}" if last_states(call) else _situation(call)
     expect(
         call.response.success or _was_not_confirmed(call),
-        expected=f"success: true to {question(call)} while the robot is {_situation(call)}",
+        expected=f"success: true to {question(call)} {when}",
         observed=shown_fields(call.response, "success", "message"),
         help=advice_on_granting(call, _situation(call)),
         at=call.answered.t,
@@ -209,30 +210,28 @@ def commands_only_what_was_granted(run: Transcript) -> str:
     asked = calls(ENABLE)(run)
     for command in run.all(ev.MotorPowerReceived):
         causes = [call for call in asked if command in _commands(call)]
-        if any(call.answer is None or _is_granted(call) for call in causes):
+        if any(
+            call.answer is None
+            or call.response.success
+            or (True in _may_grant(call) and _was_not_confirmed(call))
+            for call in causes
+        ):
             continue
         earlier = [call for call in asked if call.sent.t <= command.t]
         refused = [call for call in earlier if call.answer and call.request.data is command.on and not causes]
+        when = "before any request"
+        if before := refused[-1:] or earlier[-1:]:
+            when = f"{command.t - before[0].answered.t:.1f} s after the answer"
         wrong = "" if not causes and not refused else f" after {question((causes or refused)[-1])}"
         raise Failure(
             expected="no command to the motors but what was granted",
-            observed=f"motor_power: {str(command.on).lower()}{wrong}"
-            + (", which was refused" if causes else f", {_since(refused[-1:] or earlier[-1:], command.t)}"),
+            observed=f"motor_power: {str(command.on).lower()}{wrong}, "
+            + ("which was refused" if causes else when),
             help="Return before anything is published when a request is refused, and do not keep it for later; where "
             "it is granted, publish what data says, at once.",
             at=command.t,
         )
     return "commands" if run.all(ev.MotorPowerReceived) else "no command"
-
-
-def _is_granted(call: Call) -> bool:
-    return call.response.success or (True in _may_grant(call) and _was_not_confirmed(call))
-
-
-def _since(calls_before: list[Call], t: float) -> str:
-    return (
-        f"{t - calls_before[0].answered.t:.1f} s after the answer" if calls_before else "before any request"
-    )
 
 
 @obligation(2, of=whole_run)

@@ -279,7 +279,7 @@ SAID = {
         "only_a_flag",
         "powers_off",
     ): "On motor_power the grader saw no message after the request.",
-    ("motor_services", "flag_of_its_own", "follows_the_robot"): "get_status never changed, though",
+    ("motor_services", "flag_of_its_own", "follows_the_robot"): "get_status followed your last request",
     ("cancellable_walk", "walks_on", "stops_when_canceled"): "Publish a zero Twist",
 }
 
