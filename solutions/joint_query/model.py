@@ -135,20 +135,14 @@ def positions_are_the_last(call: Call) -> str | None:
     _require_heard(call)
     if not _is_a_success(call) or not (call.request.names or names):
         return None
-    expect(
-        len(names) == len(positions) > 0,
-        expected="as many positions as names, and at least one",
-        observed=f"{len(names)} names and {len(positions)} positions",
-        help="Fill joint_state.name and joint_state.position together: position[i] belongs to name[i]."
-        + about_repeats(call),
-        at=call.answered.t,
-    )
     missing = [name for name in call.request.names if name not in names]
     expect(
-        not missing,
-        expected=f"a position for each of {asked(call)}",
-        observed=f"none for {listed(missing)}",
-        help="Answer for every name of the request.",
+        len(names) == len(positions) > 0 and not missing,
+        expected=f"a position for each of {asked(call)}, and as many positions as names",
+        observed=f"{len(names)} names and {len(positions)} positions"
+        + (f", none for {listed(missing)}" if missing else ""),
+        help="Fill joint_state.name and joint_state.position together, for every name of the request: position[i] "
+        "belongs to name[i]." + about_repeats(call),
         at=call.answered.t,
     )
     tables = [positions_by_name(message) for message in known_messages(call, JOINTS) or ()]
