@@ -33,6 +33,9 @@ def require_record(run: Transcript, action: str) -> None:
         for what, due in _lacking(run, goal, script or {}):
             if due + LATE < until:
                 raise unseen(run, f"the record lacks {what}")
+    received = {each.cancel for each in run.all(ev.CancelReceived)}
+    if any(each.cancel not in received for each in run.all(ev.CancelReplySent)):
+        raise unseen(run, "the record lacks a request to cancel that was answered")
     _require_acts(run)
 
 
