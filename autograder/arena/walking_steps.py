@@ -1,6 +1,6 @@
 """The steps of scenarios for servers that walk, by name: goals, cancels, disturbances, and waiting for what comes.
 
-walk_in_order(stage, "walk_to", WalkTo, steps, lambda pose, fastest: WalkTo.Goal(target_pose=pose))
+walk_in_order(stage, "walk_to", WalkTo, steps, lambda pose, limit: WalkTo.Goal(target_pose=pose))
 """
 
 from __future__ import annotations
@@ -25,7 +25,9 @@ STARTING = 5.0  # s in which a robot begins to walk
 COMING_NEAR = 15.0  # s
 NEAR = 0.12  # m
 
-MakeGoal = Callable[[PoseStamped, float], Any]  # of a pose and max_velocity (m/s)
+MakeGoal = Callable[
+    [PoseStamped, float], Any
+]  # of a pose, and of what else it has: max_velocity (m/s), tolerance (m)
 
 
 def walk_in_order(
@@ -75,49 +77,49 @@ class _Walker:
             "interrupt": self._stage.interrupt_node,
         }
 
-    # -- goals: m, m, rad in odom, and max_velocity in m/s ------------------------------------------------------------
+    # -- goals: m, m, rad in odom, and m/s or m ------------------------------------------------------------------------
 
-    def go(self, name: str, x: float, y: float, yaw: float, fastest: float = 0.0) -> None:
+    def go(self, name: str, x: float, y: float, yaw: float, limit: float = 0.0) -> None:
         """Send a goal and wait for its answer."""
-        self._send(name, pose_at(x, y, yaw), fastest).wait_for_answer()
+        self._send_pose(name, pose_at(x, y, yaw), limit).wait_for_answer()
 
-    def go_on(self, name: str, ahead: float, left: float, turn: float, fastest: float = 0.0) -> None:
+    def go_on(self, name: str, ahead: float, left: float, turn: float, limit: float = 0.0) -> None:
         """Send a pose (m, m, rad) as seen from where the robot is now, and wait for the answer."""
         robot = self._stage.robot.state
         x = robot.x + ahead * math.cos(robot.yaw) - left * math.sin(robot.yaw)
         y = robot.y + ahead * math.sin(robot.yaw) + left * math.cos(robot.yaw)
-        self.go(name, x, y, robot.yaw + turn, fastest)
+        self.go(name, x, y, robot.yaw + turn, limit)
 
     def go_together(self, *goals: Sequence[Any]) -> None:
-        """Send several goals, each [name, x, y, yaw, fastest], in the same moment."""
-        sent = [self._send(name, pose_at(x, y, yaw), fastest) for name, x, y, yaw, fastest in goals]
+        """Send several goals, each [name, x, y, yaw, limit], in the same moment."""
+        sent = [self._send_pose(name, pose_at(x, y, yaw), limit) for name, x, y, yaw, limit in goals]
         for goal in sent:
             goal.wait_for_answer()
 
     def ask(self, name: str, field: str, value: Any, ahead: float = 1.0) -> None:
         """Send a goal (m ahead of the origin) one `field` of which, such as 'pose.position.x', has this value."""
         pose = pose_at(ahead, 0.0, 0.0)
-        fastest = value if field == "max_velocity" else 0.0
-        if field != "max_velocity":
-            *path, last = field.split(".")
-            setattr(reduce(getattr, path, pose), last, value)
-        self._send(name, pose, fastest).wait_for_answer()
+        goal = self._make_goal(pose, 0.0)
+        *path, last = field.split(".")
+        setattr(reduce(getattr, path, goal if hasattr(goal, field) else pose), last, value)
+        self._send(name, pose, goal).wait_for_answer()
 
-    def arrive(self, name: str) -> None:
-        """Wait for the end of a goal: long, unless another has kept the scenario waiting in vain."""
+    def arrive(self, name: str, patience: float = RESULT_TIMEOUT) -> None:
+        """Wait for the end of a goal: so long (s), unless another has kept the scenario waiting in vain."""
         goal = self._goals[name]
-        patience = SOON if self._waited_in_vain else RESULT_TIMEOUT
-        if goal.accepted and not goal.wait_for_result(patience):
+        if goal.accepted and not goal.wait_for_result(SOON if self._waited_in_vain else patience):
             self._waited_in_vain = True
 
     def end(self, name: str) -> None:
         """Wait for the end of a goal that was cancelled, preempted or put out of reach."""
         self._goals[name].wait_for_result(SOON)
 
-    def _send(self, name: str, pose: PoseStamped, fastest: float) -> Goal:
-        goal = self._action.send(self._make_goal(pose, fastest), as_=name)
-        self._goals[name], self._poses[name] = goal, pose
-        return goal
+    def _send_pose(self, name: str, pose: PoseStamped, limit: float) -> Goal:
+        return self._send(name, pose, self._make_goal(pose, limit))
+
+    def _send(self, name: str, pose: PoseStamped, goal: Any) -> Goal:
+        self._goals[name], self._poses[name] = self._action.send(goal, as_=name), pose
+        return self._goals[name]
 
     # -- cancels ------------------------------------------------------------------------------------------------------
 
@@ -130,9 +132,9 @@ class _Walker:
         for cancel in (self._goals[name].cancel(), self._goals[name].cancel()):
             cancel.wait()
 
-    def cancel_at_once(self, name: str, x: float, y: float, yaw: float, fastest: float = 0.0) -> None:
+    def cancel_at_once(self, name: str, x: float, y: float, yaw: float, limit: float = 0.0) -> None:
         """Send a goal and ask to cancel it before it is answered; again, if the first request had overtaken it."""
-        goal = self._send(name, pose_at(x, y, yaw), fastest)
+        goal = self._send_pose(name, pose_at(x, y, yaw), limit)
         cancel = goal.cancel()
         cancel.wait()
         goal.wait_for_answer()

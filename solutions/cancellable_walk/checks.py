@@ -2,40 +2,26 @@
 
 from __future__ import annotations
 
-import math
-
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario
 from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.server_checks import (
+    INTERRUPT,
+    WRONG_POSES,
+    fall_is_reported,
+    rejections,
+    reports,
+    two_walks,
+)
 
 from . import model
 
 FAR = [2.0, 0.0, 0.0]  # m, m, rad
 STANDING = 2.6  # s after the result of a cancelled goal in which the robot is watched
+WHILE_IT_STOPS = 0.35  # s from a cancel to the next goal
 
-# The second goal lies ahead of a robot that has turned and has taken steps before. Its heading lies beyond pi, so its
-# quaternion has a negative w.
-WALK = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "walk", 0.55, 0.2, 2.0], ["arrive", "walk"], ["wait", 1.0]),
-            *(["go", "again", 0.4, 0.5, 4.0], ["arrive", "again"], ["wait", 1.5]),
-        ]
-    },
-)
-IMPOSSIBLE = Scenario(
-    "in_order",
-    {
-        "steps": [
-            ["ask", "wrong frame", "header.frame_id", "map"],
-            ["ask", "NaN position", "pose.position.x", math.nan],
-            ["ask", "NaN height", "pose.position.z", math.nan],
-            ["ask", "NaN orientation", "pose.orientation.z", math.nan],
-        ]
-    },
-    robot=RESTING,
-)
+WALK = two_walks()
+IMPOSSIBLE = Scenario("in_order", {"steps": WRONG_POSES}, robot=RESTING)
 UNPOWERED = Scenario("in_order", {"steps": [["cut_power"], ["go", "unpowered", 1.0, 0.0, 0.0]]})
 CANCEL = Scenario(
     "in_order",
@@ -43,7 +29,9 @@ CANCEL = Scenario(
         "steps": [
             *(["go", "canceled", *FAR], ["walk_for", 1.0], ["cancel", "canceled"]),
             *(["end", "canceled"], ["wait", STANDING]),
-            *(["go", "again", 0.7, 0.0, 0.0], ["arrive", "again"], ["wait", 1.0]),
+            *(["go_on", "early", *FAR], ["cancel", "early"], ["end", "early"], ["wait", 1.0]),
+            *(["go_on", "hasty", *FAR], ["walk_for", 0.5], ["cancel", "hasty"], ["wait", WHILE_IT_STOPS]),
+            *(["go_on", "again", 0.5, 0.0, 0.0], ["end", "hasty"], ["arrive", "again"], ["wait", 1.0]),
         ]
     },
 )
@@ -66,7 +54,6 @@ FALL = Scenario(
     "in_order",
     {"steps": [["go", "walk", *FAR], ["walk_for", 0.5], ["knock_over", 0.0, 60.0, 0.0], ["end", "walk"]]},
 )
-INTERRUPT = Scenario("in_order", {"steps": [["interrupt"]]}, robot=RESTING)
 
 server_appears = standard.server_appears(
     "the action walk_to", points=1, on=INTERRUPT, clauses=[13], see="07_cancel_and_preempt#fix-file"
@@ -92,59 +79,20 @@ arrives = check_of(
     needs=accepts_a_goal,
     see="07_cancel_and_preempt#fix-intro",
 )
-fills_the_result = check_of(
-    "fills_the_result",
-    model.accepts,
-    model.reports_where_it_ended,
-    title="Each result, also of a second goal, holds where the robot ended, the steps for this goal, and NONE",
-    points=1,
+fills_the_result, feedback_keeps_its_rate, feedback_is_true, feedback_ends_with_the_goal = reports(
+    model,
     on=WALK,
-    needs=arrives,
-    see="07_cancel_and_preempt#m13-why",
+    under_way=accepts_a_goal,
+    arrives=arrives,
+    see=(
+        "07_cancel_and_preempt#m13-why",
+        "07_cancel_and_preempt#conventions",
+        "07_cancel_and_preempt#turner-intro",
+        "07_cancel_and_preempt#m13-why",
+    ),
 )
-feedback_keeps_its_rate = check_of(
-    "feedback_keeps_its_rate",
-    model.feedback_at_5_hz,
-    points=1,
-    on=WALK,
-    needs=accepts_a_goal,
-    see="07_cancel_and_preempt#conventions",
-)
-feedback_is_true = check_of(
-    "feedback_is_true",
-    model.feedback_is_true,
-    model.estimates_the_time,
-    title="Pose, distance and steps in the feedback are the robot's, and the estimate of the time left is one",
-    points=1,
-    on=WALK,
-    needs=feedback_keeps_its_rate,
-    see="07_cancel_and_preempt#turner-intro",
-)
-feedback_ends_with_the_goal = check_of(
-    "feedback_ends_with_the_goal",
-    model.feedback_ends_with_the_goal,
-    points=1,
-    on=WALK,
-    needs=[arrives, feedback_keeps_its_rate],
-    see="07_cancel_and_preempt#m13-why",
-)
-rejects_a_wrong_frame = check_of(
-    "rejects_a_wrong_frame",
-    model.rejects_frames,
-    title="It rejects a pose in frame map",
-    points=1,
-    on=IMPOSSIBLE,
-    needs=accepts_a_goal,
-    see="07_cancel_and_preempt#conventions",
-)
-rejects_nan = check_of(
-    "rejects_nan",
-    model.rejects_nan,
-    title="It rejects a pose that holds NaN",
-    points=1,
-    on=IMPOSSIBLE,
-    needs=accepts_a_goal,
-    see="07_cancel_and_preempt#conventions",
+rejects_a_wrong_frame, rejects_nan = rejections(
+    model, on=IMPOSSIBLE, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions"
 )
 rejects_without_power = check_of(
     "rejects_without_power",
@@ -156,8 +104,7 @@ rejects_without_power = check_of(
 )
 cancels_in_mid_stride = check_of(
     "cancels_in_mid_stride",
-    model.grants_cancels,
-    model.walks_until_canceled,
+    *model.canceled_in_mid_stride,
     title="A cancel while the robot walks is agreed to and ends CANCELED",
     points=2,
     on=CANCEL,
@@ -176,9 +123,10 @@ stops_when_canceled = check_of(
 walks_again_after_a_cancel = check_of(
     "walks_again_after_a_cancel",
     model.accepts,
+    model.grants_cancels,
     model.succeeds,
     model.reports_where_it_ended,
-    title="A new goal after a cancel is walked to, and both results hold what was measured",
+    title="A new goal after a cancel, also an early or a hasty one, is walked to, and results hold what was measured",
     points=1,
     on=CANCEL,
     needs=[cancels_in_mid_stride, arrives],
@@ -197,15 +145,8 @@ new_goal_preempts_the_old = check_of(
     needs=arrives,
     see="07_cancel_and_preempt#preempt-why",
 )
-aborts_when_the_robot_falls = check_of(
-    "aborts_when_the_robot_falls",
-    model.tells_a_fall,
-    model.says_why_it_aborted,
-    title="When the robot falls the goal is ABORTED with FELL, and says so",
-    points=1,
-    on=FALL,
-    needs=accepts_a_goal,
-    see="07_cancel_and_preempt#fall-why",
+aborts_when_the_robot_falls = fall_is_reported(
+    model, on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why"
 )
 ends_cleanly = standard.ends_cleanly(
     points=1,

@@ -9,9 +9,11 @@ from typing import Any
 from autograder.authoring import standard_hidden
 from autograder.authoring.checks import Scenario
 from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.drawn import impossible, rounded
+from autograder.authoring.walking.server_checks import OTHER_NAMESPACE
 
 from . import model
-from .checks import FAR, STANDING, arrives, cancels_in_mid_stride, stops_when_canceled
+from .checks import FAR, STANDING, WHILE_IT_STOPS, arrives, cancels_in_mid_stride, stops_when_canceled
 
 AFTERWARDS = 0.8  # s from a result to the next goal
 Steps = list[list[Any]]
@@ -27,7 +29,7 @@ def _walks(random: Random) -> dict[str, Any]:
     x, y = random.uniform(0.2, 0.3), random.uniform(-0.1, 0.1)
     beyond = (x + 0.35 * math.cos(yaw), y + 0.35 * math.sin(yaw), -side * random.uniform(3.0, 3.1))
     aside = (beyond[0], beyond[1] + random.choice((-0.2, 0.2)), beyond[2])
-    impossible = _impossible(random)
+    rejected = impossible(random)
     blocks: list[Steps] = [
         [
             *(["go", "first", *FAR, 0.0], ["walk_for", random.uniform(0.2, 0.8)]),
@@ -40,36 +42,21 @@ def _walks(random: Random) -> dict[str, Any]:
         ],
         [
             *(["go_on", "canceled", *FAR], ["walk_for", random.uniform(0.2, 0.8)], ["cancel", "canceled"]),
-            ["wait", random.uniform(0.35, 0.6)],
-            *(["go", "at once", *aside, 0.0], ["end", "canceled"], ["arrive", "at once"]),
+            ["wait", WHILE_IT_STOPS],
+            *(["go", "at once", *beyond, 0.0], ["go", "instead", *aside, 0.0]),
+            *(["end", "canceled"], ["end", "at once"], ["arrive", "instead"]),
         ],
-        [["go", "here", *beyond, 0.0], *impossible[4:], ["arrive", "here"]],
+        [["go", "here", *beyond, 0.0], *rejected[4:], ["arrive", "here"]],
     ]
     random.shuffle(blocks)
     steps = [
-        *(["go", "back", x, y, yaw, 0.0], *impossible[:4], ["arrive", "back"], ["wait", AFTERWARDS]),
-        *(
-            ["go", "across pi", *beyond, 0.0],
-            ["arrive", "across pi"],
-            ["wait", AFTERWARDS],
-        ),
+        *(["go", "back", x, y, yaw, 0.0], *rejected[:4], ["arrive", "back"], ["wait", AFTERWARDS]),
+        *(["go", "across pi", *beyond, 0.0], ["arrive", "across pi"], ["wait", AFTERWARDS]),
         *(step for block in blocks for step in [*block, ["wait", AFTERWARDS]]),
         *(["go_on", "down", *FAR], ["walk_for", random.uniform(0.2, 0.8)], ["cut_power"], ["end", "down"]),
         *(["wait", AFTERWARDS], ["go", "lying", 0.0, 0.0, 0.0]),
     ]
-    return {"steps": _rounded(steps)}
-
-
-def _impossible(random: Random) -> Steps:
-    """Return goals that must be rejected, each wrong in one field, in any order."""
-    numbers = (math.nan, math.inf, -math.inf)
-    wrong: list[tuple[str, Any]] = [
-        ("header.frame_id", random.choice(("base_link", "world", "odometry", ""))),
-        *((f"pose.position.{axis}", random.choice(numbers)) for axis in "xyz"),
-        *((f"pose.orientation.{axis}", random.choice(numbers)) for axis in "xyzw"),
-    ]
-    random.shuffle(wrong)
-    return [["ask", f"impossible {number}", *each] for number, each in enumerate(wrong, start=1)]
+    return {"steps": rounded(steps)}
 
 
 def _phases(random: Random) -> dict[str, Any]:
@@ -137,23 +124,14 @@ def _cancels(random: Random) -> dict[str, Any]:
             ["cut_power"],
             ["end", "down"],
             ["wait", AFTERWARDS],
-        ),
+        )
     ]
-    return {"steps": _rounded([*(step for block in blocks for step in block), *down])}
-
-
-def _rounded(value: Any) -> Any:
-    if isinstance(value, list):
-        return [_rounded(each) for each in value]
-    return round(value, 3) if isinstance(value, float) else value
+    return {"steps": rounded([*(step for block in blocks for step in block), *down])}
 
 
 ANY_ORDER = Scenario("in_order", _walks)
 SEVERAL_PHASES = Scenario("in_order", _phases)
 CANCELS = Scenario("in_order", _cancels)
-OTHER_NAMESPACE = Scenario(
-    "in_order", {"steps": [["go", "walk", 0.3, 0.0, 0.0], ["arrive", "walk"]]}, namespace="/lab_7/robot"
-)
 
 arrives_anywhere = check_of(
     "arrives_anywhere",
@@ -171,6 +149,8 @@ arrives_anywhere = check_of(
     model.feedback_is_true,
     model.reports_where_it_ended,
     model.says_why_it_aborted,
+    model.grants_cancels,
+    model.answers_every_cancel,
     model.gives_way,
     model.only_one_is_newest,
     model.tells_a_fall,

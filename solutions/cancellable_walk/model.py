@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 from autograder.authoring.goal import Goal
 from autograder.authoring.obligation import Obligation, goals, obligation, whole_run
 from autograder.authoring.transcript import Transcript
@@ -42,7 +44,6 @@ feedback_ends_with_the_goal = obligation(7, of=goals)(tells.feedback_ends_with_t
 reports_where_it_ended = obligation(8, of=goals)(tells.reports_where_it_ended)
 says_why_it_aborted = obligation(8, of=goals)(tells.says_why_it_aborted)
 grants_cancels = obligation(9, of=goals)(cancels.grants_cancels)
-walks_until_canceled = obligation(9, of=goals)(cancels.walks_until_canceled)
 stops_when_canceled = obligation(9, of=goals)(cancels.stops_when_canceled)
 answers_every_cancel = obligation(9, of=goals)(cancels.answers_every_cancel)
 refuses_late_cancels = obligation(10, of=goals)(cancels.refuses_late_cancels)
@@ -51,15 +52,19 @@ only_one_is_newest = obligation(11, of=goals)(ends.only_one_is_newest)
 tells_a_fall = obligation(12, of=goals)(ends.tells_a_fall)
 
 
-def _of(*names: str) -> tuple[Obligation, Obligation]:
-    """Return that a cancel is granted, and that the robot stops: of the goals with these names."""
+def _of(
+    *names: str,
+    require: Sequence[Callable[[Goal], str | None]] = (cancels.grants_cancels, cancels.stops_when_canceled),
+) -> tuple[Obligation, ...]:
+    """Return what is required of these goals: by default that a cancel is granted and the robot stops."""
 
     def some(run: Transcript) -> list[Goal]:
         return [run.goal(name) for name in names]
 
-    return obligation(9, of=some)(cancels.grants_cancels), obligation(9, of=some)(cancels.stops_when_canceled)
+    return tuple(obligation(9, of=some)(each) for each in require)
 
 
+canceled_in_mid_stride = _of("canceled", require=(cancels.grants_cancels, cancels.walks_until_canceled))
 canceled_at_the_start = _of("at once", "first feedback")
 canceled_near_arrival = _of("near")
 canceled_twice = _of("twice")

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import math
+from random import Random
+from typing import Any
 
-from autograder.authoring.checks import Scenario, check
-from autograder.authoring.goal import SUCCEEDED
-from autograder.authoring.transcript import Transcript
-from autograder.authoring.walking.truth import require_arrival, require_stopped, require_walking
+from autograder.authoring import standard_hidden
+from autograder.authoring.checks import Scenario
+from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.drawn import rounded
+from autograder.authoring.walking.server_checks import OTHER_NAMESPACE
 
+from . import model
 from .checks import (
+    FAR,
+    LISTENING,
+    WATCHING,
+    arrive,
     arrives,
     cancels_in_mid_stride,
     counts_no_detour_without_one,
@@ -18,121 +26,131 @@ from .checks import (
     new_goal_preempts_the_old,
     tells_its_time,
 )
-from .odometer import require_measured_path
-from .recoveries import require_detour_counted, require_no_detour
-from .times import require_true_navigation_time
+
+Steps = list[list[Any]]
 
 
-def _poses(random) -> dict:
-    """Two poses a metre or so apart: one straight ahead with a small tolerance, then one behind it with a large one."""
+def _steps(random: Random) -> dict[str, Any]:
+    """Two poses, one straight ahead with a small tolerance, then one behind it with a large one; then many things.
+
+    A turn at the end of the first would bring a careless server nearer. Goals are cancelled early, as the robot turns,
+    as it walks and as it arrives, give way while another is rejected, and equal the present pose; at last the power is
+    cut.
+    """
     side = random.choice((-1, 1))
     x, y = random.uniform(0.6, 1.0), side * random.uniform(0.4, 0.8)
-    first = (x, y, math.atan2(y, x))  # a turn at the end would bring a careless server nearer
     angle = random.uniform(-0.5, 0.5)
-    second = (
-        first[0] - 0.9 * math.cos(angle),
-        first[1] - 0.9 * math.sin(angle),
-        random.uniform(-math.pi, math.pi),
-    )
-    tolerances = (random.uniform(0.06, 0.08), random.uniform(0.15, 0.25))
-    return {
-        "poses": [
-            [round(value, 3) for value in (*pose, tolerance)]
-            for pose, tolerance in zip((first, second), tolerances, strict=True)
-        ]
-    }
+    behind_it = [-1.5, side * 0.5, 0.0]
+    behind = (x - 0.9 * math.cos(angle), y - 0.9 * math.sin(angle), random.uniform(-math.pi, math.pi))
+
+    def canceled(name: str, pose: list[float], *wait: Any) -> Steps:
+        return [["go_on", name, *pose], *wait, ["cancel", name], ["end", name], ["wait", WATCHING]]
+
+    blocks: list[Steps] = [
+        canceled("early", FAR),
+        canceled("turning", behind_it, ["walk_for", random.uniform(0.3, 1.5)]),
+        canceled("walking", FAR, ["walk_for", random.uniform(1.0, 3.0)]),
+        canceled("near", [0.6, 0.0, 0.0], ["come_near", "near", 0.2]),
+        [
+            *(["go_on", "old", *FAR], ["walk_for", random.uniform(1.5, 2.5)]),
+            ["ask", "in a frame", "header.frame_id", random.choice(("map", "base_link", "world", ""))],
+            *(["go_on", "new", *FAR], ["end", "old"], ["walk_for", random.uniform(0.2, 0.5)]),
+            ["go_on", "newest", random.uniform(0.5, 0.8), random.choice((-0.5, 0.5)), random.uniform(-1, 1)],
+            *(["end", "new"], arrive("newest", 1.0), ["wait", LISTENING]),
+        ],
+        [["go_on", "here", 0.0, 0.0, 0.0], ["end", "here"], ["wait", LISTENING]],
+    ]
+    random.shuffle(blocks)
+    steps = [
+        *(["go", "first", x, y, math.atan2(y, x), random.uniform(0.06, 0.08)], arrive("first", 1.0)),
+        *(["wait", LISTENING], ["go", "second", *behind, random.uniform(0.15, 0.25)], arrive("second", 1.0)),
+        *(["wait", LISTENING], *(step for block in blocks for step in block)),
+        *(["go_on", "down", *random.choice((FAR, behind_it))], ["walk_for", random.uniform(0.3, 1.0)]),
+        *(["cut_power"], ["end", "down"]),
+        *(["wait", LISTENING], ["go", "lying", 0.0, 0.0, 0.0]),
+    ]
+    return {"steps": rounded(steps)}
 
 
-RANDOM_POSES = Scenario("navigate_in_turn", _poses)
-ANY_PHASE = Scenario(
-    "cancel",
-    lambda random: {
-        "x": -1.5,
-        "y": 0.5,
-        "delays": [round(random.uniform(*span), 2) for span in ((0.3, 2.0), (2.5, 4.0))],
-    },
+def _to_the_other_side(random: Random) -> dict[str, Any]:
+    steps = [
+        *(["go", "go", 1.8, random.uniform(-0.2, 0.2), 0.0], ["get_away", 0.9]),
+        *(["lead_astray", random.uniform(3.5, 4.5), -1], arrive("go", 1.8), ["wait", LISTENING]),
+    ]
+    return {"steps": rounded(steps)}
+
+
+ANY_ORDER = Scenario("in_order", _steps)
+TO_THE_OTHER_SIDE = Scenario("in_order", _to_the_other_side)
+
+arrives_within_the_tolerance = check_of(
+    "arrives_within_the_tolerance",
+    model.accepts,
+    model.rejects_frames,
+    model.rejects_without_power,
+    model.goes_on,
+    model.succeeds,
+    model.stands_at_success,
+    model.stands_without_a_goal,
+    model.status_in_order,
+    model.succeeds_where_it_stands,
+    model.feedback_at_5_hz,
+    model.feedback_ends_with_the_goal,
+    model.feedback_is_true,
+    model.gives_way,
+    model.tells_a_fall,
+    model.names_no_error,
+    model.says_why_it_aborted,
+    title="It reaches poses with any heading, one after the other, each within its tolerance, and keeps every clause",
+    points=2,
+    on=ANY_ORDER,
+    needs=arrives,
+    see="06_walk_to_a_pose#settle-why",
 )
-TO_THE_OTHER_SIDE = Scenario(
-    "lead_astray",
-    lambda random: {
-        "x": 1.8,
-        "y": round(random.uniform(-0.2, 0.2), 2),
-        "back": round(random.uniform(3.5, 4.5), 2),
-        "turn": -1,
-    },
-)
-OTHER_PREEMPT = Scenario(
-    "preempt",
-    lambda random: {
-        "x": round(random.uniform(1.2, 1.5), 2),
-        "y": round(random.uniform(-0.8, -0.4), 2),
-        "yaw": round(random.uniform(-1.0, 0.0), 2),
-        "after": round(random.uniform(2.5, 4.0), 2),
-    },
-)
-OTHER_NAMESPACE = Scenario("navigate", {"x": 0.5, "y": 0.0, "yaw": 0.0}, namespace="/lab_7/robot")
-
-
-@check(points=2, on=RANDOM_POSES, needs=arrives, see="06_walk_to_a_pose#settle-why", clauses=[2, 4])
-def arrives_within_the_tolerance(run: Transcript) -> None:
-    """It reaches poses with any heading, one after the other, each within its tolerance"""
-    for number, (*_pose, tolerance) in enumerate(run.params["poses"], start=1):
-        require_arrival(run.goal(f"leg {number}"), within=tolerance)
-
-
-@check(
+tells_each_goal_its_own_story = check_of(
+    "tells_each_goal_its_own_story",
+    model.measures_its_path,
+    model.counts_no_recovery,
+    model.progress_rises,
+    title="Path, recoveries and progress begin at 0 with each goal",
     points=1,
-    on=RANDOM_POSES,
+    on=ANY_ORDER,
     needs=[arrives_within_the_tolerance, measures_its_path, counts_no_detour_without_one],
     see="08_navigation#odometer-why",
-    clauses=[12, 15],
 )
-def tells_each_goal_its_own_story(run: Transcript) -> None:
-    """Path and recoveries begin at 0 with each goal"""
-    for number in range(1, len(run.params["poses"]) + 1):
-        goal = run.goal(f"leg {number}")
-        require_measured_path(
-            goal,
-            goal.require_result(SUCCEEDED),
-            too_much="Begin the sum at 0 in every goal: keep it in execute, not in the node.",
-        )
-        require_no_detour(goal)
-
-
-@check(
-    points=1, on=ANY_PHASE, needs=cancels_in_mid_stride, see="07_cancel_and_preempt#fix-intro", clauses=[17]
-)
-def cancels_in_any_phase(run: Transcript) -> None:
-    """Also while it turns a cancel ends CANCELED, with the robot still"""
-    for delay in run.params["delays"]:
-        request = run.goal(f"after {delay:g} s").require_canceled()
-        require_walking(run, request.t)
-        require_stopped(run, request.t)
-
-
-@check(
-    points=1, on=TO_THE_OTHER_SIDE, needs=counts_the_recovery, see="08_navigation#loops-why", clauses=[14, 15]
-)
-def gets_back_from_anywhere(run: Transcript) -> None:
-    """Led astray to the other side, it counts that, too, and arrives"""
-    require_detour_counted(run.goal("go"))
-    require_arrival(run.goal("go"))
-
-
-@check(
+cancels_in_any_phase = check_of(
+    "cancels_in_any_phase",
+    model.grants_cancels,
+    model.stops_when_canceled,
+    title="Before its first step and while it turns, too, a cancel ends CANCELED, with the robot still",
     points=1,
-    on=OTHER_PREEMPT,
+    on=ANY_ORDER,
+    needs=cancels_in_mid_stride,
+    see="07_cancel_and_preempt#fix-intro",
+)
+gets_back_from_anywhere = check_of(
+    "gets_back_from_anywhere",
+    model.counts_the_detour,
+    model.finds_its_way_back,
+    model.feedback_at_5_hz,
+    model.feedback_is_true,
+    model.measures_its_path,
+    title="Led astray to the other side, it counts that, too, and arrives",
+    points=1,
+    on=TO_THE_OTHER_SIDE,
+    needs=counts_the_recovery,
+    see="08_navigation#loops-why",
+)
+a_new_goal_has_a_time_of_its_own = check_of(
+    "a_new_goal_has_a_time_of_its_own",
+    model.succeeds,
+    model.tells_its_time,
+    title="navigation_time of a goal that preempts begins at its own acceptance",
+    points=1,
+    on=ANY_ORDER,
     needs=[new_goal_preempts_the_old, tells_its_time],
     see="08_navigation#conventions",
-    clauses=[9],
 )
-def a_new_goal_has_a_time_of_its_own(run: Transcript) -> None:
-    """navigation_time of a goal that preempts begins at its own acceptance"""
-    require_arrival(run.goal("new"))
-    require_true_navigation_time(run.goal("new"))
-
-
-@check(points=1, on=OTHER_NAMESPACE, needs=arrives, see="01_robot_and_graph#names-why", clauses=[21])
-def works_in_any_namespace(run: Transcript) -> None:
-    """Started in another namespace, it walks the robot there"""
-    require_arrival(run.goal("go"))
+works_in_any_namespace = standard_hidden.works_in_any_namespace(
+    "walks the robot", model.succeeds, clauses=[21], points=1, on=OTHER_NAMESPACE, needs=arrives
+)

@@ -1,4 +1,4 @@
-"""A goal that was reached, and what was told on the way to it."""
+"""The way to a goal of navigate_to_pose, with or without an operator who takes the robot over."""
 
 from __future__ import annotations
 
@@ -12,15 +12,26 @@ from autograder.authoring import events as ev
 from autograder.authoring.feedback import require_feedback
 from autograder.authoring.goal import SUCCEEDED, Goal
 from autograder.authoring.missing import unseen
+from autograder.authoring.sequence import STEPS
+from autograder.authoring.walking.life import (
+    accepted,
+    interrupted,
+    is_undisturbed,
+    left_alone,
+    run_of,
+    way_to,
+)
 from autograder.authoring.walking.planar import error, target
 from ros_runtime.angles import wrap
 
 ON_THE_WAY = 0.3  # m left, at least, where the robot is under way
+LONG = 1.0  # m; a shorter leg has no middle in which the robot only walks
+OFF_ITS_WAY = 0.6  # rad between heading and goal: more than the task's 0.5, so that nobody may overlook it
 
 
 @dataclass(frozen=True)
 class Leg:
-    """A goal that was reached, with the moment when half of its distance was left."""
+    """A long way that nothing disturbed, with the moment when half of its distance was left."""
 
     goal: Goal
     start: float  # s
@@ -28,15 +39,39 @@ class Leg:
     end: float  # s
 
     @staticmethod
-    def of(goal: Goal) -> Leg:
-        """Return the walk to a goal, which must have succeeded."""
-        end = goal.require_accepted().require_result(SUCCEEDED).t
+    def of(goal: Goal) -> Leg | None:
+        """Return the way to a goal, which must have succeeded; None if it was disturbed, or short."""
+        if not is_undisturbed(goal) or left_alone(goal) or operated(goal) or way_to(goal) < LONG:
+            return None
+        end = goal.require_result(SUCCEEDED).t
         start = goal.accepted_at
         whole, _turn = error(goal.run.robot_at(start), goal)
         for robot in goal.run.robot_between(start, end):
             if error(robot, goal)[0] <= whole / 2:
                 return Leg(goal, start, robot.t, end)
         raise unseen(goal.run, f"the robot was never half way to “{goal.name}”")
+
+
+def operated(goal: Goal, *how: str) -> bool:
+    """Return whether the scenario takes the robot over on its way: leads it astray or holds it, or one of these."""
+    newest = None
+    for verb, *arguments in run_of(goal).params[STEPS]:
+        if verb in (how or ("lead_astray", "hold")) and newest == goal.name:
+            return True
+        newest = arguments[0] if verb in ("go", "go_on") else newest
+    return False
+
+
+def led_astray(goal: Goal) -> tuple[float, float] | None:
+    """Return when (s) the robot was taken over and given back; it must then have been off its way by over 0.5 rad."""
+    if not accepted(goal) or interrupted(goal) or not operated(goal, "lead_astray"):
+        return None
+    run = goal.run
+    taken, given = run.told("take_over", velocity=[-0.2, 0.0, 0.0]), run.told("take_over", velocity=None)
+    off = off_the_way(run.robot_at(given.t), goal)
+    if off < OFF_ITS_WAY:
+        raise unseen(run, f"the robot was only {off:.1f} rad off its way when it was given back")
+    return taken.t, given.t
 
 
 def seconds(duration: Duration) -> float:
@@ -50,18 +85,17 @@ def off_the_way(robot: ev.RobotTruth, goal: Goal) -> float:
     return abs(wrap(robot.yaw - math.atan2(place.y - robot.y, place.x - robot.x)))
 
 
+def told(goal: Goal) -> Sequence[ev.FeedbackReceived]:
+    """Return the feedback until the result; what comes later is judged by itself."""
+    return [feedback for feedback in goal.feedback if goal.result is None or feedback.t <= goal.result.t]
+
+
 def under_way(goal: Goal) -> Sequence[ev.FeedbackReceived]:
     """Return the feedback that came while more than 0.3 m were left, of which there must be some."""
-    require_feedback(goal)
-    far = [f for f in goal.feedback if error(goal.run.robot_at(f.t), goal)[0] > ON_THE_WAY]
+    far = [each for each in told(goal) if error(goal.run.robot_at(each.t), goal)[0] > ON_THE_WAY]
     if not far:
-        raise unseen(goal.run, f"the robot was never under way to “{goal.name}”")
+        raise unseen(goal.run, f"no feedback came under way to “{goal.name}”")
     return far
-
-
-def told(goal: Goal) -> list[ev.FeedbackReceived]:
-    """Return the feedback until the result; what comes later is another check's business."""
-    return [feedback for feedback in goal.feedback if goal.result is None or feedback.t <= goal.result.t]
 
 
 def at_moment(goal: Goal, t: float) -> ev.FeedbackReceived:

@@ -4,30 +4,33 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
-from autograder.authoring.goal import Goal
+from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring.walking.life import accepted, interrupted, others, phase, went_down
 from autograder.authoring.walking.path import STRIDE, length_walked
+from ros_runtime.message_constants import GoalStatus, name_of
 
-LOST = 0.2  # m where the robot turns back: half a leg before it and half a leg after it go uncounted
+from .legs import led_astray, operated
+
+LOST = (
+    0.2  # m where the robot turns back, or goes on: half a leg before it and half a leg after it go uncounted
+)
 SHARE, LEAST = 0.15, 0.25  # of the path, or m (more than a step), that distance_traveled may be off
 _COUNTS_SWAY = (
     "The pelvis sways 3 cm to each side with every step, also while the robot turns on the spot. Count a leg only when "
     "odom is 0.15 m away from where the last one ended."
 )
+_ODOM_TELLS = "Count legs of the way in odom: the robot may not obey what you publish on cmd_vel."
+_OF_EACH_GOAL = "Begin the sum at 0 in every goal: keep it in execute, not in the node."
 
 
-def require_measured_path(
-    goal: Goal, end: ev.ResultReceived, reversals: int = 0, too_much: str = _COUNTS_SWAY
-) -> None:
-    """Require that the result's distance_traveled is the length of the path, on which it turned back so many times.
-
-    Args:
-        goal: which was accepted.
-        end: its result.
-        reversals: how often the robot turned back on its way.
-        too_much: the advice where it tells more than the robot walked.
-    """
+def measures_its_path(goal: Goal) -> str | None:
+    """distance_traveled is the path of the pelvis without its sway, walked for this goal, however it ends."""
+    end = goal.result
+    if not accepted(goal) or end is None or interrupted(goal) or went_down(goal):
+        return None
+    detour = led_astray(goal) is not None
+    ends_standing = not detour and (goal.status == SUCCEEDED or operated(goal))
     walked = length_walked(goal.run, goal.accepted_at, end.t)
     directly = length_walked(goal.run, goal.accepted_at, end.t, STRIDE)
     claimed = float(end.result.distance_traveled)
@@ -35,7 +38,7 @@ def require_measured_path(
         *((r.x, r.y) for r in (goal.run.robot_at(goal.accepted_at), goal.run.robot_at(end.t)))
     )
     if claimed > walked:
-        help = too_much
+        help = _ODOM_TELLS if operated(goal) else _OF_EACH_GOAL if others(goal) else _COUNTS_SWAY
     elif abs(claimed - straight) < LEAST / 2:
         help = (
             "That is the straight distance from start to end: add up the legs of the path, and the way back."
@@ -43,7 +46,7 @@ def require_measured_path(
     else:
         help = "Count the path in every round of the loop, from acceptance to the end, also while the robot turns."
     slack = max(SHARE * walked, LEAST)
-    least, most = directly - slack - reversals * LOST, walked + slack
+    least, most = directly - slack - (2 if detour else 0 if ends_standing else 1) * LOST, walked + slack
     expect(
         least <= claimed <= most,
         expected=f"result.distance_traveled near {walked:.2f} m ({least:.2f} to {most:.2f} m), the path of the pelvis "
@@ -52,3 +55,4 @@ def require_measured_path(
         help=help,
         at=end.t,
     )
+    return f"{name_of(GoalStatus, end.status)}, {phase(goal)}"

@@ -9,24 +9,24 @@ from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
 from autograder.authoring.goal import Goal
 from autograder.authoring.missing import unseen
+from autograder.authoring.walking.life import phase
 from autograder.authoring.walking.path import walking_speed
 
 from .legs import Leg, off_the_way
 
 FACING = 0.6  # rad between heading and goal while it walks
 IN_PLACE = 0.10  # m/s of the body as a whole
-WALKS, STANDS, TURNS = (
-    0.7,
-    0.4,
-    0.5,
-)  # of the greatest speed, and turn rate in place, that the robot had on this leg
+# of the greatest speed, and turn rate in place, that the robot had on this leg
+WALKS, STANDS, TURNS = 0.7, 0.4, 0.5
 
 _NUMBER = re.compile(r"[-+]?\d+([.,]\d+)?")
 
 
-def require_facing(goal: Goal) -> None:
-    """Require that the robot faces the goal while it walks in the middle of its way."""
+def faces_its_way(goal: Goal) -> str | None:
+    """It turns toward the goal, then walks straight ahead: it faces the goal in the middle of its way."""
     leg = Leg.of(goal)
+    if leg is None:
+        return None
     for robot in goal.run.robot_between(leg.half - 1.0, leg.half + 0.5):
         if walking_speed(goal.run, robot.t) < IN_PLACE:
             continue
@@ -39,11 +39,14 @@ def require_facing(goal: Goal) -> None:
             "heading is small; only then linear.x.",
             at=robot.t,
         )
+    return phase(goal)
 
 
-def require_named_phases(goal: Goal) -> None:
-    """Require that the walk has a name of its own, and the turns before and after it have others."""
+def names_its_phases(goal: Goal) -> str | None:
+    """The walk has a status of its own, and the turns before and after it have others."""
     leg = Leg.of(goal)
+    if leg is None:
+        return None
     moves = [
         (robot, walking_speed(goal.run, robot.t))
         for robot in goal.run.robot_between(leg.start, leg.end)[::10]
@@ -58,16 +61,16 @@ def require_named_phases(goal: Goal) -> None:
     turning = _statuses(goal, leg.start, leg.half, turns)
     walking = _statuses(goal, leg.start, leg.end, lambda robot, speed: speed > WALKS * fastest)
     aligning = _statuses(goal, leg.half, leg.end, turns)
-    for phase, statuses in (
+    for what, statuses in (
         ("it turns toward the goal", turning),
         ("it walks", walking),
         ("it turns to the goal's heading", aligning),
     ):
         if not statuses:
-            raise unseen(goal.run, f"no feedback came while {phase}")
+            raise unseen(goal.run, f"no feedback came while {what}")
         expect(
             all(status.strip() for status in statuses),
-            expected=f"feedback.status to say in words that {phase}",
+            expected=f"feedback.status to say in words that {what}",
             observed="an empty status",
             help="Keep the phase in a variable, change it where the loop changes what it does, and copy it to "
             "feedback.status.",
@@ -80,6 +83,7 @@ def require_named_phases(goal: Goal) -> None:
         help="Set the phase where the loop decides to turn, to walk or to align, and send that.",
         at=leg.half,
     )
+    return phase(goal)
 
 
 def _statuses(goal: Goal, start: float, end: float, during) -> Counter[str]:

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from autograder.authoring.failure import expect
-from autograder.authoring.feedback import require_feedback
 from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring.walking.life import accepted, interrupted, phase
+from ros_runtime.message_constants import GoalStatus, name_of
 
-from .legs import Leg, at_moment
+from .legs import Leg, at_moment, told
 
 HALF_WAY = (25.0, 75.0)  # percent
 COMPLETE = 99.5  # percent
 
 
-def require_rising_progress(goal: Goal) -> None:
-    """Require that progress_percentage is 0 to 100, never falls, and is 100 when the goal has succeeded."""
-    end = goal.require_accepted().require_result(SUCCEEDED)
-    require_feedback(goal)
+def progress_rises(goal: Goal) -> str | None:
+    """progress_percentage is 0 to 100, never falls, and is 100 in the last feedback before the goal SUCCEEDED."""
+    if not accepted(goal) or interrupted(goal) or not (told(goal) or goal.status == SUCCEEDED):
+        return None
     before = 0.0
-    for feedback in goal.feedback:
+    for feedback in told(goal):
         progress = float(feedback.feedback.progress_percentage)
         expect(
             0.0 <= progress <= 100.01,
@@ -35,17 +36,20 @@ def require_rising_progress(goal: Goal) -> None:
         )
         before = progress
     expect(
-        before >= COMPLETE,
+        before >= COMPLETE or goal.status != SUCCEEDED,
         expected="100 percent in the last feedback of a goal that SUCCEEDED",
         observed=f"{before:.1f}",
         help="Publish one more feedback with progress_percentage 100 before succeed().",
-        at=end.t,
+        at=goal.result.t if goal.result else None,
     )
+    return name_of(GoalStatus, goal.status) if goal.status else None
 
 
-def require_half_done_half_way(goal: Goal) -> None:
-    """Require that the progress half way is about half."""
+def half_done_half_way(goal: Goal) -> str | None:
+    """progress_percentage is about half where half of the distance is left."""
     leg = Leg.of(goal)
+    if leg is None:
+        return None
     progress = at_moment(goal, leg.half).feedback.progress_percentage
     low, high = HALF_WAY
     expect(
@@ -55,3 +59,4 @@ def require_half_done_half_way(goal: Goal) -> None:
         help="Compare what is left, in metres or in seconds, with what was left when the goal was accepted.",
         at=leg.half,
     )
+    return phase(goal)

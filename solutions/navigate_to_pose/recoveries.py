@@ -1,52 +1,55 @@
-"""number_of_recoveries: none without a disturbance, one after it."""
+"""Detours: the robot finds its way back, and number_of_recoveries counts that once, and nothing else."""
 
 from __future__ import annotations
 
 from autograder.authoring.failure import expect
-from autograder.authoring.feedback import require_feedback
 from autograder.authoring.goal import Goal
 from autograder.authoring.missing import unseen
+from autograder.authoring.walking.life import accepted, interrupted, phase
+from autograder.authoring.walking.truth import require_arrival
 
-from .legs import off_the_way, told
+from .legs import led_astray, operated, told
 
-OFF_ITS_WAY = 0.6  # rad between heading and goal: more than the task's 0.5, so that nobody may overlook it
 MOST_DETOURS = 3  # one is right; who counts the turn back and the walk back as two is right, too
 
 
-def require_no_detour(goal: Goal) -> None:
-    """Require that no recovery is counted on a way without a disturbance."""
-    require_feedback(goal)
-    counted = max(goal.feedback, key=lambda feedback: feedback.feedback.number_of_recoveries)
+def finds_its_way_back(goal: Goal) -> str | None:
+    """Led back and turned by a remote control, the robot finds its way again, and arrives."""
+    if led_astray(goal) is None:
+        return None
+    require_arrival(goal)
+    return "led astray"
+
+
+def counts_no_recovery(goal: Goal) -> str | None:
+    """number_of_recoveries stays 0 while nothing disturbs the robot, also after a goal on whose way something did."""
+    if not accepted(goal) or interrupted(goal) or operated(goal) or not told(goal):
+        return None
+    counted = max(told(goal), key=lambda feedback: feedback.feedback.number_of_recoveries)
     expect(
         counted.feedback.number_of_recoveries == 0,
-        expected="number_of_recoveries 0: nothing disturbed the robot",
+        expected="number_of_recoveries 0: nothing disturbed the robot on the way to this goal",
         observed=f"{counted.feedback.number_of_recoveries}",
-        help="The turn at the start is no recovery, nor is a bearing that swings when the goal is a step away: count "
-        "only when the robot walks, farther than 0.3 m from the goal, and is off by more than 0.5 rad.",
+        help="Count for each goal anew. The turn at the start is no recovery, nor is a bearing that swings when the "
+        "goal is a step away: count only when the robot walks, farther than 0.3 m from the goal, and is off by more "
+        "than 0.5 rad.",
         at=counted.t,
     )
+    return phase(goal)
 
 
-def require_led_astray(goal: Goal) -> tuple[float, float]:
-    """Return when the robot was taken over and given back; it must then have been off its way by more than 0.5 rad."""
-    run = goal.run
-    taken, given = run.told("take_over", velocity=[-0.2, 0.0, 0.0]), run.told("take_over", velocity=None)
-    off = off_the_way(run.robot_at(given.t), goal)
-    if off < OFF_ITS_WAY:
-        raise unseen(run, f"the robot was only {off:.1f} rad off its way when it was given back")
-    return taken.t, given.t
-
-
-def require_detour_counted(goal: Goal) -> None:
-    """Require that a recovery is counted once the robot has been led astray, and not before."""
-    taken, given = require_led_astray(goal)
-    require_feedback(goal)
-    early = [f for f in goal.feedback if f.t < taken]
-    counts = [f.feedback.number_of_recoveries for f in told(goal)]
+def counts_the_detour(goal: Goal) -> str | None:
+    """number_of_recoveries counts a detour, once."""
+    moments = led_astray(goal)
+    if moments is None:
+        return None
+    taken, given = moments
+    counts = [each.feedback.number_of_recoveries for each in told(goal)]
+    early = [each.feedback.number_of_recoveries for each in told(goal) if each.t < taken]
     expect(
-        not early or early[-1].feedback.number_of_recoveries == 0,
+        not early or early[-1] == 0,
         expected="number_of_recoveries 0 until something disturbs the robot",
-        observed=f"{early[-1].feedback.number_of_recoveries if early else 0}",
+        observed=f"{early[-1] if early else 0}",
         help="The turn at the start is no recovery.",
         at=taken,
     )
@@ -69,3 +72,4 @@ def require_detour_counted(goal: Goal) -> None:
         help="Count for the whole goal.",
         at=given,
     )
+    return "led astray"

@@ -7,28 +7,23 @@ import math
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario
 from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.server_checks import (
+    INTERRUPT,
+    WRONG_POSES,
+    fall_is_reported,
+    rejections,
+    reports,
+    two_walks,
+)
 
 from . import model
 
-# The second goal lies ahead of a robot that has turned and has taken steps before. A rotation by 2 pi less is the same
-# heading, and its quaternion has another sign.
-WALK = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "walk", 0.55, 0.2, 1.5, 0.2], ["arrive", "walk"], ["wait", 1.5]),
-            *(["go", "again", 0.55, 0.6, 1.5 - math.tau, 0.05], ["arrive", "again"], ["wait", 1.5]),
-        ]
-    },
-)
+WALK = two_walks(0.2, 0.03)
 IMPOSSIBLE = Scenario(
     "in_order",
     {
         "steps": [
-            ["ask", "wrong frame", "header.frame_id", "map"],
-            ["ask", "NaN position", "pose.position.x", math.nan],
-            ["ask", "NaN height", "pose.position.z", math.nan],
-            ["ask", "NaN orientation", "pose.orientation.z", math.nan],
+            *WRONG_POSES,
             ["ask", "zero quaternion", "pose.orientation.w", 0.0],
             ["ask", "negative velocity", "max_velocity", -0.2],
             ["ask", "NaN velocity", "max_velocity", math.nan],
@@ -36,6 +31,7 @@ IMPOSSIBLE = Scenario(
     },
     robot=RESTING,
 )
+# The robot that is played stands, whatever it is told: one that asks whether it walks takes a second goal.
 UNREADY = Scenario(
     "beside_a_played_robot",
     {
@@ -43,6 +39,7 @@ UNREADY = Scenario(
             *(["play", False, True], ["go", "before odom", 1.0, 0.0, 0.0]),
             *(["play", True, False], ["go", "without power", 1.0, 0.0, 0.0]),
             *(["play", True, True], ["go", "with odom and power", 1.0, 0.0, 0.0]),
+            ["go", "while it stands", 0.0, 1.0, 0.0],
         ]
     },
     robot=None,
@@ -70,7 +67,6 @@ FALL = Scenario(
         ]
     },
 )
-INTERRUPT = Scenario("in_order", {"steps": [["interrupt"]]}, robot=RESTING)
 
 REJECT = "06_walk_to_a_pose#reject-task"
 FRAMES = "01_robot_and_graph#frames-intro"
@@ -87,24 +83,7 @@ accepts_a_goal = check_of(
     needs=server_appears,
     see=REJECT,
 )
-rejects_a_wrong_frame = check_of(
-    "rejects_a_wrong_frame",
-    model.rejects_frames,
-    title="It rejects a pose in frame map",
-    points=1,
-    on=IMPOSSIBLE,
-    needs=accepts_a_goal,
-    see=REJECT,
-)
-rejects_nan = check_of(
-    "rejects_nan",
-    model.rejects_nan,
-    title="It rejects a pose that holds NaN",
-    points=1,
-    on=IMPOSSIBLE,
-    needs=accepts_a_goal,
-    see=REJECT,
-)
+rejects_a_wrong_frame, rejects_nan = rejections(model, on=IMPOSSIBLE, needs=accepts_a_goal, see=REJECT)
 rejects_what_is_no_rotation = check_of(
     "rejects_what_is_no_rotation",
     model.rejects_no_rotation,
@@ -155,12 +134,18 @@ rejects_a_second_goal = check_of(
     model.goes_on,
     title="A goal while another runs is rejected, and the first goes on",
     points=1,
-    on=INTERFERE,
+    on=[INTERFERE, UNREADY],
     needs=refuses_a_cancel,
     see="07_cancel_and_preempt#two-why",
 )
 walks_to_the_goal = check_of(
-    "walks_to_the_goal", model.comes_near, points=2, on=WALK, needs=accepts_a_goal, see=FRAMES
+    "walks_to_the_goal",
+    model.comes_near,
+    model.turns_the_short_way,
+    points=2,
+    on=WALK,
+    needs=accepts_a_goal,
+    see=FRAMES,
 )
 obeys_max_velocity = check_of(
     "obeys_max_velocity",
@@ -180,12 +165,7 @@ chooses_its_own_velocity = check_of(
     see="01_robot_and_graph#listen-intro",
 )
 arrives = check_of(
-    "arrives",
-    model.succeeds,
-    points=2,
-    on=WALK,
-    needs=walks_to_the_goal,
-    see="06_walk_to_a_pose#settle-why",
+    "arrives", model.succeeds, points=2, on=WALK, needs=walks_to_the_goal, see="06_walk_to_a_pose#settle-why"
 )
 ends_with_a_zero_twist = check_of(
     "ends_with_a_zero_twist",
@@ -205,51 +185,20 @@ stands_when_it_succeeds = check_of(
     needs=arrives,
     see="06_walk_to_a_pose#touch-why",
 )
-fills_the_result = check_of(
-    "fills_the_result",
-    model.accepts,
-    model.reports_where_it_ended,
-    title="Each result, also of a second goal, holds where the robot ended, the steps for this goal, and NONE",
-    points=1,
+fills_the_result, feedback_keeps_its_rate, feedback_is_true, feedback_ends_with_the_goal = reports(
+    model,
     on=WALK,
-    needs=arrives,
-    see="06_walk_to_a_pose#settle-why",
+    under_way=walks_to_the_goal,
+    arrives=arrives,
+    see=(
+        "06_walk_to_a_pose#settle-why",
+        "06_walk_to_a_pose#conventions",
+        "06_walk_to_a_pose#settle-intro",
+        "06_walk_to_a_pose#settle-intro",
+    ),
 )
-feedback_keeps_its_rate = check_of(
-    "feedback_keeps_its_rate",
-    model.feedback_at_5_hz,
-    points=1,
-    on=WALK,
-    needs=walks_to_the_goal,
-    see="06_walk_to_a_pose#conventions",
-)
-feedback_is_true = check_of(
-    "feedback_is_true",
-    model.feedback_is_true,
-    model.estimates_the_time,
-    title="Pose, distance and steps in the feedback are the robot's, and the estimate of the time left is one",
-    points=1,
-    on=WALK,
-    needs=feedback_keeps_its_rate,
-    see="06_walk_to_a_pose#settle-intro",
-)
-feedback_ends_with_the_goal = check_of(
-    "feedback_ends_with_the_goal",
-    model.feedback_ends_with_the_goal,
-    points=1,
-    on=WALK,
-    needs=[arrives, feedback_keeps_its_rate],
-    see="06_walk_to_a_pose#settle-intro",
-)
-aborts_when_the_robot_falls = check_of(
-    "aborts_when_the_robot_falls",
-    model.tells_a_fall,
-    model.says_why_it_aborted,
-    title="When the robot falls the goal is ABORTED with FELL, and says so",
-    points=1,
-    on=FALL,
-    needs=walks_to_the_goal,
-    see="06_walk_to_a_pose#fall-why",
+aborts_when_the_robot_falls = fall_is_reported(
+    model, on=FALL, needs=walks_to_the_goal, see="06_walk_to_a_pose#fall-why"
 )
 ends_cleanly = standard.ends_cleanly(
     points=1,

@@ -9,11 +9,14 @@ from typing import Any
 from autograder.authoring import standard_hidden
 from autograder.authoring.checks import Scenario
 from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.drawn import NUMBERS, impossible, rounded
+from autograder.authoring.walking.server_checks import OTHER_NAMESPACE
 
 from . import model
 from .checks import FRAMES, REJECT, arrives, obeys_max_velocity, rejects_a_wrong_frame
 
 AFTERWARDS = 0.8  # s from a result to the next goal
+LISTENING = 1.5  # s after the last result in which nothing more may come
 
 
 def _steps(random: Random) -> dict[str, Any]:
@@ -51,38 +54,16 @@ def _steps(random: Random) -> dict[str, Any]:
             ["other", x + behind * math.cos(yaw), y + behind * math.sin(yaw), yaw, 0.0],
         ],
         *(["arrive", "one"], ["arrive", "other"], ["wait", AFTERWARDS]),
-        *_impossible(random),  # when all else is done, so that one that is accepted is in nobody's way
+        *impossible(
+            random, ("pose.orientation.w", 0.0), ("max_velocity", random.choice((-0.01, -3.0, *NUMBERS)))
+        ),  # when all else is done, so that one that is accepted is in nobody's way
         *(["go", "far", 0.0, 0.0, 0.0, 0.3], ["walk_for", round(random.uniform(0.3, 1.0), 2)]),
-        *(["cut_power"], ["end", "far"], ["wait", AFTERWARDS], ["go", "lying", 0.0, 0.0, 0.0]),
+        *(["cut_power"], ["end", "far"], ["wait", LISTENING], ["go", "lying", 0.0, 0.0, 0.0]),
     ]
-    return {"steps": [_rounded(step) for step in steps]}
-
-
-def _impossible(random: Random) -> list[list[Any]]:
-    """Return goals that must be rejected, each wrong in one field, in any order."""
-    numbers = (math.nan, math.inf, -math.inf)
-    wrong: list[tuple[str, Any]] = [
-        ("header.frame_id", random.choice(("base_link", "world", "odometry", "", "odom_combined"))),
-        *((f"pose.position.{axis}", random.choice(numbers)) for axis in "xyz"),
-        *((f"pose.orientation.{axis}", random.choice(numbers)) for axis in "xyzw"),
-        ("pose.orientation.w", 0.0),
-        ("max_velocity", random.choice((-0.01, -3.0, *numbers))),
-    ]
-    random.shuffle(wrong)
-    return [["ask", f"impossible {number}", *each] for number, each in enumerate(wrong, start=1)]
-
-
-def _rounded(step: list[Any]) -> list[Any]:
-    return [
-        round(each, 3) if isinstance(each, float) else _rounded(each) if isinstance(each, list) else each
-        for each in step
-    ]
+    return {"steps": rounded(steps)}
 
 
 ANY_ORDER = Scenario("in_order", _steps)
-OTHER_NAMESPACE = Scenario(
-    "in_order", {"steps": [["go", "walk", 0.3, 0.0, 0.0, 0.3], ["arrive", "walk"]]}, namespace="/lab_7/robot"
-)
 
 WALKED = (model.accepts, model.succeeds)  # without which nobody can tell how it walked
 
@@ -100,6 +81,7 @@ arrives_anywhere = check_of(
     model.does_not_steer_without_a_goal,
     model.feedback_at_5_hz,
     model.feedback_is_true,
+    model.feedback_ends_with_the_goal,
     model.reports_where_it_ended,
     model.tells_a_fall,
     model.says_why_it_aborted,

@@ -10,14 +10,14 @@ from autograder.authoring.goal import Cancel, Goal
 from autograder.authoring.missing import unseen
 from autograder.authoring.robot_topic import DELIVERY
 from autograder.authoring.transcript import Transcript
-from autograder.authoring.walking.planar import error
+from autograder.authoring.walking.planar import error, tolerance
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus, name_of
 
 TERMINAL = (GoalStatus.SUCCEEDED, GoalStatus.CANCELED, GoalStatus.ABORTED)
 AT_IT = 0.1  # m; a robot that is no farther from its goal need not walk
 BIG_TURN = 0.3  # rad
-NEAR = 0.25  # m and…
+NEAR = 0.15  # m more than the tolerance, and…
 TURNED = 0.3  # rad from the goal are "just before arrival"
 
 
@@ -64,25 +64,21 @@ def overlaps(goal: Goal, asked: Goal) -> bool | None:
 
 def successors(goal: Goal) -> list[Goal]:
     """Return the goals that were sent and accepted while this one was active, the first of them first."""
-    if goal.answer is None or not goal.answer.accepted:
-        return []
-    return [
-        other for other in others(goal) if accepted(other) and goal.answer.t < other.sent.t < ended_at(goal)
-    ]
+    return [other for other in _rivals(goal) if goal.accepted_at < other.sent.t < ended_at(goal)]
 
 
 def together_with(goal: Goal) -> list[Goal]:
     """Return the accepted goals that were sent before this one was answered, or the other way round."""
-    if goal.answer is None or not goal.answer.accepted:
-        return []
     return [
         other
-        for other in others(goal)
-        if other.answer
-        and other.answer.accepted
-        and other.sent.t <= goal.answer.t
-        and goal.sent.t <= other.answer.t
+        for other in _rivals(goal)
+        if other.sent.t <= goal.accepted_at and goal.sent.t <= other.accepted_at
     ]
+
+
+def _rivals(goal: Goal) -> list[Goal]:
+    """Return the other goals that were accepted; none, if this one was not."""
+    return [other for other in others(goal) if accepted(other)] if accepted(goal) else []
 
 
 def requests_to_cancel(goal: Goal) -> list[Cancel]:
@@ -99,8 +95,7 @@ def cancels_on_the_way(goal: Goal) -> list[Cancel]:
     """Return the requests to cancel it that came while it was active."""
     if goal.answer is None:
         return []
-    start, end = goal.answer.t, ended_at(goal)
-    return [cancel for cancel in requests_to_cancel(goal) if start <= cancel.sent.t < end]
+    return [cancel for cancel in requests_to_cancel(goal) if goal.answer.t <= cancel.sent.t < ended_at(goal)]
 
 
 def granted(goal: Goal) -> list[Cancel]:
@@ -113,16 +108,15 @@ def granted(goal: Goal) -> list[Cancel]:
 def near_arrival(goal: Goal, t: float) -> bool:
     """Return whether the robot was so near its goal at a time (s) that it may arrive at any moment."""
     distance, turn = error(goal.run.robot_at(t), goal)
-    return distance <= NEAR and turn <= TURNED
+    return distance <= tolerance(goal) + NEAR and turn <= TURNED
 
 
 def went_down(goal: Goal) -> ev.RobotTruth | None:
     """Return the robot when it lost its power or had fallen while the goal was active."""
     if not accepted(goal) or not run_of(goal).ground_truth:
         return None
-    assert goal.answer
-    last = min(ended_at(goal) + DELIVERY, goal.run.end)
-    robots = goal.run.robot_between(goal.answer.t, max(last, goal.answer.t))
+    start = goal.accepted_at
+    robots = goal.run.robot_between(start, max(start, min(ended_at(goal) + DELIVERY, goal.run.end)))
     return next((robot for robot in robots if robot.mode in (RobotState.OFF, RobotState.FALLEN)), None)
 
 

@@ -10,8 +10,8 @@ from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import Goal
 from autograder.authoring.goal_endings import why_blind, why_rclpy_aborted
 from autograder.authoring.missing import unseen
-from autograder.authoring.walking.planar import error, heading
-from autograder.authoring.walking.truth import POSITION_TOLERANCE, YAW_TOLERANCE, require_accepted
+from autograder.authoring.walking.planar import POSITION_TOLERANCE, YAW_TOLERANCE, error, heading
+from autograder.authoring.walking.truth import require_accepted
 from ros_runtime.angles import wrap
 
 SPEED_SLACK = 1.1  # times the limit

@@ -10,6 +10,9 @@ from autograder.authoring import events as ev
 from autograder.authoring.goal import Goal
 from ros_runtime.angles import wrap, yaw_of
 
+POSITION_TOLERANCE = 0.10  # m
+YAW_TOLERANCE = 0.15  # rad
+
 
 def error(robot: ev.RobotTruth, goal: Goal) -> tuple[float, float]:
     """Return how far the robot is from the goal: m, rad."""
@@ -27,6 +30,11 @@ def stamped_target(goal: Goal) -> PoseStamped:
 def target(goal: Goal) -> Pose:
     """Return the pose a goal asks for."""
     return stamped_target(goal).pose
+
+
+def tolerance(goal: Goal) -> float:
+    """Return how far (m) from the pose the robot may stand at success: NavigateToPose's tolerance, or 0.10 m."""
+    return getattr(goal.request, "tolerance", 0.0) or POSITION_TOLERANCE
 
 
 def turn(robot: ev.RobotTruth, orientation: Quaternion) -> float:

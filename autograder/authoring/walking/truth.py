@@ -7,11 +7,10 @@ from collections.abc import Sequence
 
 from autograder.authoring import events as ev
 from autograder.authoring.connections import why_nothing_is_heard
-from autograder.authoring.failure import Failure, expect
-from autograder.authoring.falls import fall_after
+from autograder.authoring.failure import expect
 from autograder.authoring.goal import SUCCEEDED, Goal
 from autograder.authoring.robot_record import RobotRecord
-from autograder.authoring.walking.planar import error
+from autograder.authoring.walking.planar import YAW_TOLERANCE, error, tolerance
 from humanoid_interfaces.msg import RobotState
 
 _ACCEPT = (
@@ -23,8 +22,6 @@ _FREE_AGAIN = (
     "finally block."
 )
 SHORTLY = 0.6  # s
-POSITION_TOLERANCE = 0.10  # m
-YAW_TOLERANCE = 0.15  # rad
 STOP_TIME = 2.0  # s
 STOP_SPEED = 0.05  # m/s
 WATCHED = 3.5  # s after the cancel
@@ -43,9 +40,9 @@ def _is_later(goal: Goal) -> bool:
     return any(result.t < goal.sent.t for result in goal.run.all(ev.ResultReceived))
 
 
-def require_arrival(goal: Goal, within: float = POSITION_TOLERANCE) -> None:
-    """Require that the goal succeeded, and by then the simulated robot was where the goal says, `within` m."""
-    result = require_accepted(goal).require_result(SUCCEEDED)
+def require_arrival(goal: Goal) -> None:
+    """Require that the goal succeeded, and by then the simulated robot was within its tolerance of the pose."""
+    result, within = require_accepted(goal).require_result(SUCCEEDED), tolerance(goal)
     distance, turn = error(goal.run.robot_at(result.t), goal)
     expect(
         distance <= within and turn <= YAW_TOLERANCE,
@@ -103,20 +100,6 @@ def require_stopped(
         at=fastest.t,
     )
     require_upright(watched)
-
-
-def require_fall(run: RobotRecord) -> ev.RobotTruth:
-    """Return the robot when it had fallen after it was pushed while it walked."""
-    push = run.told("push")
-    require_walking(run, push.t)
-    if fallen := fall_after(run, push.t):
-        return fallen
-    raise Failure(
-        expected="the walking robot to be knocked over by the push",
-        observed="it did not fall",
-        help="Walk it with cmd_vel alone, until robot_state.mode is FALLEN.",
-        at=push.t,
-    )
 
 
 def require_upright(watched: Sequence[ev.RobotTruth]) -> None:

@@ -16,6 +16,7 @@ from autograder.authoring.walking.motion import (
     require_reached,
     require_short_turn,
 )
+from autograder.authoring.walking.obligations.walks import does_not_steer_without_a_goal
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus
@@ -122,14 +123,19 @@ def test_a_walk_ends_with_a_zero_twist():
     ("commands", "seen"),
     [
         ([(-1.0, 0.1)], "x 0.10 m/s"),
-        ([(-1.0, 0.0), (0.2, 0.1)], "x 0.10 m/s"),
         ([(0.2, 0.0)], "none"),
     ],
 )
-def test_no_zero_twist_or_another_after_it_is_no_end(commands, seen):
+def test_without_a_zero_twist_a_walk_has_no_end(commands, seen):
     run = walked(straight(0.1), 12.0, commands=commands)
     with pytest.raises(Failure, match=seen):
         require_final_zero(run, run.goal("walk"))
+
+
+def test_a_twist_after_the_end_steers_without_a_goal():
+    run = walked(straight(0.1), 12.0, commands=[(-1.0, 0.0), (1.0, 0.1)])
+    with pytest.raises(Failure, match=r"x 0\.10 m/s"):
+        does_not_steer_without_a_goal(run)
 
 
 def test_without_any_twist_nothing_is_proved():

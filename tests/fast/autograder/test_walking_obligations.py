@@ -241,6 +241,18 @@ def test_a_rejected_goal_gives_way_to_nobody():
     assert ends.succeeds(run.goal("walk"))
 
 
+def test_a_goal_that_gives_way_to_a_rejected_one_is_told_so():
+    run = run_of(
+        *(*goal("walk", 1.0, 2.0), *goal("in map", 3.0, 0.5, frame="map", accepted=False)),
+        ended("walk", 3.3, 0.4, 4, GoalStatus.ABORTED, WalkTo.Result.PREEMPTED, "a newer goal"),
+        motions=[a_walk(1.2, 0.0, 0.4)],
+    )
+    with pytest.raises(Failure, match="no other was accepted"):
+        ends.gives_way(run.goal("walk"))
+    with pytest.raises(Failure, match="it ended ABORTED"):
+        ends.goes_on(run.goal("walk"))
+
+
 def test_a_fall_is_told_and_nothing_else_is_asked_of_the_goal():
     fell = ended("walk", 4.2, 0.6, 6, GoalStatus.ABORTED, WalkTo.Result.FELL, "it fell")
     run = run_of(*goal("walk", 1.0, 2.0), fell, motions=[a_walk(1.2, 0.0, 2.0)], down=4.0)

@@ -23,11 +23,7 @@ from autograder.authoring.walking.life import (
     was_put_down,
     went_down,
 )
-from autograder.authoring.walking.truth import (
-    STOP_TIME,
-    require_stopped,
-    require_walking,
-)
+from autograder.authoring.walking.truth import STOP_TIME, require_stopped, require_walking
 
 GETTING_GOING = 1.0  # s
 OVERTAKING = 0.3  # s

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from autograder.authoring.failure import Failure, expect
+from autograder.authoring.failure import expect
 from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.goal_endings import why_rclpy_aborted
 from autograder.authoring.missing import unseen
@@ -27,19 +27,15 @@ from autograder.authoring.walking.life import (
     is_undisturbed,
     left_alone,
     near_arrival,
+    others,
     phase,
-    run_of,
     successors,
     together_with,
     went_down,
 )
-from autograder.authoring.walking.motion import (
-    require_reached,
-)
+from autograder.authoring.walking.motion import require_reached
 from autograder.authoring.walking.planar import error
-from autograder.authoring.walking.truth import (
-    require_arrival,
-)
+from autograder.authoring.walking.truth import require_arrival
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus, name_of
 
@@ -67,27 +63,23 @@ def goes_on(goal: Goal) -> str | None:
     """A goal goes on, whatever is asked meanwhile and refused."""
     if not accepted(goal) or goal.answer is None:
         return None
-    rejected = [
-        other.sent.t
-        for other in run_of(goal).goals
-        if other.answer and not other.answer.accepted and goal.answer.t < other.sent.t < ended_at(goal)
-    ]
-    refused = [
-        cancel.sent.t for cancel in cancels_on_the_way(goal) if cancel.answer and not cancel.answer.canceling
-    ]
+    rejected = any(
+        other.answer and not other.answer.accepted and goal.answer.t < other.sent.t < ended_at(goal)
+        for other in others(goal)
+    )
+    refused = any(cancel.answer and not cancel.answer.canceling for cancel in cancels_on_the_way(goal))
     if not rejected and not refused:
         return None
-    what = "another was rejected" if rejected else "the cancel was refused"
-    result, newer = goal.result, successors(goal)
-    gave_way = result and newer and result.t >= newer[0].sent.t
-    arrived = result and result.status == SUCCEEDED and near_arrival(goal, result.t)
-    if result and not (gave_way or arrived or went_down(goal) or interrupted(goal)):
-        raise Failure(
-            expected=f"the first goal to go on after {what}",
-            observed=f"it ended {name_of(GoalStatus, result.status)} at {result.t:.1f} s",
-            help=why_rclpy_aborted(goal) or f"Leave the goal that runs alone when {what}.",
-            at=result.t,
-        )
+    what, result = "another was rejected" if rejected else "the cancel was refused", goal.result
+    if result is None or successors(goal) or granted(goal) or went_down(goal) or interrupted(goal):
+        return what
+    expect(
+        result.status == SUCCEEDED and near_arrival(goal, result.t),
+        expected=f"the first goal to go on after {what}",
+        observed=f"it ended {name_of(GoalStatus, result.status)} at {result.t:.1f} s",
+        help=why_rclpy_aborted(goal) or f"Leave the goal that runs alone when {what}.",
+        at=result.t,
+    )
     return what
 
 
@@ -95,6 +87,7 @@ def gives_way(goal: Goal) -> str | None:
     """A goal that was accepted later aborts the one that is active, with PREEMPTED."""
     newer = successors(goal)
     if not newer:
+        _require_no_preemption(goal)
         return None
     came = newer[0].sent.t
     canceled = any(cancel.sent.t <= came for cancel in granted(goal))
@@ -118,11 +111,10 @@ def gives_way(goal: Goal) -> str | None:
 
 def only_one_is_newest(goal: Goal) -> str | None:
     """Of goals that are accepted in the same moment all but one give way."""
-    rivals = together_with(goal)
-    if not rivals or goal.result is None:
+    together = [goal, *together_with(goal)]
+    if len(together) == 1 or goal.result is None or successors(goal):
         return None
-    together = [goal, *rivals]
-    if successors(goal) or any(went_down(each) or granted(each) for each in together):
+    if any(went_down(each) or granted(each) for each in together):
         return None
     kept = [each for each in together if each.result is None or not _was_preempted(each)]
     expect(
@@ -199,10 +191,17 @@ def _whereto(goal: Goal) -> str:
     )
 
 
+def _require_no_preemption(goal: Goal) -> None:
+    """Require that a goal did not give way to one that was rejected, or that never was."""
+    expect(
+        not _was_preempted(goal) or bool(together_with(goal)),
+        expected="a goal that goes on: no other was accepted while it was active",
+        observed="it ended ABORTED with PREEMPTED",
+        help="Let the old goal give way in handle_accepted_callback: goal_callback may still reject the new one.",
+        at=goal.result.t if goal.result else None,
+    )
+
+
 def _was_preempted(goal: Goal) -> bool:
     result = goal.result
-    return (
-        result is not None
-        and result.status == ABORTED
-        and result.result.error_code == result.result.PREEMPTED
-    )
+    return bool(result and result.status == ABORTED and result.result.error_code == result.result.PREEMPTED)

@@ -101,12 +101,22 @@ def feedback_ends_with_the_goal(goal: Goal) -> str | None:
     return name_of(GoalStatus, goal.result.status)
 
 
-def reports_where_it_ended(goal: Goal) -> str | None:
-    """The result holds where the robot ended, the steps for this goal, and the error_code of its status."""
+def names_no_error(goal: Goal) -> str | None:
+    """The error_code of a goal that is not ABORTED is NONE."""
     if not accepted(goal) or goal.result is None or goal.status not in TERMINAL or interrupted(goal):
         return None
-    reports.require_true_result(goal)
-    return name_of(GoalStatus, goal.result.status)
+    status = name_of(GoalStatus, goal.result.status)
+    if goal.status != ABORTED:
+        reports.require_error_code(goal, "NONE", because=f"the goal is {status}")
+    return status
+
+
+def reports_where_it_ended(goal: Goal) -> str | None:
+    """The result holds where the robot ended, the steps for this goal, and the error_code of its status."""
+    status = names_no_error(goal)
+    if status:
+        reports.require_true_result(goal)
+    return status
 
 
 def says_why_it_aborted(goal: Goal) -> str | None:

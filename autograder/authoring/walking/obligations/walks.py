@@ -29,15 +29,9 @@ from autograder.authoring.walking.life import (
     way_to,
     went_down,
 )
-from autograder.authoring.walking.motion import (
-    require_limited_velocity,
-    require_short_turn,
-)
+from autograder.authoring.walking.motion import require_limited_velocity, require_short_turn
 from autograder.authoring.walking.planar import heading, target
-from autograder.authoring.walking.truth import (
-    STOP_SPEED,
-    STOP_TIME,
-)
+from autograder.authoring.walking.truth import STOP_SPEED, STOP_TIME
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.angles import wrap
 
@@ -104,7 +98,7 @@ def stands_at_success(goal: Goal) -> str | None:
 
 
 def ends_with_a_zero_twist(goal: Goal) -> str | None:
-    """The last Twist before it SUCCEEDS is zero, and no other follows."""
+    """The last Twist before it SUCCEEDS is zero."""
     if goal.status != SUCCEEDED or successors(goal):
         return None
     assert goal.result

@@ -127,7 +127,7 @@ class Navigator(Node):
             if distance < 0.5 * tolerance and abs(turn) < 0.07 or calm and distance < 0.9 * tolerance and abs(turn) < 0.12:
                 status = "at the goal"
                 calm += 1
-            elif distance < 0.3:
+            elif distance < (0.3 if status in ("rotating", "driving") else 0.5):  # it sways: once near, it stays so
                 calm = 0
                 status = "rotating to the goal's heading" if distance < 0.5 * tolerance else "driving the last steps"
                 twist.linear.x = limit(distance * math.cos(bearing), 0.2)

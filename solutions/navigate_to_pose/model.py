@@ -1,0 +1,81 @@
+"""What must hold of every goal of navigate_to_pose, and of the robot while none is active, clause by clause."""
+
+from __future__ import annotations
+
+import math
+
+from autograder.authoring.goal import Goal
+from autograder.authoring.obligation import goals, obligation, whole_run
+from autograder.authoring.walking.objections import (
+    FRAME,
+    NO_POWER,
+    NOT_FINITE,
+    UNSAID_ROTATION,
+    Objection,
+    accepting,
+    rejecting,
+)
+from autograder.authoring.walking.obligations import cancels, ends, tells, walks
+
+from . import odometer, phases, progress, recoveries, times
+
+SMALLEST = 0.05  # m
+
+
+def _is_no_tolerance(goal: Goal) -> bool | None:
+    tolerance = goal.request.tolerance
+    if abs(tolerance - SMALLEST) < 1e-6:
+        return None  # as a float it may be a little less
+    return math.isnan(tolerance) or (tolerance != 0.0 and tolerance < SMALLEST)
+
+
+TOLERANCE = Objection(
+    lambda goal: f"a tolerance of {goal.request.tolerance:g} m cannot be kept",
+    "0 asks for the default of 0.10 m; anything else below 0.05 m is rejected, negative numbers and NaN too: "
+    "NaN < 0.05 is false, so ask math.isfinite() as well.",
+    _is_no_tolerance,
+)
+
+accepts = obligation(1, 2, 18, of=goals)(accepting(FRAME, NOT_FINITE, UNSAID_ROTATION, TOLERANCE, NO_POWER))
+rejects_frames = obligation(1, of=goals)(
+    rejecting("rejects_frames", FRAME, "It rejects a pose in any other frame than odom")
+)
+rejects_nan = obligation(1, of=goals)(
+    rejecting("rejects_nan", NOT_FINITE, "It rejects a pose that holds NaN")
+)
+rejects_without_power = obligation(1, of=goals)(
+    rejecting("rejects_without_power", NO_POWER, "It rejects a goal while the motors are off")
+)
+rejects_tolerances = obligation(2, of=goals)(
+    rejecting(
+        "rejects_tolerances", TOLERANCE, "It rejects a tolerance that is NaN, or below 0.05 m and not 0"
+    )
+)
+goes_on = obligation(1, of=goals)(ends.goes_on)
+faces_its_way = obligation(3, of=goals)(phases.faces_its_way)
+succeeds = obligation(2, 4, of=goals)(ends.succeeds)
+stands_at_success = obligation(4, of=goals)(walks.stands_at_success)
+status_in_order = obligation(4, of=goals)(ends.status_in_order)
+succeeds_where_it_stands = obligation(5, of=goals)(times.succeeds_where_it_stands)
+feedback_at_5_hz = obligation(6, of=goals)(tells.feedback_at_5_hz)
+feedback_ends_with_the_goal = obligation(6, of=goals)(tells.feedback_ends_with_the_goal)
+feedback_is_true = obligation(7, of=goals)(tells.feedback_is_true)
+names_its_phases = obligation(8, of=goals)(phases.names_its_phases)
+tells_its_time = obligation(9, of=goals)(times.tells_its_time)
+estimates_the_time = obligation(10, of=goals)(times.estimates_the_time)
+progress_rises = obligation(5, 11, of=goals)(progress.progress_rises)
+half_done_half_way = obligation(11, of=goals)(progress.half_done_half_way)
+measures_its_path = obligation(12, 13, of=goals)(odometer.measures_its_path)
+finds_its_way_back = obligation(14, 15, of=goals)(recoveries.finds_its_way_back)
+counts_no_recovery = obligation(15, of=goals)(recoveries.counts_no_recovery)
+counts_the_detour = obligation(14, 15, of=goals)(recoveries.counts_the_detour)
+gives_up_in_time = obligation(16, of=goals)(times.gives_up_in_time)
+stands_after_the_limit = obligation(16, of=goals)(times.stands_after_the_limit)
+grants_cancels = obligation(17, of=goals)(cancels.grants_cancels)
+walks_until_canceled = obligation(17, of=goals)(cancels.walks_until_canceled)
+stops_when_canceled = obligation(17, of=goals)(cancels.stops_when_canceled)
+stands_without_a_goal = obligation(4, 16, 17, of=whole_run)(walks.stands_without_a_goal)
+gives_way = obligation(18, of=goals)(ends.gives_way)
+tells_a_fall = obligation(19, of=goals)(ends.tells_a_fall)
+names_no_error = obligation(20, of=goals)(tells.names_no_error)
+says_why_it_aborted = obligation(20, of=goals)(tells.says_why_it_aborted)
