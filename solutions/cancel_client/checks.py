@@ -10,13 +10,13 @@ from autograder.authoring.walking.client_scenarios import GOOD, INTERRUPTED, NOB
 from . import model
 
 AGREED_AND_OVER = {"distances": way(60), "ends_after": 3.0, "cancel": {"ends_after": None}}
-ARRIVES = {"distances": way(60), "ends_after": 3.5}
+ARRIVES = {"distances": way(60), "ends_after": 4.0}
 
 CANCELED_BY_Q = walk({**ARRIVES, "cancel": {"ends_after": 1.5}}, *typed("q"))
 OVERTAKEN = walk(AGREED_AND_OVER, *typed("q"))
 EARLY = walk({**ARRIVES, "after": 2.0, "cancel": {"ends_after": 1.0}}, ["await_goal"], ["type", "q"])
 REFUSING = walk({**ARRIVES, "cancel": {"agreed": False, "after": 0.5}}, *typed("q"))
-INPUT_ENDS = walk({**ARRIVES, "after": 1.5, "ends_after": 2.0}, *typed(), ["end_input"])
+INPUT_ENDS = walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, *typed(), ["end_input"])
 
 for_a_point = partial(check_of, points=1)
 

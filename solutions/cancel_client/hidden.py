@@ -44,11 +44,11 @@ ABORTED_ANYWAY = walk(
     {**AGREED_AND_OVER, "status": ABORTED, "error_msg": "it fell while it stopped"}, *typed("q")
 )
 TOO_LATE = walk({"distances": way(3), "ends_after": 1.0, "result_after": 2.5}, *typed("q", after=1.3))
-DEAF = walk({"distances": way(60), "ends_after": 5.0, "cancel": {"agreed": None}}, *typed("q"))
+DEAF = walk({"distances": way(60), "ends_after": 8.0, "cancel": {"agreed": None}}, *typed("q"))
 CTRL_C_AFTER_Q = program("in_order", _ctrl_c_after_q)
 TWICE = walk({**ARRIVES, "cancel": {"ends_after": 2.5}}, *typed("q", "q", "q"))
 OTHER_LINES = walk(ARRIVES, *typed("", "quit", "stop"))
-NO_INPUT = walk({**ARRIVES, "after": 1.5, "ends_after": 2.0}, ["end_input"])
+NO_INPUT = walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, ["end_input"])
 SILENT_ON_THE_WAY = program("in_order", lambda random: silence_on_the_way(random, types=True))
 
 for_a_point = partial(check_of, points=1)

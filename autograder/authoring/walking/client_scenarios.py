@@ -15,7 +15,7 @@ from autograder.authoring.checks import Scenario, program
 ARGUMENTS = ("1.0", "0.5", "0.3")  # x m, y m, yaw rad
 SUCCEEDED, CANCELED, ABORTED = range(4, 7)  # of action_msgs/GoalStatus
 LONGEST_GAP = 4.5  # s between two signs of life: 5 are silence
-LONGEST_WALK = 6.0  # s of feedback
+LONGEST_WALK = 12.0  # s of feedback
 REASONS = ("the robot fell at x 0.42 m", "the way is blocked: 3 obstacles", "no way", "")
 OTHER_LINES = ("", "w", "quit", "stop", "please q", "qq")
 
@@ -134,7 +134,7 @@ def any_course(random: Random, *, types: bool = False) -> Script:
         }
     server = _any_way(random)
     early = types and random.random() < 0.4
-    server["after"] = round(random.uniform(1.0 if early else 0.0, 3.0), 2)
+    server["after"] = round(random.uniform(1.0 if early else 0.0, 4.0), 2)
     steps = [["await_goal"], *(["type", line] for line in lines)] if early else typed(*lines) if types else []
     if types and random.random() < 0.3:
         steps.append(["end_input"])
