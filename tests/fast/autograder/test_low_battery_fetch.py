@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from functools import reduce
 from typing import Any
 
 import pytest
@@ -20,7 +22,13 @@ SERVERS = {"navigate_to_pose": "server 1", "pick_and_place": "server 2"}
 SUCCEEDED, CANCELED = GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_CANCELED
 ABORTED = GoalStatus.STATUS_ABORTED
 TABLE, TRAY, HOME, PLACE = (1.2, 0.0, 0.0), (1.45, 0.0, 0.72), (0.0, 0.0, 0.0), (0.4, -0.1, 0.75)
-STARTED = [ev.NodeStarted(t=0.0), ev.NodeReady(t=0.5, waited=0.5)]
+FULL = ev.MessagePublished(
+    t=0.2, topic="battery_state", message=BatteryState(percentage=0.8), subscriptions=0
+)
+STARTED = [
+    *(ev.ActionOffered(t=0.1, action=action, server=server, type="") for action, server in SERVERS.items()),
+    *(FULL, ev.NodeStarted(t=0.3), ev.NodeReady(t=0.5, waited=0.5)),
+]
 OVER = [ev.ScenarioEnded(t=60.0)]
 
 
@@ -116,7 +124,8 @@ def test_an_end_before_that_of_the_last_child_leaves_it_at_work() -> None:
 def test_two_children_at_once_are_no_fetch() -> None:
     early = [*FOUR[:2], child(3, walk(HOME), 5.0, 7.4), FOUR[3]]
     assert (
-        "while pick_and_place was at work" in failure("fetches", fetch(1.0, 9.6, SUCCEEDED), *early).observed
+        "while pick_and_place was still at work"
+        in failure("fetches", fetch(1.0, 9.6, SUCCEEDED), *early).observed
     )
 
 
@@ -129,7 +138,7 @@ def test_giving_up_before_the_grasp() -> None:
     [
         ([fetch(1.0, 5.3, ABORTED, "too tired"), *GAVE_UP], "error_msg: 'too tired'"),
         ([fetch(1.0, 5.0, ABORTED, "battery"), *GAVE_UP], "still at work"),
-        ([fetch(1.0, 3.3, ABORTED, "battery"), *GAVE_UP[:3]], "none; fetch ended ABORTED"),
+        ([fetch(1.0, 3.3, ABORTED, "battery"), *GAVE_UP[:3]], "the end of fetch, ABORTED"),
         (
             [fetch(1.0, 5.3, ABORTED, "battery"), *GAVE_UP[:3], child(2, walk(HOME), 2.9, 5.2)],
             "while navigate_to_pose",
@@ -145,12 +154,12 @@ def test_near_misses_of_giving_up(parts: list[list[Any]], observed: str) -> None
 
 def test_a_battery_that_never_dropped_proves_nothing() -> None:
     with pytest.raises(CannotBeJudged):
-        judge("gives_up_before_the_grasp", fetch(1.0, 5.3, ABORTED)[:2], *GAVE_UP[1:])
+        judge("gives_up_before_the_grasp", fetch(1.0, 9.6, SUCCEEDED), *FOUR)
 
 
 def test_a_fetch_that_ends_before_the_battery_drops_was_not_under_way() -> None:
     early = failure("gives_up_before_the_grasp", fetch(1.0, 2.5, SUCCEEDED), child(1, walk(TABLE), 1.2, 3.1))
-    assert "ended SUCCEEDED before that" in early.observed
+    assert "SUCCEEDED while navigate_to_pose was still at work" in early.observed
 
 
 def test_a_cancel_goes_down_and_the_child_ends_first() -> None:
@@ -159,3 +168,54 @@ def test_a_cancel_goes_down_and_the_child_ends_first() -> None:
     assert "still at work" in failure("cancel_goes_down", fetch(1.0, 2.3, CANCELED), *asked, at_work).observed
     left = [canceled_fetch(2.0), child(1, walk(TABLE), 1.2, None)]
     assert failure("cancel_goes_down", fetch(1.0, 2.3, CANCELED), *left).observed == "none"
+
+
+@pytest.mark.parametrize(
+    ("check", "number", "path", "value"),
+    [
+        ("goes_to_the_table", 0, "pose.pose.position.y", 0.2),
+        ("goes_to_the_table", 0, "pose.pose.orientation.w", 0.0),
+        ("takes_the_object", 1, "place_pose.pose.position.z", 0.7),
+        ("takes_the_object", 1, "object_id", "mug"),
+        ("fetches", 2, "pose.header.frame_id", "map"),
+        ("fetches", 3, "place_pose.pose.orientation.z", 0.5),
+        ("fetches", 3, "grasp_force", 11.9),
+    ],
+)
+def test_each_field_of_a_childs_goal_counts(check: str, number: int, path: str, value: Any) -> None:
+    messages = [walk(TABLE), arm(TRAY), walk(HOME), arm(PLACE)]
+    *way, last = path.split(".")
+    setattr(reduce(getattr, way, messages[number]), last, value)
+    sent = [child(n, each, 2.0 * n, 2.0 * n + 1.9) for n, each in enumerate(messages, start=1)]
+    assert path in failure(check, fetch(1.0, 10.0, SUCCEEDED), *sent).observed
+
+
+def test_the_larger_force_of_the_two_is_reported() -> None:
+    forces = {2: 14.0, 4: 13.0}
+    parts = [[reporting(event, forces) for event in part] for part in FOUR]
+    judge(
+        "fills_the_result",
+        [reporting(event, {"fetch": 14.0}) for event in fetch(1.0, 9.6, SUCCEEDED)],
+        *parts,
+    )
+    last = [reporting(event, {"fetch": 13.0}) for event in fetch(1.0, 9.6, SUCCEEDED)]
+    assert "max_grasp_force: 13" in failure("fills_the_result", last, *parts).observed
+
+
+def reporting(event: Any, forces: dict[Any, float]) -> Any:
+    """Return an event whose result, if it has one and its goal is in `forces`, has that force (N)."""
+    goal = getattr(event, "goal", "")
+    force = forces.get(goal, forces.get(int(goal[5:]) if goal[5:].isdigit() else 0))
+    if force is not None and hasattr(event, "result"):
+        event = replace(event, result=PickAndPlace.Result(max_grasp_force=force))
+    return event
+
+
+def test_a_child_is_canceled_for_a_reason_only() -> None:
+    at_work = [cancel(2.1), child(1, walk(TABLE), 1.2, 3.6, CANCELED)]
+    seen = failure("cancel_goes_down", fetch(1.0, 6.0, CANCELED), canceled_fetch(2.5), *at_work)
+    assert "to come to its own end" in seen.expected
+
+
+def test_a_cancel_in_the_last_moment_may_come_too_late() -> None:
+    judge("fetches", fetch(1.0, 9.6, SUCCEEDED), canceled_fetch(9.45), *FOUR)

@@ -1,0 +1,354 @@
+"""What must follow: a fetch decides when it begins, and when each of its children has ended."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from copy import deepcopy
+from dataclasses import dataclass
+from functools import lru_cache, reduce
+from itertools import product
+
+from geometry_msgs.msg import Quaternion
+
+from autograder.authoring import events as ev
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.fields import differing_fields, expect_field, shown
+from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED
+from autograder.authoring.goal_endings import why_rclpy_aborted
+from autograder.authoring.missing import unseen
+from autograder.authoring.readiness import require_alive
+from autograder.authoring.standing import where_it_stood
+from autograder.authoring.transcript import Transcript
+from ros_runtime.message_constants import GoalStatus, name_of
+
+from .fetching import (
+    ACTION_OF,
+    HOME,
+    NAVIGATE,
+    PICK,
+    PUT,
+    SILENCE,
+    SLACK,
+    TABLE,
+    TAKE,
+    Child,
+    Fetch,
+    fetches,
+    is_low,
+    is_offered,
+)
+
+SOON = 2.5  # s for what follows at once, and that 5 s may be exceeded by
+PLACES = {TABLE: (1.2, 0.0), HOME: (0.0, 0.0), TAKE: (1.45, 0.0, 0.72)}  # m in odom
+PREEMPTED = 6
+# Why a fetch goes on as it must.
+BEGINS, LOW_BEFORE, UNKNOWN = "the battery lasts", "the battery is low before", "the battery is unknown"
+AT_TABLE, ON_TRAY, AT_HOME = "the robot is at the table", "the object is on the tray", "the robot is home"
+LOW_AWAY, LOW_AT_HOME, DONE = "the battery is low", "the battery is low, and it is home", "all is done"
+IS_CANCELED, IS_PREEMPTED, FAILED = "fetch was canceled", "a newer goal came", "a child failed"
+UNANSWERED, SILENT, NO_SERVER = "a goal had no answer for 5 s", "a child was silent", "there is no server"
+DEAD_END = (
+    "Waiting for a child in a callback blocks the only thread, and its answer never gets in: await the future in an "
+    "async execute callback, or use a MultiThreadedExecutor and callback groups that let the answers in."
+)
+LATCHED = "subscribe to it with QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL), which is reliable."
+ACCEPT = "A rejection carries no reason: accept the goal, and abort it with error_msg naming the reason."
+ASK = (
+    "The order is: to the table, take the object, home, put it down. After each child, ask whether the fetch goes on: "
+    "has it failed, is it canceled, is the battery low?"
+)
+
+
+@dataclass(frozen=True)
+class End:
+    """An end that a fetch may come to: its status, what error_msg holds, error_code (None: any), and when (s)."""
+
+    status: int
+    words: tuple[str, ...] = ()
+    code: int | None = None
+    soonest: float = 0.0
+    latest: float = math.inf
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Why a fetch goes on, and how: with one of these steps or ends."""
+
+    why: str
+    moves: tuple[str | End, ...]
+
+    def move(self, made: Child | ev.ResultReceived | None) -> str | End | None:
+        """Return which of the moves was made, as far as action and status tell; None: none of them."""
+        for each in self.moves:
+            if isinstance(each, End) and isinstance(made, ev.ResultReceived) and each.status == made.status:
+                return each
+            if isinstance(each, str) and isinstance(made, Child) and ACTION_OF[each] == made.action:
+                return each
+        return None
+
+    def __str__(self) -> str:
+        ways = [
+            f"the end of fetch, {name_of(GoalStatus, each.status)}"
+            if isinstance(each, End)
+            else f"a goal to {ACTION_OF[each]}: {each}"
+            for each in self.moves
+        ]
+        return f"{' or '.join(ways)}, because {self.why}"
+
+
+@dataclass(frozen=True, eq=False)
+class Turn:
+    """A moment at which a fetch has to decide: at its beginning, or when a child is over.
+
+    `after` is the child that is over, None at the beginning; `t` is when that is (s), `plan` what must follow, and
+    `made` what did: the next child, the end, or nothing.
+    """
+
+    fetch: Fetch
+    after: Child | None
+    made: Child | ev.ResultReceived | None
+    t: float
+    plan: Plan
+
+
+def turns(*whys: str) -> Callable[[Transcript], list[Turn]]:
+    """Occasions: the decisions of every fetch that have one of these reasons; by default all of them."""
+    return lambda run: [
+        turn for fetch in fetches(run) for turn in _turns(fetch) if turn.plan.why in whys or not whys
+    ]
+
+
+# -- what must follow ------------------------------------------------------------------------------------------------
+
+
+@lru_cache(maxsize=32)
+def _turns(fetch: Fetch) -> list[Turn]:
+    found: list[Turn] = []
+    end = fetch.goal.result
+    sent = [child for child in fetch.children if end is None or child.t <= end.t]
+    for after, made in zip((None, *sent), (*sent, end), strict=True):
+        t = fetch.begun if after is None else _over(after)
+        certain = (made.t if isinstance(made, Child) else t) - SLACK
+        at = made.t if made else fetch.run.end
+        options = [
+            (False,) if moment is None or moment > at else (True,) if moment <= certain else (True, False)
+            for moment in (fetch.canceled_at, fetch.preempted_at, fetch.low_at)
+        ]
+        plans = [plan for flags in product(*options) if (plan := _plan(fetch, after, t, *flags))]
+        if plans:
+            plan = next((plan for plan in plans if plan.move(made)), plans[0])
+            found.append(Turn(fetch, after, made, t, plan))
+    return found
+
+
+def _over(child: Child) -> float:
+    """Return when (s) a fetch knows that a child is over, or that it has to give it up."""
+    if child.is_late:
+        return child.t + SILENCE
+    if child.silent_at is not None:
+        asked = [each.received.t for each in child.cancels()]
+        given_up = min((t for t in asked if t >= child.silent_at - SLACK), default=child.silent_at) + SILENCE
+        return min(given_up, math.inf if child.ended is None or child.is_dead else child.ended)
+    return child.run.end if child.ended is None else child.ended
+
+
+def _plan(fetch: Fetch, after: Child | None, t: float, *reasons: bool) -> Plan | None:
+    """Return what must follow at a time (s) if it is canceled, preempted, low on battery; None: no clause says."""
+    canceled, preempted, low = reasons
+    stopped = canceled or preempted
+    unclear = stopped and after and (after.is_late or after.rejected or after.silent_at)
+    if (after is None and low and not stopped) or unclear or (after and after.is_silent_after_a_cancel):
+        return None  # no clause says which of two reasons counts
+    if stopped:
+        ends = (End(CANCELED, latest=t + SOON), End(ABORTED, code=PREEMPTED, latest=t + SOON))
+        return Plan(IS_CANCELED if canceled else IS_PREEMPTED, ends[not canceled : 1 + preempted])
+    given_up = (End(ABORTED, ("battery",), latest=t + SOON),)
+    if after is None:
+        level = fetch.level(fetch.begun)
+        if level and not is_low(level):
+            return _next(fetch, TABLE, BEGINS, t)
+        return Plan(LOW_BEFORE if level else UNKNOWN, given_up)
+    if failure := _failure_of(after, t, low):
+        return failure
+    done = after.sent.finished is not None and after.sent.finished.status == SUCCEEDED
+    if after.step == PUT and done:
+        return Plan(DONE, (End(SUCCEEDED, latest=t + SOON),))
+    if low or not done:
+        return Plan(LOW_AT_HOME, given_up) if after.step in (HOME, PUT) else _next(fetch, HOME, LOW_AWAY, t)
+    return _next(
+        fetch, *{TABLE: (TAKE, AT_TABLE), TAKE: (HOME, ON_TRAY), HOME: (PUT, AT_HOME)}[after.step], t
+    )
+
+
+def _next(fetch: Fetch, step: str, why: str, t: float) -> Plan:
+    """Return that a step follows, unless its server is not there within 5 s; at first it may look for both."""
+    given_up = t + SILENCE
+    missing = {
+        action: End(ABORTED, (action,), soonest=given_up - SLACK, latest=given_up + SOON)
+        for action in (NAVIGATE, PICK)
+        if not is_offered(fetch.run, action, t, given_up)
+    }
+    if ACTION_OF[step] in missing:
+        return Plan(NO_SERVER, (missing[ACTION_OF[step]],))
+    return Plan(why, (step, *(missing.values() if step == TABLE else ())))
+
+
+def _failure_of(child: Child, t: float, low: bool) -> Plan | None:
+    """Return how a child that failed ends the fetch, None for one that has not."""
+    name, end = child.action, child.sent.finished
+    if child.is_late:
+        return Plan(UNANSWERED, (End(ABORTED, (name,), soonest=t - SLACK, latest=t + SOON),))
+    if child.rejected:
+        return Plan(FAILED, (End(ABORTED, (name,), latest=t + SOON),))
+    if child.silent_at is not None:
+        soonest, latest = (0.0, t + 3 * SOON) if child.is_dead else (t - SLACK, t + SOON)
+        return Plan(SILENT, (End(ABORTED, (name,), soonest=soonest, latest=latest),))
+    if end is None or end.status == SUCCEEDED or (end.status == CANCELED and child.cancels()):
+        return None
+    said = (end.result.error_msg,) if end.result.error_msg else ()
+    code = end.result.error_code if name == PICK and end.status == ABORTED else None
+    aborted = End(ABORTED, (name, *said), code, latest=t + SOON)
+    if low and child.cancels():
+        return None if child.step == PUT else Plan(FAILED, (aborted, HOME))
+    return Plan(FAILED, (aborted,))
+
+
+# -- what did follow -------------------------------------------------------------------------------------------------
+
+
+def require_turn(turn: Turn) -> str:
+    """Require that a fetch went on as it must, not before its child was over, and with the whole message; say why."""
+    fetch, made, plan = turn.fetch, turn.made, turn.plan
+    fetch.goal.require_accepted(ACCEPT)
+    if turn.after and made:
+        require_over(turn.after, made)
+    move = plan.move(made)
+    if made is None or move is None:
+        raise _not_made(turn)
+    if isinstance(move, End) and isinstance(made, ev.ResultReceived):
+        _require_end(turn, move, made)
+    elif isinstance(made, Child):
+        expect(
+            made.t >= turn.t - SLACK,
+            expected="the first child of a newer goal after the end of the old one",
+            observed=f"{_in_words(made)} {turn.t - made.t:.1f} s before that",
+            help="One fetch at a time: the new one waits for the old one's end before it sends anything.",
+            at=made.t,
+        )
+        _require_message(fetch, made)
+    return f"{turn.after.step} {turn.after.stage(turn.t)}".strip() if turn.after else "at the beginning"
+
+
+def require_over(child: Child, made: Child | ev.ResultReceived) -> None:
+    """Require that a child was over, or given up as silent, when its fetch went on."""
+    patient = child.silent_at is not None and made.t >= _over(child) - SLACK
+    asked = f"you asked to cancel it {len(child.sent.cancels)} time(s)"
+    expect(
+        patient
+        or child.is_late
+        or child.began is None
+        or (child.ended is not None and child.ended <= made.t),
+        expected=f"nothing else as long as {child.action} is at work ({child.step})",
+        observed=f"{_in_words(made)} while {child.action} was still at work, and {asked}",
+        help="Wait for the child's own result, get_result_async(), also after cancel_goal_async(): the answer to the "
+        "cancel says only that the server will try.",
+        at=made.t,
+    )
+
+
+def _not_made(turn: Turn) -> Exception:
+    """Return what to raise when a fetch went on in another way, or not at all."""
+    goal, made, after = turn.fetch.goal, turn.made, turn.after
+    if made is None:
+        require_alive(goal.run)
+    if made is None and after and after.ended is None and after.silent_at is None and not after.is_late:
+        return unseen(turn.fetch.run, f"{after.sent.name} of {after.action} did not end")
+    if not isinstance(made, Child) and isinstance(turn.plan.moves[0], End):
+        goal.require_result(turn.plan.moves[0].status)
+    return Failure(
+        expected=str(turn.plan),
+        observed=_in_words(made) if made else "nothing",
+        help=ASK if isinstance(made, Child) else _why_it_stopped(turn),
+        at=made.t if made else goal.run.end,
+    )
+
+
+def _in_words(made: Child | ev.ResultReceived) -> str:
+    if isinstance(made, Child):
+        return f"a goal to {made.action}"
+    return f"the end of fetch, {name_of(GoalStatus, made.status)}"
+
+
+def _require_end(turn: Turn, end: End, result: ev.ResultReceived) -> None:
+    """Require the reason, the error_code and the time of a fetch's end."""
+    why, said = turn.plan.why, result.result.error_msg
+    if result.status == ABORTED and (unmeant := why_rclpy_aborted(turn.fetch.goal)):
+        aborted = "rclpy aborted the goal"
+        raise Failure(
+            expected=f"your own abort(), because {why}", observed=aborted, help=unmeant, at=result.t
+        )
+    expect(
+        all(word.lower() in said.lower() for word in end.words),
+        expected=f"an error_msg that holds {' and '.join(map(shown, end.words))}, because {why}",
+        observed=f"error_msg: {shown(said)}",
+        help="Fill result.error_msg with what happened, in words, before you call abort().",
+        at=result.t,
+    )
+    if end.code is not None:
+        help = "Copy error_code from the child's result into yours; after a newer goal it is PREEMPTED."
+        expect_field(result.result, "error_code", end.code, because=why, help=help, at=result.t)
+    expect(
+        end.soonest <= result.t <= end.latest,
+        expected=f"the end of fetch between {max(end.soonest, turn.t):.1f} and {end.latest:.1f} s, because {why}",
+        observed=f"it came at {result.t:.1f} s",
+        help="Count the 5 s of silence from the last that was heard of the child, and again from the request to cancel "
+        "it; make the terminal call and return as soon as nothing is left to wait for.",
+        at=result.t,
+    )
+
+
+def _why_it_stopped(turn: Turn) -> str:
+    goal = turn.fetch.goal
+    if unmeant := why_rclpy_aborted(goal):
+        return unmeant
+    if turn.plan.why == LOW_AWAY:
+        return "When the child that you canceled has ended, send HOME to navigate_to_pose before you abort."
+    if goal.result and (said := goal.result.result.error_msg):
+        gave_up = f"Your server gave up by itself, with error_msg {shown(said)}"
+        levels = [each for each in turn.fetch.run.published("battery_state") if each.t <= goal.sent.t]
+        if turn.after is None and len(levels) == 1 and "battery" in said:
+            return f"{gave_up}. battery_state came once, before the goal: {LATCHED}"
+        return f"{gave_up}: find out why."
+    if goal.result:
+        return (
+            "execute made its terminal call too early: go on with the next step when a child has SUCCEEDED."
+        )
+    if place := where_it_stood(goal.run):
+        return f"execute stood in {place}. {DEAD_END}"
+    if turn.after and turn.after.sent.result_requested is None and turn.after.began is not None:
+        return "Ask for the child's result with get_result_async() once it is accepted."
+    return DEAD_END
+
+
+def _require_message(fetch: Fetch, child: Child) -> None:
+    """Require that a child's goal is that of its step, but for the fields of which no clause speaks."""
+    sent, wanted = child.sent.message, deepcopy(child.sent.message)
+    place = wanted.pose if child.action == NAVIGATE else wanted.place_pose
+    place.header.frame_id, place.pose.orientation = "odom", Quaternion(w=1.0)
+    for axis, value in zip("xyz", PLACES.get(child.step, ()), strict=False):
+        setattr(place.pose.position, axis, value)
+    if child.action == PICK:
+        wanted.object_id, wanted.grasp_force = fetch.goal.request.object_id, fetch.goal.request.grasp_force
+    if child.step == PUT:
+        place.pose = fetch.goal.request.place_pose.pose
+    for path in differing_fields(sent, wanted):
+        expect_field(
+            sent,
+            path,
+            reduce(getattr, path.split("."), wanted),
+            because=f"the step is: {child.step}",
+            help="Copy object_id and grasp_force from goal_handle.request. The places are those of the task's table, "
+            "in odom, where a heading of 0 has orientation.w 1.0; at last it is place_pose of fetch's own goal.",
+            at=child.t,
+        )
