@@ -12,12 +12,10 @@ from autograder.authoring.fields import shown_fields
 from autograder.authoring.transcript import Transcript
 
 from . import truth
-from .message import whole_numbers
-from .truth import ASKING, COLLECTING, FEWEST_SAMPLES, Story, imu_between, run_of, status_requests
+from .message import TOLERANCE, is_near, whole_numbers
+from .truth import ASKING, COLLECTING, EARLY, FEWEST_SAMPLES, Story, imu_between, run_of, status_requests
 
 AT_ONCE = 0.5  # s for a refusal without looking into anything
-EARLY = 0.1  # s less than it should take: clocks are read at either end
-TOLERANCE = 0.001  # rad/s
 GRAVITY = 9.81  # m/s²
 _LIMIT = "Set one limit of 2 s to the wait for get_status, and answer when there is nothing by then."
 _BUSY = "Note that a calibration runs as soon as it is asked for, before any await, and refuse others until its answer."
@@ -54,7 +52,7 @@ _REASONS = {  # because …, and what to do
         "Compare the number of samples with 100 before you divide by it.",
     ),
     truth.FEW_SAMPLES: (
-        "the imu fell silent before there were 100 samples",
+        "the imu was silent for so long that there were fewer than 100 samples",
         "Fail when there are fewer than 100 samples, not only when there is none, and begin each calibration with an "
         "empty list.",
     ),
@@ -115,13 +113,13 @@ def advice_on_vector(call: Call, triples: Sequence[Sequence[float]], means: Sequ
     now = imu_between(run, call.sent.t, call.answered.t)
     earlier = [event.command["bias"] for event in run.all(ev.RobotCommanded) if "bias" in event.command]
     for triple in triples:
-        if _is_near([value / max(len(now), 1) for value in triple], means, TOLERANCE / 5):
+        if is_near([value / max(len(now), 1) for value in triple], means, TOLERANCE / 5):
             return "These are the sums: divide them by the number of samples."
-        if _is_near([value / 57.29578 for value in triple], means, TOLERANCE / 5):
+        if is_near([value / 57.29578 for value in triple], means, TOLERANCE / 5):
             return "These are degrees: imu tells rad/s, and so do you."
-        if _is_near([-value for value in triple], means):
+        if is_near([-value for value in triple], means):
             return "The signs are the wrong way round: the bias is the mean itself."
-        if _is_near(sorted(triple), sorted(means)):
+        if is_near(sorted(triple), sorted(means)):
             return "The values are right, but not in the order x, y, z."
         if math.dist(triple, (0.0, 0.0, GRAVITY)) < 2.0:
             return "These are accelerations: take angular_velocity of each message."
@@ -139,17 +137,13 @@ def published_instead(run: Transcript) -> str:
     return "none" + (f"; your node publishes {', '.join(names)}" if names else "")
 
 
-def _is_near(found: Sequence[float], means: Sequence[float], tolerance: float = TOLERANCE) -> bool:
-    return all(abs(one - other) <= tolerance for one, other in zip(found, means, strict=True))
-
-
 def _is_mixed(found: Sequence[float], means: Sequence[float], other: Sequence[float]) -> bool:
     """Return whether it is a mean of samples of two biases (rad/s), or of the other alone."""
     way = [one - two for one, two in zip(means, other, strict=True)]
     if not any(way):
         return False
     share = _dot(way, [one - two for one, two in zip(found, other, strict=True)]) / _dot(way, way)
-    return 0.0 <= share <= 1.0 and _is_near(
+    return 0.0 <= share <= 1.0 and is_near(
         found, [two + share * step for two, step in zip(other, way, strict=True)]
     )
 

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from itertools import combinations
 
+TOLERANCE = 0.001  # rad/s
 LONGEST_COUNT = 12  # characters
 _NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _MOST = 20  # numbers of which triples are made
@@ -34,6 +35,13 @@ def whole_numbers(text: str) -> list[int]:
     """Return the whole numbers in a text; one of thousands of digits, which Python refuses to read, is no count."""
     short = (number.removesuffix(".") for number in numbers_in(text) if len(number) <= LONGEST_COUNT)
     return [int(number) for number in short if number.lstrip("+-").isdigit()]
+
+
+def is_near(
+    found: Sequence[float | str], others: Sequence[float | str], tolerance: float = TOLERANCE
+) -> bool:
+    """Return whether each component, a number or as it is written, is within the tolerance (rad/s)."""
+    return all(abs(float(one) - float(other)) <= tolerance for one, other in zip(found, others, strict=True))
 
 
 def shown_vector(vector: Sequence[float]) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Callable
 
 from geometry_msgs.msg import Vector3Stamped
 from std_msgs.msg import Empty
@@ -25,27 +25,27 @@ NO_VELOCITY = (0.0, 0.0, 0.0)
 
 def in_order(stage: Stage, steps: Steps, hears_bias: bool = True, interrupt: bool = False) -> None:
     """Calibrate, change how get_status answers, walk, unplug the imu: in the order of the steps; then press Ctrl-C."""
-    on = Reply(Trigger.Response(success=True, message="Motors: ON"))
-    status = stage.offer_service("get_status", Trigger, on)
+    robot = stage.robot
+
+    def offer() -> ScriptedService:
+        return stage.offer_service("get_status", Trigger, _reply(0.0))
+
+    status = [offer()]  # the last one answers
     heartbeat = stage.listen("heartbeat", Empty)
     if hears_bias:
         stage.listen("imu_bias", Vector3Stamped)
     calibrate = stage.service("calibrate_imu", Trigger)
     stage.open()
-    stage.robot.set_gyro_bias(BIAS)
-    stage.robot.wait_for_commands()
+    robot.set_gyro_bias(BIAS)
+    robot.wait_for_commands()
     stage.wait_until(lambda: heartbeat.messages, LISTENING)
     stage.wait(SETTLING)
-    played = _Played(stage, status)
     on_their_way: list[Call] = []
 
     def begin(number: int = 1) -> None:
-        asked = played.status.requests
+        asked = status[-1].requests
         on_their_way.extend([calibrate.send() for _ in range(number)])
-        stage.wait_for_requests(played.status, asked + 1, ASKED)
-
-    def send() -> None:
-        on_their_way.append(calibrate.send())
+        stage.wait_for_requests(status[-1], asked + 1, ASKED)
 
     def end() -> bool:
         answered = [call.wait(ANSWERING) for call in on_their_way]
@@ -56,26 +56,47 @@ def in_order(stage: Stage, steps: Steps, hears_bias: bool = True, interrupt: boo
         late = stage.listen("imu_bias", Vector3Stamped, latched=True)
         stage.wait_until(lambda: late.messages, LISTENING)
 
+    def command(give: Callable[..., None]) -> Callable[..., None]:
+        def until_it_has_taken_effect(*arguments: object) -> None:
+            give(*arguments)
+            robot.wait_for_commands()
+
+        return until_it_has_taken_effect
+
+    def walk(*velocity: float) -> None:
+        robot.walk(velocity)
+        robot.wait_for(lambda state: state.mode == RobotState.WALKING, timeout=WALKING)
+
+    def walk_steps(number: int, *velocity: float) -> None:
+        before = robot.state.steps
+        walk(*velocity)
+        robot.wait_for(lambda state: state.steps >= before + number, timeout=WALKING)
+        robot.walk(NO_VELOCITY)
+
+    def stand() -> None:
+        robot.walk(NO_VELOCITY)
+        robot.wait_for(lambda state: state.mode == RobotState.STANDING, timeout=WALKING)
+
     carry_out(
         stage,
         steps,
         {
             "calibrate": lambda: calibrate.call(timeout=ANSWERING),
             "begin": begin,
-            "send": send,
+            "send": lambda: on_their_way.append(calibrate.send()),
             "end": end,
-            "status_answers": played.answer,
-            "status_is_silent": played.fall_silent,
-            "status_says_no": partial(played.answer, success=False),
-            "withdraw_status": lambda: played.status.withdraw(),
-            "offer_status": played.offer,
-            "set_bias": lambda *bias: _command(stage, stage.robot.set_gyro_bias, bias),
-            "unplug_imu": lambda: _command(stage, stage.robot.connect_imu, False),
-            "plug_in_imu": lambda: _command(stage, stage.robot.connect_imu, True),
-            "publish_robot_state": lambda: _command(stage, stage.robot.publish_robot_state),
-            "walk": partial(_walk, stage),
-            "walk_steps": partial(_walk_steps, stage),
-            "stand": partial(_stand, stage),
+            "status_answers": lambda after: status[-1].reply_with(_reply(after)),
+            "status_is_silent": lambda: status[-1].reply_with(SILENCE),
+            "status_says_no": lambda after: status[-1].reply_with(_reply(after, success=False)),
+            "withdraw_status": lambda: status[-1].withdraw(),
+            "offer_status": lambda: status.append(offer()),
+            "set_bias": command(lambda *bias: robot.set_gyro_bias(bias)),
+            "unplug_imu": command(lambda: robot.connect_imu(False)),
+            "plug_in_imu": command(robot.connect_imu),
+            "publish_robot_state": command(robot.publish_robot_state),
+            "walk": walk,
+            "walk_steps": walk_steps,
+            "stand": stand,
             "listen": listen,
             "wait": stage.wait,
         },
@@ -84,45 +105,7 @@ def in_order(stage: Stage, steps: Steps, hears_bias: bool = True, interrupt: boo
         stage.interrupt_node()
 
 
-class _Played:
-    """get_status, which the grader plays, and how it treats the next requests."""
-
-    def __init__(self, stage: Stage, status: ScriptedService) -> None:
-        self._stage = stage
-        self.status = status
-
-    def answer(self, after: float, success: bool = True) -> None:
-        response = Trigger.Response(success=success, message="Motors: ON" if success else "Motors: unknown")
-        self.status.reply_with(Reply(response, after=after))
-
-    def fall_silent(self) -> None:
-        self.status.reply_with(SILENCE)
-
-    def offer(self) -> None:
-        on = Reply(Trigger.Response(success=True, message="Motors: ON"))
-        self.status = self._stage.offer_service("get_status", Trigger, on)
-
-
-def _command(stage: Stage, command: object, *arguments: object) -> None:
-    """Give the robot a command and wait until it has taken effect."""
-    command(*arguments)  # type: ignore[operator]
-    stage.robot.wait_for_commands()
-
-
-def _walk(stage: Stage, *velocity: float) -> None:
-    """Make the robot walk (m/s, m/s, rad/s in base_link)."""
-    stage.robot.walk(velocity)
-    stage.robot.wait_for(lambda robot: robot.mode == RobotState.WALKING, timeout=WALKING)
-
-
-def _walk_steps(stage: Stage, steps: int, *velocity: float) -> None:
-    """Make the robot walk (m/s, m/s, rad/s in base_link) and stop it after so many steps."""
-    before = stage.robot.state.steps
-    _walk(stage, *velocity)
-    stage.robot.wait_for(lambda robot: robot.steps >= before + steps, timeout=WALKING)
-    stage.robot.walk(NO_VELOCITY)
-
-
-def _stand(stage: Stage) -> None:
-    stage.robot.walk(NO_VELOCITY)
-    stage.robot.wait_for(lambda robot: robot.mode == RobotState.STANDING, timeout=WALKING)
+def _reply(after: float, success: bool = True) -> Reply:
+    """Return an answer of get_status that is sent so many seconds after the request."""
+    message = "Motors: ON" if success else "Motors: unknown"
+    return Reply(Trigger.Response(success=success, message=message), after=after)
