@@ -3,401 +3,223 @@
 from __future__ import annotations
 
 import math
-import random
+from random import Random
+from typing import Any
 
-from action_msgs.srv import CancelGoal
+from action_msgs.msg import GoalStatus
 
-from autograder.authoring import events as ev
-from autograder.authoring.action_client_checks import (
-    how_to_give_up,
-    require_cancel,
-    require_goal_answered,
-    require_goal_finished,
-    require_one_goal,
-    require_refused_cancel,
-)
-from autograder.authoring.checks import check, expect, program
-from autograder.authoring.missing import unseen
-from autograder.authoring.transcript import Transcript
-from autograder.authoring.walking.client import (
-    NO_SERVER,
-    PATIENCE,
-    STATUS_HELP,
-    require_ending_line,
-    require_failure,
-)
+from autograder.authoring.checks import Scenario, program
+from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.client_scenarios import way
 
-from .checks import (
-    AT_ONCE,
-    LOOKS_AWAY,
-    cancels_when_the_battery_drops,
-    ctrl_c_cancels_the_goal,
-    does_not_set_out_on_a_low_battery,
-    does_not_set_out_without_a_battery_state,
-    gives_up_without_a_server,
-    ignores_what_is_no_percentage,
-    says_how_it_failed,
-    says_how_it_succeeded,
-    waits_until_the_robot_stands,
-)
-from .judging import (
-    BATTERY,
-    GIVING_UP,
-    NAVIGATE,
-    WITHIN,
-    GoalStatus,
-    require_canceled,
-    require_drop,
-    require_end_after,
-    require_goal_at,
-    require_level,
-    require_no_goal,
-    require_one_cancel,
-    require_patience,
-    require_success,
-    require_undisturbed_success,
-    standing_at,
-)
+from . import checks, model
+from .checks import ARRIVES, ON_AND_ON, STANDS, UNDER_WAY, WALKS, Server, called_off, guard, levels, script
+
+NONE = (math.nan, 20.0, 1.001, -0.3, math.inf, 100.0)  # are no percentages
+ENDS = (GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_ABORTED)
+IN_VAIN: tuple[Server, ...] = ({"ends_after": None}, {"agreed": False}, {"agreed": None})
+REASON = "a chair stood in the way"
 
 
-def _any_pose(generator: random.Random, arguments: int = 3) -> dict:
-    """A pose with a negative x, and a battery that runs down without getting low."""
-    pose = [-round(generator.uniform(0.3, 3.0), 2), round(generator.uniform(0.3, 3.0), 2)]
-    pose += [round(generator.uniform(-3.0, 3.0), 2)]
-    levels = sorted((round(generator.uniform(0.21, 1.0), 2) for _ in range(4)), reverse=True)
-    return {"arguments": [str(value) for value in pose[:arguments]], "levels": [1.0, *levels]}
+def _between(random: Random, least: float, most: float) -> float:
+    return round(random.uniform(least, most), 2)
 
 
-def _any_drop(generator: random.Random) -> float:
-    return round(generator.uniform(0.02, 0.19), 3)
+def _low(random: Random) -> float:
+    return round(random.uniform(0.02, 0.19), 3)
 
 
-ANY_POSE = program("good", _any_pose, namespace="/lab_7/robot")
-WITHOUT_YAW = program("good", lambda generator: _any_pose(generator, arguments=2))
-AT_THE_LIMIT = program("level_before", {"level": 0.20})
-DOWN_TO_THE_LIMIT = program("good", {"arguments": ["1.5", "-0.5", "0.4"], "levels": [0.23, 0.2, 0.2001]})
-JUST_BELOW = program("dropping", {"levels": [0.2, 0.1999], "ends_after": 0.4, "stands_after": 0.9})
-EMPTY = program("dropping", {"levels": [0.5, 0.0], "ends_after": 0.4, "stands_after": 0.9})
-BEFORE_ACCEPTANCE = program("dropping_before_acceptance", lambda generator: {"level": _any_drop(generator)})
-IN_VAIN = program(
-    "dropping_at_the_end",
-    lambda generator: {"level": _any_drop(generator), "ends_after": 3.5, "result_after": 0.0},
-)
-TOO_LATE = program(
-    "dropping_at_the_end",
-    lambda generator: {"level": _any_drop(generator), "ends_after": 1.0, "result_after": 2.5},
-)
-REFUSED = program(
-    "dropping_at_the_end",
-    lambda generator: {
-        "level": _any_drop(generator),
-        "ends_after": 4.0,
-        "result_after": 0.0,
-        "agreed": False,
-    },
-)
-LATE_SERVER = program("late_server", lambda generator: {"level": _any_drop(generator)})
-NEVER_A_PERCENTAGE = program("no_percentage_first", {"levels": [20.0, math.nan], "then": None})
-A_PERCENTAGE_AT_LAST = program("no_percentage_first", {"levels": [math.nan, 20.0], "then": 0.64})
-STANDS_FIRST = program("dropping", {"levels": [0.1], "ends_after": 2.5, "stands_after": 0.5})
-ON_THE_SPOT = program("dropping_on_the_spot", lambda generator: {"level": _any_drop(generator)})
-DEAF = program("dropping", {"levels": [0.1], "ends_after": None, "stands_after": 0.5, "agreed": None})
-NEVER_STANDS = program("dropping", {"levels": [0.1], "ends_after": 0.5, "stands_after": None})
-UNANSWERED = program("unanswered")
-SILENT = program("silent")
-BY_ANOTHER = program("canceled_by_another")
+def _any_walk(random: Random, arguments: int = 3) -> Server:
+    """A pose with a negative x, and a battery that runs down, and up again, without getting low."""
+    pose = [_between(random, -3.0, -0.3), _between(random, 0.3, 3.0), _between(random, -3.0, 3.0)]
+    steps = [*UNDER_WAY, *levels(*(_between(random, 0.21, 1.0) for _ in range(4)))]
+    return script(ARRIVES, *steps, battery=1.0, arguments=[*map(str, pose[:arguments])])
 
 
-@check(
-    points=1,
-    on=[ANY_POSE, WITHOUT_YAW],
-    needs=says_how_it_succeeded,
-    see="01_robot_and_graph#names-why",
-    clauses=[4, 5, 18],
-)
-def goes_anywhere(with_yaw: Transcript, without_yaw: Transcript) -> None:
-    """Negative numbers, a yaw that is left out, a battery at 1.0 and another namespace are no obstacle"""
-    for run in (with_yaw, without_yaw):
-        x, y, *yaw = map(float, run.params["arguments"])
-        require_level(run, low=False)
-        require_goal_at(run, x, y, yaw[0] if yaw else 0.0)
-        require_undisturbed_success(run)
-
-
-@check(
-    points=2,
-    on=[AT_THE_LIMIT, DOWN_TO_THE_LIMIT, JUST_BELOW, EMPTY],
-    needs=cancels_when_the_battery_drops,
-    see="08_navigation#float-why",
-    clauses=[7],
-)
-def compares_with_the_limit_exactly(
-    at_the_limit: Transcript, down_to_it: Transcript, just_below: Transcript, empty: Transcript
-) -> None:
-    """0.20 as a float32 is not below 0.20; 0.1999 and 0.0 are"""
-    for run in (at_the_limit, down_to_it):
-        require_level(run, low=False)
-        if not run.scripted_goals(NAVIGATE):
-            exited = run.first(ev.NodeExited)
-            expect(
-                exited is None,
-                expected="a goal: the percentage is 0.20, which is not below 0.20",
-                observed="the program ended without one",
-                help="Compare percentage < 0.20, without rounding: as a float32, 0.20 is 0.200000003.",
-                at=run.end,
-            )
-        require_undisturbed_success(run)
-    for run in (just_below, empty):
-        require_one_goal(run, NAVIGATE)
-        drop = require_drop(run)
-        level = drop.message.percentage
-        require_one_cancel(
-            run,
-            drop.t,
-            AT_ONCE,
-            because=f"the battery fell to {level:.4f}",
-            help="0.0 is a percentage, an empty battery: only NaN says that nothing is known."
-            if level == 0.0
-            else "Compare the number as it comes, percentage < 0.20, without rounding it to whole percents.",
+def _any_story(random: Random) -> Server:
+    """No percentage at first; then any levels, any end of the goal, a low battery or Ctrl-C, any answer to a cancel."""
+    first = random.sample(NONE, 3)
+    high = (*NONE, 0.2, *(_between(random, 0.2, 1.0) for _ in range(6)))
+    offer = random.choice(([], [["wait", _between(random, 0.2, 0.8)], ["offer"]]))
+    steps: list[Any] = [
+        *(*levels(*first[1:]), ["wait", _between(random, 0.0, 0.6)], ["battery", high[-1]], *offer),
+        *(*WALKS, *levels(*random.choices(high, k=4))),
+    ]
+    server = {**ON_AND_ON, "after": _between(random, 0.0, 2.5), "error_msg": REASON}
+    what = random.choice(("ends", "silence", "low", "low", "Ctrl-C"))
+    if what == "ends":
+        server |= {"ends_after": 3.0, "status": random.choice((*ENDS, GoalStatus.STATUS_CANCELED))}
+    elif what == "silence":
+        server |= {"distances": way(random.randrange(12))}
+    else:
+        server |= random.choice(
+            [
+                {"cancel": {"ends_after": _between(random, 0.3, 3.5)}},
+                {"ends_after": 5.2, "status": random.choice(ENDS), "cancel": random.choice(IN_VAIN)},
+            ]
         )
+        why: list[Any] = (
+            ["press_ctrl_c"] if what == "Ctrl-C" else ["battery", random.choice((_low(random), 0.0))]
+        )
+        steps += [why, ["await_cancel"], *levels(random.choice(NONE), 0.6, 0.1, 0.5)]
+        steps += [["wait", _between(random, 0.0, 2.0)], STANDS]
+    return script(server, *steps, battery=first[0])
 
 
-@check(
+def _dropping(**server: Any) -> Scenario:
+    """The battery gets low on the way, and the robot stands already."""
+    return program(
+        "in_order",
+        lambda random: script({**ON_AND_ON, **server}, *UNDER_WAY, ["wait", 0.8], ["battery", _low(random)]),
+    )
+
+
+def _before_acceptance(random: Random) -> Server:
+    server = {**ON_AND_ON, "after": 2.0}
+    return script(server, ["await_goal"], ["wait", 0.5], ["battery", _low(random)])
+
+
+def _late_server(random: Random) -> Server:
+    return script(ARRIVES, ["wait", 0.6], ["battery", _low(random)], ["wait", 0.6], ["offer"])
+
+
+def _silent(random: Random) -> Server:
+    return script({"distances": way(random.randrange(8)), "ends_after": None})
+
+
+def _ctrl_c_in_vain(random: Random) -> Server:
+    end = {"ends_after": 4.2, "status": random.choice(ENDS), "error_msg": REASON}
+    server = {**ON_AND_ON, **end, "cancel": random.choice(IN_VAIN)}
+    return script(server, *UNDER_WAY, ["wait", _between(random, 0.0, 0.8)], ["press_ctrl_c"])
+
+
+def _agreed(ends_after: float | None) -> Server:
+    """The goal goes on until it is cancelled, and ends so many s after that (None: never)."""
+    return {**ON_AND_ON, "cancel": {"ends_after": ends_after}}
+
+
+OTHER_NAMESPACE = program("in_order", _any_walk, namespace="/lab_7/robot")
+WITHOUT_YAW = program("in_order", lambda random: _any_walk(random, arguments=2))
+AT_THE_LIMIT = guard(ARRIVES, *UNDER_WAY, *levels(0.23, 0.2, 0.2001), battery=0.2)
+JUST_BELOW = guard(_agreed(0.4), *WALKS, *levels(0.2, 0.31, 0.2001, 0.1999), *called_off(stands_after=0.9))
+STANDS_FIRST = guard(_agreed(2.5), *WALKS, ["battery", 0.0], *called_off(stands_after=0.5))
+BEFORE_ACCEPTANCE = program("in_order", _before_acceptance)
+SUCCEEDS = _dropping(ends_after=4.2, cancel={"ends_after": None})
+TOO_LATE = _dropping(ends_after=0.8, result_after=2.5)
+REFUSED = _dropping(ends_after=4.2, cancel={"agreed": False})
+CTRL_C_IN_VAIN = program("in_order", _ctrl_c_in_vain)
+LATE_SERVER = program("in_order", _late_server)
+NEVER_A_PERCENTAGE = guard({}, ["battery", math.nan], battery=20.0)
+ANY_STORY = program("in_order", _any_story)
+NEVER_ANSWERED = guard(
+    {**ON_AND_ON, "cancel": {"agreed": None}}, *WALKS, ["battery", 0.1], *called_off(stands_after=0.5)
+)
+NEVER_STANDS = guard(_agreed(0.5), *WALKS, ["battery", 0.1], *called_off(stands_after=None))
+NEVER_CANCELED = guard(_agreed(None), *UNDER_WAY, ["press_ctrl_c"])
+UNANSWERED = guard({"accepted": None})
+SILENT = program("in_order", _silent)
+BY_ANOTHER = guard({"distances": way(5), "ends_after": 1.0, "status": GoalStatus.STATUS_CANCELED})
+
+goes_anywhere = check_of(
+    "goes_anywhere",
+    model.sends_one_goal,
+    model.compares_exactly,
+    model.ends_with_the_goal,
+    title="Negative numbers, a yaw that is left out, a battery at 1.0 and another namespace are no obstacle",
+    points=1,
+    on=[OTHER_NAMESPACE, WITHOUT_YAW],
+    needs=checks.says_how_it_succeeded,
+    see="01_robot_and_graph#names-why",
+)
+compares_with_the_limit_exactly = check_of(
+    "compares_with_the_limit_exactly",
+    model.compares_exactly,
+    title="0.20 as a float32 is not below 0.20; 0.1999 and 0.0 are",
+    points=2,
+    on=[AT_THE_LIMIT, JUST_BELOW, STANDS_FIRST],
+    needs=checks.cancels_when_the_battery_drops,
+    see="08_navigation#float-why",
+)
+cancels_right_after_the_acceptance = check_of(
+    "cancels_right_after_the_acceptance",
+    model.cancels_when_accepted,
+    title="A battery that drops before the goal is accepted cancels it right after the acceptance",
     points=1,
     on=BEFORE_ACCEPTANCE,
-    needs=cancels_when_the_battery_drops,
+    needs=checks.cancels_when_the_battery_drops,
     see="08_navigation#client-intro",
-    clauses=[6],
 )
-def cancels_right_after_the_acceptance(run: Transcript) -> None:
-    """A battery that drops before the goal is accepted cancels it right after the acceptance"""
-    goal = require_one_goal(run, NAVIGATE)
-    drop = require_drop(run)
-    accepted = require_goal_answered(run, goal, accepted=True)
-    if not goal.received.t < drop.t < accepted:
-        raise unseen(run, "the battery did not drop between the goal and its acceptance")
-    require_one_cancel(
-        run,
-        accepted,
-        AT_ONCE,
-        because=f"the battery had fallen {accepted - drop.t:.1f} s before the goal was accepted",
-        help="Without a goal handle nothing can be cancelled, so remember that the battery is low, and look at it "
-        "when you have the handle. No new message need come.",
-    )
-
-
-@check(
+success_wins_the_race = check_of(
+    "success_wins_the_race",
+    model.believes_the_end,
+    title="A goal that SUCCEEDED in spite of the cancel ends it with status 0",
     points=2,
-    on=[IN_VAIN, TOO_LATE],
-    needs=cancels_when_the_battery_drops,
+    on=[SUCCEEDS, TOO_LATE, CTRL_C_IN_VAIN],
+    needs=checks.cancels_when_the_battery_drops,
     see="07_cancel_and_preempt#late-why",
-    clauses=[11, 12],
 )
-def success_wins_the_race(in_vain: Transcript, too_late: Transcript) -> None:
-    """A goal that SUCCEEDED in spite of the cancel ends it with status 0"""
-    for run in (in_vain, too_late):
-        goal = require_one_goal(run, NAVIGATE)
-        require_goal_answered(run, goal, accepted=True)
-        drop = require_drop(run)
-        finished = require_goal_finished(run, goal, GoalStatus.STATUS_SUCCEEDED)
-        if run is in_vain and not drop.t < finished.t:
-            raise unseen(run, "the battery did not drop before the end of the goal")
-        if run is too_late and goal.result_sent and goal.result_sent.t < drop.t:
-            raise unseen(run, "the result came before the battery dropped")
-        _require_success_in_spite_of_a_cancel(run, finished.t)
-
-
-def _require_success_in_spite_of_a_cancel(run: Transcript, finished: float) -> None:
-    exited = run.first(ev.NodeExited)
-    expect(
-        exited is None or exited.returncode != 4,
-        expected="exit status 0: the goal SUCCEEDED, although a cancel had been sent",
-        observed="exit status 4",
-        help="A cancel is a request. How the goal ended, only response.status says: look at it after the cancel, too.",
-        at=run.end,
-    )
-    require_success(run, finished + WITHIN)
-
-
-@check(
+looks_at_the_battery_until_it_sends = check_of(
+    "looks_at_the_battery_until_it_sends",
+    model.sends_it_only_when_it_may,
+    model.says_that_the_battery_is_low,
+    title="A battery that drops while it waits for the server keeps it from sending the goal",
     points=1,
     on=LATE_SERVER,
-    needs=does_not_set_out_on_a_low_battery,
+    needs=checks.does_not_set_out_on_a_low_battery,
     see="08_navigation#guard-intro",
-    clauses=[3],
 )
-def looks_at_the_battery_until_it_sends(run: Transcript) -> None:
-    """A battery that drops while it waits for the server keeps it from sending the goal"""
-    drop = require_drop(run)
-    offered = run.first(ev.ActionOffered)
-    if offered and offered.t < drop.t:
-        raise unseen(run, "the server was there before the battery dropped")
-    require_no_goal(
-        run,
-        f"the battery fell to {drop.message.percentage:.2f} before the server appeared",
-        "wait_for_server() does not spin, so no message reaches you meanwhile: look at server_is_ready() between "
-        "spins, and at the last percentage just before you send.",
-    )
-    require_canceled(run, drop.t + WITHIN, "the battery is low")
-
-
-@check(
+waits_for_a_percentage = check_of(
+    "waits_for_a_percentage",
+    model.holds_whatever_happens,
+    title="While battery_state holds no percentage it waits, at most 5 s, and then ends with status 1",
     points=1,
-    on=[NEVER_A_PERCENTAGE, A_PERCENTAGE_AT_LAST],
-    needs=[ignores_what_is_no_percentage, does_not_set_out_without_a_battery_state],
+    on=[NEVER_A_PERCENTAGE, ANY_STORY],
+    needs=[checks.ignores_what_is_no_percentage, checks.does_not_set_out_without_a_battery_state],
     see="08_navigation#guard-traps-why",
-    clauses=[1, 8],
 )
-def waits_for_a_percentage(never: Transcript, at_last: Transcript) -> None:
-    """While battery_state holds no percentage it waits, at most 5 s, and then ends with status 1"""
-    if not never.published(BATTERY):
-        raise unseen(never, f"{BATTERY} was not published")
-    help = "A message that you ignore counts as none: wait on for a percentage from 0 to 1, at most 5 s."
-    require_no_goal(never, "battery_state said 20.0 and NaN, and nothing else", help)
-    require_failure(
-        never, GIVING_UP, NO_SERVER, because="battery_state said 20.0 and NaN, and nothing else", help=help
-    )
-    ready = never.first(ev.NodeReady)
-    if ready is None:
-        raise unseen(never, "the program's node never appeared")
-    require_patience(never, ready.t, what="a battery_state without a percentage", help=help)
-    goals = at_last.scripted_goals(NAVIGATE)
-    first = next((event for event in at_last.published(BATTERY) if 0 <= event.message.percentage <= 1), None)
-    if first is None:
-        raise unseen(at_last, "no percentage was published")
-    if goals:
-        expect(
-            goals[0].received.t >= first.t,
-            expected="no goal before the first percentage from 0 to 1",
-            observed=f"a goal {first.t - goals[0].received.t:.1f} s before",
-            help=help,
-            at=goals[0].received.t,
-        )
-    require_undisturbed_success(at_last)
-
-
-@check(
+takes_standing_and_canceled_in_any_order = check_of(
+    "takes_standing_and_canceled_in_any_order",
+    model.waits_for_canceled_and_standing,
+    title="When the robot stands before the goal is CANCELED, or has not moved yet, CANCELED ends it",
     points=1,
-    on=[STANDS_FIRST, ON_THE_SPOT],
-    needs=waits_until_the_robot_stands,
+    on=[STANDS_FIRST, BEFORE_ACCEPTANCE],
+    needs=checks.waits_until_the_robot_stands,
     see="08_navigation#standing-why",
-    clauses=[9],
 )
-def takes_standing_and_canceled_in_any_order(stands_first: Transcript, on_the_spot: Transcript) -> None:
-    """When the robot stands before the goal is CANCELED, or has not moved yet, CANCELED ends it"""
-    for run in (stands_first, on_the_spot):
-        goal = require_one_goal(run, NAVIGATE)
-        drop = require_drop(run)
-        require_one_cancel(run, drop.t, AT_ONCE, because="the battery is low", help=LOOKS_AWAY)
-        finished = require_goal_finished(run, goal, GoalStatus.STATUS_CANCELED)
-        standing = standing_at(run)
-        if standing is None or standing > finished.t:
-            raise unseen(run, "the robot did not stand when the goal was CANCELED")
-        require_canceled(run, finished.t + WITHIN, "the battery was low and the goal was CANCELED")
-        require_end_after(
-            run,
-            finished.t,
-            AT_ONCE,
-            what="CANCELED, as the robot stood already",
-            help="Wait for the result of the goal, too.",
-        )
-
-
-@check(
+waits_no_longer_than_5_s = check_of(
+    "waits_no_longer_than_5_s",
+    model.waits_5_s_for_each,
+    title="If CANCELED or STANDING does not come within 5 s, it ends all the same, with status 4",
     points=1,
-    on=[DEAF, NEVER_STANDS],
-    needs=waits_until_the_robot_stands,
+    on=[NEVER_ANSWERED, NEVER_STANDS, NEVER_CANCELED],
+    needs=checks.waits_until_the_robot_stands,
     see="08_navigation#standing-why",
-    clauses=[10],
 )
-def waits_no_longer_than_5_s(deaf: Transcript, never_stands: Transcript) -> None:
-    """If CANCELED or STANDING does not come within 5 s, it ends all the same, with status 4"""
-    goal = require_one_goal(deaf, NAVIGATE)
-    asked = require_one_cancel(
-        deaf, require_drop(deaf).t, AT_ONCE, because="the battery is low", help=LOOKS_AWAY
-    )
-    if goal.finished:
-        raise unseen(deaf, "the goal ended")
-    _require_end_in_any_case(deaf, asked.received.t, "CANCELED")
-    goal = require_one_goal(never_stands, NAVIGATE)
-    require_drop(never_stands)
-    finished = require_goal_finished(never_stands, goal, GoalStatus.STATUS_CANCELED)
-    if (standing_at(never_stands) or 0.0) > goal.received.t:
-        raise unseen(never_stands, "the robot stood")
-    _require_end_in_any_case(never_stands, finished.t, "STANDING")
-
-
-def _require_end_in_any_case(run: Transcript, since: float, what: str) -> None:
-    ended = run.first(ev.NodeExited)
-    require_canceled(run, since + GIVING_UP + PATIENCE, "the battery was low")
-    require_patience(run, since, what=f"{what} after the cancel", help=f"Wait up to 5 s for {what}.")
-    if ended:
-        expect(
-            ended.t - since <= GIVING_UP,
-            expected=f"the end {PATIENCE:g} s after the wait for {what} began",
-            observed=f"{ended.t - since:.1f} s after it",
-            help="Give each wait after the cancel a limit of 5 s, counted from its beginning: feedback may go on.",
-            at=ended.t,
-        )
-
-
-@check(
+gives_up_in_silence = check_of(
+    "gives_up_in_silence",
+    model.ends_in_silence,
+    model.says_why,
+    title="5 s without an answer, or without feedback and result, end it with status 1; an accepted goal is canceled",
     points=1,
     on=[UNANSWERED, SILENT],
-    needs=gives_up_without_a_server,
+    needs=checks.gives_up_without_a_server,
     see="03_clients_that_survive#fix-why",
-    clauses=[14, 15],
 )
-def gives_up_in_silence(unanswered: Transcript, silent: Transcript) -> None:
-    """5 s without an answer, or without feedback and result, end it with status 1; an accepted goal is canceled"""
-    goal = require_one_goal(unanswered, NAVIGATE)
-    if goal.reply:
-        raise unseen(unanswered, "the goal was answered")
-    require_failure(
-        unanswered,
-        GIVING_UP + PATIENCE,
-        NO_SERVER,
-        because="the goal was never answered",
-        help="Wait for the answer at most 5 s: look at future.done() between spins.",
-    )
-    goal = require_one_goal(silent, NAVIGATE)
-    accepted = require_goal_answered(silent, goal, accepted=True)
-    if goal.finished and not goal.cancels:
-        raise unseen(silent, "the goal ended by itself")
-    require_one_cancel(
-        silent,
-        accepted + PATIENCE - 0.5,
-        0.5,
-        because="nothing was heard of the goal for 5 s",
-        help=how_to_give_up(silent),
-    )
-    require_failure(
-        silent, accepted + GIVING_UP + PATIENCE, NO_SERVER, because="the server is silent", help=STATUS_HELP
-    )
-
-
-@check(
+tells_a_cancel_by_another = check_of(
+    "tells_a_cancel_by_another",
+    model.ends_with_the_goal,
+    title="A goal that somebody else cancels ends it with status 4, and a line on stdout says CANCELED",
     points=1,
     on=BY_ANOTHER,
-    needs=[says_how_it_failed, ctrl_c_cancels_the_goal],
+    needs=[checks.says_how_it_failed, checks.ctrl_c_cancels_the_goal],
     see="08_navigation#stop-why",
-    clauses=[12],
 )
-def tells_a_cancel_by_another(run: Transcript) -> None:
-    """A goal that somebody else cancels ends it with status 4, and a line on stdout says CANCELED"""
-    require_goal_finished(run, require_one_goal(run, NAVIGATE), GoalStatus.STATUS_CANCELED)
-    exited = require_canceled(run, WITHIN, "the goal was CANCELED")
-    require_ending_line(run, "CANCELED", exited.t)
-
-
-@check(
-    points=1, on=REFUSED, needs=success_wins_the_race, see="07_cancel_and_preempt#m1-why", clauses=[11, 12]
+a_refused_cancel_is_no_end = check_of(
+    "a_refused_cancel_is_no_end",
+    model.believes_the_end,
+    title="When the cancel is refused (empty goals_canceling), the goal is followed: SUCCEEDED ends it with status 0",
+    points=1,
+    on=REFUSED,
+    needs=checks.cancels_when_the_battery_drops,
+    see="07_cancel_and_preempt#m1-why",
 )
-def a_refused_cancel_is_no_end(run: Transcript) -> None:
-    """When the cancel is refused (empty goals_canceling), the goal is followed: SUCCEEDED ends it with status 0"""
-    goal = require_one_goal(run, NAVIGATE)
-    require_drop(run)
-    require_cancel(run, goal, because="the battery is low", help=LOOKS_AWAY)
-    require_refused_cancel(goal, run, CancelGoal.Response.ERROR_NONE)
-    finished = require_goal_finished(run, goal, GoalStatus.STATUS_SUCCEEDED)
-    _require_success_in_spite_of_a_cancel(run, finished.t)

@@ -1,4 +1,4 @@
-"""How a run of the battery guard is judged, on records made by hand: one sound client and its near misses."""
+"""How a run of the battery guard is judged, on records made by hand: sound clients and their near misses."""
 
 import math
 from itertools import count
@@ -16,12 +16,12 @@ from humanoid_interfaces.msg import RobotState
 
 CHECKS = {check.id: check for check in load_exercise("battery_guard", hidden=True).checks}
 NAVIGATE = "navigate_to_pose"
-SUCCEEDED, CANCELED = GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_CANCELED
+SUCCEEDED, CANCELED, ABORTED = (
+    GoalStatus.STATUS_SUCCEEDED,
+    GoalStatus.STATUS_CANCELED,
+    GoalStatus.STATUS_ABORTED,
+)
 NUMBERS = count(1)
-STARTED = [ev.NodeStarted(t=0.0), ev.NodeReady(t=0.5, waited=0.5)]
-OFFERED = [ev.ActionOffered(t=0.1, action=NAVIGATE, server="server 1", type="NavigateToPose")]
-OVER = [ev.ScenarioEnded(t=30.0)]
-PARAMS = {"arguments": ["1.5", "-0.5", "0.4"]}
 
 
 def level(t, percentage, subscriptions=1):
@@ -33,14 +33,18 @@ def mode(t, mode):
     return [ev.MessagePublished(t=t, topic="robot_state", message=RobotState(mode=mode), subscriptions=1)]
 
 
-def goal(t, x=1.5, y=-0.5, yaw=0.4, frame="odom", accepted=0.1):
+def goal(t, x=1.5, y=-0.5, yaw=0.4, frame="odom", after=0.1, accepted=True):
     message = NavigateToPose.Goal()
     message.pose.header.frame_id = frame
     message.pose.pose.position.x, message.pose.pose.position.y = x, y
     message.pose.pose.orientation.z = math.sin(yaw / 2)
     message.pose.pose.orientation.w = math.cos(yaw / 2)
     received = ev.GoalReceived(t=t, goal="goal 1", action=NAVIGATE, server="server 1", message=message)
-    return [received, ev.GoalReplySent(t=t + accepted, goal="goal 1", accepted=True)]
+    return [received, ev.GoalReplySent(t=t + after, goal="goal 1", accepted=accepted)]
+
+
+def feedback(*times):
+    return [ev.FeedbackSent(t=t, goal="goal 1", feedback=NavigateToPose.Feedback()) for t in times]
 
 
 def cancel(t, canceling=("goal 1",)):
@@ -51,11 +55,11 @@ def cancel(t, canceling=("goal 1",)):
     ]
 
 
-def finished(t, status):
-    result = NavigateToPose.Result(error_msg="late" if status == GoalStatus.STATUS_ABORTED else "")
+def finished(t, status, result_after=0.0):
+    result = NavigateToPose.Result(error_msg="late" if status == ABORTED else "")
     return [
         ev.GoalFinished(t=t, goal="goal 1", status=status, result=result),
-        ev.ResultSent(t=t, goal="goal 1"),
+        ev.ResultSent(t=t + result_after, goal="goal 1"),
     ]
 
 
@@ -65,46 +69,98 @@ def ended(t, status, *lines, errors=()):
     return [*said, *complained, ev.NodeExited(t=t, returncode=status)]
 
 
+STARTED = [ev.NodeStarted(t=0.0), ev.NodeReady(t=0.5, waited=0.5), ev.ScenarioEnded(t=30.0)]
+OFFERED = [ev.ActionOffered(t=0.1, action=NAVIGATE, server="server 1", type="NavigateToPose")]
 STANDS, WALKS = mode(0.2, RobotState.STANDING), mode(2.5, RobotState.WALKING)
-READY = [*STARTED, *OFFERED, *STANDS, *level(0.3, 0.8), *OVER]
-UNDER_WAY = [*READY, *goal(2.0), *WALKS]
+ALONE = [*STARTED, *STANDS, *level(0.3, 0.8)]
+UNKNOWN = [*STARTED, *OFFERED, *STANDS]
+READY = [*UNKNOWN, *level(0.3, 0.8)]
+UNDER_WAY = [*READY, *goal(2.0), *WALKS, *feedback(*(2.2 + 0.2 * n for n in range(80)))]
 DROPPED = [*UNDER_WAY, *level(3.0, 0.19)]
-STOOD = mode(6.0, RobotState.STANDING)
-CALLED_OFF = [*DROPPED, *cancel(3.1), *finished(3.7, CANCELED), *STOOD]
+ASKED = [*DROPPED, *cancel(3.1)]
+CALLED_OFF = [*ASKED, *finished(3.7, CANCELED), *mode(6.0, RobotState.STANDING)]
 ALL_WELL = [*UNDER_WAY, *finished(5.0, SUCCEEDED)]
 NAN_ON_THE_WAY = [*UNDER_WAY, *level(3.0, math.nan), *level(3.3, 20.0), *finished(5.0, SUCCEEDED)]
 WARNED = "[WARN] [1.0] [battery_guard]: ignored: a percentage of nan"
+EARLY = [*READY, *goal(2.0, after=2.0), *feedback(4.2, 4.4, 4.6, 6.0, 8.0, 10.0), *level(2.5, 0.1)]
+PRESSED = [*UNDER_WAY, ev.NodeSignalled(t=3.0, signal="SIGINT")]
+INTERRUPTED = [*PRESSED, *cancel(3.1)]
+NONSENSE = [*STARTED, *OFFERED, *STANDS, *level(0.3, 20.0), *level(0.6, math.nan)]
+LATE_RESULT = [*UNDER_WAY, *finished(2.9, SUCCEEDED, 2.1), *level(3.0, 0.1)]
+SILENT = [*READY, *goal(2.0)]
 
 
-def judge(check, *records):
-    CHECKS[check].run([Transcript.from_events("any", PARAMS, record) for record in records])
+def judge(check, record, *, arguments=("1.5", "-0.5", "0.4")):
+    kinds = {type(event) for event in record}
+    offered = {"ends_after": None, "cancel": {"ends_after": None}}
+    if ev.GoalReceived in kinds and ev.GoalReplySent not in kinds:
+        offered["accepted"] = None
+    if any(isinstance(event, ev.GoalReplySent) and not event.accepted for event in record):
+        offered["accepted"] = False
+    server = offered if ev.ActionOffered in kinds else None
+    params = {"arguments": arguments, "server": server, "battery": None, "steps": []}
+    CHECKS[check].judge(Transcript.from_events("any", params, record))
 
 
-def failure(check, *records):
-    with pytest.raises(Failure) as caught:
-        judge(check, *records)
-    return caught.value
+def canceled(t):
+    return ended(t, 4, "CANCELED")
+
+
+def succeeded(t):
+    return ended(t, 0, "SUCCEEDED")
 
 
 @pytest.mark.parametrize(
     ("check", "record"),
     [
         ("sends_the_goal", ALL_WELL),
-        ("says_how_it_succeeded", [*ALL_WELL, *ended(5.2, 0, "SUCCEEDED")]),
+        ("says_how_it_succeeded", [*ALL_WELL, *succeeded(5.2)]),
+        ("gives_up_without_a_server", [*ALONE, *ended(5.7, 1, errors=["nobody"])]),
+        (
+            "says_how_it_failed",
+            [*READY, *goal(2.0, accepted=False), *ended(2.3, 2, errors=["rejected"])],
+        ),
+        (
+            "says_how_it_failed",
+            [*UNDER_WAY, *finished(5.0, ABORTED), *ended(5.2, 3, errors=["ABORTED: late"])],
+        ),
         (
             "does_not_set_out_on_a_low_battery",
-            [*STARTED, *OFFERED, *level(0.1, 0.12), *ended(1.0, 4, "not sent: the battery is at 0.12")],
+            [*UNKNOWN, *level(0.1, 0.12), *ended(1.0, 4, "not sent: the battery is at 0.12")],
         ),
-        (
-            "does_not_set_out_without_a_battery_state",
-            [*STARTED, *OFFERED, *ended(5.6, 1, errors=["none came"])],
-        ),
+        ("does_not_set_out_without_a_battery_state", [*UNKNOWN, *ended(5.6, 1, errors=["none came"])]),
         ("cancels_when_the_battery_drops", CALLED_OFF),
         ("waits_until_the_robot_stands", [*CALLED_OFF, *ended(6.2, 4, "CANCELED: low")]),
         ("ignores_what_is_no_percentage", [*NAN_ON_THE_WAY, *ended(5.2, 0, "SUCCEEDED", errors=[WARNED])]),
+        ("ctrl_c_cancels_the_goal", [*INTERRUPTED, *finished(4.1, CANCELED), *canceled(4.3)]),
+        ("compares_with_the_limit_exactly", [*ALL_WELL, *level(2.5, 0.2), *level(2.8, 0.2001)]),
+        ("compares_with_the_limit_exactly", [*UNDER_WAY, *level(3.0, 0.1999), *cancel(3.1)]),
+        ("cancels_right_after_the_acceptance", [*EARLY, *cancel(4.1)]),
+        ("success_wins_the_race", [*ASKED, *finished(5.0, SUCCEEDED), *succeeded(5.2)]),
+        ("success_wins_the_race", [*LATE_RESULT, *succeeded(5.2)]),
         (
-            "cancels_right_after_the_acceptance",
-            [*READY, *goal(2.0, accepted=2.0), *level(2.5, 0.1), *cancel(4.1)],
+            "success_wins_the_race",
+            [*INTERRUPTED, *finished(5.0, ABORTED), *ended(5.2, 3, errors=["ABORTED: late"])],
+        ),
+        ("looks_at_the_battery_until_it_sends", [*ALONE, *level(2.0, 0.1), *ended(2.2, 4, "battery 10 %")]),
+        ("takes_standing_and_canceled_in_any_order", [*CALLED_OFF, *canceled(6.2)]),
+        ("waits_no_longer_than_5_s", [*ASKED, *mode(3.6, RobotState.STANDING), *ended(8.2, 4, "no end")]),
+        ("waits_no_longer_than_5_s", [*ASKED, *finished(3.6, CANCELED), *canceled(8.8)]),
+        ("waits_no_longer_than_5_s", [*INTERRUPTED, *ended(8.2, 4, "no end")]),
+        ("waits_for_a_percentage", [*NONSENSE, *ended(5.7, 1, errors=[WARNED, "none"])]),
+        (
+            "waits_for_a_percentage",
+            [
+                *(*NONSENSE, *level(3.0, 0.64), *goal(3.2), *finished(5.0, SUCCEEDED)),
+                *ended(5.2, 0, "SUCCEEDED", errors=[WARNED]),
+            ],
+        ),
+        ("gives_up_in_silence", [*READY, *goal(2.0)[:1], *ended(7.2, 1, errors=["no answer"])]),
+        ("gives_up_in_silence", [*SILENT, *cancel(7.2), *ended(7.8, 1, errors=["silence"])]),
+        ("tells_a_cancel_by_another", [*UNDER_WAY, *finished(3.6, CANCELED), *canceled(3.8)]),
+        (
+            "a_refused_cancel_is_no_end",
+            [*DROPPED, *cancel(3.1, ()), *finished(5.0, SUCCEEDED), *succeeded(5.2)],
         ),
     ],
 )
@@ -117,27 +173,35 @@ def test_a_sound_run_passes(check, record):
     [
         ("sends_the_goal", [*READY, *goal(2.0, frame="")], "frame_id"),
         ("sends_the_goal", [*READY, *goal(2.0, yaw=0.0)], "math.sin(yaw / 2)"),
-        ("does_not_set_out_on_a_low_battery", [*DROPPED, *ended(5.0, 4, "battery")], "before you send"),
+        ("gives_up_without_a_server", [*ALONE, *ended(1.2, 1, errors=["nobody"])], "server_is_ready()"),
+        (
+            "says_how_it_failed",
+            [*UNDER_WAY, *finished(5.0, ABORTED), *ended(5.2, 3, errors=["x"])],
+            "error_msg",
+        ),
         (
             "does_not_set_out_on_a_low_battery",
-            [*STARTED, *OFFERED, *level(0.1, 0.12, 0), *ended(6.0, 1, errors=["none"])],
+            [*UNKNOWN, *level(0.1, 0.12), *goal(2.0), *ended(5.0, 4, "battery")],
+            "before you send",
+        ),
+        (
+            "does_not_set_out_on_a_low_battery",
+            [*UNKNOWN, *level(0.0, 0.12, 0), *ended(6.0, 1, errors=["none"])],
             "TRANSIENT_LOCAL",
         ),
         (
             "does_not_set_out_without_a_battery_state",
-            [*STARTED, *OFFERED, *ended(0.9, 1, errors=["none came"])],
+            [*UNKNOWN, *ended(0.9, 1, errors=["none came"])],
             "One spin is not enough",
         ),
         ("cancels_when_the_battery_drops", DROPPED, "while you wait for the result"),
+        ("cancels_when_the_battery_drops", [*DROPPED, *cancel(5.3)], "while you wait for the result"),
         ("cancels_when_the_battery_drops", [*CALLED_OFF, *cancel(3.3)], "Remember that you have asked"),
         ("cancels_when_the_battery_drops", [*DROPPED, *cancel(2.8)], "Cancel only for"),
-        (
-            "cancels_when_the_battery_drops",
-            [*UNDER_WAY, *level(3.0, 0.19, subscriptions=0)],
-            "create_subscription",
-        ),
-        ("waits_until_the_robot_stands", [*CALLED_OFF, *ended(3.8, 4, "CANCELED")], "what the legs do"),
-        ("waits_until_the_robot_stands", [*CALLED_OFF, *ended(10.9, 4, "CANCELED")], "last message"),
+        ("cancels_when_the_battery_drops", [*UNDER_WAY, *level(3.0, 0.19, 0)], "create_subscription"),
+        ("waits_until_the_robot_stands", [*CALLED_OFF, *canceled(3.8)], "what the legs do"),
+        ("waits_until_the_robot_stands", [*CALLED_OFF, *canceled(10.9)], "last message"),
+        ("waits_until_the_robot_stands", [*CALLED_OFF, *ended(6.2, 4, "low battery")], "CANCELED"),
         (
             "ignores_what_is_no_percentage",
             [*UNDER_WAY, *level(3.0, 15.0), *cancel(3.1), *finished(3.7, CANCELED)],
@@ -148,60 +212,63 @@ def test_a_sound_run_passes(check, record):
             [*UNDER_WAY, *level(3.0, math.nan), *cancel(3.1), *finished(3.7, CANCELED)],
             "neither low nor high",
         ),
-        ("ignores_what_is_no_percentage", [*NAN_ON_THE_WAY, *ended(5.2, 0, "SUCCEEDED")], "once=True"),
+        ("ignores_what_is_no_percentage", [*NAN_ON_THE_WAY, *succeeded(5.2)], "once=True"),
         (
             "ignores_what_is_no_percentage",
             [*NAN_ON_THE_WAY, *ended(5.2, 0, "SUCCEEDED", errors=[WARNED, WARNED])],
             "once=True",
         ),
+        ("ctrl_c_cancels_the_goal", PRESSED, "SignalHandlerOptions.NO"),
+        ("ctrl_c_cancels_the_goal", [*INTERRUPTED, *finished(4.1, CANCELED), *ended(4.3, 130)], "status"),
+        ("compares_with_the_limit_exactly", [*UNDER_WAY, *level(3.0, 0.2), *cancel(3.1)], "0.200000003"),
+        ("compares_with_the_limit_exactly", [*UNDER_WAY, *level(3.0, 0.1999)], "Rounding"),
+        ("compares_with_the_limit_exactly", [*UNDER_WAY, *level(3.0, 0.0)], "empty battery"),
         (
-            "cancels_right_after_the_acceptance",
-            [*READY, *goal(2.0, accepted=2.0), *level(2.5, 0.1)],
-            "remember that the battery is low",
+            "compares_with_the_limit_exactly",
+            [*UNKNOWN, *level(0.3, 0.2), *ended(1.0, 4, "low")],
+            "0.200000003",
         ),
+        ("cancels_right_after_the_acceptance", EARLY, "remember that the battery is low"),
+        ("success_wins_the_race", [*ASKED, *finished(5.0, SUCCEEDED), *canceled(5.2)], "response.status"),
+        ("success_wins_the_race", [*LATE_RESULT, *canceled(5.2)], "response.status"),
+        (
+            "success_wins_the_race",
+            [*INTERRUPTED, *finished(5.0, SUCCEEDED), *canceled(5.2)],
+            "response.status",
+        ),
+        (
+            "looks_at_the_battery_until_it_sends",
+            [*ALONE, *OFFERED, *level(2.0, 0.1), *goal(3.2), *cancel(3.4), *canceled(4.0)],
+            "wait_for_server() does not spin",
+        ),
+        ("takes_standing_and_canceled_in_any_order", [*ASKED, *canceled(3.8)], "wait for the result"),
+        ("waits_no_longer_than_5_s", ASKED, "a time limit after a cancel"),
+        ("waits_no_longer_than_5_s", [*ASKED, *finished(3.6, CANCELED), *canceled(16.0)], "a limit of 5 s"),
+        ("waits_no_longer_than_5_s", [*INTERRUPTED, *ended(17.0, 4, "no end")], "a limit of 5 s"),
+        ("waits_for_a_percentage", [*NONSENSE, *goal(1.0), *ended(5.7, 1)], "counts as none"),
+        ("gives_up_in_silence", [*SILENT, *ended(7.8, 1, errors=["silence"])], "before you give up"),
+        (
+            "tells_a_cancel_by_another",
+            [*UNDER_WAY, *finished(3.6, CANCELED), *ended(3.8, 3, errors=["ABORTED"])],
+            "response.status",
+        ),
+        ("a_refused_cancel_is_no_end", [*DROPPED, *cancel(3.1, ()), *ended(3.2, 4, "refused")], "refused"),
     ],
 )
 def test_a_near_miss_is_told_its_next_step(check, record, told):
-    assert told in failure(check, record).help
-
-
-def test_success_wins_only_if_the_status_is_looked_at():
-    in_vain = [*DROPPED, *cancel(3.1), *finished(5.0, SUCCEEDED)]
-    too_late = [
-        *UNDER_WAY,
-        *finished(2.9, SUCCEEDED)[:1],
-        *level(3.0, 0.1),
-        ev.ResultSent(t=5.0, goal="goal 1"),
-    ]
-    well, badly = ended(5.2, 0, "SUCCEEDED"), ended(5.2, 4, "CANCELED")
-    judge("success_wins_the_race", [*in_vain, *well], [*too_late, *well])
-    for records in (([*in_vain, *badly], [*too_late, *well]), ([*in_vain, *well], [*too_late, *badly])):
-        assert "response.status" in failure("success_wins_the_race", *records).help
-
-
-@pytest.mark.parametrize("limit", [0.2, 0.2001])
-def test_the_limit_as_a_float32_is_not_low(limit):
-    well = ended(5.2, 0, "SUCCEEDED")
-    at_it = [*STARTED, *OFFERED, *level(0.3, limit), *goal(2.0), *finished(5.0, SUCCEEDED), *well]
-    down_to_it = [*UNDER_WAY, *level(3.0, limit), *finished(5.0, SUCCEEDED), *well]
-    below = [*UNDER_WAY, *level(3.0, 0.1999), *cancel(3.1)]
-    empty = [*UNDER_WAY, *level(3.0, 0.0), *cancel(3.1)]
-    judge("compares_with_the_limit_exactly", at_it, down_to_it, below, empty)
-    hasty = [*UNDER_WAY, *level(3.0, limit), *cancel(3.1), *finished(3.7, CANCELED)]
-    told = failure("compares_with_the_limit_exactly", at_it, hasty, below, empty)
-    assert "0.200000003" in told.help
-    blind = [*UNDER_WAY, *level(3.0, 0.0)]
-    assert "empty battery" in failure("compares_with_the_limit_exactly", at_it, down_to_it, below, blind).help
+    with pytest.raises(Failure) as caught:
+        judge(check, record)
+    assert told in caught.value.help
 
 
 @pytest.mark.parametrize(
     ("check", "record"),
     [
-        ("sends_the_goal", [*STARTED, *OFFERED, *goal(2.0), *OVER]),
+        ("sends_the_goal", [*UNKNOWN, *goal(2.0)]),
         ("cancels_when_the_battery_drops", [*UNDER_WAY, *cancel(3.1)]),
         ("ignores_what_is_no_percentage", [*ALL_WELL, *ended(5.2, 0, "SUCCEEDED", errors=[WARNED])]),
         ("looks_at_the_battery_until_it_sends", [*READY, *level(3.0, 0.1)]),
-        ("waits_until_the_robot_stands", [*DROPPED[: -len(WALKS)], *cancel(3.1), *finished(3.7, CANCELED)]),
+        ("waits_until_the_robot_stands", [*UNDER_WAY, *finished(3.7, CANCELED), *canceled(3.9)]),
     ],
 )
 def test_without_its_stimulus_nothing_passes(check, record):
@@ -209,92 +276,8 @@ def test_without_its_stimulus_nothing_passes(check, record):
         judge(check, record)
 
 
-NO_NODE = [ev.NodeStarted(t=0.0), *OFFERED, *OVER]
-USAGE = ended(0.4, 2, errors=["usage: battery_guard.py"])
-ALONE = [*STARTED, *STANDS, *level(0.3, 0.8), *OVER]
-REJECTED = [*READY, *goal(2.0)[:1], ev.GoalReplySent(t=2.1, goal="goal 1", accepted=False)]
-ABORTED = [*UNDER_WAY, *finished(5.0, GoalStatus.STATUS_ABORTED)]
-UNANSWERED = [*READY, *goal(2.0)[:1], *ended(7.2, 1, errors=["no answer"])]
-SILENT = [*READY, *goal(2.0), *cancel(7.2), *ended(7.8, 1, errors=["silence"])]
-INTERRUPTED = [*UNDER_WAY, ev.NodeSignalled(t=3.0, signal="SIGINT"), *cancel(3.1), *finished(4.1, CANCELED)]
-NONSENSE_ALONE = [*STARTED, *OFFERED, *level(0.3, 20.0), *level(0.4, math.nan), *OVER]
-AT_LAST = [*NONSENSE_ALONE, *level(3.0, 0.64), *goal(3.2), *finished(5.0, SUCCEEDED)]
-STOOD_FIRST = [*DROPPED, *cancel(3.1), *mode(3.6, RobotState.STANDING), *finished(5.6, CANCELED)]
-ON_THE_SPOT = [*READY, *goal(2.0), *level(3.0, 0.1), *cancel(3.1), *finished(3.6, CANCELED)]
-DEAF = [*DROPPED, *cancel(3.1)]
-NEVER_STANDS = [*DROPPED, *cancel(3.1), *finished(3.6, CANCELED)]
-REFUSED = [*DROPPED, *cancel(3.1, canceling=())]
-
-
-def canceled(t):
-    return ended(t, 4, "CANCELED")
-
-
-@pytest.mark.parametrize(
-    ("check", "sound", "faulty"),
-    [
-        (
-            "refuses_wrong_arguments",
-            [[*NO_NODE, *USAGE]] * 2,
-            [[*NO_NODE, *USAGE], [*READY, *ended(1.0, 2, errors=["usage"])]],
-        ),
-        (
-            "gives_up_without_a_server",
-            [[*ALONE, *ended(5.7, 1, errors=["nobody"])]],
-            [[*ALONE, *ended(1.2, 1, errors=["nobody"])]],
-        ),
-        (
-            "says_how_it_failed",
-            [[*REJECTED, *ended(2.3, 2, errors=["rejected"])], [*ABORTED, *ended(5.2, 3, errors=["late"])]],
-            [
-                [*REJECTED, *ended(2.3, 2, errors=["rejected"])],
-                [*ABORTED, *ended(5.2, 3, errors=["ABORTED"])],
-            ],
-        ),
-        ("ctrl_c_cancels_the_goal", [[*INTERRUPTED, *canceled(4.3)]], [[*INTERRUPTED, *ended(4.3, 130)]]),
-        (
-            "looks_at_the_battery_until_it_sends",
-            [[*ALONE, *level(2.0, 0.1), *canceled(2.2)]],
-            [[*ALONE, *level(2.0, 0.1), *goal(3.2), *cancel(3.4), *canceled(4.0)]],
-        ),
-        (
-            "waits_for_a_percentage",
-            [[*NONSENSE_ALONE, *ended(5.7, 1, errors=["none"])], [*AT_LAST, *ended(5.2, 0, "SUCCEEDED")]],
-            [[*NONSENSE_ALONE, *goal(1.0), *ended(5.7, 1)], [*AT_LAST, *ended(5.2, 0, "SUCCEEDED")]],
-        ),
-        (
-            "takes_standing_and_canceled_in_any_order",
-            [[*STOOD_FIRST, *canceled(5.8)], [*ON_THE_SPOT, *canceled(3.8)]],
-            [[*STOOD_FIRST, *canceled(5.8)], [*ON_THE_SPOT, *canceled(8.7)]],
-        ),
-        (
-            "takes_standing_and_canceled_in_any_order",
-            [[*STOOD_FIRST, *canceled(5.8)], [*ON_THE_SPOT, *canceled(3.8)]],
-            [[*STOOD_FIRST, *canceled(3.8)], [*ON_THE_SPOT, *canceled(3.8)]],
-        ),
-        (
-            "waits_no_longer_than_5_s",
-            [[*DEAF, *canceled(8.2)], [*NEVER_STANDS, *canceled(8.8)]],
-            [[*DEAF, *canceled(8.2)], [*NEVER_STANDS, *canceled(16.0)]],
-        ),
-        (
-            "waits_no_longer_than_5_s",
-            [[*DEAF, *canceled(8.2)], [*NEVER_STANDS, *canceled(8.8)]],
-            [[*DEAF], [*NEVER_STANDS, *canceled(8.8)]],
-        ),
-        (
-            "a_refused_cancel_is_no_end",
-            [[*REFUSED, *finished(5.0, SUCCEEDED), *ended(5.2, 0, "SUCCEEDED")]],
-            [[*REFUSED, *ended(3.2, 4, "the cancel is refused")]],
-        ),
-        ("gives_up_in_silence", [UNANSWERED, SILENT], [UNANSWERED, [*READY, *goal(2.0), *ended(7.8, 1)]]),
-        (
-            "tells_a_cancel_by_another",
-            [[*UNDER_WAY, *finished(3.6, CANCELED), *canceled(3.8)]],
-            [[*UNDER_WAY, *finished(3.6, CANCELED), *ended(3.8, 3, errors=["ABORTED"])]],
-        ),
-    ],
-)
-def test_a_check_tells_a_sound_run_from_a_faulty_one(check, sound, faulty):
-    judge(check, *sound)
-    failure(check, *faulty)
+def test_wrong_arguments_have_to_end_it_before_a_node_is_started():
+    usage = ended(0.4, 2, errors=["usage: battery_guard.py"])
+    judge("refuses_wrong_arguments", [ev.NodeStarted(t=0.0), *OFFERED, *usage], arguments=["1.5"])
+    with pytest.raises(Failure):
+        judge("refuses_wrong_arguments", [*READY, *ended(1.0, 2, errors=["usage"])], arguments=["1.5"])

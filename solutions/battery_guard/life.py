@@ -1,0 +1,302 @@
+"""What a battery guard owes, computed from what happened to it: how it may end, when, and what it has to cancel."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+from math import inf
+from typing import NamedTuple
+
+from autograder.authoring import events as ev
+from autograder.authoring.action_client_checks import require_one_goal
+from autograder.authoring.failure import Failure
+from autograder.authoring.missing import unseen
+from autograder.authoring.scripted_goal import ScriptedGoal
+from autograder.authoring.sequence import steps_until
+from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.client import CANCELED, FINDING, NO_SERVER, PATIENCE, STATUS_HELP
+from autograder.authoring.walking.client_life import (
+    EXIT_STATUS,
+    LEAVING,
+    MARGIN,
+    NAMES,
+    SURELY_WAITED,
+    Cause,
+    ClientLife,
+    End,
+)
+from autograder.authoring.walking.client_record import require_record
+from humanoid_interfaces.msg import RobotState
+
+NAVIGATE = "navigate_to_pose"
+BATTERY = "battery_state"
+ROBOT = "robot_state"
+LIMIT = 0.20
+AT_ONCE = 1.0  # s
+KNOWN = 1.0  # s after which a client surely knows what was published
+# s beyond a clause's limit, on a busy machine: for a request, and for the end of a program.
+GRACE = 1.0
+LEAVES_SOON = 3.0
+WAIT_FOR_STANDING = (
+    "The result tells how the goal ended; what the legs do, robot_state tells. Spin until its last mode "
+    "is RobotState.STANDING, at most 5 s. That it stood before the walk does not count."
+)
+IS_LATCHED = (
+    f"{BATTERY} was published once, before your program began. A subscription gets that message only with "
+    "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)."
+)
+_WAIT_FOR_BATTERY = (
+    f"One spin is not enough, and a message that you ignore counts as none: spin until {BATTERY} has brought a "
+    "percentage from 0 to 1, at most 5 s, then print a line on stderr and return 1."
+)
+_WAIT_FOR_SERVER = "Look at server_is_ready() for at most 5 s, then print a line on stderr and return 1."
+_LISTEN = "Give the waiting for the result a limit on silence, and return 1 when it is over."
+_WAIT_NO_LONGER = (
+    "Wait for the result at most 5 s after the cancel, then print a line and return 4: feedback may go on."
+)
+
+
+class Low(NamedTuple):
+    """A time (s) in which the last percentage was below the limit, the first of them, and how many listened then."""
+
+    since: float
+    until: float
+    level: float
+    subscriptions: int
+
+
+def is_percentage(level: float) -> bool:
+    """Return whether a level of the battery is one at all."""
+    return 0.0 <= level <= 1.0
+
+
+@dataclass(frozen=True)
+class GuardLife(ClientLife):
+    """One run of a guard, with what the battery and the robot said meanwhile."""
+
+    @cached_property
+    def levels(self) -> list[ev.MessagePublished]:
+        """The percentages, in order; of what came before its start, a latched topic keeps the last message."""
+        return [event for event in self._heard_on(BATTERY) if is_percentage(event.message.percentage)]
+
+    @property
+    def ignored(self) -> list[ev.MessagePublished]:
+        """What was published on the battery's topic and is no percentage."""
+        return [event for event in self._heard_on(BATTERY) if not is_percentage(event.message.percentage)]
+
+    @cached_property
+    def lows(self) -> list[Low]:
+        """When the last percentage was below the limit."""
+        found: list[Low] = []
+        ends = [*(event.t for event in self.levels[1:]), inf]
+        for event, end in zip(self.levels, ends, strict=False):
+            level = event.message.percentage
+            if level >= LIMIT:
+                continue
+            if found and found[-1].until == event.t:
+                found[-1] = found[-1]._replace(until=end)
+            else:
+                found.append(Low(event.t, end, level, event.subscriptions))
+        return found
+
+    def stands_from(self, t: float) -> float:
+        """Return since when (s), at `t` or later, robot_state says that the robot stands; infinity: never."""
+        modes = [(event.t, event.message.mode) for event in self._heard_on(ROBOT)]
+        found = (
+            max(since, t)
+            for (since, mode), (until, _) in pairwise([*modes, (inf, None)])
+            if mode == RobotState.STANDING and until > t
+        )
+        return next(found, inf)
+
+    def _heard_on(self, topic: str) -> list[ev.MessagePublished]:
+        started = self.run.first(ev.NodeStarted)
+        published = self.run.published(topic)
+        before = [event for event in published if started and event.t <= started.t]
+        return published[max(len(before) - 1, 0) :]
+
+    @property
+    def offered(self) -> float:
+        """When the server appeared."""
+        offered = self.run.first(ev.ActionOffered)
+        return offered.t if offered else inf
+
+    @cached_property
+    def called_off(self) -> float:
+        """When it first asked to cancel its goal because of the battery or Ctrl-C."""
+        asked = [cancel.received.t for cancel in self.goal.cancels] if self.goal else []
+        why = min((cause.since for cause in self.reasons()), default=inf)
+        return next((t for t in asked if t >= why), inf)
+
+    @property
+    def for_the_battery(self) -> bool:
+        """Whether it had to call the goal off because of the battery, and not only because of Ctrl-C."""
+        return any(cause.name == "battery" and cause.since <= self.called_off for cause in self.reasons())
+
+    # -- what it owes -------------------------------------------------------------------------------------------------
+
+    def ends(self) -> list[End]:
+        """Return how it may end: more than one way only where two moments are too close to have an order."""
+        return super().ends() if self.goal else self._without_a_goal()
+
+    def causes(self) -> list[Cause]:
+        """Return what asks it to cancel its goal."""
+        if self.accepted == inf:
+            return []
+        silent = f"nothing was heard of it for {PATIENCE:g} s"
+        return [
+            *self.reasons(),
+            *(
+                self._cause("silence", silent, t - MARGIN, latest, sure)
+                for t, latest, sure in self.silences()
+            ),
+        ]
+
+    def reasons(self) -> Iterator[Cause]:
+        """Yield what asks it to cancel its goal, but for silence; of several, only the first needs a request."""
+        if self.goal is None or self.accepted == inf:
+            return
+        finished = self.goal.finished.t if self.goal.finished else inf
+        over = min([finished, *(since - MARGIN for since, _, _ in self.silences())])
+        found = [
+            ("battery", self._fell(low), max(low.since, self.accepted), min(low.until, over))
+            for low in self.lows
+            if low.until > self.goal.received.t - KNOWN
+        ]
+        if self.interrupted < inf:
+            found.append(("Ctrl-C", "you pressed Ctrl-C", self.interrupted, over))
+        found.sort(key=lambda each: each[2])
+        for name, because, since, until in found:
+            latest = since + AT_ONCE + GRACE
+            in_time = any(since <= cancel.received.t <= latest for cancel in self.goal.cancels)
+            is_first = since == found[0][2]
+            is_alone = not any(since < other[2] <= latest for other in found)
+            owed = is_first and (in_time or (until > latest and is_alone))
+            yield Cause(name, because, since, latest, owed, once=True)
+
+    def _fell(self, low: Low) -> str:
+        early = self.accepted - low.since
+        said = f" {early:.1f} s before the goal was accepted" if early > 0.0 else ""
+        return f"the battery fell to {low.level:.4g}{said}"
+
+    def _without_an_answer(self, goal: ScriptedGoal) -> End:
+        return replace(super()._without_an_answer(goal), latest=goal.received.t + PATIENCE + LEAVES_SOON)
+
+    def _without_a_goal(self) -> list[End]:
+        found = [*self._missing_something(), *self._low_before()]
+        exited = self.run.first(ev.NodeExited)
+        if not found and exited and exited.returncode == CANCELED and self.levels:
+            level = self.levels[-1].message.percentage
+            raise Failure(
+                expected=f"a goal: the percentage is {level:.4g}, which is not below {LIMIT:.2f}",
+                observed="exit status 4 without one",
+                help=about_level(level),
+                at=exited.t,
+            )
+        if not found:
+            require_one_goal(self.run, NAVIGATE)  # says why none came
+        return found
+
+    def _missing_something(self) -> Iterator[End]:
+        """Yield the ends of a program that may have found no percentage, or no server, in its time."""
+        started, offered = self.started, self.offered
+        known = max(self.levels[0].t, started) if self.levels else inf
+        for name, because, t, since, help in (
+            ("no percentage", f"no percentage came on {BATTERY}", known, started, _WAIT_FOR_BATTERY),
+            ("no server", f"nobody offers {NAVIGATE}", offered, known, _WAIT_FOR_SERVER),
+        ):
+            earliest = started + PATIENCE - FINDING
+            if t > earliest:
+                since = since if since < inf else started
+                latest = since + PATIENCE + LEAVES_SOON
+                yield End(NO_SERVER, name, because, started + PATIENCE, earliest, latest, help)
+
+    def _low_before(self) -> Iterator[End]:
+        """Yield the ends of a program that saw a low battery; it may look for the server all the same."""
+        started = self.run.first(ev.NodeStarted)
+        for low in self.lows:
+            since = max(low.since, started.t if started else low.since)
+            found = min(max(self.offered, since), since + 2 * PATIENCE)
+            help = IS_LATCHED if len(self._heard_on(BATTERY)) == 1 else STATUS_HELP
+            because = f"the battery was at {low.level:.4g} before the goal was sent"
+            yield End(CANCELED, "low before", because, since, since, found + FINDING + LEAVING, help)
+
+    def _after_the_acceptance(self) -> Iterator[tuple[End, bool]]:
+        """Yield each end of an accepted goal's guard, if nothing else came first, and whether it is certain."""
+        assert self.goal is not None
+        called_off, finished, result = self.called_off, self.goal.finished, self.result
+        for since, latest, is_certain in self.silences():
+            latest += PATIENCE + LEAVES_SOON
+            silent = End(NO_SERVER, "silence", "the server is silent", since, since - MARGIN, latest, _LISTEN)
+            yield silent, is_certain and since < called_off
+        waits_until = inf  # when it surely waits for nothing any more
+        if called_off < inf:
+            by_keyboard = not self.for_the_battery
+            over = called_off + PATIENCE
+            waits_until = max(over, min(self.stands_from(called_off), over + PATIENCE))
+            earliest = called_off + (SURELY_WAITED if by_keyboard else PATIENCE - MARGIN)
+            may_go_on = not by_keyboard and self._is_refused
+            because = f"the goal had not ended {PATIENCE:g} s after the request to cancel it"
+            latest = waits_until + LEAVES_SOON
+            yield (
+                End(CANCELED, "no CANCELED", because, earliest, earliest, latest, _WAIT_NO_LONGER),
+                waits_until == over and not may_go_on,
+            )
+            if may_go_on:
+                waits_until = inf
+        if finished and result < waits_until + MARGIN:
+            yield self._by_its_result(finished.status, called_off < result), True
+
+    def _by_its_result(self, status: int, is_called_off: bool) -> End:
+        """Return the end of a program that got the result; after a cancel it waits for STANDING, too."""
+        t = self.result
+        exit_status = EXIT_STATUS[status]
+        name = NAMES[exit_status]
+        because = "the goal SUCCEEDED" if name == "SUCCEEDED" else f"the goal was {name}"
+        if exit_status != CANCELED:
+            return End(exit_status, name, because, t, t, t + LEAVING, STATUS_HELP)
+        stands = self.stands_from(t)
+        is_owed = is_called_off and self.for_the_battery
+        stood = min(stands, t + PATIENCE) if is_owed else t + PATIENCE  # for which it may wait in any case
+        earliest = min(stands, t + PATIENCE - MARGIN) if is_owed else t
+        if is_called_off and stands > t + PATIENCE:
+            name = "no STANDING"
+        return End(CANCELED, name, because, t, earliest, stood + LEAVES_SOON, STATUS_HELP)
+
+    @property
+    def _is_refused(self) -> bool:
+        assert self.goal is not None
+        return any(cancel.reply and not cancel.reply.canceling for cancel in self.goal.cancels)
+
+
+def guards(run: Transcript) -> list[GuardLife]:
+    """Return the one life of the guard, whose server, battery, robot and person did what the scenario says."""
+    require_record(run, NAVIGATE)
+    before = {BATTERY: run.params["battery"] is not None, ROBOT: True}
+    for topic, verb in ((BATTERY, "battery"), (ROBOT, "robot")):
+        done = sum(step[0] == verb for step in steps_until(run, run.end))
+        if len(run.published(topic)) < before[topic] + done:
+            raise unseen(run, f"the record lacks what was published on {topic}")
+    return [GuardLife(run, require_one_goal(run, NAVIGATE) if run.scripted_goals(NAVIGATE) else None, ())]
+
+
+def about_level(level: float) -> str:
+    """Return what to do about a program that takes this level of the battery for what it is not."""
+    if math.isnan(level):
+        return "NaN says that nothing is known: it is neither low nor high. `not percentage >= 0.20` is true of it."
+    if level > 1.0:
+        return (
+            "BatteryState.percentage runs from 0 to 1, so a publisher that counts to 100 breaks the convention. Do not "
+            "guess what it means (1.0 would be 1 % or 100 %): ignore it, and warn."
+        )
+    if level < 0.0:
+        return "A charge below 0 does not exist: ignore it, and warn."
+    if level == 0.0:
+        return "0.0 is a percentage, an empty battery: only NaN says that nothing is known."
+    return (
+        "Compare the number as it comes, percentage < 0.20. As a float32, 0.20 is 0.200000003: not below. Rounding it "
+        "first, or a tolerance, makes another limit of it."
+    )
