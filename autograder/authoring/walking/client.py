@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 
 from autograder.authoring import events as ev
-from autograder.authoring.action_client_checks import require_exit
+from autograder.authoring.action_client_checks import why_not_this_status
+from autograder.authoring.client_checks import require_end
 from autograder.authoring.failure import expect
 from autograder.authoring.transcript import Transcript
 
@@ -17,6 +18,10 @@ USAGE = 2  # the exit status of argparse
 STATUS_HELP = (
     "Look at response.status first: 4 is SUCCEEDED, 5 CANCELED, 6 ABORTED (action_msgs/GoalStatus). "
     "Return the exit status from main() and end the file with sys.exit(main())."
+)
+_PARSE = (
+    "Let argparse read rclpy.utilities.remove_ros_args(sys.argv)[1:] with type=float: it ends the program with status "
+    "2 itself."
 )
 
 
@@ -34,24 +39,21 @@ def require_ending_line(run: Transcript, word: str, at: float, since: float = 0.
     return lines[0]
 
 
-def require_failure(run: Transcript, within: float, status: int, *, because: str, help: str) -> None:
-    """Require an exit status other than 0, in time, with a line on stderr."""
-    require_exit(run, within, status, because=because, stream="stderr", help=help)
-
-
 def require_usage(run: Transcript, within: float) -> None:
     """Require that wrong arguments ended the program with the usage, before there was a node."""
-    exited = require_exit(
-        run,
-        within,
-        USAGE,
-        because=f"it was started with {' '.join(run.params['arguments'])}",
-        stream="stderr",
-        help="Let argparse read rclpy.utilities.remove_ros_args(sys.argv)[1:] with type=float: it ends the program "
-        "with status 2 itself.",
-    )
+    exited = require_end(run, within)
+    arguments = " ".join(run.params["arguments"])
+    observed, help = why_not_this_status(run, exited, _PARSE)
     expect(
-        "usage" in run.output("stderr").lower(),
+        exited.returncode == USAGE,
+        expected=f"exit status {USAGE}: it was started with {arguments}",
+        observed=observed,
+        help=help,
+        at=exited.t,
+    )
+    said = run.output("stderr")
+    expect(
+        "usage" in said.lower() and "Traceback (most recent call last)" not in said,
         expected="the usage on stderr",
         observed=f"“{run.last_words}”",
         help="argparse prints it: use parser.parse_args() or parser.error().",
