@@ -29,7 +29,6 @@ def _targets(random: Random) -> dict[str, Any]:
         for away in (-AT_A_LIMIT, -AT_A_LIMIT, 0.0, AT_A_LIMIT, AT_A_LIMIT)
     ]
     beyond = [at_distance(random, random.uniform(0.56, 5.0)), at_distance(random, random.uniform(0.0, 0.04))]
-    beyond += [[random.choice([-1e200, 1e200]), 0.3]]  # its square is no float
     within = [anywhere(random, DEFAULT) for _ in range(12)]
     frames = [[*anywhere(random, DEFAULT), frame] for frame in random.sample(OTHER_FRAMES, 4)]
     high = [[*anywhere(random, DEFAULT), "shoulder", random.choice([-1.0, 0.3, 40.0])] for _ in range(3)]

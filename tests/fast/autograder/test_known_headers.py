@@ -16,9 +16,13 @@ NEVER_ALONE = {
         "stops_in_any_phase_of_the_gait",
         "stops_when_canceled",
         "walks_again_after_a_cancel",
+        "cancels_at_the_start",
+        "survives_two_cancels",
     },
+    "navigate_to_pose": {"a_new_goal_has_a_time_of_its_own", "tells_each_goal_its_own_story"},
     "patterns": {"answers_everything"},
     "robot_controller": {"copes_with_two_servers", "prints_any_status"},
+    "walk_to": {"obeys_any_max_velocity", "turns_the_shorter_way"},
 }
 
 
