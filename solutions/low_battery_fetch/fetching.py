@@ -11,6 +11,7 @@ from typing import Any
 
 from autograder.authoring import events as ev
 from autograder.authoring.goal import Goal
+from autograder.authoring.missing import unseen
 from autograder.authoring.obligation import goals
 from autograder.authoring.scripted_goal import ScriptedCancel, ScriptedGoal
 from autograder.authoring.transcript import Transcript
@@ -191,6 +192,7 @@ def fetches(run: Transcript) -> list[Fetch]:
 
 
 def _fetches(run: Transcript) -> list[Fetch]:
+    _require_whole_lives(run)
     wanted = [goal for goal in goals(run) if not objection(goal.request)]
     sent = sorted(
         [*run.scripted_goals(NAVIGATE), *run.scripted_goals(PICK)], key=lambda each: each.received.t
@@ -205,6 +207,23 @@ def _fetches(run: Transcript) -> list[Fetch]:
         begun = max(goal.sent.t, before.t) if before else goal.sent.t
         found.append(Fetch(goal, _children(own, run), newer, begun, run))
     return found
+
+
+def _require_whole_lives(run: Transcript) -> None:
+    """Require that the record has the goal of each answer, the end of each result, and the feedback that was passed on."""
+    sent = {each.goal for each in run.all(ev.GoalReceived)}
+    over = {each.goal for each in run.all(ev.GoalFinished)}
+    later = [*run.all(ev.GoalReplySent), *run.all(ev.FeedbackSent), *run.all(ev.GoalFinished)]
+    if lost := {each.goal for each in later} - sent:
+        raise unseen(run, f"the record lacks the goal “{min(lost)}”, which was answered")
+    if lost := {each.goal for each in run.all(ev.ResultSent)} - over:
+        raise unseen(run, f"the record lacks the end of the goal “{min(lost)}”, whose result was sent")
+    passed_on = [each.t for goal in run.goals for each in goal.feedback]
+    for each in run.scripted_goals(PICK):
+        if not each.reply or not each.finished or each.feedback:
+            continue
+        if any(each.reply.t < t < each.finished.t for t in passed_on):
+            raise unseen(run, f"the record lacks the feedback of the goal “{each.name}”")
 
 
 def children(run: Transcript) -> list[tuple[Fetch, Child]]:
