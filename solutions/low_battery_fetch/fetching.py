@@ -210,7 +210,7 @@ def _fetches(run: Transcript) -> list[Fetch]:
 
 
 def _require_whole_lives(run: Transcript) -> None:
-    """Require that the record has the goal of each answer, the end of each result, and the feedback that was passed on."""
+    """Require that the record has the goal of each answer, the end of each result, and feedback that was passed on."""
     sent = {each.goal for each in run.all(ev.GoalReceived)}
     over = {each.goal for each in run.all(ev.GoalFinished)}
     later = [*run.all(ev.GoalReplySent), *run.all(ev.FeedbackSent), *run.all(ev.GoalFinished)]
