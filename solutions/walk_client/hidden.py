@@ -32,6 +32,9 @@ SLOW = program("in_order", slow_walk)
 SILENT_ON_THE_WAY = program("in_order", silence_on_the_way)
 BY_ANOTHER = walk({**ON_THE_WAY, "status": CANCELED})
 NO_CODE = walk({"ends_after": 1.0, "status": ABORTED})
+PREEMPTED = walk(
+    {"ends_after": 1.0, "status": ABORTED, "error_code": 2, "error_msg": "a later goal took the robot"}
+)
 WITH_WORDS = walk({**ON_THE_WAY, "error_msg": "the floor is slippery"})
 FORGETFUL = walk({**ON_THE_WAY, "kept_for": 1.0})
 NEVER_CANCELED = walk({**ON_AND_ON, "cancel": {"ends_after": None}}, *typed(), ["press_ctrl_c"])
@@ -119,9 +122,9 @@ tells_a_cancel_by_another = for_a_point(
 believes_the_status = check_of(
     "believes_the_status",
     model.follows_its_goal(3, 9),
-    title="The status decides: ABORTED with error_code NONE is 3, SUCCEEDED with an error_msg is 0",
+    title="The status decides: ABORTED is 3 with any error_code, SUCCEEDED with an error_msg is 0",
     points=2,
-    on=[NO_CODE, WITH_WORDS],
+    on=[NO_CODE, PREEMPTED, WITH_WORDS],
     needs=checks.tells_an_abort,
     see="06_walk_to_a_pose#hopeful-why",
 )
