@@ -52,6 +52,14 @@ def _steps(random: Random) -> dict[str, Any]:
 
     first, second, third, fourth = (readings() for _ in range(4))
     burst = [[], joints(), joints(), repeated(), mixed(), joints(), strangers(), joints()]
+    at_the_very_last: list[list[Any]] = [
+        step
+        for position in (0.8, -0.8, 0.8, -0.8)
+        for step in (
+            *(["turn", "head_pan", position], ["wait", 0.6], ["unplug"], ["let_arrive"]),
+            *(["ask", ["head_pan"]], ["plug_in"]),
+        )
+    ]
     keeping_on: list[list[Any]] = [["ask", ["head_pan"]], ["wait", 0.1]] * 12
     blocks: list[list[list[Any]]] = [
         [
@@ -63,6 +71,7 @@ def _steps(random: Random) -> dict[str, Any]:
             *(["unplug"], ["read", third], ["wait", seconds(6.0, 10.0)]),
             *(["ask", [*third]], ["ask", []], ["plug_in"]),
         ],
+        [["read", {}], *at_the_very_last],
         [["ask", *random.sample(burst, MOST_AT_ONCE)]],
         [["ask", [""], strangers()[:1]], ["ask", mixed()], ["ask", joints()], ["ask", repeated()]],
         [["read", {}], ["turn", "head_pan", random.choice([-0.8, 0.8])], *keeping_on],
