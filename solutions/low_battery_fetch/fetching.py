@@ -213,8 +213,9 @@ def _require_whole_lives(run: Transcript) -> None:
     """Require that the record has the goal of each answer, the end of each result, and feedback that was passed on."""
     sent = {each.goal for each in run.all(ev.GoalReceived)}
     over = {each.goal for each in run.all(ev.GoalFinished)}
-    later = [*run.all(ev.GoalReplySent), *run.all(ev.FeedbackSent), *run.all(ev.GoalFinished)]
-    if lost := {each.goal for each in later} - sent:
+    answered = {each.goal for each in run.all(ev.GoalReplySent)} | over
+    answered |= {each.goal for each in run.all(ev.FeedbackSent)}
+    if lost := answered - sent:
         raise unseen(run, f"the record lacks the goal “{min(lost)}”, which was answered")
     if lost := {each.goal for each in run.all(ev.ResultSent)} - over:
         raise unseen(run, f"the record lacks the end of the goal “{min(lost)}”, whose result was sent")
