@@ -10,7 +10,7 @@ from autograder.authoring import client_checks
 from autograder.authoring import events as ev
 from autograder.authoring.action_client_checks import how_to_give_up, why_it_left, why_not_this_status
 from autograder.authoring.failure import Failure, expect
-from autograder.authoring.fields import expect_field, shown
+from autograder.authoring.fields import shown
 from autograder.authoring.obligation import Obligation, obligation, whole_run
 from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.client import (
@@ -23,12 +23,16 @@ from autograder.authoring.walking.client import (
     require_usage,
 )
 from autograder.authoring.walking.client_life import MARGIN, Cause, End
+from autograder.authoring.walking.client_obligations import (
+    ENDS_AT_ONCE,
+    LONGEST,
+    ON_CTRL_C,
+    TRACEBACK,
+    require_pose,
+)
 
 from .life import BATTERY, KNOWN, LIMIT, WAIT_FOR_STANDING, GuardLife, about_level, guards, is_percentage
 
-ENDS_AT_ONCE = 10.0  # s
-LONGEST = 60.0  # s; no scenario lasts so long
-TRACEBACK = "Traceback (most recent call last)"
 LOOKS_AWAY = (
     "Look at the battery while you wait for the result: spin in short pieces, and after each compare the last "
     "percentage with 0.20."
@@ -39,10 +43,6 @@ EARLY = (
 )
 NO_SUBSCRIPTION = (
     f'create_subscription(BatteryState, "{BATTERY}", …): a relative name, and keep it until the end.'
-)
-ON_CTRL_C = (
-    "rclpy shuts down at Ctrl-C, and then nothing can be sent: rclpy.init(signal_handler_options="
-    "SignalHandlerOptions.NO), catch the signal yourself, and call cancel_goal_async()."
 )
 
 
@@ -55,27 +55,7 @@ def sends_one_goal(life: GuardLife) -> str | None:
     if life.goal is None:
         life.ends()  # says so if the goal had to be sent
         return None
-    x, y, yaw = (*map(float, life.run.params["arguments"]), 0.0)[:3]
-    message, at = life.goal.message, life.goal.received.t
-    because = f"the program was started with {' '.join(life.run.params['arguments'])}"
-    for path, value in (
-        ("pose.pose.position.x", x),
-        ("pose.pose.position.y", y),
-        ("pose.header.frame_id", "odom"),
-    ):
-        help = f"Set goal.{path}: positions from the arguments, in metres, and their frame, odom."
-        expect_field(message, path, value, because=because, help=help, at=at)
-    rotation = message.pose.pose.orientation
-    heading = 2 * math.atan2(rotation.z, rotation.w)
-    length = math.hypot(rotation.x, rotation.y, rotation.z, rotation.w)
-    expect(
-        abs(math.remainder(heading - yaw, math.tau)) < 0.01 and abs(length - 1.0) < 0.01,
-        expected=f"a quaternion that turns by {yaw:g} rad about z",
-        observed=f"x {rotation.x:.3f}, y {rotation.y:.3f}, z {rotation.z:.3f}, w {rotation.w:.3f}",
-        help="orientation.z = math.sin(yaw / 2) and orientation.w = math.cos(yaw / 2); without a yaw, w is 1.0.",
-        at=at,
-    )
-    return "without YAW" if len(life.run.params["arguments"]) == 2 else "YAW < 0" if yaw < 0 else "YAW ≥ 0"
+    return require_pose(life.run, life.goal, "pose")
 
 
 @obligation(1, 3, of=guards)

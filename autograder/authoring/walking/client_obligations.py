@@ -26,6 +26,7 @@ from autograder.authoring.action_client_checks import (
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.fields import expect_field
 from autograder.authoring.missing import Missing
+from autograder.authoring.scripted_goal import ScriptedGoal
 from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.client import (
     ABORTED,
@@ -64,7 +65,7 @@ _ON_Q = (
 _ON_AN_EARLY_Q = (
     "There is no goal handle yet to cancel with: remember the q, and look for it right after the acceptance."
 )
-_ON_CTRL_C = (
+ON_CTRL_C = (
     "rclpy shuts down at Ctrl-C, and then nothing can be sent: rclpy.init(signal_handler_options="
     "SignalHandlerOptions.NO), catch the signal yourself, and call cancel_goal_async()."
 )
@@ -75,24 +76,23 @@ _ON_CTRL_C = (
 
 def sends_one_goal(run: Transcript) -> str | None:
     """It sends one goal, at x, y and yaw of its arguments, in frame odom."""
-    life = life_of(run)
-    if life.goal is None:
-        return None
-    x, y, yaw = (*map(float, run.params["arguments"]), 0.0)[:3]
-    because = f"the program was started with {' '.join(run.params['arguments'])}"
-    message, at = life.goal.message, life.goal.received.t
-    for path, value in (("target_pose.pose.position.x", x), ("target_pose.pose.position.y", y)):
+    goal = life_of(run).goal
+    return require_pose(run, goal, "target_pose") if goal else None
+
+
+def require_pose(run: Transcript, goal: ScriptedGoal, field: str) -> str:
+    """Require that the pose in a field of the goal is that of the program's arguments; return which YAW they have."""
+    arguments = run.params["arguments"]
+    x, y, yaw = (*map(float, arguments), 0.0)[:3]
+    because = f"the program was started with {' '.join(arguments)}"
+    message, at = goal.message, goal.received.t
+    for path, value in ((f"{field}.pose.position.x", x), (f"{field}.pose.position.y", y)):
         help = f"Set goal.{path} from the arguments, in metres."
         expect_field(message, path, value, because=because, help=help, at=at)
-    expect_field(
-        message,
-        "target_pose.header.frame_id",
-        "odom",
-        because="a pose means nothing without its frame",
-        help='Set goal.target_pose.header.frame_id = "odom".',
-        at=at,
-    )
-    rotation = message.target_pose.pose.orientation
+    frame = f"{field}.header.frame_id"
+    because, help = "a pose means nothing without its frame", f'Set goal.{frame} = "odom".'
+    expect_field(message, frame, "odom", because=because, help=help, at=at)
+    rotation = getattr(message, field).pose.orientation
     heading = 2 * math.atan2(rotation.z, rotation.w)
     length = math.hypot(rotation.x, rotation.y, rotation.z, rotation.w)
     expect(
@@ -102,7 +102,7 @@ def sends_one_goal(run: Transcript) -> str | None:
         help="orientation.z = math.sin(yaw / 2) and orientation.w = math.cos(yaw / 2); without a yaw, w is 1.0.",
         at=at,
     )
-    return "without YAW" if len(run.params["arguments"]) == 2 else "YAW < 0" if yaw < 0 else "YAW ≥ 0"
+    return "without YAW" if len(arguments) == 2 else "YAW < 0" if yaw < 0 else "YAW ≥ 0"
 
 
 def asks_to_cancel_in_time(run: Transcript) -> str | None:
@@ -171,7 +171,7 @@ def _needless(life: ClientLife, t: float, causes: list[Cause]) -> Failure:
 def _owed(life: ClientLife, cause: Cause, asked: list[float]) -> Failure:
     """Return the failure for a request to cancel that did not come, or late."""
     early = life.asked and life.asked[0] < life.accepted
-    helps = {"q": _ON_AN_EARLY_Q if early else _ON_Q, "Ctrl-C": _ON_CTRL_C}
+    helps = {"q": _ON_AN_EARLY_Q if early else _ON_Q, "Ctrl-C": ON_CTRL_C}
     return Failure(
         expected=f"a request to cancel the goal, because {cause.because}",
         observed=f"the first {asked[0] - cause.since:.1f} s after it"
