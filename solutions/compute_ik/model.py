@@ -243,7 +243,7 @@ def _lengths(call: Call) -> list[dict[str, float]]:
 
 
 def _arm(call: Call) -> TwoLinkArm | None:
-    """Return the arm that the node computes with at a call; None: it accepted a length that is none."""
+    """Return the arm of the lengths at a call, or None if it accepted a length that is not finite and above 0."""
     upper_arm, forearm = (_lengths(call)[-1][name] for name in DEFAULT.parameters)
     return TwoLinkArm(upper_arm, forearm) if upper_arm > 0.0 < forearm < math.inf > upper_arm else None
 

@@ -79,7 +79,7 @@ class Plan:
     moves: tuple[str | End, ...]
 
     def move(self, made: Child | ev.ResultReceived | None) -> str | End | None:
-        """Return which of the moves was made, as far as action and status tell; None: none of them."""
+        """Return the move that was made, judged by its action and status, or None if it is none of `moves`."""
         for each in self.moves:
             if isinstance(each, End) and isinstance(made, ev.ResultReceived) and each.status == made.status:
                 return each

@@ -20,7 +20,7 @@ PERIOD = 0.05  # s between two samples of the robot
 
 
 def run_of(*events, x=0.9, walked=10.0, steps=()):
-    """A run in which the robot walks from 0 to x (m) in so many seconds, and then stands there."""
+    """A run in which the robot walks from 0 to x (m) in the given time (s) and stands afterwards."""
     truths = []
     for k in range(round(END / PERIOD) + 1):
         t = k * PERIOD
