@@ -23,21 +23,28 @@ Server = Mapping[str, Any]
 
 
 def in_order(stage: ClientStage, arguments: Sequence[str], server: Server | None, steps: Steps) -> None:
-    """Offer `walk_to` as the script says (None: nobody does), run the program, carry out the steps, await its end."""
-    walk_to = stage.offer_action("walk_to", WalkTo, _goal_script(**server)) if server is not None else None
+    """Offer `walk_to` as the script says, run the program, carry out the steps, await its end.
+
+    The server is there from the start, or from a step on that says so; None: there is none.
+    """
+    world = _World(stage, server)
+    if server is not None and ["offer"] not in steps:
+        world.offer()
     stage.start_program(arguments)
-    carry_out(stage, steps, _Person(stage, walk_to).vocabulary())
+    carry_out(stage, steps, world.vocabulary())
     stage.wait_for_end()
 
 
-class _Person:
-    """Waits, types, presses Ctrl-C, and ends the server; a program that has ended is left alone."""
+class _World:
+    """The server, and a person who waits, types and presses Ctrl-C; a program that has ended is left alone."""
 
-    def __init__(self, stage: ClientStage, walk_to: ScriptedAction | None) -> None:
-        self._stage, self._walk_to = stage, walk_to
+    def __init__(self, stage: ClientStage, server: Server | None) -> None:
+        self._stage, self._server = stage, server
+        self._walk_to: ScriptedAction | None = None
 
     def vocabulary(self) -> dict[str, Any]:
         return {
+            "offer": self.offer,
             "await_goal": lambda: self._await("goals"),
             "await_answer": lambda: self._await("answers"),
             "wait": lambda duration: self._stage.wait_until(self._stage.has_ended, duration) or None,
@@ -46,6 +53,9 @@ class _Person:
             "press_ctrl_c": lambda: self._do(self._stage.interrupt_program),
             "end_server": lambda: self._do(self._walk_to.withdraw) if self._walk_to else None,
         }
+
+    def offer(self) -> None:
+        self._walk_to = self._stage.offer_action("walk_to", WalkTo, _goal_script(**(self._server or {})))
 
     def _await(self, what: str) -> bool:
         """Wait until the server has got a goal, or answered one; return whether it has."""

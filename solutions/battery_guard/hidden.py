@@ -105,7 +105,7 @@ JUST_BELOW = guard(_agreed(0.4), *WALKS, *levels(0.2, 0.31, 0.2001, 0.1999), *ca
 STANDS_FIRST = guard(_agreed(2.5), *WALKS, ["battery", 0.0], *called_off(stands_after=0.5))
 BEFORE_ACCEPTANCE = program("in_order", _before_acceptance)
 SUCCEEDS = _dropping(ends_after=4.2, cancel={"ends_after": None})
-TOO_LATE = _dropping(ends_after=0.8, result_after=2.5)
+TOO_LATE = _dropping(ends_after=0.8, result_after=2.5, status=GoalStatus.STATUS_ABORTED, error_msg=REASON)
 REFUSED = _dropping(ends_after=4.2, cancel={"agreed": False})
 CTRL_C_IN_VAIN = program("in_order", _ctrl_c_in_vain)
 LATE_SERVER = program("in_order", _late_server)
@@ -152,7 +152,7 @@ cancels_right_after_the_acceptance = check_of(
 success_wins_the_race = check_of(
     "success_wins_the_race",
     model.believes_the_end,
-    title="A goal that SUCCEEDED in spite of the cancel ends it with status 0",
+    title="A goal that ends otherwise in spite of the cancel: SUCCEEDED ends it with status 0, ABORTED with 3",
     points=2,
     on=[SUCCEEDS, TOO_LATE, CTRL_C_IN_VAIN],
     needs=checks.cancels_when_the_battery_drops,

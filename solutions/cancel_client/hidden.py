@@ -46,7 +46,11 @@ ABORTED_ANYWAY = walk(
 TOO_LATE = walk({"distances": way(3), "ends_after": 1.0, "result_after": 2.5}, *typed("q", after=1.3))
 DEAF = walk({"distances": way(60), "ends_after": 8.0, "cancel": {"agreed": None}}, *typed("q"))
 CTRL_C_AFTER_Q = program("in_order", _ctrl_c_after_q)
-TWICE = walk({**ARRIVES, "cancel": {"ends_after": 2.5}}, *typed("q", "q", "q"))
+OFTEN = walk(
+    {**ARRIVES, "ends_after": 6.0, "cancel": {"agreed": False}},
+    *(["type", "q"], ["wait", 1.5], ["offer"]),
+    *typed("q", "q", after=3.0),
+)
 OTHER_LINES = walk(ARRIVES, *typed("", "quit", "stop"))
 NO_INPUT = walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, ["end_input"])
 SILENT_ON_THE_WAY = program("in_order", lambda random: silence_on_the_way(random, types=True))
@@ -122,8 +126,8 @@ does_not_wait_for_the_answer = check_of(
 cancels_once = for_a_point(
     "cancels_once",
     model.follows_its_goal(2),
-    title="However often q is typed, the goal is cancelled once",
-    on=TWICE,
+    title="However early and often q is typed, and whatever the answer, the goal is cancelled once",
+    on=OFTEN,
     needs=checks.q_cancels_the_goal,
     see="07_cancel_and_preempt#late-why",
 )
