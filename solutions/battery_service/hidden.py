@@ -27,6 +27,7 @@ def _steps(random: Random) -> dict[str, Any]:
             *(["unplug"], ["set_battery", level()], ["wait", round(random.uniform(11.0, 15.0), 1)]),
             *(["ask", 1], ["plug_in"]),
         ],
+        [["set_battery", 0.0], ["let_publish", 2], ["ask", 1]],  # the charge stays, the rest does not
         [["measure_charge", False], ["let_publish", 1], ["ask", 1], ["measure_charge", True]],
         [
             ["set_clock", -round(random.uniform(60.0, 4000.0))],

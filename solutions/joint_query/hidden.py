@@ -29,13 +29,13 @@ def _steps(random: Random) -> dict[str, Any]:
     def joints() -> list[str]:
         return random.sample([*JOINTS, *FINGERS], random.randint(1, 5))
 
-    def strangers() -> list[str]:
+    def strangers(number: int = 3) -> list[str]:
         name = random.choice(JOINTS)
         near = [name.upper(), name.title(), f" {name}", f"{name} ", random.choice(PARTS), ""]
-        return random.sample([*near, *STRANGERS], 3)
+        return random.sample([*near, *STRANGERS], number)
 
     def mixed() -> list[str]:
-        names = [*joints(), *(unknown := strangers()), unknown[0]]
+        names = [*joints(), *(unknown := strangers(7)), unknown[0]]
         return random.sample(names, len(names))
 
     def repeated() -> list[str]:
@@ -64,7 +64,7 @@ def _steps(random: Random) -> dict[str, Any]:
     blocks: list[list[list[Any]]] = [
         [
             *(["read", first], ["let_arrive"], ["ask", [*first]], ["read", second]),
-            *(["reverse", True], ["let_arrive"], ["ask", [*first, *second]], ["reverse", False]),
+            *(["reverse", True], ["let_arrive"], ["ask", [*first, *second], []], ["reverse", False]),
         ],
         [["alternate", True], ["let_arrive"], *(["ask", joints()] for _ in range(4)), ["alternate", False]],
         [

@@ -43,21 +43,27 @@ def _on_the_floor(random: Random) -> dict[str, Any]:
 def _on_the_stand(random: Random) -> dict[str, Any]:
     """Before the first robot_state, then in any order: repeats, another node, silences, many at once."""
     first = random.choice((True, False))
-    silence = round(random.uniform(1.0, 4.0), 1)
+    silence = round(random.uniform(0.5, 2.0), 1)
     blocks: list[list[list[Any]]] = [
         [["switch", False], ["switch_elsewhere", True], ["switch", False], ["settle"], ["ask", 1]],
         [["switch", True], ["switch_elsewhere", False], ["switch", True], ["settle"], ["ask", 1]],
-        [["switch_elsewhere", False], ["switch", False], ["ask", 1], ["switch_and_ask", True, 4, 4]],
+        [["switch_elsewhere", False], ["switch", False], ["ask", 1], ["switch_and_ask", True, 7, 4]],
         [
             *(["switch_elsewhere", first], ["publish_state", False], ["switch_elsewhere", not first]),
-            *(["wait", silence], ["ask", 1], ["switch", first], ["switch", not first], ["ask", 1]),
-            *(["publish_state", True], ["ask", 1]),
+            *(["wait", silence], ["ask", 1], ["switch", first], ["switch", not first, 3], ["wait", 2.6]),
+            *(["ask", 1], ["publish_state", True], ["ask", 1]),
         ],
     ]
     random.shuffle(blocks)
     before = [["ask", 1], ["switch", True], ["wait", round(random.uniform(0.5, 2.0), 1)], ["ask", 2]]
     return {
-        "steps": [*before, ["publish_state", True], ["ask", 1], *(step for block in blocks for step in block)]
+        "steps": [
+            *before,
+            ["publish_state", True],
+            ["ask", 1],
+            *(step for block in blocks for step in block),
+        ],
+        "interrupt": True,
     }
 
 

@@ -93,12 +93,6 @@ def _may_grant(call: Call) -> set[bool]:
     return {robot.mode != RobotMode.WALKING for robot in states} if states else {True, False}
 
 
-def _is_so_already(call: Call) -> bool:
-    """Return whether the last robot_state says already what is asked for."""
-    states = [robot for robot in last_states(call) or () if robot.t <= call.sent.t]
-    return bool(states) and all(robot.motors_enabled is call.request.data for robot in states)
-
-
 def _confirmed_at(call: Call) -> float | None:
     """Return when (s) a robot_state after the request first said what was asked for; None: never."""
     spans = published_spans(call.run)
@@ -171,7 +165,7 @@ def _require_granted(call: Call) -> str:
         at=call.answered.t,
     )
     expect(
-        bool(_commands(call)) or _is_so_already(call),
+        bool(_commands(call)),
         expected=f"{question(call)} to reach the robot's motors within {OBEYED:.0f} s of the answer",
         observed=f"nothing switched them {on_or_off(on)}, though the answer was success",
         help=advice_on_power(call),

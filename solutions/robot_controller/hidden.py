@@ -33,12 +33,13 @@ def _enabled(random: Random) -> list[Any]:
 def _any_status(random: Random) -> Script:
     """Answer in time, or to the second request, with any status: it is an answer, whatever its success is."""
     yes: Any = _enabled(random)
-    status = [random.choice([True, False]), _message(random), _delay(random)]
+    status = [random.choice([True, False]), f"  {_message(random)}", _delay(random)]
     return replies(random.choice([[yes], [None, yes]]), [status])
 
 
 def _refusal(random: Random) -> Script:
-    no: Any = [False, "the emergency stop is pressed", _delay(random)]
+    """Refuse without a reason: why the program ends is for the program to say."""
+    no: Any = [False, "", _delay(random)]
     return replies(random.choice([[no], [no, ENABLED], [None, no]]), [ON])
 
 
