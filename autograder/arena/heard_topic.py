@@ -17,11 +17,15 @@ DEPTH = 100
 class HeardTopic:
     """Records what is published on one topic; `latched` asks for the last message from before, too.
 
+    `as_` is the name that it is recorded under, if not the topic's.
+
     A latched subscription is not matched with a publisher whose durability is volatile.
     """
 
-    def __init__(self, node: Node, message_type: Any, name: str, log: ArenaLog, *, latched: bool) -> None:
-        self.name = name
+    def __init__(
+        self, node: Node, message_type: Any, name: str, log: ArenaLog, *, latched: bool, as_: str = ""
+    ) -> None:
+        self.name = as_ or name
         self._type = message_type
         self._log = log
         self._reading = BoundedReading(log)

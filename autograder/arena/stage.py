@@ -100,9 +100,12 @@ class Stage(Offering):
         self._actions.append(client)
         return client
 
-    def listen(self, topic: str, message_type: Any, *, latched: bool = False) -> HeardTopic:
-        """Record what the student's node publishes on a topic; `latched`: also its last message from before."""
-        return HeardTopic(self._node, message_type, topic, self._log, latched=latched)
+    def listen(self, topic: str, message_type: Any, *, latched: bool = False, as_: str = "") -> HeardTopic:
+        """Record what the student's node publishes on a topic; `latched`: also its last message from before.
+
+        `as_` is the name under which it is recorded, if not the topic's: of one of several listeners.
+        """
+        return HeardTopic(self._node, message_type, topic, self._log, latched=latched, as_=as_)
 
     def parameters_of(self, service: ServiceClient) -> Parameters:
         """Make clients of the parameters of the node that offers a service, whatever its name."""

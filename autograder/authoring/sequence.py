@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from autograder.authoring import events as ev
@@ -40,6 +40,8 @@ def in_words(steps: Sequence[Sequence[Any]]) -> str:
 def _shown(argument: Any) -> str:
     if isinstance(argument, float):
         return f"{argument:g}"
+    if isinstance(argument, Mapping):
+        return ", ".join(f"{name} {_shown(value)}" for name, value in argument.items())
     if isinstance(argument, list | tuple):
         return f"({', '.join(map(_shown, argument))})"
     return str(argument)

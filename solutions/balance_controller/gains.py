@@ -1,40 +1,52 @@
-"""The five gains: their defaults, and how a request for a change of them is written in a scenario's inputs."""
+"""The five gains: their defaults, why a value of one is refused, and sound ones drawn."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from random import Random
 from typing import Any
 
 DEFAULTS = {"kp_pitch": 276.0, "kd_pitch": 34.0, "kp_roll": 302.0, "kd_roll": 38.0, "max_torque": 10000.0}
 NAMES = tuple(DEFAULTS)
+PAIRS = ("kp_pitch", "kd_pitch", "kp_roll", "kd_roll")  # those that the robot's stiffness is made of
 HIGHEST = {"kp_pitch": 1000.0, "kd_pitch": 300.0, "kp_roll": 1000.0, "kd_roll": 300.0, "max_torque": 10000.0}
 TOPPLE = 51.0  # N·m/rad, with which gravity topples the trunk
+ABOVE = {"kp_pitch": TOPPLE, "kp_roll": TOPPLE, "max_torque": 0.0}  # limits that are refused themselves
+WEAKER, STIFFER = 0.75, 5 / 3  # of the defaults, between which the robot survives a push
 
-Set = dict[str, Any]
+# Why a value is refused.
+INTEGER, NOT_FINITE, NEGATIVE = "an integer", "NaN or infinite", "negative"
+LIMIT, TOO_WEAK = "the limit itself", "too weak"
 
-
-def set_each(name: str, **values: Any) -> Set:
-    """Return a request to set_parameters, in which each parameter is a set of its own."""
-    return {"name": name, "values": values, "atomically": False}
-
-
-def set_together(name: str, **values: Any) -> Set:
-    """Return a request to set_parameters_atomically."""
-    return {"name": name, "values": values, "atomically": True}
+Gains = Mapping[str, float]
 
 
-def lowest_gains(random: Random) -> dict[str, float]:
-    """Draw gains at the lower ends of the task's table, which are accepted although they hold no robot."""
-    kp = {name: round(random.uniform(51.1, 60.0), 1) for name in ("kp_pitch", "kp_roll")}
-    return kp | {"kd_pitch": 0.0, "kd_roll": 0.0, "max_torque": round(random.uniform(0.1, 5.0), 1)}
+def fault_of(name: str, value: Any) -> str:
+    """Return why a value of a gain is refused, '' if it is not."""
+    if not isinstance(value, float):
+        return INTEGER
+    if not math.isfinite(value):
+        return NOT_FINITE
+    if value < 0.0:
+        return NEGATIVE
+    if name in ABOVE and value <= ABOVE[name]:
+        return LIMIT if value == ABOVE[name] else TOO_WEAK
+    return ""
+
+
+def hold_the_robot(gains: Gains) -> bool:
+    """Return whether the task promises that the robot survives a push with these gains."""
+    return all(WEAKER <= gains[name] / DEFAULTS[name] <= STIFFER for name in PAIRS)
 
 
 def sound_gains(random: Random) -> dict[str, float]:
     """Draw gains that hold the robot upright: all of the robot's own, made a little weaker or stiffer."""
-    stiffness = random.uniform(0.8, 1.6)
-    gains = {
-        name: round(DEFAULTS[name] * stiffness * random.uniform(0.95, 1.05), 1)
-        for name in NAMES
-        if name != "max_torque"
-    }
-    return gains | {"max_torque": round(random.uniform(2000.0, 8000.0), 1)}
+    stiffness = random.uniform(0.8, 1.57)
+    gains = {name: round(DEFAULTS[name] * stiffness * random.uniform(0.95, 1.05), 3) for name in PAIRS}
+    return gains | {"max_torque": round(random.uniform(2000.0, 8000.0), 3)}
+
+
+def in_words(gains: Mapping[str, Any]) -> str:
+    """Return gains as people write them: 'kp_pitch 40.0, kd_roll -1.0'."""
+    return ", ".join(f"{name} {value!r}" for name, value in gains.items())

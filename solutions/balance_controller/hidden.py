@@ -3,204 +3,178 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from random import Random
 from typing import Any
 
-from autograder.authoring.checks import Scenario, check, program
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import standard_hidden
+from autograder.authoring.checks import Scenario, program
+from autograder.authoring.obligation import check_of
 
-from .checks import (
-    FROM_THE_START,
-    PUSHED,
-    TWO_CALLBACKS,
-    publishes_once,
-    publishes_what_it_accepted,
-    refuses_a_bad_start,
-    refuses_bad_gains,
-    sets_all_or_none,
-    survives_a_push,
-)
-from .gains import HIGHEST, NAMES, TOPPLE, lowest_gains, set_each, set_together, sound_gains
-from .published import require_accepted, require_once, require_published, require_silence
-from .refused import require_bad_start_refused, require_refused
-from .standing import require_standing_after_push
+from . import checks, model
+from .gains import ABOVE, HIGHEST, NAMES, TOPPLE, sound_gains
 
-AN_INTEGER = "10_parameters_and_balance#int-why"
+KP, KD = ("kp_pitch", "kp_roll"), ("kd_pitch", "kd_roll")
+Steps = list[list[Any]]
 
 
-def _any_gains(random: Random) -> dict[str, Any]:
-    """Draw a set of all gains, some of them one after the other, one of these again, and the ends of the table."""
-    chosen = random.sample(NAMES, 3)
-    later = sound_gains(random)
-    same = random.choice(chosen)
-    return {
-        "sets": [
-            set_together("all gains", **sound_gains(random)),
-            set_each("some gains", **{name: later[name] for name in chosen}),
-            set_each("the same again", **{same: later[same]}),
-            set_each("the lowest", **lowest_gains(random)),
-            set_together("the highest", **HIGHEST),
+def _bad_values(random: Random) -> list[dict[str, Any]]:
+    """Draw values of each kind that is refused."""
+    return [
+        {random.choice(KP): round(random.uniform(0.0, 50.99), 2)},
+        {random.choice(NAMES): -random.choice((0.001, round(random.uniform(0.5, 900.0), 2)))},
+        *({name: value} for value in (math.nan, math.inf, -math.inf) for name in random.sample(NAMES, 2)),
+        *({name: limit} for name, limit in ABOVE.items()),
+        *({name: random.randint(60, 290)} for name in random.sample(NAMES, 2)),
+    ]
+
+
+def _refused_steps(random: Random) -> Steps:
+    """Ask for each bad value alone, beside a good one, or among good ones, first, last or between them."""
+    steps: Steps = []
+    for bad in random.sample(found := _bad_values(random), len(found)):
+        sound = sound_gains(random)
+        good = [{name: sound[name]} for name in random.sample(NAMES, 2) if name not in bad]
+        places = random.sample([bad, *good], 1 + len(good))
+        values = {name: value for one in places for name, value in one.items()}
+        steps += [
+            random.choice((["set_each", bad], ["set_each", values], ["set_together", values])),
+            *random.choice(([], [["settle"]], [["ask"], ["settle"]])),
         ]
+    return steps
+
+
+def _steps(random: Random) -> dict[str, Any]:
+    """Set good gains and bad ones in any order, slowly and in a row, up to both ends of the table, and listen late."""
+    one_by_one, row = sound_gains(random), [sound_gains(random) for _ in range(4)]
+    same = random.choice(NAMES)
+    lowest = {name: round(random.uniform(51.001, 60.0), 3) for name in KP} | dict.fromkeys(KD, 0.0)
+    lowest["max_torque"] = round(random.uniform(0.1, 5.0), 3)
+    far = random.choice(NAMES)
+    bad = _refused_steps(random)
+    half = len(bad) // 2
+    blocks: list[Steps] = [
+        [["set_together", sound_gains(random)], ["settle"], ["ask"]],
+        [["set_each", one_by_one], ["settle"], ["set_each", {same: one_by_one[same]}], ["settle"]],
+        [["set_each", lowest], ["settle"], ["ask"], ["set_together", HIGHEST], ["settle"]],
+        [["set_each", {name: gains[name]}] for gains in row for name in random.sample(NAMES, 1)],
+        [
+            *(["settle"], ["set_together", {"kd_pitch": 41.0, "kp_roll": 340.0, "kp_pitch": TOPPLE}]),
+            *(["settle"], ["ask"], ["set_each", {"kd_roll": 45.0}], ["settle"]),
+        ],
+        [["set_each", {far: HIGHEST[far] + round(random.uniform(0.5, 900.0), 1)}], ["settle"], ["ask"]],
+        [["wait", round(random.uniform(3.0, 9.0), 1)], ["listen", "a robot in between"]],
+        *([*part, ["settle"]] for part in (bad[:half], bad[half:])),
+    ]
+    random.shuffle(blocks)
+    return {
+        "steps": [
+            *(["describe"], ["ask"], ["settle"], ["listen", "the first robot"]),
+            *(step for block in blocks for step in block),
+            *(["settle"], ["ask"], ["listen", "the last robot"]),
+        ],
+        "started_with": STARTED_WITH,
     }
 
 
 def _any_push(random: Random) -> dict[str, Any]:
     """Draw gains that hold the robot, and the direction of a push (10 N·s in odom)."""
     heading = random.uniform(-math.pi, math.pi)
-    return {
-        "sets": [set_together("new gains", **sound_gains(random))],
-        "impulse": [10.0 * math.cos(heading), 10.0 * math.sin(heading), 0.0],
-    }
+    push = ["push", 10.0 * math.cos(heading), 10.0 * math.sin(heading), 0.0]
+    return {"steps": [["ask"], ["settle"], ["set_together", sound_gains(random)], ["settle"], push]}
 
 
-NO_NUMBERS = Scenario(
-    "set_gains",
-    {
-        "sets": [
-            set_each("NaN", kd_pitch=math.nan),
-            set_each("NaN for kp", kp_roll=math.nan),
-            set_each("infinite", max_torque=math.inf),
-            set_each("infinite kp", kp_pitch=math.inf),
-            set_each("infinite kd", kd_roll=math.inf),
-            set_together("NaN among good ones", kp_pitch=300.0, kd_roll=math.nan),
-        ]
-    },
-    robot=None,
-)
-INTEGERS = Scenario(
-    "set_gains",
-    {"sets": [set_each("an integer", kp_pitch=300), set_together("integers", kd_pitch=40, kp_roll=310.0)]},
-    robot=None,
-)
-EXACTLY = Scenario(
-    "set_gains",
-    {
-        "sets": [
-            set_each("51 in pitch", kp_pitch=TOPPLE),
-            set_each("51 in roll", kp_roll=TOPPLE),
-            set_each("no torque", max_torque=0.0),
-        ]
-    },
-    robot=None,
-)
-BEHIND = Scenario(
-    "set_gains",
-    {
-        "sets": [
-            set_together("good ones and the limit", kd_pitch=41.0, kp_roll=340.0, kp_pitch=TOPPLE),
-            set_each("a good one alone", max_torque=5000.0),
-        ]
-    },
-    robot=None,
-)
-ANY_GAINS = Scenario("set_gains", _any_gains, robot=None)
-ANY_PUSH = Scenario("push", _any_push)
-START_AT_THE_LIMIT = program("start_with", {"name": "kp_roll", "value": "51.0"}, timed=False)
-START_WITH_NAN = program("start_with", {"name": "kd_pitch", "value": ".nan"}, timed=False)
-START_WITH_AN_INTEGER = program("start_with", {"name": "kp_pitch", "value": "300"}, timed=False)
-NEGATIVE_START = program("start_with", {"name": "kd_roll", "value": "-2.0"}, timed=False)
+def _bad_start(number: int, values: dict[str, str]) -> Scenario:
+    """Return the scenario in which the program is started with one of these values, drawn with others than before."""
+
+    def draw(random: Random) -> dict[str, Any]:
+        names = random.sample(list(values), len(values))
+        return {"name": (name := names[number % len(names)]), "value": values[name]}
+
+    return program("start_with", draw, timed=False)
+
+
+STARTED_WITH = {"kp_roll": 333.0, "kd_pitch": 50.0}
+ANY_ORDER = Scenario("in_order", _steps, robot=None, parameters=STARTED_WITH)
+ANY_PUSH = Scenario("in_order", _any_push)
+LIMITS = {name: str(limit) for name, limit in ABOVE.items()}
+BAD_STARTS = [
+    _bad_start(number, values)
+    for number, values in enumerate(
+        [LIMITS, *(dict.fromkeys(NAMES, value) for value in (".nan", "300", "-2.0"))]
+    )
+]
 OTHER_NAMESPACE = Scenario(
-    "set_gains",
-    {"sets": [set_each("one gain", kd_roll=45.0)]},
+    "in_order",
+    {"steps": [["ask"], ["settle"], ["set_each", {"kd_roll": 45.0}], ["settle"]]},
     robot=None,
     namespace="/lab_7/robot",
 )
 
+in_any_order = partial(check_of, points=1, on=ANY_ORDER)
 
-@check(points=1, on=NO_NUMBERS, needs=refuses_bad_gains, see="02_services#nan", clauses=[3, 5])
-def refuses_what_is_no_number(run: Transcript) -> None:
-    """NaN and infinity are refused with a reason"""
-    for one in run.params["sets"]:
-        require_refused(
-            run,
-            one["name"],
-            "it is not finite",
-            "Infinity is above every lower limit: end each range at a number, or ask math.isfinite()."
-            if math.inf in one["values"].values()
-            else "Every comparison with NaN is false, so a test such as `value < 0.0` lets it through: ask "
-            "math.isfinite().",
-        )
-
-
-@check(points=1, on=INTEGERS, needs=refuses_bad_gains, see=AN_INTEGER, clauses=[4, 5])
-def refuses_integers(run: Transcript) -> None:
-    """An integer for a double is refused with a reason"""
-    for one in run.params["sets"]:
-        require_refused(
-            run,
-            one["name"],
-            "it has an integer, and the parameter is a double",
-            "Leave dynamic_typing alone: a parameter that is declared with a float stays a double.",
-        )
-
-
-@check(points=1, on=EXACTLY, needs=refuses_bad_gains, see=TWO_CALLBACKS, clauses=[3, 5])
-def refuses_the_limit_itself(run: Transcript) -> None:
-    """A kp of exactly 51 N·m/rad and a max_torque of 0 are refused, too"""
-    for name, because in (
-        ("51 in pitch", "kp_pitch has to be above 51"),
-        ("51 in roll", "kp_roll has to be above 51"),
-        ("no torque", "max_torque has to be above 0, and the robot ignores such gains"),
-    ):
-        require_refused(
-            run,
-            name,
-            because,
-            "A floating_point_range includes both of its ends: refuse the limit itself in the on-set callback.",
-        )
-
-
-@check(
-    points=1,
-    on=BEHIND,
-    needs=[sets_all_or_none, refuses_the_limit_itself],
-    see=TWO_CALLBACKS,
-    clauses=[9, 10],
+refuses_what_is_no_number = in_any_order(
+    "refuses_what_is_no_number",
+    *(model.refuses_no_numbers, model.gives_a_reason),
+    title="NaN and infinity are refused with a reason",
+    needs=checks.refuses_bad_gains,
+    see="02_services#nan",
 )
-def leaves_nothing_behind(run: Transcript) -> None:
-    """What the on-set callback refuses at the end of an atomic set leaves nothing behind"""
-    require_silence(run, "good ones and the limit")
-    require_accepted(run, "a good one alone")
-    require_once(run, "a good one alone")
-
-
-@check(points=2, on=ANY_GAINS, needs=publishes_once, see=TWO_CALLBACKS, clauses=[6, 7, 8])
-def publishes_any_gains(run: Transcript) -> None:
-    """All that the table accepts is accepted and published, once for each set, also one that changes nothing"""
-    for one in run.params["sets"]:
-        require_accepted(run, one["name"])
-        require_once(run, one["name"])
-
-
-@check(
+refuses_integers = in_any_order(
+    "refuses_integers",
+    *(model.refuses_integers_for_doubles, model.gives_a_reason),
+    title="An integer for a double is refused with a reason",
+    needs=checks.refuses_bad_gains,
+    see="10_parameters_and_balance#int-why",
+)
+refuses_the_limit_itself = in_any_order(
+    "refuses_the_limit_itself",
+    *(model.refuses_limits, model.refuses_weak_gains, model.refuses_negative_gains, model.gives_a_reason),
+    title="A kp of exactly 51 N·m/rad and a max_torque of 0 are refused, too",
+    needs=checks.refuses_bad_gains,
+    see=checks.TWO_CALLBACKS,
+)
+leaves_nothing_behind = in_any_order(
+    "leaves_nothing_behind",
+    *(model.says_nothing_when_it_refuses, model.has_what_it_accepted),
+    *(model.publishes_only_what_was_accepted, model.keeps_the_last),
+    title="What is refused leaves nothing behind, not in the parameters, nor on the topic, nor for a late robot",
+    needs=[checks.sets_all_or_none, checks.keeps_the_last_gains],
+    see=checks.TWO_CALLBACKS,
+)
+publishes_any_gains = check_of(
+    "publishes_any_gains",
+    *(model.has_its_gains, model.accepts_the_table),
+    *(model.publishes_them_in_time, model.one_message_each),
+    title="All that the table accepts is accepted and published, once for each set, also one that changes nothing",
     points=2,
-    on=[START_AT_THE_LIMIT, START_WITH_NAN, START_WITH_AN_INTEGER, NEGATIVE_START],
-    needs=[refuses_a_bad_start, refuses_integers, refuses_the_limit_itself],
-    see=FROM_THE_START,
-    clauses=[13],
+    on=ANY_ORDER,
+    needs=checks.publishes_once,
+    see=checks.TWO_CALLBACKS,
 )
-def refuses_every_bad_start(*runs: Transcript) -> None:
-    """Started with 51.0, NaN, an integer or a negative gain, it ends with status 1 and a line"""
-    for run in runs:
-        require_bad_start_refused(run)
-
-
-@check(points=1, on=ANY_PUSH, needs=[survives_a_push, publishes_any_gains], see=PUSHED, clauses=[14])
-def survives_any_push(run: Transcript) -> None:
-    """With other gains, and from any side, the robot survives a push of 10 N·s"""
-    require_accepted(run, "new gains")
-    require_published(run, "new gains")
-    require_standing_after_push(run)
-
-
-@check(
+refuses_every_bad_start = check_of(
+    "refuses_every_bad_start",
+    model.refuses_to_start,
+    title="Started with 51.0, NaN, an integer or a negative gain, it ends with status 1 and a line",
+    points=2,
+    on=BAD_STARTS,
+    needs=checks.refuses_a_bad_start,
+    see=checks.FROM_THE_START,
+)
+survives_any_push = check_of(
+    "survives_any_push",
+    *(model.accepts_the_table, model.publishes_them_in_time, model.survives),
+    title="With other gains, and from any side, the robot survives a push of 10 N·s",
+    points=1,
+    on=ANY_PUSH,
+    needs=checks.survives_a_push,
+    see=checks.PUSHED,
+)
+works_in_any_namespace = standard_hidden.works_in_any_namespace(
+    "publishes",
+    model.publishes_them_in_time,
     points=1,
     on=OTHER_NAMESPACE,
-    needs=publishes_what_it_accepted,
-    see="01_robot_and_graph#names-why",
+    needs=checks.publishes_what_it_accepted,
     clauses=[15],
 )
-def works_in_any_namespace(run: Transcript) -> None:
-    """Started in another namespace, it publishes there"""
-    require_accepted(run, "one gain")
-    require_published(run, "one gain")

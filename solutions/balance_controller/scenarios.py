@@ -2,107 +2,82 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParameters, SetParametersAtomically
 
 from autograder.arena.client_stage import ClientStage
-from autograder.arena.heard_topic import HeardTopic
+from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import Stage
 from humanoid_interfaces.msg import BalanceGains
 
 NODE = "balance_controller"
 TOPIC = "balance_gains"
-NAMES = ("kp_pitch", "kd_pitch", "kp_roll", "kd_roll", "max_torque")
+NAMES = ["kp_pitch", "kd_pitch", "kp_roll", "kd_roll", "max_torque"]
 MATCHING = 3.0  # s for the publisher of the gains to be found
-SETTLED = 1.2  # s for what a set causes to arrive
-LATE = 3.0  # s for a latched message to arrive
+SETTLED = 1.7  # s for what a set causes to arrive; longer than the model lets a message be on its way
+LATE = 10.0  # s for a latched message to arrive
 STANDING = 1.0  # s of the robot's time with new gains before a push
 AFTERMATH = 4.0  # s of it after a push
 GIVING_UP = 12.0  # s for a program to refuse what it is started with
 
 _FIELDS = {
-    bool: ("bool_value", ParameterType.PARAMETER_BOOL),
     int: ("integer_value", ParameterType.PARAMETER_INTEGER),
     float: ("double_value", ParameterType.PARAMETER_DOUBLE),
-    str: ("string_value", ParameterType.PARAMETER_STRING),
 }
 
-Set = Mapping[str, Any]  # "name", "values" (their Python types are those of the parameters), "atomically"
 
+def in_order(
+    stage: Stage,
+    steps: Steps,
+    latched: bool = False,
+    interrupt: bool = False,
+    started_with: Mapping[str, float] | None = None,
+) -> None:
+    """Set gains one by one or together, ask for them, push the robot, listen late; then press Ctrl-C.
 
-class NodeParameters:
-    """Clients of the parameter services of the student's node."""
-
-    def __init__(self, stage: Stage) -> None:
-        self._describe = stage.service(f"{NODE}/describe_parameters", DescribeParameters)
-        self._get = stage.service(f"{NODE}/get_parameters", GetParameters)
-        self._set = stage.service(f"{NODE}/set_parameters", SetParameters)
-        self._set_atomically = stage.service(f"{NODE}/set_parameters_atomically", SetParametersAtomically)
-
-    def describe(self) -> bool:
-        """Ask what the parameters are."""
-        return self._describe.call(DescribeParameters.Request(names=NAMES), as_="describe")
-
-    def get(self, as_: str) -> bool:
-        """Ask for the values."""
-        return self._get.call(GetParameters.Request(names=NAMES), as_=as_)
-
-    def set(self, one: Set) -> bool:
-        """Set values, one after the other or all at once."""
-        parameters = [_parameter(*item) for item in one["values"].items()]
-        if one["atomically"]:
-            return self._set_atomically.call(
-                SetParametersAtomically.Request(parameters=parameters), as_=one["name"]
-            )
-        return self._set.call(SetParameters.Request(parameters=parameters), as_=one["name"])
-
-
-def set_gains(stage: Stage, sets: Sequence[Set]) -> None:
-    """Ask what there is, set gains, and listen to what is published meanwhile."""
-    parameters = NodeParameters(stage)
-    heard = stage.listen(TOPIC, BalanceGains)
+    `latched` is how the topic is listened to from before the node's start. `started_with` are the gains that the node
+    is started with, if not the usual ones: the model has to know.
+    """
+    describe = stage.service(f"{NODE}/describe_parameters", DescribeParameters)
+    get = stage.service(f"{NODE}/get_parameters", GetParameters)
+    set_each = stage.service(f"{NODE}/set_parameters", SetParameters)
+    set_together = stage.service(f"{NODE}/set_parameters_atomically", SetParametersAtomically)
+    heard = stage.listen(TOPIC, BalanceGains, latched=latched)
     stage.open()
-    _set_all(stage, parameters, heard, sets)
+    if not stage.poll_until(lambda: heard.publishers, MATCHING):
+        stage.mark("nobody publishes")
 
+    def listen(listener: str) -> None:
+        stage.mark(listener)
+        late = stage.listen(TOPIC, BalanceGains, latched=True, as_=listener)
+        stage.wait_until(lambda: late.messages, LATE)
 
-def interrupt(stage: Stage, sets: Sequence[Set]) -> None:
-    """Set gains, then press Ctrl-C."""
-    set_gains(stage, sets)
-    stage.interrupt_node()
-
-
-def late_listener(stage: Stage, sets: Sequence[Set]) -> None:
-    """Set gains, and listen only afterwards, as a robot does that starts later."""
-    parameters = NodeParameters(stage)
-    stage.open()
-    if parameters.get("at the start") and _set_each(stage, parameters, sets):
-        stage.mark("subscribed")
-        heard = stage.listen(TOPIC, BalanceGains, latched=True)
-        stage.wait_until(lambda: heard.messages, LATE)
-
-
-def start(stage: Stage) -> None:
-    """Listen to what the node publishes by itself, and ask for its parameters."""
-    parameters = NodeParameters(stage)
-    heard = stage.listen(TOPIC, BalanceGains, latched=True)
-    stage.open()
-    if parameters.get("at the start"):
-        stage.wait_until(lambda: heard.messages, LATE)
-        stage.wait(SETTLED)
-
-
-def push(stage: Stage, sets: Sequence[Set], impulse: Sequence[float]) -> None:
-    """Set gains beside a standing robot, and push it (N·s in odom)."""
-    parameters = NodeParameters(stage)
-    heard = stage.listen(TOPIC, BalanceGains)
-    stage.open()
-    if _set_all(stage, parameters, heard, sets):
+    def push(*impulse: float) -> None:
         stage.robot.wait(STANDING)
         stage.robot.push(impulse)
         stage.robot.wait(AFTERMATH)
+
+    carry_out(
+        stage,
+        steps,
+        {
+            "describe": lambda: describe.call(DescribeParameters.Request(names=NAMES)),
+            "ask": lambda: get.call(GetParameters.Request(names=NAMES)),
+            "set_each": lambda values: set_each.call(SetParameters.Request(parameters=_parameters(values))),
+            "set_together": lambda values: set_together.call(
+                SetParametersAtomically.Request(parameters=_parameters(values))
+            ),
+            "settle": lambda: stage.wait(SETTLED),
+            "wait": stage.wait,
+            "listen": listen,
+            "push": push,
+        },
+    )
+    if interrupt:
+        stage.interrupt_node()
 
 
 def start_with(stage: ClientStage, name: str, value: str) -> None:
@@ -111,24 +86,10 @@ def start_with(stage: ClientStage, name: str, value: str) -> None:
     stage.wait_until(stage.has_ended, GIVING_UP)
 
 
-def _set_all(stage: Stage, parameters: NodeParameters, heard: HeardTopic, sets: Sequence[Set]) -> bool:
-    if not stage.poll_until(lambda: heard.publishers, MATCHING):
-        stage.mark("nobody publishes")
-    if not (parameters.describe() and parameters.get("at the start")):
-        return False
-    stage.wait(SETTLED)  # what is published at the start belongs to no set
-    return _set_each(stage, parameters, sets) and parameters.get("at the end")
-
-
-def _set_each(stage: Stage, parameters: NodeParameters, sets: Sequence[Set]) -> bool:
-    """Set until there is no answer: a node that hangs or has died will not answer the next request either."""
-    for one in sets:
-        if not parameters.set(one):
-            return False
-        stage.wait(SETTLED)
-    return True
-
-
-def _parameter(name: str, value: Any) -> Parameter:
-    field, kind = _FIELDS[type(value)]
-    return Parameter(name=name, value=ParameterValue(type=kind, **{field: value}))
+def _parameters(values: Mapping[str, Any]) -> list[Parameter]:
+    """Return values as parameters of their Python types."""
+    found = []
+    for name, value in values.items():
+        field, kind = _FIELDS[type(value)]
+        found.append(Parameter(name=name, value=ParameterValue(type=kind, **{field: value})))
+    return found
