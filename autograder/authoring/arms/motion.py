@@ -1,60 +1,66 @@
-"""How an arm moved: whether it passed its points, reached the last one, and stood still when it had to."""
+"""How an arm moves: it passes its points, stops when it has to, and stays where it is without a goal.
+
+Each function is what an obligation of an exercise's model requires:
+
+passes_every_point = obligation(6, of=goals)(motion.passes_every_point)
+"""
 
 from __future__ import annotations
 
-from autograder.authoring.arms.endings import GOAL_TOLERANCE, require_not_given_up, why_given_up
+from collections.abc import Sequence
+
+from autograder.authoring import events as ev
+from autograder.authoring.arms.endings import why_given_up
+from autograder.authoring.arms.life import (
+    Fate,
+    ends_by_itself,
+    fate_of,
+    hold_of,
+    is_carried_out,
+    neighbours,
+    next_for_the_arm,
+    silent_since,
+    situation,
+    successors,
+)
 from autograder.authoring.arms.plan import errors, largest, speeds
-from autograder.authoring.arms.truth import joints_at, joints_between, plan_of, require_accepted
+from autograder.authoring.arms.truth import joints_at, joints_between, plan_of
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
-from autograder.authoring.robot_record import RobotRecord
+from autograder.authoring.missing import unseen
+from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.life import (
+    accepted,
+    ended_at,
+    granted,
+    left_alone,
+    next_sent,
+    requests_to_cancel,
+    run_of,
+)
 
-MEASURED = 0.02  # rad more, for what joint_states were when the server looked
 PASSED = 0.2  # rad, of a point on the way
 AROUND = 0.8  # s before and after the time at which a point is due
-EARLY = 0.5  # s that a server may have begun before its answer was seen
 STILL = 0.05  # rad/s
 STOP_TIME = 1.0  # s
 WATCHED = 2.4  # s after the cancel
-STARTED = 0.1  # rad
+AT_LEAST = 0.5  # s of watching that prove something
+GETTING_GOING = 0.5  # s
+BRAKING = 0.5  # s
+DRIFT = 0.1  # rad
+SHORT = 0.25  # rad that a joint stays away from the end of a trajectory that was given up
 
 
-def require_arrival(goal: Goal, given_up: str = "") -> None:
-    """Require that the goal succeeded when every joint was at its last point, and no earlier.
-
-    Args:
-        goal: that can be carried out.
-        given_up: what to do if the server aborts it, and nothing in the record says more.
-    """
-    require_not_given_up(require_accepted(goal), given_up)
-    result = goal.require_result(SUCCEEDED)
-    plan = plan_of(goal)
-    expect(
-        result.t >= plan.end - EARLY,
-        expected="the goal to go on until its last point is due",
-        observed=f"it SUCCEEDED {plan.end - result.t:.1f} s before",
-        help="The arm may come by its last point on the way. Wait until the last point's time_from_start is over.",
-        at=result.t,
-    )
-    tolerance = goal.request.goal_tolerance or GOAL_TOLERANCE
-    joint, error = largest(errors(joints_at(goal.run, result.t).positions, plan.final()))
-    expect(
-        error <= tolerance + MEASURED,
-        expected=f"every joint within {tolerance:.2f} rad of the last point when the goal SUCCEEDED",
-        observed=f"{joint} is {error:.2f} rad away in the simulator",
-        help="Wait until the last point's time_from_start is over, then compare joint_states with its positions, "
-        "joint by joint, before succeed().",
-        at=result.t,
-    )
-
-
-def require_points_passed(goal: Goal) -> None:
-    """Require that every joint came by every point on the way, at about its time."""
+def passes_every_point(goal: Goal) -> str | None:
+    """The arm passes every point of the trajectory at about its time."""
+    if not ends_by_itself(goal) or left_alone(goal) or hold_of(goal):
+        return None
     plan = plan_of(goal)
     for number, places in enumerate(plan.places[1:]):
         due = plan.due(number)
         wanted = dict(zip(plan.joints, places, strict=True))
-        seen = joints_between(goal.run, due - AROUND, min(due + AROUND, goal.run.end))
+        until = min(due + AROUND, next_for_the_arm(goal, goal.sent.t))
+        seen = joints_between(goal.run, due - AROUND, max(until, due - AROUND))
         joint, error = min(
             (largest(errors(each.positions, wanted)) for each in seen), key=lambda pair: pair[1]
         )
@@ -67,11 +73,117 @@ def require_points_passed(goal: Goal) -> None:
             else "Publish the whole trajectory once on joint_trajectory, with every point and its time_from_start.",
             at=due,
         )
+    return f"{len(plan.times) - 1} points, {situation(goal)}"
 
 
-def require_moving(run: RobotRecord, joint: str, at: float) -> None:
-    """Require that a joint moved shortly before a time (s); otherwise nothing has to stop."""
-    seen = joints_between(run, at - 0.6, at)
+def moves_until_canceled(goal: Goal) -> str | None:
+    """The arm moves when the cancel comes."""
+    asked = _first_cancel(goal)
+    if asked is None or not goal.accepted_at + GETTING_GOING <= asked < plan_of(goal).end or hold_of(goal):
+        return None
+    require_moving(goal, asked)
+    return "on the way"
+
+
+def stops_when_canceled(goal: Goal) -> str | None:
+    """Within 1 s of the cancel the arm stands still."""
+    asked = _first_cancel(goal)
+    if asked is None or not (granted(goal) or goal.status == SUCCEEDED) or successors(goal) or hold_of(goal):
+        return None
+    until = min(asked + WATCHED, next_for_the_arm(goal, asked))
+    if until < asked + STOP_TIME + AT_LEAST:
+        return None
+    joints = goal.request.trajectory.joint_names
+    fastest, joint, at = max(
+        (abs(report.velocities[joint]), joint, report.t)
+        for report in joints_between(goal.run, asked + STOP_TIME, until)
+        for joint in joints
+    )
+    if fastest >= STILL:
+        raise Failure(
+            expected=f"the arm slower than {STILL:.2f} rad/s within {STOP_TIME:.0f} s of the cancel, and still from "
+            "then on",
+            observed=f"{joint} turns at {fastest:.2f} rad/s {at - asked:.1f} s after the cancel",
+            help="The robot follows a trajectory by itself to its end. Publish JointTrajectory() when the cancel is "
+            "seen: an empty trajectory means hold.",
+            at=at,
+        )
+    return "beside the other arm" if neighbours(goal) else "alone"
+
+
+def stops_by_an_empty_trajectory(goal: Goal) -> str | None:
+    """What stops a cancelled arm is an empty trajectory, unless the other arm moves."""
+    asked = _first_cancel(goal)
+    if asked is None or neighbours(goal) or successors(goal) or not granted(goal):
+        return None
+    run, until = run_of(goal), next_sent(goal, asked)
+    published = [each for each in run.heard("joint_trajectory") if each.t <= until]
+    if not published:
+        raise unseen(run, "nobody heard anything on joint_trajectory")
+    last = published[-1]
+    expect(
+        last.t >= asked and not last.message.points,
+        expected="an empty JointTrajectory() on joint_trajectory, which means hold",
+        observed="none after the cancel"
+        if last.t < asked
+        else f"one with {len(last.message.points)} point(s)",
+        help="Publish JointTrajectory() when is_cancel_requested, before canceled(). (While the other arm moves, what "
+        "is left of its trajectory.)",
+        at=last.t,
+    )
+    return "alone"
+
+
+def holds_when_given_up(goal: Goal) -> str | None:
+    """An arm that strayed from its path, or of which nothing is known any more, holds, also when nothing blocks it."""
+    silent = is_carried_out(goal) and silent_since(goal) is not None
+    if goal.status != ABORTED or not (silent or (ends_by_itself(goal) and fate_of(goal) is Fate.STRAYS)):
+        return None
+    hold, until = hold_of(goal), next_for_the_arm(goal, goal.sent.t)
+    since = ended_at(goal) + BRAKING
+    released = max(since, hold.until) if hold else since
+    if until < released + AT_LEAST:
+        return None
+    before = joints_at(goal.run, since).positions
+    for report in joints_between(goal.run, since, until):
+        for joint, end in plan_of(goal).final().items():
+            is_held = hold is not None and joint in hold.joints
+            place = report.positions[joint]
+            stays = report.t < released or abs(place - end) >= SHORT
+            expect(
+                stays if is_held else abs(place - before[joint]) <= DRIFT,
+                expected="an arm that stays where it gave up, also when nothing blocks it any more",
+                observed=f"{joint} went on, to {abs(place - end):.2f} rad before the end of the trajectory",
+                help="The robot still follows the trajectory. Publish an empty JointTrajectory() before abort(): hold.",
+                at=report.t,
+            )
+    return "without joint_states" if silent else "let go"
+
+
+def stays_without_a_goal(run: Transcript) -> str | None:
+    """An arm without a goal stays where it is."""
+    reports = run.all(ev.JointsTruth)
+    if not reports or not run.goals:
+        return None
+    for arm in ("l", "r"):
+        held = {each.command.get("joint") for each in run.all(ev.RobotCommanded)}
+        joints = [
+            joint for joint in reports[0].positions if joint.startswith(f"{arm}_") and joint not in held
+        ]
+        lives = [
+            (goal.sent.t, ended_at(goal) + STOP_TIME)
+            for goal in run.goals
+            if goal.request.arm == arm and accepted(goal)
+        ]
+        _require_rest(joints, reports, lives)
+    return "all the time"
+
+
+def require_moving(goal: Goal, at: float) -> None:
+    """Require that the fastest joint of a goal moved shortly before a time (s); otherwise nothing has to stop."""
+    places, then = plan_of(goal).at(at), plan_of(goal).at(at - AROUND)
+    joint, _ = largest(errors(places, then))
+    seen = joints_between(goal.run, at - AROUND, at)
     expect(
         speeds([report.velocities[joint] for report in seen]) > 2 * STILL,
         expected="the arm under way by then",
@@ -81,40 +193,28 @@ def require_moving(run: RobotRecord, joint: str, at: float) -> None:
     )
 
 
-def require_stopped(run: RobotRecord, joints: list[str], since: float) -> None:
-    """Require that joints stand still from 1 s after `since` (s) on."""
-    fastest, joint, at = max(
-        (abs(report.velocities[joint]), joint, report.t)
-        for report in joints_between(run, since + STOP_TIME, since + WATCHED)
-        for joint in joints
-    )
-    if fastest >= STILL:
-        raise Failure(
-            expected=f"the arm slower than {STILL:.2f} rad/s within {STOP_TIME:.0f} s of the cancel, and still from "
-            "then on",
-            observed=f"{joint} turns at {fastest:.2f} rad/s {at - since:.1f} s after the cancel",
-            help="The robot follows a trajectory by itself to its end. Publish JointTrajectory() when the cancel is "
-            "seen: an empty trajectory means hold.",
-            at=at,
+def _first_cancel(goal: Goal) -> float | None:
+    """Return when (s) it was first asked to cancel an accepted goal that was active."""
+    times = [cancel.sent.t for cancel in requests_to_cancel(goal)] if is_carried_out(goal) else []
+    return min((t for t in times if t < ended_at(goal)), default=None)
+
+
+def _require_rest(
+    joints: Sequence[str], reports: Sequence[ev.JointsTruth], lives: Sequence[tuple[float, float]]
+) -> None:
+    """Require that joints do not move but in the lives (s, s) of their arm's goals."""
+    rest = None
+    for report in reports:
+        if any(begin <= report.t <= end for begin, end in lives):
+            rest = None
+            continue
+        rest = rest or report
+        joint, moved = largest(errors(report.positions, {joint: rest.positions[joint] for joint in joints}))
+        expect(
+            moved <= DRIFT,
+            expected=f"an arm that stays where it is without a goal, as since {rest.t:.1f} s",
+            observed=f"{joint} turned by {moved:.2f} rad",
+            help="Publish on joint_trajectory only what is left of the goals that are active: a rejected goal moves "
+            "nothing, nor does one that has ended.",
+            at=report.t,
         )
-
-
-def require_stayed_short(goal: Goal, joint: str, *, by: float, since: float, until: float) -> None:
-    """Require that a joint did not go on to the goal's last point: it stayed `by` (rad) away from it.
-
-    Args:
-        goal: that was given up.
-        joint: its name.
-        by: rad.
-        since: s, from when on nothing holds the arm any more.
-        until: s, how long it is watched.
-    """
-    end = plan_of(goal).final()[joint]
-    nearest = min(abs(report.positions[joint] - end) for report in joints_between(goal.run, since, until))
-    expect(
-        nearest >= by,
-        expected="an arm that stays where it gave up, also when nothing blocks it any more",
-        observed=f"{joint} went on until {nearest:.2f} rad before the end of the trajectory",
-        help="The robot still follows the trajectory. Publish an empty JointTrajectory() before abort(): hold.",
-        at=until,
-    )

@@ -1,4 +1,9 @@
-"""Compares what the server says of an arm, in feedback and results, with what the arm did."""
+"""What a server says of an arm, in feedback and result.
+
+Each function is what an obligation of an exercise's model requires:
+
+feedback_is_true = obligation(13, of=goals)(reports.feedback_is_true)
+"""
 
 from __future__ import annotations
 
@@ -6,34 +11,100 @@ import math
 import re
 
 from autograder.authoring import events as ev
-from autograder.authoring.arms.endings import ErrorCode
+from autograder.authoring.arms.endings import GOAL_TOLERANCE, ErrorCode
+from autograder.authoring.arms.life import ends_by_itself, hold_of, is_carried_out, silent_since, situation
 from autograder.authoring.arms.plan import Plan, errors, largest
-from autograder.authoring.arms.truth import joints_between, plan_of
-from autograder.authoring.failure import Failure, expect
-from autograder.authoring.feedback import end_of_feedback, require_feedback
+from autograder.authoring.arms.ranges import RANGES
+from autograder.authoring.arms.truth import joints_at, joints_between, plan_of
+from autograder.authoring.failure import expect
+from autograder.authoring.feedback import end_of_feedback, require_feedback, require_good_feedback_rate
 from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
+from autograder.authoring.walking.life import ended_at, interrupted, left_alone
 from autograder.authoring.walking.reports import require_error_code
-from ros_runtime.message_constants import name_of
 
 AGE = 0.7  # s that what feedback tells may be old, or early
+FEW = 4  # reports of the simulator, of which each so many'th is looked at; there are 50 a second
 ERROR_SLACK = 0.1  # rad
 PROGRESS_SLACK = 15.0  # percent
 ROUNDING = 0.01  # percent
+LONG = 1.5  # s; a goal of less tells little about its feedback
+ALIKE = 0.1  # rad by which errors differ so little that either joint may be named
+_TO_BLAME = (ErrorCode.PATH_TOLERANCE_VIOLATED, ErrorCode.GOAL_TOLERANCE_VIOLATED)
 _NAME_THE_WORST = "Name the one joint with the largest error: max(errors, key=errors.get)."
 
 
-def require_true_feedback(goal: Goal) -> None:
-    """Require that waypoint, max_error and progress are those of the arm at about that time."""
+def feedback_at_10_hz(goal: Goal) -> str | None:
+    """Feedback comes at 10 Hz without a gap over 1 s."""
+    if not _has_time_for_feedback(goal):
+        return None
+    require_good_feedback_rate(goal, wanted=10.0, lowest=6.0, highest=15.0)
+    return situation(goal)
+
+
+def feedback_is_true(goal: Goal) -> str | None:
+    """waypoint, max_error and progress_percentage in the feedback are the arm's."""
+    if not _has_time_for_feedback(goal):
+        return None
     require_feedback(goal)
-    end = end_of_feedback(goal)  # until then it has to be true
-    plan = plan_of(goal)
-    progress = 0.0
+    end = min(end_of_feedback(goal), silent_since(goal) or math.inf)  # until then it has to be true
+    plan, progress = plan_of(goal), 0.0
     for event in goal.feedback:
         if event.t > end:
             break
         _require_true_point(plan, event)
         _require_true_error(goal, plan, event)
         progress = _require_true_progress(plan, event, progress)
+    return situation(goal)
+
+
+def names_no_error(goal: Goal) -> str | None:
+    """The result of a goal that succeeded holds error_code NONE and an empty error_msg."""
+    if goal.status != SUCCEEDED:
+        return None
+    require_error_code(goal, "NONE", because="the arm has arrived")
+    goal.expect(
+        "error_msg", "", because="nothing went wrong", help="Fill error_msg only when the goal is aborted."
+    )
+    return situation(goal)
+
+
+def names_the_joint(goal: Goal) -> str | None:
+    """error_msg names the joint with the largest error, and no other."""
+    if goal.status != ABORTED or not is_carried_out(goal) or (hold := hold_of(goal)) is None:
+        return None
+    assert goal.result
+    said, at = goal.result.result.error_msg, goal.result.t
+    off = errors(joints_at(goal.run, at).positions, plan_of(goal).at(at))
+    worst, error = largest(off)
+    if goal.result.result.error_code not in _TO_BLAME or error < GOAL_TOLERANCE:
+        return None
+    named = [joint for joint in RANGES if re.search(rf"(?<!\w){joint}(?!\w)", said)]
+    right = [joint for joint in named if off.get(joint, 0.0) >= error - ALIKE]
+    expect(
+        bool(right),
+        expected=f"error_msg with the name of the joint that is off its trajectory most, {worst}",
+        observed=f"{said!r}",
+        help=_NAME_THE_WORST
+        if named
+        else "Put the joint's name, as in joint_states, into result.error_msg before abort().",
+        at=at,
+    )
+    others = [joint for joint in named if joint != right[0]]
+    expect(
+        not others,
+        expected=f"error_msg that names {right[0]} alone",
+        observed=f"it also names {', '.join(others)}: {said!r}",
+        help=_NAME_THE_WORST,
+        at=at,
+    )
+    return f"{len(hold.joints)} held"
+
+
+def _has_time_for_feedback(goal: Goal) -> bool:
+    """Return whether an accepted goal lasted, and was not cut short before there was much to report."""
+    if not is_carried_out(goal) or left_alone(goal) or interrupted(goal):
+        return False
+    return ends_by_itself(goal) or ended_at(goal) >= goal.accepted_at + LONG
 
 
 def _require_true_point(plan: Plan, event: ev.FeedbackReceived) -> None:
@@ -62,7 +133,7 @@ def _require_true_error(goal: Goal, plan: Plan, event: ev.FeedbackReceived) -> N
     at_the_ends = plan.at(event.t - AGE), plan.at(event.t)
     truths = [
         largest(errors(report.positions, wanted))[1]
-        for report in seen
+        for report in (*seen[::FEW], seen[-1])
         for wanted in (*at_the_ends, plan.at(report.t))
     ]
     low, high = max(0.0, min(truths) - ERROR_SLACK), max(truths) + ERROR_SLACK
@@ -109,66 +180,3 @@ def _require_true_progress(plan: Plan, event: ev.FeedbackReceived, before: float
 def _since(plan: Plan, event: ev.FeedbackReceived) -> float:
     """Return how long (s) the goal had been accepted; feedback may overtake the answer."""
     return max(0.0, event.t - plan.begin)
-
-
-def require_filled_result(goal: Goal) -> None:
-    """Require that a goal that succeeded says NONE, and no reason."""
-    goal.require_accepted().require_result(SUCCEEDED)
-    require_error_code(goal, "NONE", because="the arm has arrived")
-    goal.expect(
-        "error_msg", "", because="nothing went wrong", help="Fill error_msg only when the goal is aborted."
-    )
-
-
-def require_aborted(
-    goal: Goal, code: str, *, because: str, help: str, other_code: str = ""
-) -> ev.ResultReceived:
-    """Require that a goal was ABORTED with an error_code, and return the result.
-
-    Args:
-        goal: which was accepted.
-        code: the name of the constant.
-        because: why it had to end so.
-        help: what to do if the goal went on, or succeeded.
-        other_code: what to do if it ended for another reason; '' where that says nothing.
-    """
-    goal.require_accepted()
-    result = goal.require_result(ABORTED, help=help)
-    given = result.result.error_code
-    if other_code and given not in (ErrorCode.NONE, ErrorCode[code]):
-        raise Failure(
-            expected=f"error_code {code}, because {because}",
-            observed=f"error_code {name_of(ErrorCode, given)}",
-            help=other_code,
-            at=result.t,
-        )
-    require_error_code(goal, code, because=because)
-    return result
-
-
-def require_named(goal: Goal, joint: str, others: list[str]) -> None:
-    """Require that the result's error_msg names a joint that was held, and none of the others."""
-    goal.run.told("hold_joint", joint=joint)
-    result = goal.require_result(ABORTED)
-    said = result.result.error_msg
-    named = [each for each in others if _names(said, each)]
-    expect(
-        _names(said, joint),
-        expected=f"error_msg with the name of the joint that is off its trajectory most, {joint}",
-        observed=f"{said!r}",
-        help=_NAME_THE_WORST
-        if named
-        else "Put the joint's name, as in joint_states, into result.error_msg before abort().",
-        at=result.t,
-    )
-    expect(
-        not named,
-        expected=f"error_msg that names {joint} alone",
-        observed=f"it also names {', '.join(named)}: {said!r}",
-        help=_NAME_THE_WORST,
-        at=result.t,
-    )
-
-
-def _names(text: str, joint: str) -> bool:
-    return re.search(rf"(?<!\w){re.escape(joint)}(?!\w)", text) is not None

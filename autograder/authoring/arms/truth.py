@@ -25,16 +25,9 @@ def require_accepted(goal: Goal, help: str = "") -> Goal:
     return goal.require_accepted(next(filter(None, deaf), help or _ACCEPT))
 
 
-def accepted_at(goal: Goal) -> float:
-    """Return when (s) the goal was accepted, which it must have been."""
-    answer = require_accepted(goal).answer
-    assert answer
-    return answer.t
-
-
 def plan_of(goal: Goal) -> Plan:
     """Return the plan of an accepted goal, from where the joints really were when it was accepted."""
-    begin = accepted_at(goal)
+    begin = require_accepted(goal).accepted_at
     return Plan.of(goal.request.trajectory, joints_at(goal.run, begin).positions, begin)
 
 

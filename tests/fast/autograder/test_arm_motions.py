@@ -11,22 +11,27 @@ from records import failure_of, run_of
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from autograder.authoring import events as ev
-from autograder.authoring.arms.motion import require_arrival, require_points_passed, require_stopped
+from autograder.authoring.arms import ends, motion, reports
 from autograder.authoring.arms.plan import Plan
-from autograder.authoring.arms.reports import require_named, require_true_feedback
+from autograder.authoring.arms.ranges import RANGES
 from humanoid_interfaces.action import MoveArm
+from robot_sim.arms.joint_trajectory import MOVABLE
+from robot_sim.humanoid import Humanoid
 
 ELBOW = "l_elbow"
 START, HALF, END = -0.5, -1.5, -1.0  # rad, at 0, 2 and 4 s
+HELD, FAR = -1.0, -2.3  # rad
 BEGIN = 2.0  # s
 
 
-def trajectory() -> JointTrajectory:
-    points = [
-        JointTrajectoryPoint(positions=[place], time_from_start=Duration(sec=sec))
-        for sec, place in ((2, HALF), (4, END))
-    ]
-    return JointTrajectory(joint_names=[ELBOW], points=points)
+def trajectory(*points: tuple[int, float]) -> JointTrajectory:
+    return JointTrajectory(
+        joint_names=[ELBOW],
+        points=[
+            JointTrajectoryPoint(positions=[place], time_from_start=Duration(sec=sec))
+            for sec, place in points or ((2, HALF), (4, END))
+        ],
+    )
 
 
 def wanted(t: float) -> float:
@@ -36,7 +41,11 @@ def wanted(t: float) -> float:
 def moved(place: Any, *more: Any, end: float = 6.1, **result: Any) -> Any:
     """A run in which the elbow was at place(t) and the goal succeeded at `end` (s)."""
     reports = [
-        ev.JointsTruth(t=0.02 * k, positions={ELBOW: place(0.02 * k)}, velocities={ELBOW: 0.0})
+        ev.JointsTruth(
+            t=0.02 * k,
+            positions={ELBOW: place(0.02 * k)},
+            velocities={ELBOW: 50 * (place(0.02 * k) - place(0.02 * (k - 1)))},
+        )
         for k in range(500)
     ]
     request = MoveArm.Goal(arm="l", trajectory=trajectory())
@@ -77,10 +86,17 @@ def given_up(
     return run_of(*events, end, until=9.5)
 
 
-def held(said: str) -> Any:
-    """A run in which the elbow was held, and the goal aborted with an error_msg."""
+def held(said: str, afterwards: float = HELD) -> Any:
+    """A run in which the elbow was held on a long way from 3 s on, and let go at 5 s: it turned to `afterwards`."""
     hold = ev.RobotCommanded(t=3.0, command={"do": "hold_joint", "joint": ELBOW})
-    return given_up(follows, MoveArm.Result.PATH_TOLERANCE_VIOLATED, hold, said=said)
+    release = ev.RobotCommanded(t=5.0, command={"do": "release_joint", "joint": ELBOW})
+
+    def place(t: float) -> float:
+        return follows(t) if t < 3.0 else HELD if t < 5.0 else afterwards
+
+    run = given_up(place, MoveArm.Result.PATH_TOLERANCE_VIOLATED, hold, release, after=2.3, said=said)
+    run.goal("move").request.trajectory = trajectory((4, FAR))
+    return run
 
 
 def test_a_plan_goes_straight_from_point_to_point() -> None:
@@ -95,44 +111,58 @@ def test_a_plan_goes_straight_from_point_to_point() -> None:
 
 def test_an_arm_that_follows_has_arrived() -> None:
     run = moved(follows)
-    require_arrival(run.goal("move"))
-    require_points_passed(run.goal("move"))
+    assert ends.succeeds(run.goal("move")) == "unhindered; at first"
+    assert motion.passes_every_point(run.goal("move")) == "2 points, unhindered"
 
 
 def test_an_arm_that_is_not_there_has_not() -> None:
     run = moved(lambda t: follows(t) - 0.2)
-    assert "l_elbow is 0.20 rad away" in failure_of(require_arrival, run.goal("move")).observed
+    assert "l_elbow is 0.20 rad away" in failure_of(ends.succeeds, run.goal("move")).observed
 
 
-def test_success_before_the_last_points_time_is_too_early() -> None:
-    run = moved(follows, end=4.0)
-    assert "SUCCEEDED 2.0 s before" in failure_of(require_arrival, run.goal("move")).observed
+def test_success_before_the_last_points_time_is_too_early_and_long_after_it_too_late() -> None:
+    assert (
+        "SUCCEEDED 2.0 s before" in failure_of(ends.succeeds, moved(follows, end=4.0).goal("move")).observed
+    )
+    assert "SUCCEEDED 3.0 s after" in failure_of(ends.succeeds, moved(follows, end=9.0).goal("move")).observed
 
 
 def test_a_point_that_is_left_out_is_missed() -> None:
     run = moved(lambda t: START if t < BEGIN else END)
-    assert "0.50 rad" in failure_of(require_points_passed, run.goal("move")).observed
+    assert "0.50 rad" in failure_of(motion.passes_every_point, run.goal("move")).observed
 
 
 def test_true_feedback_passes_and_false_does_not() -> None:
     good = [told(3.0, 0, 0.02, 25.0), told(5.0, 1, 0.02, 75.0)]
-    require_true_feedback(moved(follows, *good).goal("move"))
+    assert reports.feedback_is_true(moved(follows, *good).goal("move")) == "unhindered"
     for bad, word in (
         (told(3.0, 1, 0.02, 25.0), "waypoint"),
         (told(3.0, 0, 1.0, 25.0), "max_error"),
         (told(5.0, 1, 0.02, 0.75), "progress"),
         (told(5.0, 1, 0.02, 140.0), "progress"),
     ):
-        failure = failure_of(require_true_feedback, moved(follows, *good[:0], bad).goal("move"))
+        failure = failure_of(reports.feedback_is_true, moved(follows, bad).goal("move"))
         assert word in failure.expected, failure
 
 
+def asked_to_cancel(t: float, place: Any) -> Any:
+    """A run in which the goal was cancelled at `t` s, and the elbow was at place(t)."""
+    events = [event for event in moved(place).events if not isinstance(event, ev.ResultReceived)]
+    return run_of(
+        *events,
+        ev.CancelSent(t=t, cancel="cancel", goal="move", by="client"),
+        ev.CancelAnswered(t=t + 0.1, cancel="cancel", return_code=0, canceling=["move"]),
+        ev.ResultReceived(t=t + 0.2, goal="move", status=GoalStatus.STATUS_CANCELED, result=MoveArm.Result()),
+        until=9.5,
+    )
+
+
 def test_an_arm_that_turns_on_has_not_stopped() -> None:
-    reports = [
-        ev.JointsTruth(t=0.02 * k, positions={ELBOW: 0.0}, velocities={ELBOW: 0.3}) for k in range(500)
-    ]
-    failure = failure_of(require_stopped, run_of(*reports, until=9.5), [ELBOW], 3.0)
-    assert "l_elbow turns at 0.30 rad/s" in failure.observed
+    failure = failure_of(motion.stops_when_canceled, asked_to_cancel(2.8, follows).goal("move"))
+    assert "l_elbow turns at 0.50 rad/s" in failure.observed
+    stopped = asked_to_cancel(2.8, lambda t: follows(min(t, 3.0)))
+    assert ends.grants_cancels(stopped.goal("move")) == "on the way"
+    assert motion.stops_when_canceled(stopped.goal("move")) == "alone"
 
 
 @pytest.mark.parametrize(
@@ -140,12 +170,41 @@ def test_an_arm_that_turns_on_has_not_stopped() -> None:
     [("", "''"), ("l_elbow_2 is off", "l_elbow_2"), ("l_elbow and l_wrist_yaw", "it also names l_wrist_yaw")],
 )
 def test_a_result_names_one_joint(said: str, word: str) -> None:
-    run = held(said)
-    assert word in failure_of(require_named, run.goal("move"), ELBOW, ["l_wrist_yaw"]).observed
+    assert word in failure_of(reports.names_the_joint, held(said).goal("move")).observed
 
 
 def test_a_named_joint_is_found() -> None:
-    require_named(held("l_elbow: 0.5 rad off").goal("move"), ELBOW, ["l_wrist_yaw"])
+    assert reports.names_the_joint(held("l_elbow: 0.5 rad off").goal("move")) == "1 held"
+
+
+def test_a_blocked_arm_strays_and_one_that_goes_on_later_has_not_held() -> None:
+    goal = held("l_elbow").goal("move")
+    assert ends.strays(goal) == "held"
+    assert motion.holds_when_given_up(goal) == "let go"
+    assert "went on" in failure_of(motion.holds_when_given_up, held("l_elbow", FAR).goal("move")).observed
+
+
+def silenced(code: int) -> Any:
+    """The goal of a slow motion, given up 1.3 s after joint_states stopped; the arm holds from then on."""
+    lost = ev.RobotCommanded(t=4.0, command={"do": "joint_sensors", "connected": False})
+    run = given_up(lambda t: START - 0.15 * min(max(t - BEGIN, 0.0), 3.3), code, lost, after=3.3)
+    run.goal("move").request.trajectory = trajectory((8, START - 1.2))
+    return run.goal("move")
+
+
+def test_silence_has_a_code_of_its_own() -> None:
+    goal = silenced(MoveArm.Result.INVALID_JOINTS)
+    assert ends.notices_silence(goal) == "on the way"
+    assert motion.holds_when_given_up(goal) == "without joint_states"
+    failure = failure_of(ends.notices_silence, silenced(MoveArm.Result.PATH_TOLERANCE_VIOLATED))
+    assert "INVALID_JOINTS" in failure.expected
+
+
+def test_the_ranges_are_the_robots() -> None:
+    model = Humanoid().model
+    assert {joint for joint in MOVABLE if joint in RANGES} == set(RANGES)
+    for joint, limits in RANGES.items():
+        assert tuple(model.joint(joint).range) == pytest.approx(limits)
 
 
 def behind(t: float) -> float:
@@ -169,4 +228,4 @@ def behind(t: float) -> float:
     ],
 )
 def test_why_a_goal_was_given_up_is_told_by_its_code_and_by_where_the_arm_was(run: Any, word: str) -> None:
-    assert word in failure_of(require_arrival, run.goal("move")).help
+    assert word in failure_of(ends.succeeds, run.goal("move")).help

@@ -1,0 +1,269 @@
+"""How a goal for an arm ends: the arm arrives or does not, the goal is cancelled, or another takes the arm.
+
+Each function is what an obligation of an exercise's model requires:
+
+succeeds = obligation(7, of=goals)(ends.succeeds)
+"""
+
+from __future__ import annotations
+
+from autograder.authoring import events as ev
+from autograder.authoring.arms.endings import PATIENCE, ErrorCode, require_not_given_up
+from autograder.authoring.arms.life import (
+    MEASURED,
+    PATH_TOLERANCE,
+    Fate,
+    ends_by_itself,
+    fate_of,
+    hold_of,
+    is_carried_out,
+    silent_since,
+    situation,
+    strays_at,
+    successors,
+    tolerance_of,
+)
+from autograder.authoring.arms.motion import require_moving
+from autograder.authoring.arms.plan import errors, largest
+from autograder.authoring.arms.truth import joints_at, joints_between, plan_of
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED, Goal
+from autograder.authoring.walking.life import ended_at, granted, left_alone, phase, requests_to_cancel
+from autograder.authoring.walking.reports import require_error_code
+from ros_runtime.message_constants import name_of
+
+EARLY = 0.5  # s that a server may have begun before its answer was seen
+SOONER = 0.15  # rad less, at which a server may already see that a joint is off
+REACTION = 1.5  # s for the server to say so
+GIVING_WAY = 5.0  # s
+OVERTAKING = 0.3  # s
+QUIET, NOTICED = (
+    0.8,
+    1.5,
+)  # s without joint_states before which nobody may give up, and after which it is noticed
+GIVEN_UP = 3.0  # s
+_SILENT = "Remember when the last joint_states came, and give up when that is more than 1 s ago."
+_WENT_ON = (
+    "The old goal went on after the new one was accepted. How does its loop learn that it is no longer the arm's "
+    "newest? (handle_accepted_callback)"
+)
+_OTHER_ARM = (
+    "The robot follows one trajectory at a time: a new message on joint_trajectory replaces the old one, also for the "
+    "other arm, and an empty one holds both. Publish one trajectory with what is left of both, its times counted from "
+    "now."
+)
+_LATE = "Let it end as soon as the last point's time is over and joint_states say that every joint is there."
+_BY_NAME = (
+    "joint_states listed the joints in another order than before. Pair message.name with message.position anew in "
+    "each message, and look each joint up by its name."
+)
+
+
+def succeeds(goal: Goal) -> str | None:
+    """It SUCCEEDS when the last point's time is over and every joint is within goal_tolerance of it."""
+    if not ends_by_itself(goal) or left_alone(goal) or fate_of(goal) is not Fate.ARRIVES:
+        return None
+    require_not_given_up(goal, _why_given_up(goal))
+    result, plan, tolerance = goal.require_result(SUCCEEDED), plan_of(goal), tolerance_of(goal)
+    expect(
+        result.t >= plan.end - EARLY,
+        expected="the goal to go on until its last point is due",
+        observed=f"it SUCCEEDED {plan.end - result.t:.1f} s before",
+        help="The arm may come by its last point on the way. Wait until the last point's time_from_start is over.",
+        at=result.t,
+    )
+    joint, error = largest(errors(joints_at(goal.run, result.t).positions, plan.final()))
+    expect(
+        error <= tolerance + MEASURED,
+        expected=f"every joint within {tolerance:.2f} rad of the last point when the goal SUCCEEDED",
+        observed=f"{joint} is {error:.2f} rad away in the simulator",
+        help="Wait until the last point's time_from_start is over, then compare joint_states with its positions, "
+        "joint by joint, before succeed().",
+        at=result.t,
+    )
+    expect(
+        result.t <= plan.end + PATIENCE + REACTION,
+        expected=f"the goal to end within {PATIENCE:g} s of its last point's time",
+        observed=f"it SUCCEEDED {result.t - plan.end:.1f} s after it",
+        help=_OTHER_ARM if situation(goal).endswith("arm") else _LATE,
+        at=result.t,
+    )
+    return f"{situation(goal)}; {phase(goal)}"
+
+
+def misses(goal: Goal) -> str | None:
+    """A joint that is not at its end 1 s after it is due ends the goal with GOAL_TOLERANCE_VIOLATED."""
+    if not ends_by_itself(goal) or left_alone(goal) or fate_of(goal) is not Fate.MISSES:
+        return None
+    hold, plan = hold_of(goal), plan_of(goal)
+    assert hold
+    result = goal.require_result(
+        ABORTED,
+        help="Succeed only when joint_states say that every joint is within goal_tolerance of the last point."
+        if goal.result
+        else "The goal never ended. 1 s after the last point's time_from_start, abort with GOAL_TOLERANCE_VIOLATED.",
+    )
+    require_error_code(
+        goal, "GOAL_TOLERANCE_VIOLATED", because=f"{hold.joints[-1]} was held short of the last point"
+    )
+    expect(
+        plan.end - EARLY <= result.t <= plan.end + PATIENCE + REACTION,
+        expected="the goal to end 1 s after its last point was due",
+        observed=f"it ended {result.t - plan.end:+.1f} s after that",
+        help="Wait for the last point's time_from_start, then at most 1 s for every joint to be within goal_tolerance.",
+        at=result.t,
+    )
+    return f"{len(hold.joints)} held"
+
+
+def strays(goal: Goal) -> str | None:
+    """An arm that is more than 0.5 rad off its trajectory ends the goal with PATH_TOLERANCE_VIOLATED."""
+    if not ends_by_itself(goal) or left_alone(goal) or fate_of(goal) is not Fate.STRAYS:
+        return None
+    hold, plan = hold_of(goal), plan_of(goal)
+    assert hold
+    joint = hold.joints[-1]
+    require_moving(goal, hold.since)
+    result = goal.require_result(
+        ABORTED,
+        help=f"{joint} was held. Compare joint_states with where the trajectory has each joint at that moment, in "
+        "every round.",
+    )
+    off = max(
+        abs(report.positions[joint] - plan.at(report.t)[joint])
+        for report in joints_between(goal.run, min(hold.since, result.t), result.t)
+    )
+    expect(
+        off >= PATH_TOLERANCE - SOONER,
+        expected=f"the goal to go on until {joint} is {PATH_TOLERANCE} rad off its trajectory",
+        observed=f"it ended when {joint} was {off:.2f} rad off",
+        help="An arm is always a little late. Abort only over 0.5 rad, and measure from where the trajectory has the "
+        "joint now.",
+        at=result.t,
+    )
+    late = result.t - strays_at(goal, hold)
+    expect(
+        late <= REACTION,
+        expected=f"the goal ABORTED as soon as {joint} is {PATH_TOLERANCE} rad off",
+        observed=f"{late:.1f} s later",
+        help="Look at the deviation in every round, not only at the end.",
+        at=result.t,
+    )
+    require_error_code(
+        goal,
+        "PATH_TOLERANCE_VIOLATED",
+        because=f"{joint} was held, and more than {PATH_TOLERANCE} rad off its trajectory",
+    )
+    return "held"
+
+
+def notices_silence(goal: Goal) -> str | None:
+    """When joint_states say nothing for 1 s the goal ends with INVALID_JOINTS."""
+    lost = silent_since(goal) if is_carried_out(goal) else None
+    if lost is None or lost < goal.accepted_at or granted(goal) or successors(goal) or left_alone(goal):
+        return None
+    require_moving(goal, lost)
+    result = goal.require_result(ABORTED, help=_SILENT)
+    plan, known = plan_of(goal), joints_at(goal.run, lost).positions
+    seems_off = largest(errors(known, plan.at(lost + NOTICED)))[1] >= PATH_TOLERANCE - SOONER
+    if not (seems_off and _code(goal) is ErrorCode.PATH_TOLERANCE_VIOLATED):
+        _require_code(goal, "INVALID_JOINTS", "nothing is known of the joints any more", _SILENT)
+    expect(
+        QUIET <= result.t - lost <= GIVEN_UP,
+        expected="the goal ABORTED 1 s after the last joint_states",
+        observed=f"{result.t - lost:.1f} s after it",
+        help="Compare the time of the last joint_states with now, in every round.",
+        at=result.t,
+    )
+    return "on the way"
+
+
+def grants_cancels(goal: Goal) -> str | None:
+    """A cancel at any moment is agreed to and ends CANCELED."""
+    asked = [
+        cancel
+        for cancel in requests_to_cancel(goal)
+        if is_carried_out(goal) and goal.accepted_at <= cancel.sent.t < ended_at(goal)
+    ]
+    if not asked or any(other.sent.t < asked[0].sent.t + OVERTAKING for other in successors(goal)):
+        return None
+    first, due = asked[0], plan_of(goal).end
+    if goal.status == SUCCEEDED and first.sent.t > due - EARLY:
+        return "just before arrival"
+    is_early = first.sent.t < goal.accepted_at + EARLY
+    if first.answer and is_early:
+        expect(
+            goal.name in first.answer.canceling,
+            expected="the server to agree to cancel, as it does later on",
+            observed=f"it refused {first.answer.t - goal.accepted_at:.1f} s after the acceptance",
+            help="Return CancelResponse.ACCEPT at any moment: before the arm moves there is a trajectory to take back, "
+            "too.",
+            at=first.answer.t,
+        )
+    first.require_agreed(goal)
+    goal.require_result(CANCELED)
+    return "at once" if is_early else "on the way"
+
+
+def gives_way(goal: Goal) -> str | None:
+    """A new goal for the same arm aborts the old one with PREEMPTED."""
+    newer = successors(goal)
+    if not is_carried_out(goal):
+        return None
+    if not newer:
+        _require_no_preemption(goal)
+        return None
+    came = newer[0].sent.t
+    canceled = any(cancel.sent.t <= came + OVERTAKING for cancel in granted(goal))
+    if canceled or (goal.status == SUCCEEDED and came > plan_of(goal).end - EARLY):
+        return None
+    if came >= goal.accepted_at + EARLY:
+        require_moving(goal, came)
+    end = goal.require_result(ABORTED, help=_WENT_ON)
+    _require_code(goal, "PREEMPTED", "a new goal has taken the arm", _WENT_ON)
+    expect(
+        end.t <= came + GIVING_WAY,
+        expected=f"the old goal to end within {GIVING_WAY:g} s of the new one",
+        observed=f"it ended {end.t - came:.1f} s after it",
+        help=_WENT_ON,
+        at=end.t,
+    )
+    return f"by {len(newer)} newer"
+
+
+def _code(goal: Goal) -> ErrorCode | None:
+    """Return the error_code of a goal that was ABORTED, if it is one."""
+    code = goal.result.result.error_code if goal.result and goal.status == ABORTED else None
+    return ErrorCode(code) if code in list(ErrorCode) else None
+
+
+def _require_code(goal: Goal, code: str, because: str, help: str) -> None:
+    """Require the error_code of a goal that was ABORTED; `help` is what to do if it ended for another reason."""
+    given = _code(goal)
+    if given not in (None, ErrorCode.NONE, ErrorCode[code]):
+        assert goal.result
+        raise Failure(
+            expected=f"error_code {code}, because {because}",
+            observed=f"error_code {name_of(ErrorCode, given)}",
+            help=help,
+            at=goal.result.t,
+        )
+    require_error_code(goal, code, because=because)
+
+
+def _require_no_preemption(goal: Goal) -> None:
+    """Require that a goal did not give way when no other for its arm was accepted."""
+    if _code(goal) is ErrorCode.PREEMPTED and ends_by_itself(goal):
+        require_not_given_up(goal)
+
+
+def _why_given_up(goal: Goal) -> str:
+    """Return what to do about a goal that was given up, where something happened that may have led there."""
+    reverse = [
+        each
+        for each in goal.run.all(ev.RobotCommanded)
+        if each.command["do"] == "joint_states" and each.t < goal.sent.t
+    ]
+    if reverse:
+        return _BY_NAME
+    return _OTHER_ARM if situation(goal).endswith("arm") else ""

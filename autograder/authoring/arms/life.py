@@ -1,0 +1,162 @@
+"""The life of a goal that moves an arm: what else happened in it, and how it has to end by what the arm did."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+from autograder.authoring import events as ev
+from autograder.authoring.arms.endings import GOAL_TOLERANCE, PATIENCE
+from autograder.authoring.arms.objections import AGAINST, UNSAID
+from autograder.authoring.arms.plan import errors, largest
+from autograder.authoring.arms.truth import joints_at, plan_of
+from autograder.authoring.goal import Goal
+from autograder.authoring.walking.life import accepted, ended_at, granted, interrupted, others, run_of
+
+PATH_TOLERANCE = 0.5  # rad
+NEARLY = 0.1  # rad less, from which on nobody can tell whether a joint is off its trajectory
+MEASURED = 0.02  # rad more, for what joint_states were when the server looked
+IN_TIME = 0.6 * PATIENCE  # s after the last point in which a joint that is let go surely arrives
+ROUND = 0.05  # s, the period of joint_states
+
+
+class Fate(Enum):
+    """How a goal ends, unless something else ends it."""
+
+    ARRIVES = "arrives"
+    STRAYS = "strays from its path"
+    MISSES = "misses its end"
+
+
+@dataclass(frozen=True)
+class Hold:
+    """Some joints of a goal that the scenario held, from `since` until `until` (s; infinity: to the end of the run)."""
+
+    joints: tuple[str, ...]
+    since: float
+    until: float
+
+
+def is_carried_out(goal: Goal) -> bool:
+    """Return whether it was accepted, and nothing speaks against it."""
+    return accepted(goal) and all(objection.holds(goal) is False for objection in (*AGAINST, UNSAID))
+
+
+def rivals(goal: Goal) -> list[Goal]:
+    """Return the other goals for the same arm that were accepted; none, if this one was not."""
+    same = [other for other in others(goal) if other.request.arm == goal.request.arm]
+    return [other for other in same if accepted(other)] if accepted(goal) else []
+
+
+def successors(goal: Goal) -> list[Goal]:
+    """Return the goals that came for its arm and were accepted while it was active, the first of them first."""
+    return [other for other in rivals(goal) if goal.sent.t < other.sent.t < ended_at(goal)]
+
+
+def neighbours(goal: Goal) -> list[Goal]:
+    """Return the accepted goals of the other arm that were active at the same time."""
+    return [
+        other
+        for other in others(goal)
+        if accepted(other)
+        and other.request.arm != goal.request.arm
+        and max(other.sent.t, goal.sent.t) < min(ended_at(other), ended_at(goal))
+    ]
+
+
+def next_for_the_arm(goal: Goal, after: float) -> float:
+    """Return when (s) the next goal for its arm was sent after a moment, or the run's end."""
+    sent = [other.sent.t for other in others(goal) if other.request.arm == goal.request.arm]
+    return min((t for t in sent if t > after), default=goal.run.end)
+
+
+def silent_since(goal: Goal) -> float | None:
+    """Return when (s) joint_states stopped, if they were silent while the goal was active."""
+    switches = [
+        each
+        for each in goal.run.all(ev.RobotCommanded)
+        if each.command.get("do") == "joint_sensors" and each.t < ended_at(goal)
+    ]
+    return switches[-1].t if switches and not switches[-1].command["connected"] else None
+
+
+def ends_by_itself(goal: Goal) -> bool:
+    """Return whether nothing but the arm ends it: no cancel that was granted, no newer goal, silence or Ctrl-C."""
+    return is_carried_out(goal) and not (
+        granted(goal) or successors(goal) or interrupted(goal) or silent_since(goal) is not None
+    )
+
+
+def hold_of(goal: Goal) -> Hold | None:
+    """Return what the scenario held of an accepted goal's joints until its last point's second was over."""
+    over = plan_of(goal).end + PATIENCE
+    joints: list[str] = []
+    since, until = math.inf, math.inf
+    for each in goal.run.all(ev.RobotCommanded):
+        joint = each.command.get("joint", "")
+        if joint not in goal.request.trajectory.joint_names or not goal.sent.t <= each.t:
+            continue
+        if each.command["do"] == "hold_joint" and each.t < over:
+            joints.append(joint)
+            since = min(since, each.t)
+        elif each.command["do"] == "release_joint" and joint in joints:
+            until = min(until, each.t)
+    return Hold(tuple(joints), since, until) if joints else None
+
+
+def strays_at(goal: Goal, hold: Hold) -> float:
+    """Return when (s) a held joint is off its trajectory by the path's tolerance, or would be; infinity if never."""
+    return _first_off(goal, hold, PATH_TOLERANCE)
+
+
+def fate_of(goal: Goal) -> Fate | None:
+    """Return how an accepted goal ends by what the arm did; None: nobody can tell."""
+    hold = hold_of(goal)
+    if hold is None:
+        return Fate.ARRIVES
+    plan, tolerance = plan_of(goal), tolerance_of(goal)
+    was_held_to_its_end = ended_at(goal) <= hold.until
+    if was_held_to_its_end or _first_off(goal, hold, PATH_TOLERANCE - NEARLY) < hold.until:
+        if (strays := strays_at(goal, hold)) < math.inf:
+            return Fate.STRAYS if was_held_to_its_end or strays < hold.until else None
+        if _first_off(goal, hold, PATH_TOLERANCE - NEARLY) < math.inf:
+            return None
+    _, short = largest(errors(_held(goal, hold, plan.end), _only(plan.final(), hold)))
+    if short <= tolerance - MEASURED or hold.until <= plan.end + IN_TIME:
+        return Fate.ARRIVES
+    return Fate.MISSES if was_held_to_its_end and short > tolerance + MEASURED else None
+
+
+def tolerance_of(goal: Goal) -> float:
+    """Return how near (rad) each joint has to come to its last point."""
+    return goal.request.goal_tolerance or GOAL_TOLERANCE
+
+
+def _first_off(goal: Goal, hold: Hold, off: float) -> float:
+    """Return when (s) a held joint is off its trajectory by `off` (rad); where it was let go early it is thought on."""
+    plan = plan_of(goal)
+    for number in range(math.ceil((plan.end - hold.since) / ROUND) + 1):
+        t = hold.since + number * ROUND
+        if largest(errors(_held(goal, hold, t), _only(plan.at(t), hold)))[1] >= off:
+            return t
+    return math.inf
+
+
+def _held(goal: Goal, hold: Hold, t: float) -> Mapping[str, float]:
+    """Return where the joints are at `t` s, if they are held until then."""
+    return joints_at(goal.run, min(t, hold.until, run_of(goal).end)).positions
+
+
+def _only(wanted: Mapping[str, float], hold: Hold) -> dict[str, float]:
+    return {joint: wanted[joint] for joint in hold.joints}
+
+
+def situation(goal: Goal) -> str:
+    """Return, for the table of clauses, what happened to a goal that ended by itself."""
+    hold = hold_of(goal)
+    how = "unhindered" if hold is None else "held"
+    if hold and hold.until < math.inf and hold.until < ended_at(goal):
+        how = "let go in time"
+    return f"{how}, beside the other arm" if neighbours(goal) else how
