@@ -122,7 +122,7 @@ refuses_what_is_no_number = in_any_order(
 )
 refuses_integers = in_any_order(
     "refuses_integers",
-    *(model.refuses_integers_for_doubles, model.gives_a_reason),
+    *(model.takes_no_integer_for_a_double, model.gives_a_reason),
     title="An integer for a double is refused with a reason",
     needs=checks.refuses_bad_gains,
     see="10_parameters_and_balance#int-why",

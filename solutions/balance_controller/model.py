@@ -118,7 +118,7 @@ refuses_weak_gains = _refuses("A kp of less than 51 N·m/rad is refused", gains.
 refuses_negative_gains = _refuses("A negative gain is refused", gains.NEGATIVE)
 refuses_no_numbers = _refuses("NaN and infinity are refused", gains.NOT_FINITE)
 refuses_limits = _refuses("A kp of exactly 51 N·m/rad and a max_torque of 0 are refused", gains.LIMIT)
-refuses_integers_for_doubles = _refuses("An integer for a double is refused", gains.INTEGER, clause=4)
+takes_no_integer_for_a_double = _refuses("An integer for a double is refused", gains.INTEGER, clause=4)
 
 
 @obligation(5, of=record.changes)
