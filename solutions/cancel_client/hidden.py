@@ -48,7 +48,7 @@ DEAF = walk({"distances": way(60), "ends_after": 8.0, "cancel": {"agreed": None}
 CTRL_C_AFTER_Q = program("in_order", _ctrl_c_after_q)
 OFTEN = walk(
     {**ARRIVES, "ends_after": 6.0, "cancel": {"agreed": False}},
-    *(["type", "q"], ["wait", 1.5], ["offer"]),
+    *(["type", "w\nq"], ["wait", 1.5], ["offer"]),  # two lines that are pasted
     *typed("q", "q", after=3.0),
 )
 OTHER_LINES = walk(ARRIVES, *typed("", "quit", "stop"))

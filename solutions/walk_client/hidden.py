@@ -85,7 +85,7 @@ walks_as_long_as_it_takes = check_of(
     "walks_as_long_as_it_takes",
     model.sends_one_goal,
     model.follows_its_goal(8),
-    title="A walk of 12 s, with feedback at most 4.5 s apart, is followed to its end: only silence has a limit",
+    title="A late server, a late answer, and a walk of 12 s with feedback at most 4.5 s apart are waited for",
     points=2,
     on=SLOW,
     needs=checks.gives_up_in_silence,

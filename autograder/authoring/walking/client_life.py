@@ -231,6 +231,8 @@ def life_of(run: Transcript) -> ClientLife:
     offered = any(event.action == WALK for event in run.all(ev.ActionOffered))
     goal = require_one_goal(run, WALK) if offered else None
     asked = [
-        event.t for event in run.all(ev.NodeTyped) if event.line is not None and event.line.strip() == "q"
+        event.t
+        for event in run.all(ev.NodeTyped)
+        if any(line.strip() == "q" for line in (event.line or "").splitlines())
     ]
     return ClientLife(run, goal, asked)
