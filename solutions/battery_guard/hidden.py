@@ -101,7 +101,13 @@ def _agreed(ends_after: float | None) -> Server:
 OTHER_NAMESPACE = program("in_order", _any_walk, namespace="/lab_7/robot")
 WITHOUT_YAW = program("in_order", lambda random: _any_walk(random, arguments=2))
 AT_THE_LIMIT = guard(ARRIVES, *UNDER_WAY, *levels(0.23, 0.2, 0.2001), battery=0.2)
-JUST_BELOW = guard(_agreed(0.4), *WALKS, *levels(0.2, 0.31, 0.2001, 0.1999), *called_off(stands_after=0.9))
+RARE_FEEDBACK: Server = {"distances": way(2), "every": [0.4, 4.2]}  # s: the battery gets low in between
+JUST_BELOW = guard(
+    {**_agreed(0.4), **RARE_FEEDBACK},
+    *WALKS,
+    *levels(0.2, 0.31, 0.2001, 0.1999),
+    *called_off(stands_after=0.9),
+)
 STANDS_FIRST = guard(_agreed(2.5), *WALKS, ["battery", 0.0], *called_off(stands_after=0.5))
 BEFORE_ACCEPTANCE = program("in_order", _before_acceptance)
 SUCCEEDS = _dropping(ends_after=4.2, cancel={"ends_after": None})
