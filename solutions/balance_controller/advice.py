@@ -45,7 +45,7 @@ _TWINS = {"kp_pitch": "kp_roll", "kp_roll": "kp_pitch", "kd_pitch": "kd_roll", "
 
 
 def about_accepting(change: Change, fault: str) -> str:
-    """Return what to do about a set that was accepted with this fault of a value in it."""
+    """Return what to do when a set was accepted although one of its values has this fault."""
     if len(change.values) > 1 and next(iter(change.values)) not in change.faults:
         return "Look at every parameter in the list that the on-set callback gets, not only at the first one."
     return REFUSALS[fault][1]

@@ -87,7 +87,7 @@ def start_with(stage: ClientStage, name: str, value: str) -> None:
 
 
 def _parameters(values: Mapping[str, Any]) -> list[Parameter]:
-    """Return values as parameters of their Python types."""
+    """Return a parameter for each value, an integer or a double as the value's Python type says."""
     found = []
     for name, value in values.items():
         field, kind = _FIELDS[type(value)]

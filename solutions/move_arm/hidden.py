@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from random import Random
 from typing import Any
 
 from autograder.authoring import standard_hidden
+from autograder.authoring.arms.ranges import RANGES
 from autograder.authoring.checks import Scenario
 from autograder.authoring.obligation import check_of
 from autograder.authoring.walking.drawn import NUMBERS, rounded
@@ -30,10 +30,6 @@ from .checks import (
     stops_when_canceled,
 )
 
-ROLL = (
-    math.radians(-120),
-    math.radians(20),
-)  # rad, of r_shoulder_roll; the left one's range is its mirror image
 RIGHT = ["r_wrist_pitch", "r_elbow", "r_shoulder_roll"]
 SETTLING = 0.5  # s
 
@@ -81,7 +77,7 @@ def _steps(random: Random) -> dict[str, Any]:
 
 def _impossible(random: Random) -> list[list[Any]]:
     """Return steps that send goals for the right arm, each wrong at one of three points, or in its names or times."""
-    low, high = ROLL
+    low, high = RANGES["r_shoulder_roll"]  # the left one's range is its mirror image
     wrong: list[tuple[list[str], Any]] = [
         *(
             (RIGHT[2:], beyond)

@@ -37,10 +37,8 @@ SOONER = 0.15  # rad less, at which a server may already see that a joint is off
 REACTION = 1.5  # s for the server to say so
 GIVING_WAY = 5.0  # s
 OVERTAKING = 0.3  # s
-QUIET, NOTICED = (
-    0.8,
-    1.5,
-)  # s without joint_states before which nobody may give up, and after which it is noticed
+QUIET = 0.8  # s without joint_states before which nobody may give up
+NOTICED = 1.5  # s without them after which a server has noticed
 GIVEN_UP = 3.0  # s
 _SILENT = "Remember when the last joint_states came, and give up when that is more than 1 s ago."
 _WENT_ON = (
