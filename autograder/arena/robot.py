@@ -64,6 +64,10 @@ class Robot:
         """Charge or drain the battery to 0..1."""
         self._command("set_battery", percentage=percentage)
 
+    def set_up(self) -> None:
+        """Put the robot on its feet at the origin of odom, with its motors on and a full battery."""
+        self._command("reset")
+
     def set_motor_power(self, on: bool) -> None:
         """Switch the motors on or off."""
         self._command("motor_power", on=on)

@@ -74,6 +74,7 @@ class _Walker:
             "wait": self._stage.wait,
             "knock_over": lambda *impulse: self._stage.robot.knock_over(impulse),
             "cut_power": self.cut_power,
+            "set_up": self.set_up,
             "interrupt": self._stage.interrupt_node,
         }
 
@@ -167,4 +168,11 @@ class _Walker:
         robot = self._stage.robot
         robot.set_motor_power(False)
         robot.wait_for(lambda state: not state.motors_enabled)
+        self._stage.wait(SETTLING)
+
+    def set_up(self) -> None:
+        """Put the robot on its feet again, as after a fall, and let it say so."""
+        robot = self._stage.robot
+        robot.set_up()
+        robot.wait_for(lambda state: state.mode == RobotState.STANDING)
         self._stage.wait(SETTLING)
