@@ -13,7 +13,7 @@ from autograder.authoring.obligation import check_of
 from autograder.authoring.walking.client_scenarios import way
 
 from . import checks, model
-from .checks import ARRIVES, ON_AND_ON, STANDS, UNDER_WAY, WALKS, Server, called_off, guard, levels, script
+from .checks import ARRIVES, ON_AND_ON, STANDS, UNDER_WAY, WALKING, WALKS, Server, called_off, guard, levels, script
 
 NONE = (math.nan, 20.0, 1.001, -0.3, math.inf, 100.0)  # are no percentages
 ENDS = (GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_ABORTED)
@@ -22,7 +22,7 @@ REASON = "a chair stood in the way"
 
 
 def _between(random: Random, least: float, most: float) -> float:
-    return round(random.uniform(least, most), 2)
+    return round(random.uniform(least, most), 3)
 
 
 def _low(random: Random) -> float:
@@ -84,7 +84,9 @@ def _late_server(random: Random) -> Server:
 
 
 def _silent(random: Random) -> Server:
-    return script({"distances": way(random.randrange(8)), "ends_after": None})
+    """The server falls silent; the battery and the robot go on."""
+    news = [step for level in (0.8, 0.7, 0.6) for step in (["wait", 1.5], ["battery", level], WALKING)]
+    return script({"distances": way(random.randrange(8)), "ends_after": None}, *WALKS, *news)
 
 
 def _ctrl_c_in_vain(random: Random) -> Server:
@@ -105,7 +107,7 @@ RARE_FEEDBACK: Server = {"distances": way(2), "every": [0.4, 4.2]}  # s: the bat
 JUST_BELOW = guard(
     {**_agreed(0.4), **RARE_FEEDBACK},
     *WALKS,
-    *levels(0.2, 0.31, 0.2001, 0.1999),
+    *levels(0.2, 0.31, 0.2001, 0.31, 0.1999, apart=0.1),
     *called_off(stands_after=0.9),
 )
 STANDS_FIRST = guard(_agreed(2.5), *WALKS, ["battery", 0.0], *called_off(stands_after=0.5))

@@ -12,6 +12,7 @@ from autograder.authoring.walking.client_scenarios import (
     ABORTED,
     ABORTING,
     EARLY_FEEDBACK,
+    ON_AND_ON,
     UNANSWERED,
     WRONG_ARGUMENTS,
     any_course,
@@ -47,10 +48,11 @@ TOO_LATE = walk({"distances": way(3), "ends_after": 1.0, "result_after": 2.5}, *
 DEAF = walk({"distances": way(60), "ends_after": 8.0, "cancel": {"agreed": None}}, *typed("q"))
 CTRL_C_AFTER_Q = program("in_order", _ctrl_c_after_q)
 OFTEN = walk(
-    {**ARRIVES, "ends_after": 6.0, "cancel": {"agreed": False}},
-    *(["type", "w\nq"], ["wait", 1.5], ["offer"]),  # two lines that are pasted
+    {**ARRIVES, "after": 3.2, "ends_after": 6.0, "cancel": {"agreed": False}},
+    *(["type", "w\nq"], ["wait", 3.0], ["offer"]),  # two lines that are pasted; server and answer are late
     *typed("q", "q", after=3.0),
 )
+NEVER_CANCELED = walk({**ON_AND_ON, "cancel": {"ends_after": None}}, *typed("q"), ["press_ctrl_c"])
 OTHER_LINES = walk(ARRIVES, *typed("", "quit", "stop"))
 NO_INPUT = walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, ["end_input"])
 SILENT_ON_THE_WAY = program("in_order", lambda random: silence_on_the_way(random, types=True))
@@ -118,7 +120,7 @@ does_not_wait_for_the_answer = check_of(
     model.follows_its_goal(3, 8),
     title="A cancel that gets no answer holds up nothing; after a q, too, Ctrl-C ends it with status 4 in any case",
     points=2,
-    on=[DEAF, CTRL_C_AFTER_Q],
+    on=[DEAF, CTRL_C_AFTER_Q, NEVER_CANCELED],
     needs=[checks.q_cancels_the_goal, checks.ctrl_c_cancels_the_goal],
     see="03_clients_that_survive#kill-why",
 )

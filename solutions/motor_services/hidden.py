@@ -13,7 +13,7 @@ from . import checks, model
 
 
 def _on_the_floor(random: Random) -> dict[str, Any]:
-    """Power while it walks any way but ahead, once it stands, while it falls, and when it lies there."""
+    """Power while it walks any way but ahead, also in silence, once it stands, while it falls, and when it lies there."""
     side = random.choice((-1, 1))
     velocities = (
         [0.0, 0.0, side * random.uniform(0.25, 0.4)],
@@ -25,6 +25,7 @@ def _on_the_floor(random: Random) -> dict[str, Any]:
         [["switch", True], ["wait", 1.6]],
         [["ask", 1]],
         [["switch", False], ["switch", True], ["switch", False], ["wait", 0.5]],
+        [["publish_state", False], ["wait", 5.5], ["switch", False], ["ask", 1], ["publish_state", True]],
     ]
     random.shuffle(walking)
     fallen: list[list[list[Any]]] = [[["switch", True]], [["switch", False]], [["ask", 2]]]
@@ -41,13 +42,16 @@ def _on_the_floor(random: Random) -> dict[str, Any]:
 
 
 def _on_the_stand(random: Random) -> dict[str, Any]:
-    """Before the first robot_state, then in any order: repeats, another node, silences, many at once."""
+    """Both before the first robot_state, then in any order: repeats, another node, silences, many at once."""
     first = random.choice((True, False))
     silence = round(random.uniform(0.5, 2.0), 1)
     blocks: list[list[list[Any]]] = [
         [["switch", False], ["switch_elsewhere", True], ["switch", False], ["settle"], ["ask", 1]],
         [["switch", True], ["switch_elsewhere", False], ["switch", True], ["settle"], ["ask", 1]],
-        [["switch_elsewhere", False], ["switch", False], ["ask", 1], ["switch_and_ask", True, 7, 4]],
+        [
+            *(["switch_elsewhere", False], ["switch", False], ["ask", 1], ["switch_and_ask", True, 5, 4]),
+            *(["settle"], ["switch_and_ask", True, 7, 2]),  # what is so already: no wait for a confirmation
+        ],
         [
             *(["switch_elsewhere", first], ["publish_state", False], ["switch_elsewhere", not first]),
             *(["wait", silence], ["ask", 1], ["switch", first], ["switch", not first, 3], ["wait", 2.6]),
@@ -55,7 +59,9 @@ def _on_the_stand(random: Random) -> dict[str, Any]:
         ],
     ]
     random.shuffle(blocks)
-    before = [["ask", 1], ["switch", True], ["wait", round(random.uniform(0.5, 2.0), 1)], ["ask", 2]]
+    unknown = [["switch", True], ["switch", False]]
+    random.shuffle(unknown)
+    before = [["ask", 1], *unknown, ["wait", round(random.uniform(0.5, 2.0), 1)], ["ask", 2]]
     return {
         "steps": [
             *before,

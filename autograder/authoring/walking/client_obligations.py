@@ -58,6 +58,7 @@ BECAME = {
     GoalStatus.STATUS_ABORTED: r"abort|\bstatus\W+6\b",
     None: r"\b(not|never|still|yet|without|unknown|unfinished|goes on|going on|gave up|no (end|result))\b|n't",
 }
+ROTATION = 0.002  # rad, and of a quaternion's length, by which a goal may differ from the arguments
 _ON_Q = (
     "Read stdin in a thread that sets an event; where you wait for the result, look at the event and call "
     "goal_handle.cancel_goal_async()."
@@ -96,7 +97,7 @@ def require_pose(run: Transcript, goal: ScriptedGoal, field: str) -> str:
     heading = 2 * math.atan2(rotation.z, rotation.w)
     length = math.hypot(rotation.x, rotation.y, rotation.z, rotation.w)
     expect(
-        abs(math.remainder(heading - yaw, math.tau)) < 0.01 and abs(length - 1.0) < 0.01,
+        abs(math.remainder(heading - yaw, math.tau)) < ROTATION and abs(length - 1.0) < ROTATION,
         expected=f"a quaternion that turns by {yaw:g} rad about z",
         observed=f"x {rotation.x:.3f}, y {rotation.y:.3f}, z {rotation.z:.3f}, w {rotation.w:.3f}",
         help="orientation.z = math.sin(yaw / 2) and orientation.w = math.cos(yaw / 2); without a yaw, w is 1.0.",

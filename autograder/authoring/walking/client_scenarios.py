@@ -68,7 +68,7 @@ WRONG_ARGUMENTS = (["1.0"], ["one", "0.5"], ["1.0", "0.5", "0.3", "0.2"])
 def any_pose(random: Random, arguments: int = 3) -> list[str]:
     """Return arguments with negative numbers, and a turn of more than half of one."""
     x, y, yaw = random.uniform(-2.0, -0.3), random.uniform(-2.0, -0.3), random.uniform(-6.0, -3.3)
-    return [f"{value:.2f}" for value in (x, y, yaw)[:arguments]]
+    return [f"{value:.3f}" for value in (x, y, yaw)[:arguments]]
 
 
 def any_walk(random: Random, arguments: int = 3) -> Script:
