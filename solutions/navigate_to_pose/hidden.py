@@ -39,7 +39,7 @@ def _steps(random: Random) -> dict[str, Any]:
     """
     side = random.choice((-1, 1))
     x, y = random.uniform(0.6, 1.0), side * random.uniform(0.4, 0.8)
-    angle = random.uniform(-0.5, 0.5)
+    angle = random.uniform(-0.05, 0.05)  # rad: the way back goes where a heading jumps from pi to -pi
     behind_it = [-1.5, side * 0.5, 0.0]
     behind = (x - 0.9 * math.cos(angle), y - 0.9 * math.sin(angle), random.uniform(-math.pi, math.pi))
 

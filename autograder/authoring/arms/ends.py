@@ -39,7 +39,7 @@ GIVING_WAY = 5.0  # s
 OVERTAKING = 0.3  # s
 QUIET = 0.8  # s without joint_states before which nobody may give up
 NOTICED = 1.5  # s without them after which a server has noticed
-GIVEN_UP = 3.0  # s
+GIVEN_UP = 2.0  # s
 _SILENT = "Remember when the last joint_states came, and give up when that is more than 1 s ago."
 _WENT_ON = (
     "The old goal went on after the new one was accepted. How does its loop learn that it is no longer the arm's "
