@@ -58,7 +58,7 @@ BECAME = {
     GoalStatus.STATUS_ABORTED: r"abort|\bstatus\W+6\b",
     None: r"\b(not|never|still|yet|without|unknown|unfinished|goes on|going on|gave up|no (end|result))\b|n't",
 }
-ROTATION = 0.002  # rad, and of a quaternion's length, by which a goal may differ from the arguments
+ROTATION = 0.0005  # rad, and of a quaternion's length, by which a goal may differ from the arguments
 _ON_Q = (
     "Read stdin in a thread that sets an event; where you wait for the result, look at the event and call "
     "goal_handle.cancel_goal_async()."

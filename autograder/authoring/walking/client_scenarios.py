@@ -12,7 +12,7 @@ from typing import Any
 
 from autograder.authoring.checks import Scenario, program
 
-ARGUMENTS = ("1.0", "0.5", "0.3")  # x m, y m, yaw rad
+ARGUMENTS = ("1.025", "0.475", "0.335")  # x m, y m, yaw rad
 SUCCEEDED, CANCELED, ABORTED = range(4, 7)  # of action_msgs/GoalStatus
 LONGEST_GAP = 4.5  # s between two signs of life: 5 are silence
 LONGEST_WALK = 12.0  # s of feedback
