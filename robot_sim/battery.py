@@ -33,12 +33,14 @@ class Battery:
 
     Attributes:
         percentage: charge, 0 to 1.
+        pack: the pack's serial number, from 1.
         energy_used: since it was made, J.
     """
 
     def __init__(self, parameters: BatteryParameters | None = None) -> None:
         self.parameters = parameters or BatteryParameters()
         self.percentage = 1.0
+        self.pack = 1
         self.energy_used = 0.0
         self._power = self._latest_power = self.parameters.idle_power
 
@@ -63,7 +65,7 @@ class Battery:
         return self.percentage <= 0.0
 
     def set_percentage(self, percentage: float) -> None:
-        """Set the charge (0 to 1), as a charger or an experiment would.
+        """Replace the pack by one with this charge (0 to 1).
 
         Raises:
             ValueError: the percentage is not within 0 and 1.
@@ -71,6 +73,7 @@ class Battery:
         if not 0.0 <= percentage <= 1.0:
             raise ValueError(f"percentage is {percentage}; expected 0 (empty) to 1 (full)")
         self.percentage = float(percentage)
+        self.pack += 1
 
     def drain(self, torque: np.ndarray, velocity: np.ndarray, dt: float) -> None:
         """Discharge by what motors and electronics draw in one timestep.

@@ -61,7 +61,7 @@ class Robot:
         self._command("take_over", velocity=None)
 
     def set_battery(self, percentage: float) -> None:
-        """Charge or drain the battery to 0..1."""
+        """Replace the battery by one with this charge, 0 to 1."""
         self._command("set_battery", percentage=percentage)
 
     def set_up(self) -> None:

@@ -128,7 +128,6 @@ class HumanoidNode(Node):
             design_capacity=design_charge,
             cell_temperature=[math.nan] * cells,
             location="torso",
-            serial_number="8S-0001",
             power_supply_status=BatteryState.POWER_SUPPLY_STATUS_DISCHARGING,
             power_supply_health=BatteryState.POWER_SUPPLY_HEALTH_GOOD,
             power_supply_technology=BatteryState.POWER_SUPPLY_TECHNOLOGY_LION,
@@ -269,6 +268,7 @@ class HumanoidNode(Node):
             return
         battery = self.humanoid.battery
         message = self._battery_message
+        message.serial_number = f"8S-{battery.pack:04}"
         message.voltage, message.current = battery.voltage, battery.current
         message.percentage = battery.percentage if self.charge_measured else math.nan
         message.charge = message.percentage * message.capacity
