@@ -13,7 +13,19 @@ from autograder.authoring.obligation import check_of
 from autograder.authoring.walking.client_scenarios import way
 
 from . import checks, model
-from .checks import ARRIVES, ON_AND_ON, STANDS, UNDER_WAY, WALKING, WALKS, Server, called_off, guard, levels, script
+from .checks import (
+    ARRIVES,
+    ON_AND_ON,
+    STANDS,
+    UNDER_WAY,
+    WALKING,
+    WALKS,
+    Server,
+    called_off,
+    guard,
+    levels,
+    script,
+)
 
 NONE = (math.nan, 20.0, 1.001, -0.3, math.inf, 100.0)  # are no percentages
 ENDS = (GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_ABORTED)

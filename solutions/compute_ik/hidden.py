@@ -86,7 +86,12 @@ def _no_numbers(random: Random) -> dict[str, Any]:
         for bad in NO_LENGTHS
         for step in (["set", [random.choice(names), bad]], ["ask", [0.4, 0.3]], ["ask", [0.1, -0.1, True]])
     ]
-    points_again = [[0.2, 0.3], [0.0, 0.0], [0.4, 0.3], [-0.3, 0.3]]  # equal lengths reach the shoulder itself
+    points_again = [
+        [0.2, 0.3],
+        [0.0, 0.0],
+        [0.4, 0.3],
+        [-0.3, 0.3],
+    ]  # equal lengths reach the shoulder itself
     again = [["set", *([name, 0.35] for name in names)], *(["ask", point] for point in points_again)]
     return {"steps": [*asked, *set_badly, *again]}
 

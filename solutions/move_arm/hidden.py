@@ -6,7 +6,6 @@ from random import Random
 from typing import Any
 
 from autograder.authoring import standard_hidden
-from autograder.authoring.arms.ranges import RANGES
 from autograder.authoring.checks import Scenario
 from autograder.authoring.obligation import check_of
 from autograder.authoring.walking.drawn import NUMBERS, rounded
@@ -29,6 +28,7 @@ from .checks import (
     rejects_out_of_range,
     stops_when_canceled,
 )
+from .ranges import RANGES
 
 RIGHT = ["r_wrist_pitch", "r_elbow", "r_shoulder_roll"]
 SETTLING = 0.5  # s

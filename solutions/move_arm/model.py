@@ -5,9 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from autograder.authoring import events as ev
-from autograder.authoring.arms import ends, motion, reports
-from autograder.authoring.arms.life import hold_of, is_carried_out, neighbours, rivals
-from autograder.authoring.arms.objections import (
+from autograder.authoring.goal import CANCELED, Goal
+from autograder.authoring.obligation import Obligation, goals, obligation, whole_run
+from autograder.authoring.walking.life import phase
+from autograder.authoring.walking.objections import rejecting
+from autograder.authoring.walking.obligations.cancels import answers_every_cancel
+from autograder.authoring.walking.obligations.ends import status_in_order
+from autograder.authoring.walking.obligations.tells import (
+    feedback_ends_with_the_goal as no_feedback_afterwards,
+)
+
+from . import ends, motion, reports
+from .life import hold_of, is_carried_out, neighbours, rivals
+from .objections import (
     AGAINST,
     ARM,
     JOINT,
@@ -19,16 +29,7 @@ from autograder.authoring.arms.objections import (
     UNSAID,
     Objection,
 )
-from autograder.authoring.arms.truth import require_accepted
-from autograder.authoring.goal import CANCELED, Goal
-from autograder.authoring.obligation import Obligation, goals, obligation, whole_run
-from autograder.authoring.walking.life import phase
-from autograder.authoring.walking.objections import rejecting
-from autograder.authoring.walking.obligations.cancels import answers_every_cancel
-from autograder.authoring.walking.obligations.ends import status_in_order
-from autograder.authoring.walking.obligations.tells import (
-    feedback_ends_with_the_goal as no_feedback_afterwards,
-)
+from .truth import require_accepted
 
 
 def _rejects(clause: int, name: str, objection: Objection, sentence: str) -> Obligation:

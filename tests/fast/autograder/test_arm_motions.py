@@ -11,12 +11,12 @@ from records import failure_of, run_of
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from autograder.authoring import events as ev
-from autograder.authoring.arms import ends, motion, reports
-from autograder.authoring.arms.plan import Plan
-from autograder.authoring.arms.ranges import RANGES
 from humanoid_interfaces.action import MoveArm
 from robot_sim.arms.joint_trajectory import MOVABLE
 from robot_sim.humanoid import Humanoid
+from solutions.move_arm import ends, motion, reports
+from solutions.move_arm.plan import Plan
+from solutions.move_arm.ranges import RANGES
 
 ELBOW = "l_elbow"
 START, HALF, END = -0.5, -1.5, -1.0  # rad, at 0, 2 and 4 s

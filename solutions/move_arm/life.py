@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from enum import Enum
 
 from autograder.authoring import events as ev
-from autograder.authoring.arms.endings import GOAL_TOLERANCE, PATIENCE
-from autograder.authoring.arms.objections import AGAINST, UNSAID
-from autograder.authoring.arms.plan import errors, largest
-from autograder.authoring.arms.truth import joints_at, plan_of
 from autograder.authoring.goal import Goal
 from autograder.authoring.walking.life import accepted, ended_at, granted, interrupted, others, run_of
+
+from .endings import GOAL_TOLERANCE, PATIENCE
+from .objections import AGAINST, UNSAID
+from .plan import errors, largest
+from .truth import joints_at, plan_of
 
 PATH_TOLERANCE = 0.5  # rad
 NEARLY = 0.1  # rad less, from which on nobody can tell whether a joint is off its trajectory

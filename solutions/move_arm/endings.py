@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from autograder.authoring.arms.plan import errors, largest
-from autograder.authoring.arms.truth import joints_at, plan_of
 from autograder.authoring.failure import Failure
 from autograder.authoring.goal import ABORTED, Goal
 from autograder.authoring.goal_endings import lesson_on_the_end, why_rclpy_aborted
 from humanoid_interfaces.action import MoveArm
 from ros_runtime.message_constants import name_of
+
+from .plan import errors, largest
+from .truth import joints_at, plan_of
 
 GOAL_TOLERANCE = 0.05  # rad, where the goal says 0
 PATIENCE = 1.0  # s after the last point in which the arm may still arrive

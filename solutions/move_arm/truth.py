@@ -6,11 +6,12 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 
 from autograder.authoring import events as ev
-from autograder.authoring.arms.plan import Plan
 from autograder.authoring.connections import why_nothing_is_heard
 from autograder.authoring.goal import Goal
 from autograder.authoring.missing import unseen
 from autograder.authoring.robot_record import LONGEST_GAP, RobotRecord
+
+from .plan import Plan
 
 _ACCEPT = (
     "goal_callback must return GoalResponse.ACCEPT for a trajectory in which nothing is wrong (True is not "

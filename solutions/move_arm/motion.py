@@ -10,21 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from autograder.authoring import events as ev
-from autograder.authoring.arms.endings import why_given_up
-from autograder.authoring.arms.life import (
-    Fate,
-    ends_by_itself,
-    fate_of,
-    hold_of,
-    is_carried_out,
-    neighbours,
-    next_for_the_arm,
-    silent_since,
-    situation,
-    successors,
-)
-from autograder.authoring.arms.plan import errors, largest, speeds
-from autograder.authoring.arms.truth import joints_at, joints_between, plan_of
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.missing import unseen
@@ -38,6 +23,22 @@ from autograder.authoring.walking.life import (
     requests_to_cancel,
     run_of,
 )
+
+from .endings import why_given_up
+from .life import (
+    Fate,
+    ends_by_itself,
+    fate_of,
+    hold_of,
+    is_carried_out,
+    neighbours,
+    next_for_the_arm,
+    silent_since,
+    situation,
+    successors,
+)
+from .plan import errors, largest, speeds
+from .truth import joints_at, joints_between, plan_of
 
 PASSED = 0.2  # rad, of a point on the way
 AROUND = 0.8  # s before and after the time at which a point is due

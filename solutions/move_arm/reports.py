@@ -11,16 +11,17 @@ import math
 import re
 
 from autograder.authoring import events as ev
-from autograder.authoring.arms.endings import GOAL_TOLERANCE, ErrorCode
-from autograder.authoring.arms.life import ends_by_itself, hold_of, is_carried_out, silent_since, situation
-from autograder.authoring.arms.plan import Plan, errors, largest
-from autograder.authoring.arms.ranges import RANGES
-from autograder.authoring.arms.truth import joints_at, joints_between, plan_of
 from autograder.authoring.failure import expect
 from autograder.authoring.feedback import end_of_feedback, require_feedback, require_good_feedback_rate
 from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.walking.life import ended_at, interrupted, left_alone
 from autograder.authoring.walking.reports import require_error_code
+
+from .endings import GOAL_TOLERANCE, ErrorCode
+from .life import ends_by_itself, hold_of, is_carried_out, silent_since, situation
+from .plan import Plan, errors, largest
+from .ranges import RANGES
+from .truth import joints_at, joints_between, plan_of
 
 AGE = 0.7  # s that what feedback tells may be old, or early
 FEW = 4  # reports of the simulator, of which each so many'th is looked at; there are 50 a second

@@ -6,10 +6,11 @@ import math
 from collections.abc import Iterator
 from itertools import pairwise
 
-from autograder.authoring.arms.plan import seconds_of
-from autograder.authoring.arms.ranges import RANGES
 from autograder.authoring.goal import Goal
 from autograder.authoring.walking.objections import Objection
+
+from .plan import seconds_of
+from .ranges import RANGES
 
 ARMS = ("l", "r")
 AT_THE_END = 0.001  # rad; what is so near the end of a range may be rounded

@@ -8,8 +8,14 @@ succeeds = obligation(7, of=goals)(ends.succeeds)
 from __future__ import annotations
 
 from autograder.authoring import events as ev
-from autograder.authoring.arms.endings import PATIENCE, ErrorCode, require_not_given_up
-from autograder.authoring.arms.life import (
+from autograder.authoring.failure import Failure, expect
+from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED, Goal
+from autograder.authoring.walking.life import ended_at, granted, left_alone, phase, requests_to_cancel
+from autograder.authoring.walking.reports import require_error_code
+from ros_runtime.message_constants import name_of
+
+from .endings import PATIENCE, ErrorCode, require_not_given_up
+from .life import (
     MEASURED,
     PATH_TOLERANCE,
     Fate,
@@ -23,14 +29,9 @@ from autograder.authoring.arms.life import (
     successors,
     tolerance_of,
 )
-from autograder.authoring.arms.motion import require_moving
-from autograder.authoring.arms.plan import errors, largest
-from autograder.authoring.arms.truth import joints_at, joints_between, plan_of
-from autograder.authoring.failure import Failure, expect
-from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED, Goal
-from autograder.authoring.walking.life import ended_at, granted, left_alone, phase, requests_to_cancel
-from autograder.authoring.walking.reports import require_error_code
-from ros_runtime.message_constants import name_of
+from .motion import require_moving
+from .plan import errors, largest
+from .truth import joints_at, joints_between, plan_of
 
 EARLY = 0.5  # s that a server may have begun before its answer was seen
 SOONER = 0.15  # rad less, at which a server may already see that a joint is off
