@@ -77,7 +77,11 @@ DROP = guard(
     {**ON_AND_ON, "cancel": {"ends_after": 0.6}},
     *(*WALKS, *levels(0.31, 0.19, 0.18, 0.17), *called_off(stands_after=2.6)),
 )
-NO_PERCENTAGE_AT_ALL = guard(ARRIVES, *UNDER_WAY, *levels(math.nan, 20.0, 15.0, math.nan, -0.3))
+NO_PERCENTAGE_AT_ALL = guard(
+    ARRIVES,
+    *(["wait", 1.0], ["battery", 0.9], *UNDER_WAY, *levels(math.nan, 20.0, 15.0, math.nan, -0.3)),
+    battery=math.nan,
+)
 INTERRUPTED = guard(
     {**ON_AND_ON, "cancel": {"ends_after": 1.0}},
     *(*UNDER_WAY, ["press_ctrl_c"]),
@@ -171,7 +175,7 @@ waits_until_the_robot_stands = check_of(
 ignores_what_is_no_percentage = check_of(
     "ignores_what_is_no_percentage",
     model.ignores_what_is_none,
-    title="NaN, 20.0, 15.0 and -0.3 on the way are ignored, with one warning line on stderr",
+    title="NaN, before the goal and on the way, 20.0, 15.0 and -0.3 are ignored, with one warning line on stderr",
     points=2,
     on=NO_PERCENTAGE_AT_ALL,
     needs=sends_the_goal,

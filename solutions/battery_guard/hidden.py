@@ -103,7 +103,7 @@ def _silent(random: Random) -> Server:
 
 def _ctrl_c_in_vain(random: Random) -> Server:
     end = {"ends_after": 4.2, "status": random.choice(ENDS), "error_msg": REASON}
-    server = {**ON_AND_ON, **end, "cancel": random.choice(IN_VAIN)}
+    server = {**ON_AND_ON, **end, "cancel": {"agreed": False}}
     return script(server, *UNDER_WAY, ["wait", _between(random, 0.0, 0.8)], ["press_ctrl_c"])
 
 

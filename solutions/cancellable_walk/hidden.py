@@ -20,7 +20,7 @@ Steps = list[list[Any]]
 
 
 def _walks(random: Random) -> dict[str, Any]:
-    """Turn its back, cross pi, give way twice and to one of two, reject meanwhile; fall without power.
+    """Turn its back, cross pi, give way twice, once to the same pose, and to one of two, reject meanwhile; fall.
 
     A velocity in odom's axes leads away from the second pose.
     """
@@ -33,7 +33,7 @@ def _walks(random: Random) -> dict[str, Any]:
     blocks: list[Steps] = [
         [
             *(["go", "first", *FAR, 0.0], ["walk_for", random.uniform(0.2, 0.8)]),
-            *(["go", "second", 1.0, 0.5, 0.0, 0.0], ["walk_for", random.uniform(0.2, 0.8)]),
+            *(["go", "second", *aside, 0.0], ["walk_for", random.uniform(0.2, 0.8)]),
             *(["go", "third", *aside, 0.0], ["end", "first"], ["end", "second"], ["arrive", "third"]),
         ],
         [

@@ -30,7 +30,7 @@ def _targets(random: Random) -> dict[str, Any]:
     ]
     beyond = [at_distance(random, random.uniform(0.56, 5.0)), at_distance(random, random.uniform(0.0, 0.04))]
     within = [anywhere(random, DEFAULT) for _ in range(12)]
-    frames = [[*anywhere(random, DEFAULT), frame] for frame in random.sample(OTHER_FRAMES, 4)]
+    frames = [[*anywhere(random, DEFAULT), frame] for frame in OTHER_FRAMES]
     high = [[*anywhere(random, DEFAULT), "shoulder", random.choice([-1.0, 0.3, 40.0])] for _ in range(3)]
     questions = [*limits, *beyond, *within, *frames, *high]
     random.shuffle(questions)
@@ -39,7 +39,7 @@ def _targets(random: Random) -> dict[str, Any]:
 
 
 def _lengths(random: Random) -> dict[str, Any]:
-    """Read the lengths, set one, the other, both, and some that are none; ask all over the reach after each."""
+    """Read the lengths, set one, the other, both, at last a good and a bad one; ask all over the reach after each."""
     names = list(DEFAULT.parameters)
     upper_arm, forearm, *_ = lengths = [[name, round(random.uniform(0.1, 0.6), 3)] for name in 3 * names]
     arm = DEFAULT.parameters
@@ -60,11 +60,14 @@ def _lengths(random: Random) -> dict[str, Any]:
         *(["set_together", *lengths[4:]], ["set_together", *forearm_first]),
     ]
     random.shuffle(blocks)
+    sets = [step for block in blocks for step in set_and_ask(*block)]
+    good, bad = random.sample(names, 2)
+    half_good = ["set_together", [good, round(0.7 * arm[good], 3)], [bad, random.choice(NO_LENGTHS)]]
     return {
         "steps": [
             ["get", *names],
             *(["ask", anywhere(random, DEFAULT)] for _ in range(2)),
-            *(step for block in blocks for step in set_and_ask(*block)),
+            *(*sets, half_good, *(["ask", anywhere(random, TwoLinkArm(*arm.values()))] for _ in range(4))),
         ]
     }
 

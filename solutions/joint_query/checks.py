@@ -32,6 +32,9 @@ def in_order(*steps: list[Any], robot: tuple[str, ...] = RESTING, **options: Any
 
 
 ASK = in_order(["let_arrive"], ["ask", SOME_JOINTS], ["ask", []], interrupt=True)
+UNHEARD = in_order(
+    ["ask", SOME_JOINTS], robot=UNPLUGGED_ROBOT, interrupt=True
+)  # Ctrl-C before the first message
 MOVED = in_order(
     *(["let_arrive"], ["ask", [*POSTURE]], ["reverse", True], ["move", POSTURE], ["ask", [*POSTURE]]),
     *(["unplug"], ["wait", 5.5], ["ask", [*POSTURE]]),
@@ -112,4 +115,4 @@ says_when_it_knows_nothing = check_of(
     see=KNOWS_NOTHING,
 )
 
-ends_cleanly = standard.ends_cleanly(points=1, on=ASK, needs=server_appears, clauses=[8])
+ends_cleanly = standard.ends_cleanly(points=1, on=[ASK, UNHEARD], needs=server_appears, clauses=[8])

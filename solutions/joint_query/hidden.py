@@ -50,7 +50,7 @@ def _steps(random: Random) -> dict[str, Any]:
     def seconds(least: float, most: float) -> float:
         return round(random.uniform(least, most), 1)
 
-    first, second, third, fourth = (readings() for _ in range(4))
+    first, second, third, fourth, fifth = (readings() for _ in range(5))
     burst = [[], joints(), joints(), repeated(), mixed(), joints(), strangers(), joints()]
     at_the_very_last: list[list[Any]] = [
         step
@@ -72,9 +72,13 @@ def _steps(random: Random) -> dict[str, Any]:
             *(["ask", [*third]], ["ask", []], ["plug_in"]),
         ],
         [["read", {}], *at_the_very_last],
+        [
+            *(["set_clock", -round(seconds(60.0, 4000.0))], ["read", fifth], ["let_arrive"]),
+            *(["ask", [*fifth]], ["set_clock", 0]),
+        ],
         [["ask", *random.sample(burst, MOST_AT_ONCE)]],
         [["ask", [""], strangers()[:1]], ["ask", mixed()], ["ask", joints()], ["ask", repeated()]],
-        [["read", {}], ["turn", "head_pan", random.choice([-0.8, 0.8])], *keeping_on],
+        [["read", {}], ["turn", "head_pan", 0.8], *keeping_on],
     ]
     random.shuffle(blocks)
     before = [

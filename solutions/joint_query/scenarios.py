@@ -43,6 +43,7 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
             "alternate": stage.robot.alternate_joint_states,
             "unplug": lambda: stage.robot.connect_joint_sensors(False),
             "plug_in": stage.robot.connect_joint_sensors,
+            "set_clock": stage.robot.set_clock,
             "let_arrive": let_arrive,
             "wait": stage.wait,
         },

@@ -13,6 +13,9 @@ ON_A_STAND = ("--scene", "stand")
 INTERRUPT = Scenario("in_order", {"steps": [["ask", 1]], "interrupt": True}, robot=RESTING)
 CUT_AND_RETURNED = [["switch_elsewhere", False], ["ask", 3], ["switch_elsewhere", True], ["ask", 1]]
 NOT_CONFIRMED = [["publish_state", False], ["switch", False], ["settle"], ["ask", 1]]
+UNHEARD = Scenario(
+    "in_order", {"steps": [["ask", 1]], "interrupt": True}, robot=(*RESTING, "--robot-state-unpublished")
+)  # Ctrl-C before the first robot_state
 STATUS = Scenario("in_order", {"steps": CUT_AND_RETURNED + NOT_CONFIRMED}, robot=ON_A_STAND)
 SILENT_ROBOT = Scenario(
     "in_order",
@@ -87,4 +90,4 @@ refuses_off_while_walking = check_of(
     see=REFUSES,
 )
 
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears, clauses=[7])
+ends_cleanly = standard.ends_cleanly(points=1, on=[INTERRUPT, UNHEARD], needs=server_appears, clauses=[7])

@@ -13,7 +13,7 @@ from . import checks, model
 
 
 def _on_the_floor(random: Random) -> dict[str, Any]:
-    """Power while it walks any way but ahead, also in silence, once it stands, while it falls, and when it lies there."""
+    """Power while it walks any way but ahead, also in silence, once it stands, as it falls, and when it lies."""
     side = random.choice((-1, 1))
     velocities = (
         [0.0, 0.0, side * random.uniform(0.25, 0.4)],

@@ -59,6 +59,11 @@ def _steps(random: Random) -> dict[str, Any]:
             *(["end", "new"], arrive("newest", 1.0), ["wait", LISTENING]),
         ],
         [["go_on", "here", 0.0, 0.0, 0.0], ["end", "here"], ["wait", LISTENING]],
+        [
+            ["go_on", "turn", 0.0, 0.0, side * random.uniform(0.8, 1.2)],
+            arrive("turn", 0.0),
+            ["wait", LISTENING],
+        ],
     ]
     random.shuffle(blocks)
     steps = [

@@ -59,7 +59,7 @@ def _steps(random: Random) -> dict[str, Any]:
         ),  # when all else is done, so that one that is accepted is in nobody's way
         *(["go", "far", 0.0, 0.0, 0.0, 0.3], ["walk_for", round(random.uniform(0.3, 1.0), 2)]),
         *(["cut_power"], ["end", "far"], ["wait", LISTENING], ["go", "lying", 0.0, 0.0, 0.0]),
-        *(["set_up"], ["go", "up again", 0.2, 0.0, 0.0, 0.0], ["arrive", "up again"]),
+        *(["set_up"], ["go", "up again", -0.4, 0.0, 0.0, 0.1], ["arrive", "up again"]),
     ]
     return {"steps": rounded(steps)}
 

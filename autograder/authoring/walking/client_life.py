@@ -122,8 +122,13 @@ class ClientLife:
 
     @property
     def result(self) -> float:
-        """When the result was sent to it."""
-        return self.goal.result_sent.t if self.goal and self.goal.result_sent else inf
+        """When the result was sent to it; to a client that never asks for it, when it would have been."""
+        goal, after = self.goal, (self.run.params.get("server") or {}).get("result_after", 0.0)
+        if goal and goal.result_sent:
+            return goal.result_sent.t
+        if goal and goal.finished and goal.result_requested is None and after is not None:
+            return goal.finished.t + after
+        return inf
 
     @property
     def died(self) -> float:
@@ -182,10 +187,9 @@ class ClientLife:
         if self.interrupted < inf:
             due = self.interrupted
             found.append(self._cause("Ctrl-C", "you pressed Ctrl-C", due, due))
-        unasked = self.goal is not None and self.goal.finished and not self.goal.result_requested
         for since, latest, is_certain in self.silences():
             because = f"nothing was heard of it for {PATIENCE:g} s"
-            found.append(self._cause("silence", because, since - MARGIN, latest, is_certain and not unasked))
+            found.append(self._cause("silence", because, since - MARGIN, latest, is_certain))
         return found
 
     def _cause(

@@ -95,14 +95,14 @@ def slow_walk(random: Random) -> Script:
 
 
 def silence_on_the_way(random: Random, *, types: bool = False) -> Script:
-    """Return a server that falls silent or dies, at once or on the way, and answers no cancel."""
+    """Return a server that falls silent or dies, after a q if one `types`, and answers no cancel."""
     server: Script = {
         "distances": way(random.randrange(6)),
         "ends_after": random.choice([None, 1.2]),
         "result_after": None,
         "cancel": {"agreed": None},
     }
-    steps = typed("q") if types and random.random() < 0.5 else []
+    steps = typed("q") if types else []
     if random.random() < 0.5:
         server |= ON_AND_ON
         steps = [*(steps or [["await_answer"], ["wait", 0.6]]), ["end_server"]]
