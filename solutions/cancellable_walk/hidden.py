@@ -29,12 +29,13 @@ def _walks(random: Random) -> dict[str, Any]:
     x, y = random.uniform(0.2, 0.3), random.uniform(-0.1, 0.1)
     beyond = (x + 0.35 * math.cos(yaw), y + 0.35 * math.sin(yaw), -side * random.uniform(3.0, 3.1))
     aside = (beyond[0], beyond[1] + random.choice((-0.2, 0.2)), beyond[2])
+    onwards = (x + 0.95 * math.cos(yaw), y + 0.95 * math.sin(yaw), beyond[2])
     rejected = impossible(random)
     blocks: list[Steps] = [
         [
             *(["go", "first", *FAR, 0.0], ["walk_for", random.uniform(0.2, 0.8)]),
-            *(["go", "second", *aside, 0.0], ["walk_for", random.uniform(0.2, 0.8)]),
-            *(["go", "third", *aside, 0.0], ["end", "first"], ["end", "second"], ["arrive", "third"]),
+            *(["go", "second", *onwards, 0.0], ["walk_for", random.uniform(0.2, 0.8)]),
+            *(["go", "third", *onwards, 0.0], ["end", "first"], ["end", "second"], ["arrive", "third"]),
         ],
         [
             ["go_together", ["one", *aside, 0.0], ["two", *beyond, 0.0], ["three", *aside, 0.0]],
