@@ -141,7 +141,7 @@ class Check:
 
 def check(
     *,
-    points: int,
+    points: int = 1,
     on: Scenario | Sequence[Scenario],
     needs: Check | Sequence[Check] = (),
     see: str = "",
@@ -169,7 +169,7 @@ def named_check(
     title: str,
     judge: Judge,
     *,
-    points: int,
+    points: int = 1,
     on: Scenario | Sequence[Scenario],
     needs: Check | Sequence[Check] = (),
     see: str = "",

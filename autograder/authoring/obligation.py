@@ -103,7 +103,7 @@ def whole_run(run: Transcript) -> list[Transcript]:
 def check_of(
     id: str,
     *obligations: Obligation,
-    points: int,
+    points: int = 1,
     on: Scenario | Sequence[Scenario],
     needs: Check | Sequence[Check] = (),
     title: str = "",

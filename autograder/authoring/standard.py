@@ -21,7 +21,7 @@ Needs = Check | Sequence[Check]
 def server_appears(
     what: str,
     *,
-    points: int,
+    points: int = 1,
     on: Scenario,
     see: str = "02_services#first-file",
     clauses: Sequence[int] = (),
@@ -33,7 +33,7 @@ def server_appears(
 
 def ends_cleanly(
     *,
-    points: int,
+    points: int = 1,
     on: Scenario | Sequence[Scenario],
     needs: Needs,
     see: str = "02_services#conventions",
@@ -67,7 +67,7 @@ def ends_cleanly(
 def feedback_ends_with_the_goal(
     goal: str,
     *,
-    points: int,
+    points: int = 1,
     on: Scenario,
     needs: Needs,
     see: str = "07_cancel_and_preempt#m13-why",

@@ -19,7 +19,7 @@ def works_in_any_namespace(
     does: str,
     require: Callable[[Transcript], Any] | Obligation,
     *,
-    points: int,
+    points: int = 1,
     on: Scenario,
     needs: Needs,
     see: str = "01_robot_and_graph#names-why",

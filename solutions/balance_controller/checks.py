@@ -74,17 +74,16 @@ PUSH = Scenario(
 
 of_sets = partial(check_of, on=SETS)
 
-server_appears = of_sets("server_appears", model.offers_its_parameters, points=1, see=DECLARED)
+server_appears = of_sets("server_appears", model.offers_its_parameters, see=DECLARED)
 declares_the_robots_gains = of_sets(
     "declares_the_robots_gains",
     model.has_its_gains,
     title="The five parameters are doubles, and their defaults are the robot's own gains",
-    points=1,
     needs=server_appears,
     see=DECLARED,
 )
 describes_its_parameters = of_sets(
-    "describes_its_parameters", model.describes_each, points=1, needs=server_appears, see=DECLARED
+    "describes_its_parameters", model.describes_each, needs=server_appears, see=DECLARED
 )
 publishes_what_it_accepted = of_sets(
     "publishes_what_it_accepted",
@@ -114,7 +113,6 @@ refuses_bad_gains = check_of(
 says_nothing_of_refused_gains = check_of(
     "says_nothing_of_refused_gains",
     *(model.says_nothing_when_it_refuses, model.accepts_the_table, model.one_message_each),
-    points=1,
     on=REFUSALS,
     needs=[publishes_once, refuses_bad_gains],
     see=TWO_CALLBACKS,
@@ -134,7 +132,6 @@ keeps_the_last_gains = of_sets(
     "keeps_the_last_gains",
     model.keeps_the_last,
     title="A robot that starts later gets the last gains, because the topic is latched",
-    points=1,
     needs=publishes_what_it_accepted,
     see=LATE,
 )
@@ -142,7 +139,6 @@ publishes_at_the_start = check_of(
     "publishes_at_the_start",
     *(model.has_its_gains, model.publishes_its_start_once),
     title=model.publishes_its_start_once.sentence,
-    points=1,
     on=START,
     needs=keeps_the_last_gains,
     see=WHO_SEES_IT,
@@ -165,4 +161,4 @@ survives_a_push = check_of(
     needs=publishes_what_it_accepted,
     see=PUSHED,
 )
-ends_cleanly = standard.ends_cleanly(points=1, on=START, needs=server_appears, clauses=[15])
+ends_cleanly = standard.ends_cleanly(on=START, needs=server_appears, clauses=[15])

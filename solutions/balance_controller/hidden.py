@@ -111,7 +111,7 @@ OTHER_NAMESPACE = Scenario(
     namespace="/lab_7/robot",
 )
 
-in_any_order = partial(check_of, points=1, on=ANY_ORDER)
+in_any_order = partial(check_of, on=ANY_ORDER)
 
 refuses_what_is_no_number = in_any_order(
     "refuses_what_is_no_number",
@@ -165,7 +165,6 @@ survives_any_push = check_of(
     "survives_any_push",
     *(model.accepts_the_table, model.publishes_them_in_time, model.survives),
     title="With other gains, and from any side, the robot survives a push of 10 N·s",
-    points=1,
     on=ANY_PUSH,
     needs=checks.survives_a_push,
     see=checks.PUSHED,
@@ -173,7 +172,6 @@ survives_any_push = check_of(
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
     "publishes",
     model.publishes_them_in_time,
-    points=1,
     on=OTHER_NAMESPACE,
     needs=checks.publishes_what_it_accepted,
     clauses=[15],

@@ -21,13 +21,12 @@ INTERRUPT = Scenario("in_order", {"steps": [], "interrupt": True}, robot=UNPLUGG
 
 BATTERY_RULES, KNOWS_NOTHING = "02_services#battery-rules", "02_services#m9-fix-why"
 
-server_appears = standard.server_appears("get_battery_status", points=1, on=INTERRUPT, clauses=[5])
+server_appears = standard.server_appears("get_battery_status", on=INTERRUPT, clauses=[5])
 
 answers_with_the_last_message = check_of(
     "answers_with_the_last_message",
     model.repeats_the_last_message,
     title="It answers with the robot's last battery_state, field by field",
-    points=1,
     on=ASK_ONCE,
     needs=server_appears,
     see=BATTERY_RULES,
@@ -49,10 +48,9 @@ follows_the_battery = check_of(
     "follows_the_battery",
     model.repeats_the_last_message,
     title="When the charge changes, so does the answer",
-    points=1,
     on=LEVELS,
     needs=answers_with_the_last_message,
     see=BATTERY_RULES,
 )
 
-ends_cleanly = standard.ends_cleanly(points=1, on=[INTERRUPT, ASK_ONCE], needs=server_appears, clauses=[6])
+ends_cleanly = standard.ends_cleanly(on=[INTERRUPT, ASK_ONCE], needs=server_appears, clauses=[6])

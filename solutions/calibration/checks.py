@@ -54,7 +54,7 @@ LATCHES = "01_robot_and_graph#late-why"
 WALKS_LATER = "05_executors#why"
 MEASURED = (model.tells_the_means, model.tells_the_count)
 
-server_appears = standard.server_appears("calibrate_imu", points=1, on=INTERRUPT)
+server_appears = standard.server_appears("calibrate_imu", on=INTERRUPT)
 
 keeps_its_heartbeat = check_of(
     "keeps_its_heartbeat", model.beats, points=2, on=TWICE, needs=server_appears, see=GROUPS
@@ -64,7 +64,6 @@ refuses_before_the_first_state = check_of(
     "refuses_before_the_first_state",
     model.ends_right(truth.UNKNOWN),
     title="As long as no robot_state has come, it refuses at once",
-    points=1,
     on=SILENT_ROBOT,
     needs=server_appears,
     see=KNOWS_NOTHING,
@@ -80,15 +79,12 @@ refuses_while_walking = check_of(
     see=REFUSES,
 )
 
-asks_get_status = check_of(
-    "asks_get_status", model.asks_get_status, points=1, on=TWICE, needs=server_appears, see=ASKS
-)
+asks_get_status = check_of("asks_get_status", model.asks_get_status, on=TWICE, needs=server_appears, see=ASKS)
 
 calibrates = check_of(
     "calibrates",
     model.ends_right(*model.SUCCEEDS),
     title="When the robot stands, it succeeds after 3 s, also a second time",
-    points=1,
     on=TWICE,
     needs=asks_get_status,
     see=WAITS,
@@ -150,23 +146,21 @@ fails_without_samples = check_of(
     "fails_without_samples",
     model.ends_right(truth.NO_SAMPLES),
     title="When the imu is silent, the calibration fails and the node lives on",
-    points=1,
     on=NO_IMU,
     needs=calibrates,
     see=KNOWS_NOTHING,
 )
 
 publishes_the_bias = check_of(
-    "publishes_the_bias", model.publishes_the_means, points=1, on=TWICE, needs=calibrates, see=PUBLISHES
+    "publishes_the_bias", model.publishes_the_means, on=TWICE, needs=calibrates, see=PUBLISHES
 )
 
 latches_the_bias = check_of(
     "latches_the_bias",
     model.latches_the_bias,
-    points=1,
     on=LATE_LISTENER,
     needs=publishes_the_bias,
     see=LATCHES,
 )
 
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears, clauses=[19])
+ends_cleanly = standard.ends_cleanly(on=INTERRUPT, needs=server_appears, clauses=[19])

@@ -84,7 +84,7 @@ OTHER_NAMESPACE = Scenario(
     namespace="/lab_7/robot",
 )
 
-in_any_order = partial(check_of, points=1, on=ANY_ORDER)
+in_any_order = partial(check_of, on=ANY_ORDER)
 
 calibrates_afresh = check_of(
     "calibrates_afresh",
@@ -108,7 +108,6 @@ recovers_when_status_answers = check_of(
     "recovers_when_status_answers",
     model.ends_right(truth.PROMPT, after="a failure"),
     title="However a calibration was refused or failed, the next one can succeed",
-    points=1,
     on=[ANY_ORDER, WALKS_IN_ANY_ORDER],
     needs=checks.calibrates,
     see=ASKS,
@@ -127,7 +126,6 @@ refuses_without_a_server = check_of(
     "refuses_without_a_server",
     *(model.ends_right(truth.MISSING), model.ends_right(truth.PROMPT, after="a failure"), model.beats),
     title="When nobody offers get_status, it fails after 2 s at most, heartbeat goes on, and the next can succeed",
-    points=1,
     on=NO_STATUS,
     needs=[checks.refuses_without_an_answer, checks.lives_while_it_waits],
     see=ASKS,
@@ -145,7 +143,6 @@ fails_after_a_few_steps = check_of(
     "fails_after_a_few_steps",
     *(model.ends_right(truth.WALKED_SHORTLY), model.ends_right(truth.WALKED_ON, truth.WALKS)),
     title="A robot that walked for a moment, and stands again at the end, has walked",
-    points=1,
     on=WALKS_IN_ANY_ORDER,
     needs=checks.fails_when_it_begins_to_walk,
     see=checks.WALKS_LATER,
@@ -171,7 +168,6 @@ recovers_when_the_robot_speaks = check_of(
     "recovers_when_the_robot_speaks",
     model.ends_right(*model.SUCCEEDS, after="a failure"),
     title="Once the first robot_state has come, it calibrates",
-    points=1,
     on=checks.SILENT_ROBOT,
     needs=[checks.calibrates, checks.refuses_before_the_first_state],
     see=KNOWS_NOTHING,
@@ -187,7 +183,6 @@ def _calibrates(run: Transcript) -> None:
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
     "calibrates",
     _calibrates,
-    points=1,
     on=OTHER_NAMESPACE,
     needs=[checks.publishes_the_bias, checks.keeps_its_heartbeat],
     clauses=[18],

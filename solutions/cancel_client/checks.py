@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 from autograder.authoring.obligation import check_of
 from autograder.authoring.walking.client_scenarios import GOOD, INTERRUPTED, NOBODY, SILENT, typed, walk, way
 
@@ -18,9 +16,7 @@ EARLY = walk({**ARRIVES, "after": 2.0, "cancel": {"ends_after": 1.0}}, ["await_g
 REFUSING = walk({**ARRIVES, "cancel": {"agreed": False, "after": 0.5}}, *typed("q"))
 INPUT_ENDS = walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, *typed(), ["end_input"])
 
-for_a_point = partial(check_of, points=1)
-
-walks = for_a_point(
+walks = check_of(
     "walks",
     model.sends_one_goal,
     model.follows_its_goal(1),
@@ -80,7 +76,7 @@ reports_a_refusal = check_of(
     see="07_cancel_and_preempt#m1-why",
 )
 
-goes_on_at_the_end_of_input = for_a_point(
+goes_on_at_the_end_of_input = check_of(
     "goes_on_at_the_end_of_input",
     model.follows_its_goal(5),
     title="The end of the input (Ctrl-D) cancels nothing",
@@ -89,7 +85,7 @@ goes_on_at_the_end_of_input = for_a_point(
     see="07_cancel_and_preempt#button-code",
 )
 
-gives_up_without_a_server = for_a_point(
+gives_up_without_a_server = check_of(
     "gives_up_without_a_server",
     model.follows_its_goal(1),
     title="Without a server it ends with status 1 after 5 s, and says so on stderr",
@@ -97,7 +93,7 @@ gives_up_without_a_server = for_a_point(
     see="03_clients_that_survive#fix-why",
 )
 
-gives_up_in_silence = for_a_point(
+gives_up_in_silence = check_of(
     "gives_up_in_silence",
     model.follows_its_goal(1),
     title="After 5 s without feedback or result it cancels the goal and ends with status 1",
@@ -106,7 +102,7 @@ gives_up_in_silence = for_a_point(
     see="03_clients_that_survive#fix-why",
 )
 
-ctrl_c_cancels_the_goal = for_a_point(
+ctrl_c_cancels_the_goal = check_of(
     "ctrl_c_cancels_the_goal",
     model.follows_its_goal(1),
     title="Ctrl-C cancels the goal; it waits for its end and ends with status 4",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from random import Random
 from typing import Any
 
@@ -56,9 +55,7 @@ OTHER_LINES = walk(ON_AND_ON, *typed("", "quit", "stop", "q"))
 NO_INPUT = walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, ["end_input"])
 SILENT_ON_THE_WAY = program("in_order", lambda random: silence_on_the_way(random, types=True))
 
-for_a_point = partial(check_of, points=1)
-
-walks_anywhere = for_a_point(
+walks_anywhere = check_of(
     "walks_anywhere",
     model.sends_one_goal,
     model.follows_its_goal(1),
@@ -68,7 +65,7 @@ walks_anywhere = for_a_point(
     see="01_robot_and_graph#names-why",
 )
 
-refuses_wrong_arguments = for_a_point(
+refuses_wrong_arguments = check_of(
     "refuses_wrong_arguments",
     model.refuses_what_is_no_pose,
     on=WRONG,
@@ -76,7 +73,7 @@ refuses_wrong_arguments = for_a_point(
     see="03_clients_that_survive#fix-frame",
 )
 
-tells_an_abort = for_a_point(
+tells_an_abort = check_of(
     "tells_an_abort",
     model.follows_its_goal(1),
     title="An aborted goal ends it with status 3, and error_msg stands on stderr",
@@ -85,7 +82,7 @@ tells_an_abort = for_a_point(
     see="06_walk_to_a_pose#hopeful-why",
 )
 
-a_rejected_goal_needs_no_cancel = for_a_point(
+a_rejected_goal_needs_no_cancel = check_of(
     "a_rejected_goal_needs_no_cancel",
     model.follows_its_goal(1, 4),
     title="A goal that is rejected after a q ends it with status 2",
@@ -94,7 +91,7 @@ a_rejected_goal_needs_no_cancel = for_a_point(
     see="06_walk_to_a_pose#reject-task",
 )
 
-tells_an_abort_after_q = for_a_point(
+tells_an_abort_after_q = check_of(
     "tells_an_abort_after_q",
     model.follows_its_goal(3),
     title="A goal that is ABORTED after the server had agreed to cancel it ends it with status 3",
@@ -124,7 +121,7 @@ does_not_wait_for_the_answer = check_of(
     see="03_clients_that_survive#kill-why",
 )
 
-cancels_once = for_a_point(
+cancels_once = check_of(
     "cancels_once",
     model.follows_its_goal(2),
     title="However early and often q is typed, and whatever the answer, the goal is cancelled once",
@@ -133,7 +130,7 @@ cancels_once = for_a_point(
     see="07_cancel_and_preempt#late-why",
 )
 
-other_lines_cancel_nothing = for_a_point(
+other_lines_cancel_nothing = check_of(
     "other_lines_cancel_nothing",
     model.follows_its_goal(5),
     title="Only q cancels, also after an empty line or another word, such as quit",
@@ -142,7 +139,7 @@ other_lines_cancel_nothing = for_a_point(
     see="07_cancel_and_preempt#button-code",
 )
 
-walks_without_an_input = for_a_point(
+walks_without_an_input = check_of(
     "walks_without_an_input",
     model.follows_its_goal(5),
     title="Started where there is no input, it walks all the same",
@@ -151,7 +148,7 @@ walks_without_an_input = for_a_point(
     see="07_cancel_and_preempt#button-code",
 )
 
-gives_up_without_an_answer = for_a_point(
+gives_up_without_an_answer = check_of(
     "gives_up_without_an_answer",
     model.follows_its_goal(1),
     title="A goal that is never answered ends it with status 1 after 5 s",
@@ -160,7 +157,7 @@ gives_up_without_an_answer = for_a_point(
     see="03_clients_that_survive#fix-why",
 )
 
-notices_silence_on_the_way = for_a_point(
+notices_silence_on_the_way = check_of(
     "notices_silence_on_the_way",
     model.holds_whatever_happens,
     title="A server that falls silent or dies on the way ends it with status 1, after a q, too; whatever happens, "
@@ -170,7 +167,7 @@ notices_silence_on_the_way = for_a_point(
     see="03_clients_that_survive#kill-why",
 )
 
-survives_early_feedback = for_a_point(
+survives_early_feedback = check_of(
     "survives_early_feedback",
     model.follows_its_goal(1),
     title="Feedback that comes before the goal is accepted disturbs nothing",

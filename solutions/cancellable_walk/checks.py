@@ -56,13 +56,12 @@ FALL = Scenario(
 )
 
 server_appears = standard.server_appears(
-    "the action walk_to", points=1, on=INTERRUPT, clauses=[13], see="07_cancel_and_preempt#fix-file"
+    "the action walk_to", on=INTERRUPT, clauses=[13], see="07_cancel_and_preempt#fix-file"
 )
 accepts_a_goal = check_of(
     "accepts_a_goal",
     model.accepts,
     title="It accepts a pose in frame odom",
-    points=1,
     on=FALL,
     needs=server_appears,
     see="07_cancel_and_preempt#m2-why",
@@ -97,7 +96,6 @@ rejects_a_wrong_frame, rejects_nan = rejections(
 rejects_without_power = check_of(
     "rejects_without_power",
     model.rejects_without_power,
-    points=1,
     on=UNPOWERED,
     needs=accepts_a_goal,
     see="07_cancel_and_preempt#conventions",
@@ -127,7 +125,6 @@ walks_again_after_a_cancel = check_of(
     model.succeeds,
     model.reports_where_it_ended,
     title="A new goal after a cancel, also an early or a hasty one, is walked to, and results hold what was measured",
-    points=1,
     on=CANCEL,
     needs=[cancels_in_mid_stride, arrives],
     see="07_cancel_and_preempt#fix-intro",
@@ -149,7 +146,6 @@ aborts_when_the_robot_falls = fall_is_reported(
     model, on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why"
 )
 ends_cleanly = standard.ends_cleanly(
-    points=1,
     clauses=[13],
     on=[INTERRUPT, PREEMPT],
     needs=server_appears,

@@ -166,7 +166,6 @@ cancels_at_the_start = check_of(
     "cancels_at_the_start",
     *model.canceled_at_the_start,
     title="A cancel before execution, or at the first feedback, ends CANCELED with the robot still",
-    points=1,
     on=CANCELS,
     needs=cancels_in_mid_stride,
     see="07_cancel_and_preempt#m1-why",
@@ -186,7 +185,6 @@ cancels_near_arrival = check_of(
     "cancels_near_arrival",
     *model.canceled_near_arrival,
     title="A cancel just before arrival ends CANCELED, or SUCCEEDED at the goal, with the robot still",
-    points=1,
     on=CANCELS,
     needs=stops_when_canceled,
     see="07_cancel_and_preempt#fix-read",
@@ -203,7 +201,6 @@ survives_a_cancel_after_the_end = check_of(
     model.reports_where_it_ended,
     model.tells_a_fall,
     title="A cancel at or after the end changes nothing: the next goal is walked to, and every report is true",
-    points=1,
     on=CANCELS,
     needs=arrives,
     see="07_cancel_and_preempt#late-why",
@@ -214,7 +211,6 @@ survives_two_cancels = check_of(
     model.answers_every_cancel,
     model.feedback_ends_with_the_goal,
     title="The same cancel asked for twice ends CANCELED once, and both are answered",
-    points=1,
     on=CANCELS,
     needs=cancels_in_mid_stride,
     see="07_cancel_and_preempt#m12-why",
@@ -223,11 +219,10 @@ obeys_a_stranger = check_of(
     "obeys_a_stranger",
     *model.canceled_by_a_stranger,
     title="Another client may cancel every goal",
-    points=1,
     on=CANCELS,
     needs=stops_when_canceled,
     see="07_cancel_and_preempt#conventions",
 )
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    "walks the robot", model.succeeds, clauses=[13], points=1, on=OTHER_NAMESPACE, needs=arrives
+    "walks the robot", model.succeeds, clauses=[13], on=OTHER_NAMESPACE, needs=arrives
 )

@@ -43,7 +43,7 @@ REAL_ARM = Scenario(
 )
 
 
-server_appears = standard.server_appears("compute_ik", points=1, on=POINTS, clauses=[10])
+server_appears = standard.server_appears("compute_ik", on=POINTS, clauses=[10])
 
 reaches_the_point = check_of(
     "reaches_the_point",
@@ -78,7 +78,6 @@ says_what_is_out_of_reach = check_of(
 refuses_other_frames = check_of(
     "refuses_other_frames",
     model.refuses_other_frames,
-    points=1,
     on=IN_FRAMES,
     needs=server_appears,
     see=CODES_WHY,
@@ -95,4 +94,4 @@ moves_the_real_hand = check_of(
     see="04_your_own_interfaces#parameters-why",
 )
 
-ends_cleanly = standard.ends_cleanly(points=1, on=POINTS, needs=server_appears, clauses=[11])
+ends_cleanly = standard.ends_cleanly(on=POINTS, needs=server_appears, clauses=[11])

@@ -127,7 +127,6 @@ refuses_what_is_no_number = check_of(
     "refuses_what_is_no_number",
     *(model.answers_every_call, model.refuses_a_pose_that_is_not_finite, model.refuses_nothing_within_reach),
     title="Coordinates and lengths that are no numbers: no success, and the node lives on and answers as ever",
-    points=1,
     on=NO_NUMBER,
     needs=checks.says_what_is_out_of_reach,
     see="02_services#nan",
@@ -142,7 +141,6 @@ declares_its_lengths = named_check(  # whatever becomes of the node after that
     "declares_its_lengths",
     model.lengths_are_parameters.sentence,
     _declares_its_lengths,
-    points=1,
     on=ANY_LENGTH,
     needs=checks.server_appears,
     see="04_your_own_interfaces#parameters-intro",
@@ -153,7 +151,6 @@ declares_its_lengths = named_check(  # whatever becomes of the node after that
 does_what_it_says_of_new_lengths = check_of(
     "does_what_it_says_of_new_lengths",
     model.uses_the_lengths_it_accepted,
-    points=1,
     on=ANY_LENGTH,
     needs=[checks.bends_the_elbow_as_asked, checks.says_what_is_out_of_reach, declares_its_lengths],
     see="04_your_own_interfaces#parameters-why",
@@ -161,7 +158,6 @@ does_what_it_says_of_new_lengths = check_of(
 
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
     *("serves", model.reaches_the_point),
-    points=1,
     on=OTHER_NAMESPACE,
     needs=checks.reaches_the_point,
     clauses=[10],

@@ -24,7 +24,7 @@ FEEDBACK = {
 }
 
 
-@check(points=1, on=SERVICE, see="04_your_own_interfaces#draft-why")
+@check(on=SERVICE, see="04_your_own_interfaces#draft-why")
 def service_builds(run: Transcript) -> None:
     """GetBatteryStatus.srv builds"""
     require_built(run, RESPONSE)
@@ -36,7 +36,7 @@ def response_has_its_fields(run: Transcript) -> None:
     require_fields(run, "response", RESPONSE)
 
 
-@check(points=1, on=ACTION, see="04_your_own_interfaces#draft-why")
+@check(on=ACTION, see="04_your_own_interfaces#draft-why")
 def action_builds(run: Transcript) -> None:
     """NavigateToPose.action builds"""
     require_built(run, GOAL | RESULT | FEEDBACK)

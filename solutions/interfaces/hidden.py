@@ -11,7 +11,7 @@ from .judging import require_constants, require_fields
 ERROR_CODES = {"NONE": 0, "FELL": 1, "PREEMPTED": 2, "TIMEOUT": 3}
 
 
-@check(points=1, on=SERVICE, needs=service_builds, see="04_your_own_interfaces#anatomy", clauses=[1])
+@check(on=SERVICE, needs=service_builds, see="04_your_own_interfaces#anatomy", clauses=[1])
 def request_is_empty(run: Transcript) -> None:
     """The request of GetBatteryStatus is empty"""
     require_fields(run, "request", {})

@@ -52,16 +52,15 @@ UNPLUGGED = in_order(
 ALL_JOINTS, ITS_JOINTS = "01_robot_and_graph#joints-intro", "01_robot_and_graph#joints-run"
 REFUSES, KNOWS_NOTHING = "02_services#set-refuse-why", "02_services#m9-fix-why"
 
-server_appears = standard.server_appears("get_joint_positions", points=1, on=ASK, clauses=[7])
+server_appears = standard.server_appears("get_joint_positions", on=ASK, clauses=[7])
 
 finds_the_joints = check_of(
-    "finds_the_joints", model.finds_the_joints, points=1, on=ASK, needs=server_appears, see=ALL_JOINTS
+    "finds_the_joints", model.finds_the_joints, on=ASK, needs=server_appears, see=ALL_JOINTS
 )
 
 keeps_the_order_asked = check_of(
     "keeps_the_order_asked",
     model.keeps_the_order_asked,
-    points=1,
     on=ASK,
     needs=finds_the_joints,
     see=ITS_JOINTS,
@@ -79,7 +78,6 @@ positions_are_the_robots = check_of(
 no_names_means_all = check_of(
     "no_names_means_all",
     model.lists_every_joint_once,
-    points=1,
     on=ASK,
     needs=finds_the_joints,
     see=ALL_JOINTS,
@@ -89,7 +87,6 @@ follows_the_robot = check_of(
     "follows_the_robot",
     *(model.finds_the_joints, model.positions_are_the_last),
     title="When the arms have moved, so has the answer, in any order of the joints; in a silence the last one stays",
-    points=1,
     on=MOVED,
     needs=positions_are_the_robots,
     see="02_services#diagram",
@@ -109,10 +106,9 @@ says_when_it_knows_nothing = check_of(
     "says_when_it_knows_nothing",
     *(model.never_waits, model.says_when_it_knows_nothing),
     title="Before the first joint_states it answers at once with success: false, whatever was asked",
-    points=1,
     on=UNPLUGGED,
     needs=server_appears,
     see=KNOWS_NOTHING,
 )
 
-ends_cleanly = standard.ends_cleanly(points=1, on=[ASK, UNHEARD], needs=server_appears, clauses=[8])
+ends_cleanly = standard.ends_cleanly(on=[ASK, UNHEARD], needs=server_appears, clauses=[8])

@@ -94,13 +94,12 @@ OTHER_NAMESPACE = Scenario(
     "in_order", {"steps": [["let_arrive"], ["ask", SOME_JOINTS]]}, robot=RESTING, namespace="/lab_7/robot"
 )
 
-in_any_order = partial(check_of, points=1, on=ANY_ORDER)
+in_any_order = partial(check_of, on=ANY_ORDER)
 
 recovers_when_the_sensors_appear = check_of(
     "recovers_when_the_sensors_appear",
     *(model.finds_the_joints, model.positions_are_the_last),
     title="Once the first message has come, it answers with it",
-    points=1,
     on=UNPLUGGED,
     needs=[checks.positions_are_the_robots, checks.says_when_it_knows_nothing],
     see=KNOWS_NOTHING,
@@ -141,7 +140,6 @@ takes_no_joint_for_another = in_any_order(
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
     "serves the robot",
     model.positions_are_the_last,
-    points=1,
     on=OTHER_NAMESPACE,
     needs=checks.positions_are_the_robots,
     clauses=[7],

@@ -46,9 +46,9 @@ SILENT = scenario(fetch("fetch", children=[{"silent_after": 0.6, "takes": 60.0}]
 on_good = partial(check_of, on=GOOD, see=DEADLOCK)
 
 server_appears = standard.server_appears(
-    "the action fetch", points=1, on=INTERRUPT, see="07_cancel_and_preempt#fix-file", clauses=[31]
+    "the action fetch", on=INTERRUPT, see="07_cancel_and_preempt#fix-file", clauses=[31]
 )
-goes_to_the_table = on_good("goes_to_the_table", model.sets_out, points=1, needs=server_appears)
+goes_to_the_table = on_good("goes_to_the_table", model.sets_out, needs=server_appears)
 takes_the_object = on_good(
     "takes_the_object",
     model.takes_it,
@@ -67,7 +67,6 @@ fills_the_result = on_good(
     "fills_the_result",
     model.reports_the_object,
     title="The result tells where the object ended, the largest force, and error_code NONE",
-    points=1,
     needs=fetches,
     see="07_cancel_and_preempt#m13-why",
 )
@@ -75,7 +74,6 @@ passes_feedback_on = on_good(
     "passes_feedback_on",
     model.hands_feedback_on,
     title="What pick_and_place says of its stage, fetch says in its own feedback, in order and within 1 s",
-    points=1,
     needs=takes_the_object,
     see="06_walk_to_a_pose#slow-why",
 )
@@ -83,7 +81,6 @@ rejects_what_is_knowably_wrong = check_of(
     "rejects_what_is_knowably_wrong",
     model.rejects_the_impossible,
     title="It rejects a place in frame map, NaN, and a force that is not above 0",
-    points=1,
     on=INTERRUPT,
     needs=goes_to_the_table,
     see=REJECTS,
@@ -92,7 +89,6 @@ does_not_set_out_on_a_low_battery = check_of(
     "does_not_set_out_on_a_low_battery",
     model.does_nothing_when_low,
     title="With the battery at 0.12 it sends no goal to anybody, and ends ABORTED naming the battery",
-    points=1,
     on=LOW_BEFORE,
     needs=goes_to_the_table,
     see=BATTERY_LESSON,
@@ -145,4 +141,4 @@ finishes_placing_first = check_of(
     needs=takes_the_object,
     see=GIVES_UP,
 )
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears, clauses=[31])
+ends_cleanly = standard.ends_cleanly(on=INTERRUPT, needs=server_appears, clauses=[31])

@@ -142,7 +142,7 @@ MISSING = scenario(
     fetch("nobody walks", children=()),
 )
 
-in_drops = partial(check_of, on=DROPS, see=checks.GIVES_UP, points=1)
+in_drops = partial(check_of, on=DROPS, see=checks.GIVES_UP)
 in_cancels = partial(check_of, on=CANCELS)
 of_servers = partial(check_of, see=checks.SILENCE_LESSON)
 in_failures = partial(check_of, on=FAILURES, see=checks.SILENCE_LESSON)
@@ -151,7 +151,6 @@ fetches_anything = check_of(
     "fetches_anything",
     *(*model.fetches_it, model.hands_feedback_on, model.reports_the_object, model.keeps_every_clause),
     title="NaN, 20.0 and -0.3 are no percentages, 0.20 is not low, and whatever else comes, every clause holds",
-    points=1,
     on=[NO_PERCENTAGE, ANYTHING],
     needs=checks.fetches,
     see=checks.BATTERY_LESSON,
@@ -160,7 +159,6 @@ sends_nobody_without_a_battery = check_of(
     "sends_nobody_without_a_battery",
     *(model.does_nothing_when_unknown, model.serves_again),
     title="As long as battery_state has said nothing it fetches nothing, and says so; then it does",
-    points=1,
     on=NO_BATTERY,
     needs=[checks.fetches, checks.does_not_set_out_on_a_low_battery],
     see=checks.BATTERY_LESSON,
@@ -169,7 +167,6 @@ sets_out_when_it_is_charged = check_of(
     "sets_out_when_it_is_charged",
     model.serves_again,
     title="A battery that was low and is charged again is no obstacle to the next goal",
-    points=1,
     on=LOW_THEN_CHARGED,
     needs=[checks.fetches, checks.does_not_set_out_on_a_low_battery],
     see=checks.BATTERY_LESSON,
@@ -247,14 +244,12 @@ remembers_a_cancel = in_cancels(
     "remembers_a_cancel",
     *model.of(("early",), *model.obeys_a_cancel),
     title="A cancel before the child is accepted goes down right after the acceptance",
-    points=1,
     needs=checks.cancel_goes_down,
     see="07_cancel_and_preempt#late-why",
 )
 gives_up_without_an_answer = in_failures(
     "gives_up_without_an_answer",
     *model.of(("no answer",), model.gives_up_the_unanswered),
-    points=1,
     needs=checks.says_why_a_child_failed,
 )
 cancels_a_late_child = in_failures(
@@ -277,13 +272,11 @@ waits_no_longer_than_it_must = in_failures(
     "waits_no_longer_than_it_must",
     *model.of(("deaf",), *model.always, model.cancels_the_silent, model.gives_up_the_silent),
     title="A silent child that does not answer the cancel either is given up 5 s later, ABORTED naming the action",
-    points=1,
     needs=[checks.cancels_a_silent_child, checks.fetches],
 )
 gives_up_without_a_server = of_servers(
     "gives_up_without_a_server",
     model.gives_up_the_missing,
-    points=1,
     on=MISSING,
     needs=checks.says_why_a_child_failed,
 )
@@ -291,14 +284,12 @@ fails_when_another_cancels_the_child = in_failures(
     "fails_when_another_cancels_the_child",
     *model.of(("canceled by another",), model.says_who_failed),
     title="A child that somebody else cancels has failed: ABORTED, not CANCELED",
-    points=1,
     needs=checks.says_why_a_child_failed,
     see=checks.ORPHANS,
 )
 serves_the_next_goal = check_of(
     "serves_the_next_goal",
     model.serves_again,
-    points=1,
     on=REJECTED,
     needs=[checks.fetches, checks.says_why_a_child_failed],
     see=checks.ORPHANS,
@@ -312,5 +303,5 @@ new_goal_preempts_the_old = in_cancels(
     see="11_capstone#newest-why",
 )
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    "fetches", model.ends_well, points=1, on=OTHER_NAMESPACE, needs=checks.fetches, clauses=[31]
+    "fetches", model.ends_well, on=OTHER_NAMESPACE, needs=checks.fetches, clauses=[31]
 )

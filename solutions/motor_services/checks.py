@@ -32,13 +32,12 @@ WALK = Scenario("in_order", {"steps": WALKS + FALLS})
 SERVES, SWITCHES = "02_services#first-file", "02_services#set-file"
 REFUSES, KNOWS_NOTHING = "02_services#set-refuse-why", "02_services#m9-fix-why"
 
-server_appears = standard.server_appears("enable_motors and get_status", points=1, on=INTERRUPT)
+server_appears = standard.server_appears("enable_motors and get_status", on=INTERRUPT)
 
 tells_the_status = check_of(
     "tells_the_status",
     model.tells_the_motors,
     title='get_status says "Motors: ON" while the motors are on',
-    points=1,
     on=INTERRUPT,
     needs=server_appears,
     see=SERVES,
@@ -58,7 +57,6 @@ says_when_it_knows_nothing = check_of(
     "says_when_it_knows_nothing",
     *(model.status_from_memory, model.says_when_it_knows_nothing),
     title="Before the first robot_state, get_status answers success: false, at once",
-    points=1,
     on=SILENT_ROBOT,
     needs=server_appears,
     see=KNOWS_NOTHING,
@@ -73,7 +71,6 @@ powers_on = check_of(
     *(model.grants_power_on, model.power_in_time),
     title="enable_motors with data: true is granted, also five at once and before the first robot_state, and the "
     "motors have their torque again",
-    points=1,
     on=[SWITCH, SILENT_ROBOT],
     needs=powers_off,
     see=SWITCHES,
@@ -90,4 +87,4 @@ refuses_off_while_walking = check_of(
     see=REFUSES,
 )
 
-ends_cleanly = standard.ends_cleanly(points=1, on=[INTERRUPT, UNHEARD], needs=server_appears, clauses=[7])
+ends_cleanly = standard.ends_cleanly(on=[INTERRUPT, UNHEARD], needs=server_appears, clauses=[7])

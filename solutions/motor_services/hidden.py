@@ -84,7 +84,6 @@ refuses_however_it_walks = check_of(
     "refuses_however_it_walks",
     *(model.refuses_power_off, model.lets_it_walk),
     title="Turning on the spot, sideways or backwards is walking, too",
-    points=1,
     on=FLOOR,
     needs=checks.refuses_off_while_walking,
     see=checks.REFUSES,
@@ -104,7 +103,6 @@ recovers_when_the_robot_speaks = check_of(
     "recovers_when_the_robot_speaks",
     model.tells_the_motors,
     title="Once a robot_state has come, get_status answers with the last one, whatever happened before",
-    points=1,
     on=[checks.SILENT_ROBOT, STAND, FLOOR],
     needs=checks.tells_the_status,
     see=checks.KNOWS_NOTHING,
@@ -115,7 +113,6 @@ answers_every_request = check_of(
     *(model.status_in_time, model.status_from_memory, model.says_when_it_knows_nothing),
     *(model.power_in_time, model.power_never_sleeps),
     title="Every request is answered in time, get_status from memory, also while nothing is known",
-    points=1,
     on=STAND,
     needs=checks.server_appears,
     see="02_services#m4-why",
@@ -123,7 +120,6 @@ answers_every_request = check_of(
 
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
     *("serves the robot", model.serves_the_robot),
-    points=1,
     on=OTHER_NAMESPACE,
     needs=[checks.tells_the_status, checks.powers_on],
 )

@@ -81,13 +81,12 @@ INTERRUPT = _unwatched(["interrupt"])
 LOOK, TRAJECTORY, BEND = "07_cancel_and_preempt#conventions", "09_arms#conventions", "09_arms#bend-why"
 
 server_appears = standard.server_appears(
-    "the action move_arm", points=1, on=INTERRUPT, see="07_cancel_and_preempt#fix-file", clauses=[17]
+    "the action move_arm", on=INTERRUPT, see="07_cancel_and_preempt#fix-file", clauses=[17]
 )
 accepts_a_trajectory = check_of(
     "accepts_a_trajectory",
     model.accepts,
     title="It accepts a trajectory of an arm's joints within their ranges",
-    points=1,
     on=MOVE,
     needs=server_appears,
     see=TRAJECTORY,
@@ -104,7 +103,6 @@ arrives = check_of(
 passes_every_point = check_of(
     "passes_every_point",
     model.passes_points,
-    points=1,
     on=MOVE,
     needs=accepts_a_trajectory,
     see="09_arms#velocities-why",
@@ -112,7 +110,6 @@ passes_every_point = check_of(
 fills_the_result = check_of(
     "fills_the_result",
     model.names_no_error,
-    points=1,
     on=MOVE,
     needs=arrives,
     see="07_cancel_and_preempt#m13-why",
@@ -120,18 +117,16 @@ fills_the_result = check_of(
 feedback_keeps_its_rate = check_of(
     "feedback_keeps_its_rate",
     model.feedback_at_10_hz,
-    points=1,
     on=MOVE,
     needs=accepts_a_trajectory,
     see=LOOK,
 )
 feedback_is_true = check_of(
-    "feedback_is_true", model.feedback_is_true, points=1, on=MOVE, needs=accepts_a_trajectory, see=BEND
+    "feedback_is_true", model.feedback_is_true, on=MOVE, needs=accepts_a_trajectory, see=BEND
 )
 feedback_ends_with_the_goal = check_of(
     "feedback_ends_with_the_goal",
     model.no_late_feedback,
-    points=1,
     on=MOVE,
     needs=arrives,
     see="07_cancel_and_preempt#m13-why",
@@ -141,7 +136,6 @@ rejects_foreign_joints = check_of(
     model.rejects_arms,
     model.rejects_joints,
     title="It rejects an arm that is neither l nor r, and joints that are not this arm's",
-    points=1,
     on=IMPOSSIBLE,
     needs=accepts_a_trajectory,
     see="09_arms#silent-why",
@@ -151,7 +145,6 @@ rejects_lists_that_do_not_fit = check_of(
     model.rejects_no_point,
     model.rejects_lengths,
     title="It rejects a trajectory without a point, and points with too few or too many positions",
-    points=1,
     on=IMPOSSIBLE,
     needs=accepts_a_trajectory,
     see=TRAJECTORY,
@@ -159,7 +152,6 @@ rejects_lists_that_do_not_fit = check_of(
 rejects_times_that_do_not_rise = check_of(
     "rejects_times_that_do_not_rise",
     model.rejects_times,
-    points=1,
     on=IMPOSSIBLE,
     needs=accepts_a_trajectory,
     see=TRAJECTORY,
@@ -167,7 +159,6 @@ rejects_times_that_do_not_rise = check_of(
 rejects_nan = check_of(
     "rejects_nan",
     model.rejects_not_finite,
-    points=1,
     on=IMPOSSIBLE,
     needs=accepts_a_trajectory,
     see=TRAJECTORY,
@@ -175,7 +166,6 @@ rejects_nan = check_of(
 rejects_out_of_range = check_of(
     "rejects_out_of_range",
     model.rejects_beyond,
-    points=1,
     on=IMPOSSIBLE,
     needs=accepts_a_trajectory,
     see="09_arms#silent-why",
@@ -187,7 +177,6 @@ names_the_blocked_joint = check_of(
     "names_the_blocked_joint",
     model.names_the_joint,
     title="error_msg names the joint that was blocked, and no other",
-    points=1,
     on=BLOCK,
     needs=aborts_when_the_arm_is_blocked,
     see=BEND,
@@ -196,7 +185,6 @@ holds_when_the_arm_was_blocked = check_of(
     "holds_when_the_arm_was_blocked",
     model.holds_when_given_up,
     title="After that the arm does not go on, also when nothing blocks it any more",
-    points=1,
     on=BLOCK,
     needs=aborts_when_the_arm_is_blocked,
     see="09_arms#release-why",
@@ -208,7 +196,6 @@ names_the_worst_joint = check_of(
     "names_the_worst_joint",
     model.names_the_joint,
     title="error_msg names the joint that is farthest from its end, and no other",
-    points=1,
     on=HOLD_SHORT,
     needs=aborts_when_the_end_is_missed,
     see=BEND,
@@ -235,7 +222,6 @@ holds_by_an_empty_trajectory = check_of(
     "holds_by_an_empty_trajectory",
     model.stops_by_an_empty_trajectory,
     title="What stops the arm is an empty trajectory",
-    points=1,
     on=CANCEL,
     needs=stops_when_canceled,
     see="09_arms#brake-why",
@@ -261,4 +247,4 @@ moves_both_arms = check_of(
     needs=arrives,
     see="09_arms#replace-why",
 )
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears, see=LOOK, clauses=[17])
+ends_cleanly = standard.ends_cleanly(on=INTERRUPT, needs=server_appears, see=LOOK, clauses=[17])

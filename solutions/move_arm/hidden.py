@@ -139,7 +139,6 @@ moves_the_right_arm = check_of(
 reads_joint_states_by_name = check_of(
     "reads_joint_states_by_name",
     model.succeeds_by_name,
-    points=1,
     on=ANY_ORDER,
     needs=arrives,
     see="02_services#first-file",
@@ -164,7 +163,6 @@ feedback_shows_a_blocked_arm = check_of(
     "feedback_shows_a_blocked_arm",
     model.feedback_is_true,
     title="max_error grows while the arm is blocked",
-    points=1,
     on=BLOCK,
     needs=[aborts_when_the_arm_is_blocked, feedback_is_true],
     see=BEND,
@@ -172,7 +170,6 @@ feedback_shows_a_blocked_arm = check_of(
 obeys_goal_tolerance = check_of(
     "obeys_goal_tolerance",
     model.succeeds_by_its_tolerance,
-    points=1,
     on=ANY_ORDER,
     needs=aborts_when_the_end_is_missed,
     see=BEND,
@@ -180,7 +177,6 @@ obeys_goal_tolerance = check_of(
 waits_a_second_for_the_end = check_of(
     "waits_a_second_for_the_end",
     model.succeeds_late,
-    points=1,
     on=ANY_ORDER,
     needs=aborts_when_the_end_is_missed,
     see=BEND,
@@ -190,7 +186,6 @@ cancels_at_the_start = check_of(
     model.grants_cancels,
     model.stops_when_canceled,
     title="A cancel right after the acceptance ends CANCELED with the arm still",
-    points=1,
     on=ANY_ORDER,
     needs=stops_when_canceled,
     see="07_cancel_and_preempt#m1-why",
@@ -198,7 +193,6 @@ cancels_at_the_start = check_of(
 moves_again_after_a_cancel = check_of(
     "moves_again_after_a_cancel",
     model.succeeds_after_a_cancel,
-    points=1,
     on=ANY_ORDER,
     needs=[stops_when_canceled, arrives],
     see="07_cancel_and_preempt#fix-intro",
@@ -218,11 +212,10 @@ aborts_without_joint_states = check_of(
     model.notices_silence,
     model.holds_when_given_up,
     title="When joint_states say nothing for 1 s the goal ends with INVALID_JOINTS and the arm stops",
-    points=1,
     on=ANY_ORDER,
     needs=arrives,
     see=TRAJECTORY,
 )
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    "moves the arm of the robot", model.succeeds, clauses=[17], points=1, on=OTHER_NAMESPACE, needs=arrives
+    "moves the arm of the robot", model.succeeds, clauses=[17], on=OTHER_NAMESPACE, needs=arrives
 )

@@ -85,10 +85,10 @@ FALL = Scenario(
 )
 
 REJECT = "06_walk_to_a_pose#reject-task"
-GOING, RETURNING, HOLDING = (partial(check_of, points=1, on=scenario) for scenario in (GO, ASTRAY, HELD))
+GOING, RETURNING, HOLDING = (partial(check_of, on=scenario) for scenario in (GO, ASTRAY, HELD))
 
 server_appears = standard.server_appears(
-    "the action navigate_to_pose", points=1, on=INTERRUPT, see="06_walk_to_a_pose#small-intro", clauses=[21]
+    "the action navigate_to_pose", on=INTERRUPT, see="06_walk_to_a_pose#small-intro", clauses=[21]
 )
 accepts_a_goal = GOING("accepts_a_goal", model.accepts, needs=server_appears, see=REJECT)
 arrives = check_of(
@@ -123,7 +123,6 @@ names_its_phases = GOING(
 tells_its_time = check_of(
     "tells_its_time",
     model.tells_its_time,
-    points=1,
     on=[GO, PREEMPT],
     needs=TOLD,
     see="08_navigation#conventions",
@@ -166,7 +165,6 @@ succeeds_at_once_where_it_stands = check_of(
     model.succeeds_where_it_stands,
     model.progress_rises,
     title="A goal equal to the present pose SUCCEEDS at once, with 100 % and without a walk",
-    points=1,
     on=HERE,
     needs=arrives,
     see="08_navigation#zero-why",
@@ -176,7 +174,6 @@ rejects_a_wrong_pose = check_of(
     model.rejects_frames,
     model.rejects_nan,
     title="It rejects a pose in frame map, and one that holds NaN",
-    points=1,
     on=IMPOSSIBLE,
     needs=accepts_a_goal,
     see="08_navigation#map-why",
@@ -184,13 +181,12 @@ rejects_a_wrong_pose = check_of(
 rejects_a_wrong_tolerance = check_of(
     "rejects_a_wrong_tolerance",
     model.rejects_tolerances,
-    points=1,
     on=IMPOSSIBLE,
     needs=accepts_a_goal,
     see=REJECT,
 )
 rejects_without_power = check_of(
-    "rejects_without_power", model.rejects_without_power, points=1, on=HERE, needs=accepts_a_goal, see=REJECT
+    "rejects_without_power", model.rejects_without_power, on=HERE, needs=accepts_a_goal, see=REJECT
 )
 gets_back_on_its_way = check_of(
     "gets_back_on_its_way",
@@ -275,13 +271,11 @@ aborts_when_the_robot_falls = check_of(
     model.tells_a_fall,
     model.says_why_it_aborted,
     title="When the robot falls the goal is ABORTED with FELL",
-    points=1,
     on=FALL,
     needs=accepts_a_goal,
     see="07_cancel_and_preempt#fall-why",
 )
 ends_cleanly = standard.ends_cleanly(
-    points=1,
     on=[INTERRUPT, PREEMPT],
     needs=server_appears,
     see="07_cancel_and_preempt#conventions",

@@ -118,7 +118,6 @@ tells_each_goal_its_own_story = check_of(
     model.counts_no_recovery,
     model.progress_rises,
     title="Path, recoveries and progress begin at 0 with each goal",
-    points=1,
     on=ANY_ORDER,
     needs=[arrives_within_the_tolerance, measures_its_path, counts_no_detour_without_one],
     see="08_navigation#odometer-why",
@@ -128,7 +127,6 @@ cancels_in_any_phase = check_of(
     model.grants_cancels,
     model.stops_when_canceled,
     title="Before its first step and while it turns, too, a cancel ends CANCELED, with the robot still",
-    points=1,
     on=ANY_ORDER,
     needs=cancels_in_mid_stride,
     see="07_cancel_and_preempt#fix-intro",
@@ -141,7 +139,6 @@ gets_back_from_anywhere = check_of(
     model.feedback_is_true,
     model.measures_its_path,
     title="Led astray to the other side, it counts that, too, and arrives",
-    points=1,
     on=TO_THE_OTHER_SIDE,
     needs=counts_the_recovery,
     see="08_navigation#loops-why",
@@ -151,11 +148,10 @@ a_new_goal_has_a_time_of_its_own = check_of(
     model.succeeds,
     model.tells_its_time,
     title="navigation_time of a goal that preempts begins at its own acceptance",
-    points=1,
     on=ANY_ORDER,
     needs=[new_goal_preempts_the_old, tells_its_time],
     see="08_navigation#conventions",
 )
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    "walks the robot", model.succeeds, clauses=[21], points=1, on=OTHER_NAMESPACE, needs=arrives
+    "walks the robot", model.succeeds, clauses=[21], on=OTHER_NAMESPACE, needs=arrives
 )

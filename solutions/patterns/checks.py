@@ -11,7 +11,7 @@ PATTERNS = "01_robot_and_graph#patterns"  # the lesson
 ANSWERS = program("print_answers", timed=False)
 
 
-@check(points=1, on=ANSWERS, see=PATTERNS, clauses=[1, 2, 4])
+@check(on=ANSWERS, see=PATTERNS, clauses=[1, 2, 4])
 def answers_everything(run: Transcript) -> None:
     """Each of the twelve situations has a pattern and a reason"""
     require_answers(run)
@@ -92,6 +92,4 @@ SEEN = (
     ),
 )
 
-situations = [
-    check(points=1, on=ANSWERS, see=PATTERNS, clauses=[1, 2, 3])(judge_of(situation)) for situation in SEEN
-]
+situations = [check(on=ANSWERS, see=PATTERNS, clauses=[1, 2, 3])(judge_of(situation)) for situation in SEEN]

@@ -82,6 +82,4 @@ UNSEEN = (
     ),
 )
 
-situations = [
-    check(points=1, on=ANSWERS, see=PATTERNS, clauses=[1, 2, 3])(judge_of(situation)) for situation in UNSEEN
-]
+situations = [check(on=ANSWERS, see=PATTERNS, clauses=[1, 2, 3])(judge_of(situation)) for situation in UNSEEN]

@@ -50,11 +50,11 @@ EARLY, LATE = 0.8, 4.0  # s without a pose after which an object may be, and mus
 PATIENCE = 20.0  # s for a hand that does not arrive
 
 server_appears = standard.server_appears(
-    "the action pick_and_place", points=1, on=INTERRUPT, see="07_cancel_and_preempt#fix-file", clauses=[21]
+    "the action pick_and_place", on=INTERRUPT, see="07_cancel_and_preempt#fix-file", clauses=[21]
 )
 
 
-@check(points=1, on=FETCH, needs=server_appears, see="07_cancel_and_preempt#m2-why", clauses=[1])
+@check(on=FETCH, needs=server_appears, see="07_cancel_and_preempt#m2-why", clauses=[1])
 def accepts_a_goal(run: Transcript) -> None:
     """It accepts a goal with a place in frame odom and a force of 10 N"""
     run.goal("fetch").require_accepted()
@@ -66,7 +66,7 @@ def places_the_cup(run: Transcript) -> None:
     require_placed(run.goal("fetch"))
 
 
-@check(points=1, on=FETCH, needs=places_the_cup, see="09_arms#firm-why", clauses=[4])
+@check(on=FETCH, needs=places_the_cup, see="09_arms#firm-why", clauses=[4])
 def lifts_the_cup(run: Transcript) -> None:
     """It lifts the cup on its way, by 5 cm at least"""
     require_lifted(run.goal("fetch"))
@@ -78,20 +78,19 @@ def keeps_the_force(run: Transcript) -> None:
     require_force_kept(run.goal("fetch"))
 
 
-@check(points=1, on=FETCH, needs=places_the_cup, see="09_arms#silent-why", clauses=[10])
+@check(on=FETCH, needs=places_the_cup, see="09_arms#silent-why", clauses=[10])
 def fills_the_result(run: Transcript) -> None:
     """The result tells where the cup is, and the largest force that was measured"""
     require_filled_result(run.goal("fetch"))
 
 
-@check(points=1, on=FETCH, needs=accepts_a_goal, see=LOOK, clauses=[7])
+@check(on=FETCH, needs=accepts_a_goal, see=LOOK, clauses=[7])
 def feedback_keeps_its_rate(run: Transcript) -> None:
     """Feedback comes at 5 Hz without a gap over 1 s"""
     require_good_feedback_rate(run.goal("fetch"))
 
 
 @check(
-    points=1,
     on=FETCH,
     needs=places_the_cup,
     see="09_arms#phases-intro",
@@ -102,30 +101,30 @@ def names_its_stages(run: Transcript) -> None:
     require_stages_in_order(run.goal("fetch"))
 
 
-@check(points=1, on=FETCH, needs=[names_its_stages, lifts_the_cup], see="09_arms#phases-why", clauses=[6])
+@check(on=FETCH, needs=[names_its_stages, lifts_the_cup], see="09_arms#phases-why", clauses=[6])
 def stages_are_true(run: Transcript) -> None:
     """Each stage is named while it lasts"""
     require_true_stages(run.goal("fetch"))
 
 
-@check(points=1, on=FETCH, needs=accepts_a_goal, see="09_arms#force-why", clauses=[8])
+@check(on=FETCH, needs=accepts_a_goal, see="09_arms#force-why", clauses=[8])
 def feedback_is_measured(run: Transcript) -> None:
     """hand_pose, distance_to_object and grasp_force in the feedback are measured"""
     require_true_values(run.goal("fetch"))
 
 
-@check(points=1, on=FETCH, needs=places_the_cup, see="09_arms#phases-why", clauses=[9])
+@check(on=FETCH, needs=places_the_cup, see="09_arms#phases-why", clauses=[9])
 def percentage_rises(run: Transcript) -> None:
     """percent_complete rises from 0 towards 100 and never falls"""
     require_rising_percentage(run.goal("fetch"))
 
 
 feedback_ends_with_the_goal = standard.feedback_ends_with_the_goal(
-    "fetch", points=1, on=FETCH, needs=places_the_cup, clauses=[7]
+    "fetch", on=FETCH, needs=places_the_cup, clauses=[7]
 )
 
 
-@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="09_arms#base-intro", clauses=[1])
+@check(on=IMPOSSIBLE, needs=accepts_a_goal, see="09_arms#base-intro", clauses=[1])
 def rejects_a_wrong_place(run: Transcript) -> None:
     """It rejects a place in another frame than odom, and one that holds NaN or infinity"""
     for name, frame in (("wrong frame", "map"), ("no frame", "")):
@@ -140,7 +139,7 @@ def rejects_a_wrong_place(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=IMPOSSIBLE, needs=accepts_a_goal, see="09_arms#force-why", clauses=[1])
+@check(on=IMPOSSIBLE, needs=accepts_a_goal, see="09_arms#force-why", clauses=[1])
 def rejects_a_wrong_force(run: Transcript) -> None:
     """It rejects a grasp_force that is NaN, not more than 0 N, or more than 25 N"""
     for name, force in (
@@ -155,7 +154,7 @@ def rejects_a_wrong_force(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=UNKNOWN, needs=accepts_a_goal, see="09_arms#base-intro", clauses=[11, 17])
+@check(on=UNKNOWN, needs=accepts_a_goal, see="09_arms#base-intro", clauses=[11, 17])
 def knows_no_teapot(run: Transcript) -> None:
     """An object whose pose nobody publishes ends the goal with UNKNOWN_OBJECT after 1 s"""
     goal = run.goal("unknown 1")
@@ -175,13 +174,13 @@ def knows_no_teapot(run: Transcript) -> None:
     )
 
 
-@check(points=1, on=FAR_PLACE, needs=accepts_a_goal, see="09_arms#conventions", clauses=[12, 17])
+@check(on=FAR_PLACE, needs=accepts_a_goal, see="09_arms#conventions", clauses=[12, 17])
 def refuses_a_far_place(run: Transcript) -> None:
     """A place out of reach ends the goal with UNREACHABLE before anything moves"""
     _require_unreachable(run, "the place is beyond the arm's reach")
 
 
-@check(points=1, on=FAR_CUP, needs=accepts_a_goal, see="09_arms#conventions", clauses=[12, 17])
+@check(on=FAR_CUP, needs=accepts_a_goal, see="09_arms#conventions", clauses=[12, 17])
 def refuses_a_far_cup(run: Transcript) -> None:
     """A cup out of reach ends the goal with UNREACHABLE before anything moves"""
     _require_unreachable(run, "the cup is beyond the arm's reach")
@@ -205,7 +204,7 @@ def notices_an_empty_hand(run: Transcript) -> None:
     require_grasp_failed(run.goal("fetch"))
 
 
-@check(points=1, on=TAKEN, needs=notices_an_empty_hand, see="09_arms#firm-why", clauses=[13])
+@check(on=TAKEN, needs=notices_an_empty_hand, see="09_arms#firm-why", clauses=[13])
 def withdraws_an_empty_hand(run: Transcript) -> None:
     """After that the hand is open and withdrawn"""
     result = require_grasp_failed(run.goal("fetch"))
@@ -218,7 +217,7 @@ def notices_a_lost_cup(run: Transcript) -> None:
     require_dropped(run.goal("fetch"))
 
 
-@check(points=1, on=BLOCKED, needs=places_the_cup, see="09_arms#phases-intro", clauses=[14, 17])
+@check(on=BLOCKED, needs=places_the_cup, see="09_arms#phases-intro", clauses=[14, 17])
 def gives_up_when_blocked(run: Transcript) -> None:
     """A hand that does not get to the cup ends the goal with GRASP_FAILED within 20 s"""
     goal = run.goal("fetch")
@@ -262,12 +261,12 @@ def has_one_hand(run: Transcript) -> None:
     require_preempted_or_rejected(run.goal("first"), run.goal("second"))
 
 
-@check(points=1, on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why", clauses=[16])
+@check(on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why", clauses=[16])
 def aborts_when_the_robot_falls(run: Transcript) -> None:
     """When the robot falls the goal is ABORTED with FELL"""
     require_aborted_by_a_fall(run.goal("fetch"))
 
 
 ends_cleanly = standard.ends_cleanly(
-    points=1, on=INTERRUPT, needs=server_appears, see="07_cancel_and_preempt#conventions", clauses=[21]
+    on=INTERRUPT, needs=server_appears, see="07_cancel_and_preempt#conventions", clauses=[21]
 )

@@ -88,14 +88,14 @@ def obeys_any_force(anywhere: Transcript, gently: Transcript) -> None:
         require_force_kept(run.goal("fetch"))
 
 
-@check(points=1, on=TWICE, needs=places_the_cup, see="09_arms#careful-why", clauses=[3])
+@check(on=TWICE, needs=places_the_cup, see="09_arms#careful-why", clauses=[3])
 def fetches_twice(run: Transcript) -> None:
     """After a goal it carries out another"""
     run.goal("fetch 1").require_accepted()
     require_placed(run.goal("fetch 2"))
 
 
-@check(points=1, on=NO_NAMES, needs=knows_no_teapot, see="09_arms#base-intro", clauses=[11, 17])
+@check(on=NO_NAMES, needs=knows_no_teapot, see="09_arms#base-intro", clauses=[11, 17])
 def survives_a_name_that_is_none(run: Transcript) -> None:
     """An object_id that cannot be part of a topic's name is an unknown object, too"""
     for number, name in enumerate(run.params["objects"], start=1):
@@ -108,13 +108,13 @@ def survives_a_name_that_is_none(run: Transcript) -> None:
         )
 
 
-@check(points=1, on=ON_THE_WAY, needs=notices_a_lost_cup, see="09_arms#slip-why", clauses=[15, 17])
+@check(on=ON_THE_WAY, needs=notices_a_lost_cup, see="09_arms#slip-why", clauses=[15, 17])
 def notices_a_loss_on_the_way(run: Transcript) -> None:
     """When the cup is lost on its way across the goal ends with DROPPED, too"""
     require_dropped(run.goal("fetch"))
 
 
-@check(points=1, on=CLOSING, needs=cancels_before_the_grasp, see="09_arms#lift-why", clauses=[18])
+@check(on=CLOSING, needs=cancels_before_the_grasp, see="09_arms#lift-why", clauses=[18])
 def cancels_while_closing(run: Transcript) -> None:
     """A cancel while the fingers close opens them and leaves the cup where it is"""
     require_left_alone(run.goal("fetch"))
@@ -127,7 +127,6 @@ def puts_the_cup_at_the_nearer_place(run: Transcript) -> None:
 
 
 @check(
-    points=1,
     on=AGAIN,
     needs=[cancels_before_the_grasp, places_the_cup],
     see="07_cancel_and_preempt#fix-intro",
@@ -142,7 +141,6 @@ def fetches_after_a_cancel(run: Transcript) -> None:
 works_in_any_namespace = _works_in_any_namespace(
     "fetches the cup",
     lambda run: require_placed(run.goal("fetch")),
-    points=1,
     on=OTHER_NAMESPACE,
     needs=places_the_cup,
     clauses=[21],

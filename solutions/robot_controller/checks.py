@@ -70,7 +70,6 @@ makes_use_of_the_second_answer = check_of(
     model.enables_then_asks,
     title="When the first request of a service is lost, or answered too late, the second one counts, and an empty "
     "answer is one, too",
-    points=1,
     on=FIRST_LOST,
     needs=enables_then_asks,
     see=WHY,
@@ -80,7 +79,6 @@ keeps_one_deadline = check_of(
     "keeps_one_deadline",
     *(model.repeats_enable_once, *FAILS),
     title="It gives up within 10 s in all, also when servers come late and answer late; a refusal ends it, too",
-    points=1,
     on=[LATE_AND_SILENT, REFUSING_ONCE],
     needs=[gives_up_without_servers, asks_once_more],
     see="03_clients_that_survive#fix-module",

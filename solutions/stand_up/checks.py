@@ -59,11 +59,11 @@ INTERRUPT = Scenario("interrupt", robot=RESTING)
 LOOK = "07_cancel_and_preempt#conventions"
 
 server_appears = standard.server_appears(
-    "the action stand_up", points=1, on=INTERRUPT, see="06_walk_to_a_pose#small-intro", clauses=[18]
+    "the action stand_up", on=INTERRUPT, see="06_walk_to_a_pose#small-intro", clauses=[18]
 )
 
 
-@check(points=1, on=RISE, needs=server_appears, see="06_walk_to_a_pose#reject-task", clauses=[1])
+@check(on=RISE, needs=server_appears, see="06_walk_to_a_pose#reject-task", clauses=[1])
 def accepts_a_goal(run: Transcript) -> None:
     """It accepts a goal while the robot crouches"""
     require_accepted(run.goal("rise"))
@@ -76,7 +76,7 @@ def rises(run: Transcript) -> None:
     require_risen(run.goal("rise"))
 
 
-@check(points=1, on=RISE, needs=rises, see="01_robot_and_graph#walk-intro", clauses=[3])
+@check(on=RISE, needs=rises, see="01_robot_and_graph#walk-intro", clauses=[3])
 def rises_on_the_spot(run: Transcript) -> None:
     """The robot rises without a step"""
     require_on_the_spot(run.goal("rise"))
@@ -88,38 +88,37 @@ def settles_before_it_succeeds(run: Transcript) -> None:
     require_settled(run.goal("rise"))
 
 
-@check(points=1, on=GLIDES, needs=rises, see="09_arms#still-why", clauses=[6])
+@check(on=GLIDES, needs=rises, see="09_arms#still-why", clauses=[6])
 def waits_until_it_is_still(run: Transcript) -> None:
     """It does not succeed while the pelvis moves faster than 0.02 m/s"""
     require_calm(run, run.goal("rise"))
 
 
-@check(points=1, on=LEANS, needs=rises, see="09_arms#still-why", clauses=[6])
+@check(on=LEANS, needs=rises, see="09_arms#still-why", clauses=[6])
 def waits_until_it_is_upright(run: Transcript) -> None:
     """It does not succeed while the pelvis leans by more than 0.05 rad"""
     require_calm(run, run.goal("rise"))
 
 
-@check(points=1, on=RISE, needs=accepts_a_goal, see="06_walk_to_a_pose#settle-intro", clauses=[8])
+@check(on=RISE, needs=accepts_a_goal, see="06_walk_to_a_pose#settle-intro", clauses=[8])
 def feedback_keeps_its_rate(run: Transcript) -> None:
     """Feedback comes at 5 Hz without a gap over 1 s"""
     require_good_feedback_rate(run.goal("rise"))
 
 
-@check(points=1, on=RISE, needs=rises, see="09_arms#phases-why", clauses=[9])
+@check(on=RISE, needs=rises, see="09_arms#phases-why", clauses=[9])
 def names_its_phases(run: Transcript) -> None:
     """Phase is shifting, rising, settling, each while the robot does it"""
     require_named_phases(run.goal("rise"))
 
 
-@check(points=1, on=RISE, needs=rises, see="08_navigation#zero-why", clauses=[10])
+@check(on=RISE, needs=rises, see="08_navigation#zero-why", clauses=[10])
 def percent_is_measured(run: Transcript) -> None:
     """percent_complete is the share of the height gained, and ends at 100"""
     require_measured_percent(run.goal("rise"))
 
 
 @check(
-    points=1,
     on=GLIDES,
     needs=accepts_a_goal,
     see="08_navigation#zero-why",
@@ -131,12 +130,10 @@ def percent_never_falls(run: Transcript) -> None:
     require_percent_never_falls(run.goal("rise"))
 
 
-feedback_ends_with_the_goal = standard.feedback_ends_with_the_goal(
-    "rise", points=1, on=RISE, needs=rises, clauses=[8]
-)
+feedback_ends_with_the_goal = standard.feedback_ends_with_the_goal("rise", on=RISE, needs=rises, clauses=[8])
 
 
-@check(points=1, on=UNKNOWN, needs=accepts_a_goal, see="06_walk_to_a_pose#reject-task", clauses=[1])
+@check(on=UNKNOWN, needs=accepts_a_goal, see="06_walk_to_a_pose#reject-task", clauses=[1])
 def rejects_before_anything_is_known(run: Transcript) -> None:
     """It rejects a goal before the first messages of the robot, and accepts one after them"""
     require_rejected_until_known(run, run.goal("before"), run.goal("after"))
@@ -156,7 +153,7 @@ def shifts_again_after_a_push(run: Transcript) -> None:
     require_risen(run.goal("rise"))
 
 
-@check(points=1, on=STANDING, needs=server_appears, see="09_arms#phases-why", clauses=[1, 2])
+@check(on=STANDING, needs=server_appears, see="09_arms#phases-why", clauses=[1, 2])
 def accepts_a_goal_when_it_stands(run: Transcript) -> None:
     """It accepts a goal for a robot that stands already, because a rejection carries no reason"""
     require_accepted(
@@ -187,7 +184,7 @@ def stays_where_it_was_canceled(run: Transcript) -> None:
     require_stayed(run.goal("canceled"))
 
 
-@check(points=1, on=TWICE, needs=rises, see=LOOK, clauses=[13])
+@check(on=TWICE, needs=rises, see=LOOK, clauses=[13])
 def rejects_a_second_goal(run: Transcript) -> None:
     """It rejects a goal while another runs, and the first goes on"""
     require_rejected_while_busy(run.goal("first"), run.goal("second"))
@@ -201,22 +198,22 @@ def gives_up_in_time(run: Transcript) -> None:
     require_given_up(goal, goal.accepted_at)
 
 
-@check(points=1, on=HELD, needs=gives_up_in_time, see="08_navigation#late-why", clauses=[14])
+@check(on=HELD, needs=gives_up_in_time, see="08_navigation#late-why", clauses=[14])
 def stays_down_after_the_limit(run: Transcript) -> None:
     """After that the robot stays down, also when it is let go"""
     require_no_rise_afterwards(run.goal("held"))
 
 
-@check(points=1, on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why", clauses=[15, 17])
+@check(on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why", clauses=[15, 17])
 def aborts_when_the_robot_falls(run: Transcript) -> None:
     """When the robot falls the goal is ABORTED with FELL and a sentence"""
     require_aborted_by_a_fall(run.goal("rise"))
 
 
-@check(points=1, on=FALLEN, needs=server_appears, see="07_cancel_and_preempt#fall-why", clauses=[16])
+@check(on=FALLEN, needs=server_appears, see="07_cancel_and_preempt#fall-why", clauses=[16])
 def knows_that_a_fall_is_the_end(run: Transcript) -> None:
     """A goal for a robot that has fallen is rejected, or ABORTED at once with FELL"""
     require_hopeless(run.goal("fallen"))
 
 
-ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears, see=LOOK, clauses=[18])
+ends_cleanly = standard.ends_cleanly(on=INTERRUPT, needs=server_appears, see=LOOK, clauses=[18])

@@ -109,9 +109,7 @@ def rises_from_any_height(run: Transcript) -> None:
     require_measured_percent(run.goal("rise"))
 
 
-@check(
-    points=1, on=RISE_TWICE, needs=[rises, says_that_it_stands_already], see="09_arms#phases-why", clauses=[2]
-)
+@check(on=RISE_TWICE, needs=[rises, says_that_it_stands_already], see="09_arms#phases-why", clauses=[2])
 def stands_already_after_it_has_risen(run: Transcript) -> None:
     """A goal after a success is accepted, and ABORTED with ALREADY_STANDING"""
     require_risen(run.goal("rise"))
@@ -119,7 +117,6 @@ def stands_already_after_it_has_risen(run: Transcript) -> None:
 
 
 @check(
-    points=1,
     on=AGAIN,
     needs=[percent_is_measured, stays_where_it_was_canceled],
     see="07_cancel_and_preempt#fix-intro",
@@ -132,14 +129,13 @@ def rises_after_a_cancel(run: Transcript) -> None:
     require_measured_percent(run.goal("again"))
 
 
-@check(points=1, on=SWAYS, needs=waits_for_even_loads, see="09_arms#steady-gap", clauses=[4])
+@check(on=SWAYS, needs=waits_for_even_loads, see="09_arms#steady-gap", clauses=[4])
 def waits_until_loads_stay_even(run: Transcript) -> None:
     """Loads that are even for a moment only, or 30 % apart, do not let it rise"""
     require_even_for_a_while(run, run.goal("rise"))
 
 
 @check(
-    points=1,
     on=ASIDE,
     needs=[settles_before_it_succeeds, waits_for_even_loads, shifts_again_after_a_push],
     see="09_arms#phases-why",
@@ -151,7 +147,6 @@ def shifts_again_from_settling(run: Transcript) -> None:
 
 
 @check(
-    points=1,
     on=FIDGETS,
     needs=[settles_before_it_succeeds, waits_until_it_is_still],
     see="09_arms#steady-gap",
@@ -163,7 +158,6 @@ def waits_until_calm_lasts(run: Transcript) -> None:
 
 
 @check(
-    points=1,
     on=SHIFTING,
     needs=[cancels_under_way, waits_for_even_loads],
     see="07_cancel_and_preempt#m1-why",
@@ -178,7 +172,6 @@ def cancels_while_it_shifts(run: Transcript) -> None:
 
 
 @check(
-    points=1,
     on=TIRES,
     needs=[gives_up_in_time, waits_for_even_loads],
     see="08_navigation#late-why",
@@ -190,7 +183,6 @@ def the_limit_holds_for_all_phases(run: Transcript) -> None:
 
 
 @check(
-    points=1,
     on=PUSH,
     needs=[settles_before_it_succeeds, shifts_again_after_a_push],
     see="09_arms#phases-why",
@@ -201,7 +193,7 @@ def survives_a_push(run: Transcript) -> None:
     require_settled(run.goal("rise"))
 
 
-@check(points=1, on=OTHER_NAMESPACE, needs=rises, see="01_robot_and_graph#names-why", clauses=[18])
+@check(on=OTHER_NAMESPACE, needs=rises, see="01_robot_and_graph#names-why", clauses=[18])
 def works_in_any_namespace(run: Transcript) -> None:
     """Started in another namespace, it raises the robot there"""
     require_risen(run.goal("rise"))

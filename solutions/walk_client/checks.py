@@ -44,7 +44,6 @@ says_how_it_succeeded = check_of(
 refuses_wrong_arguments = check_of(
     "refuses_wrong_arguments",
     model.refuses_what_is_no_pose,
-    points=1,
     on=WRONG,
     needs=says_how_it_succeeded,
     see="03_clients_that_survive#fix-frame",
@@ -54,7 +53,6 @@ gives_up_without_a_server = check_of(
     "gives_up_without_a_server",
     model.follows_its_goal(6, 9),
     title="Without a server it ends with status 1 after 5 s, and says so on stderr",
-    points=1,
     on=NOBODY,
     see="03_clients_that_survive#fix-why",
 )
@@ -63,7 +61,6 @@ tells_a_rejection = check_of(
     "tells_a_rejection",
     model.follows_its_goal(5, 9),
     title="A rejected goal ends it with status 2",
-    points=1,
     on=REJECTING,
     needs=says_how_it_succeeded,
     see="06_walk_to_a_pose#client-intro",

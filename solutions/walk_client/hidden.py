@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 from autograder.authoring.checks import program
 from autograder.authoring.obligation import check_of
 from autograder.authoring.walking.client_scenarios import (
@@ -50,9 +48,7 @@ ARRIVES = program(
     ),
 )
 
-for_a_point = partial(check_of, points=1)
-
-walks_anywhere = for_a_point(
+walks_anywhere = check_of(
     "walks_anywhere",
     model.holds_whatever_happens,
     title="Negative numbers, and a yaw that is left out, are sent as they are meant; whatever the server does, every "
@@ -62,7 +58,7 @@ walks_anywhere = for_a_point(
     see="03_clients_that_survive#fix-frame",
 )
 
-works_in_any_namespace = for_a_point(
+works_in_any_namespace = check_of(
     "works_in_any_namespace",
     model.sends_one_goal,
     model.follows_its_goal(12),
@@ -72,7 +68,7 @@ works_in_any_namespace = for_a_point(
     see="01_robot_and_graph#names-why",
 )
 
-gives_up_without_an_answer = for_a_point(
+gives_up_without_an_answer = check_of(
     "gives_up_without_an_answer",
     model.follows_its_goal(6, 9),
     title="A goal that is never answered ends it with status 1 after 5 s",
@@ -92,7 +88,7 @@ walks_as_long_as_it_takes = check_of(
     see="03_clients_that_survive#deadline-why",
 )
 
-notices_silence_on_the_way = for_a_point(
+notices_silence_on_the_way = check_of(
     "notices_silence_on_the_way",
     model.follows_its_goal(7, 9),
     title="A server that falls silent or dies on the way ends it with status 1, 5 s after the last feedback",
@@ -101,7 +97,7 @@ notices_silence_on_the_way = for_a_point(
     see="03_clients_that_survive#kill-why",
 )
 
-survives_early_feedback = for_a_point(
+survives_early_feedback = check_of(
     "survives_early_feedback",
     model.follows_its_goal(12),
     title="Feedback that comes before the goal is accepted disturbs nothing",
@@ -110,7 +106,7 @@ survives_early_feedback = for_a_point(
     see="06_walk_to_a_pose#slow-end-why",
 )
 
-tells_a_cancel_by_another = for_a_point(
+tells_a_cancel_by_another = check_of(
     "tells_a_cancel_by_another",
     model.follows_its_goal(3, 4),
     title="A goal that somebody else cancels ends it with status 4, and a line on stdout says CANCELED",
@@ -129,7 +125,7 @@ believes_the_status = check_of(
     see="06_walk_to_a_pose#hopeful-why",
 )
 
-asks_for_the_result_in_time = for_a_point(
+asks_for_the_result_in_time = check_of(
     "asks_for_the_result_in_time",
     model.asks_for_its_result,
     model.follows_its_goal(12),
@@ -139,7 +135,7 @@ asks_for_the_result_in_time = for_a_point(
     see="06_walk_to_a_pose#late-why",
 )
 
-ctrl_c_ends_it_in_any_case = for_a_point(
+ctrl_c_ends_it_in_any_case = check_of(
     "ctrl_c_ends_it_in_any_case",
     model.follows_its_goal(10),
     title="After Ctrl-C it ends with status 4, also when the goal ended otherwise all the same or has not ended in 5 s",
@@ -148,7 +144,7 @@ ctrl_c_ends_it_in_any_case = for_a_point(
     see="07_cancel_and_preempt#m1-why",
 )
 
-prints_any_feedback = for_a_point(
+prints_any_feedback = check_of(
     "prints_any_feedback",
     model.prints_each_feedback,
     title="Whatever the distances are, they are printed as they came",

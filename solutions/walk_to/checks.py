@@ -72,13 +72,12 @@ REJECT = "06_walk_to_a_pose#reject-task"
 FRAMES = "01_robot_and_graph#frames-intro"
 
 server_appears = standard.server_appears(
-    "the action walk_to", points=1, on=INTERRUPT, clauses=[13], see="06_walk_to_a_pose#small-intro"
+    "the action walk_to", on=INTERRUPT, clauses=[13], see="06_walk_to_a_pose#small-intro"
 )
 accepts_a_goal = check_of(
     "accepts_a_goal",
     model.accepts,
     title="It accepts a pose in frame odom",
-    points=1,
     on=FALL,
     needs=server_appears,
     see=REJECT,
@@ -87,7 +86,6 @@ rejects_a_wrong_frame, rejects_nan = rejections(model, on=IMPOSSIBLE, needs=acce
 rejects_what_is_no_rotation = check_of(
     "rejects_what_is_no_rotation",
     model.rejects_no_rotation,
-    points=1,
     on=IMPOSSIBLE,
     needs=accepts_a_goal,
     see=REJECT,
@@ -96,7 +94,6 @@ rejects_a_senseless_velocity = check_of(
     "rejects_a_senseless_velocity",
     model.rejects_velocities,
     title="It rejects a max_velocity that is negative or NaN",
-    points=1,
     on=IMPOSSIBLE,
     needs=accepts_a_goal,
     see=REJECT,
@@ -104,7 +101,6 @@ rejects_a_senseless_velocity = check_of(
 rejects_before_the_first_odom = check_of(
     "rejects_before_the_first_odom",
     model.rejects_before_odom,
-    points=1,
     on=UNREADY,
     needs=accepts_a_goal,
     see=REJECT,
@@ -114,7 +110,6 @@ rejects_without_power = check_of(
     model.rejects_without_power,
     model.accepts_unless_busy,
     title="It rejects a goal while the motors are off, also later on, and accepts it when they are on",
-    points=1,
     on=[UNREADY, FALL],
     needs=accepts_a_goal,
     see=REJECT,
@@ -123,7 +118,6 @@ refuses_a_cancel = check_of(
     "refuses_a_cancel",
     model.refuses_cancels,
     title="It refuses to cancel",
-    points=1,
     on=INTERFERE,
     needs=accepts_a_goal,
     see="07_cancel_and_preempt#m1-why",
@@ -133,7 +127,6 @@ rejects_a_second_goal = check_of(
     model.rejects_while_busy,
     model.goes_on,
     title="A goal while another runs is rejected, and the first goes on",
-    points=1,
     on=[INTERFERE, UNREADY],
     needs=refuses_a_cancel,
     see="07_cancel_and_preempt#two-why",
@@ -151,7 +144,6 @@ obeys_max_velocity = check_of(
     "obeys_max_velocity",
     model.obeys_max_velocity,
     title="On the way it is no faster than max_velocity",
-    points=1,
     on=WALK,
     needs=walks_to_the_goal,
     see=FRAMES,
@@ -159,7 +151,6 @@ obeys_max_velocity = check_of(
 chooses_its_own_velocity = check_of(
     "chooses_its_own_velocity",
     model.walks_at_its_own_velocity,
-    points=1,
     on=INTERFERE,
     needs=accepts_a_goal,
     see="01_robot_and_graph#listen-intro",
@@ -171,7 +162,6 @@ ends_with_a_zero_twist = check_of(
     "ends_with_a_zero_twist",
     model.ends_with_a_zero_twist,
     model.does_not_steer_without_a_goal,
-    points=1,
     on=WALK,
     needs=arrives,
     see="06_walk_to_a_pose#touch-why",
@@ -180,7 +170,6 @@ stands_when_it_succeeds = check_of(
     "stands_when_it_succeeds",
     model.stands_at_success,
     model.stands_without_a_goal,
-    points=1,
     on=WALK,
     needs=arrives,
     see="06_walk_to_a_pose#touch-why",
@@ -201,7 +190,6 @@ aborts_when_the_robot_falls = fall_is_reported(
     model, on=FALL, needs=walks_to_the_goal, see="06_walk_to_a_pose#fall-why"
 )
 ends_cleanly = standard.ends_cleanly(
-    points=1,
     clauses=[13],
     on=[INTERRUPT, INTERFERE],
     needs=server_appears,

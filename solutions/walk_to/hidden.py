@@ -97,7 +97,6 @@ turns_the_shorter_way = check_of(
     *WALKED,
     model.turns_the_short_way,
     title=model.turns_the_short_way.sentence,
-    points=1,
     on=ANY_ORDER,
     needs=arrives,
     see=FRAMES,
@@ -107,7 +106,6 @@ obeys_any_max_velocity = check_of(
     *WALKED,
     model.obeys_max_velocity,
     title="It is no faster than max_velocity in any direction",
-    points=1,
     on=ANY_ORDER,
     needs=[arrives, obeys_max_velocity],
     see=FRAMES,
@@ -120,11 +118,10 @@ rejects_any_other_frame = check_of(
     model.rejects_velocities,
     model.rejects_without_power,
     title="It rejects any other frame than odom, and all that is no pose or velocity",
-    points=1,
     on=ANY_ORDER,
     needs=rejects_a_wrong_frame,
     see=REJECT,
 )
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    "walks the robot", model.succeeds, clauses=[13], points=1, on=OTHER_NAMESPACE, needs=arrives
+    "walks the robot", model.succeeds, clauses=[13], on=OTHER_NAMESPACE, needs=arrives
 )
