@@ -147,7 +147,7 @@ def check(
     see: str = "",
     clauses: Sequence[int] = (),
 ) -> Callable[[Judge], Check]:
-    """Make a check worth `points` of a function, judged on the transcript of each scenario in `on`.
+    """Make a check of a function that is judged on the transcript of each scenario in `on`; it is worth `points`.
 
     `needs` are checks that must have passed; otherwise this one is reported as not run. `see` is the lesson that its
     failures point to, such as "02_services#m9-why". `clauses` are those of the statement that it judges.

@@ -114,7 +114,7 @@ def check_of(
     Args:
         id: of the check.
         obligations: which all must hold.
-        points: for all of them.
+        points: for all of them; 1 unless said otherwise.
         on: the scenarios; one in which the submission fails is retried alone.
         needs: checks that must have passed.
         title: of the check; by default the sentence of its first obligation.
