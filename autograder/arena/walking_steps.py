@@ -171,7 +171,7 @@ class _Walker:
         self._stage.wait(SETTLING)
 
     def set_up(self) -> None:
-        """Put the robot on its feet again, as after a fall, and let it say so."""
+        """Put the robot on its feet again, as after a fall, and wait until it says STANDING."""
         robot = self._stage.robot
         robot.set_up()
         robot.wait_for(lambda state: state.mode == RobotState.STANDING)

@@ -96,7 +96,7 @@ def _late_server(random: Random) -> Server:
 
 
 def _silent(random: Random) -> Server:
-    """The server falls silent; the battery and the robot go on."""
+    """The server falls silent; battery_state and robot_state go on."""
     news = [step for level in (0.8, 0.7, 0.6) for step in (["wait", 1.5], ["battery", level], WALKING)]
     return script({"distances": way(random.randrange(8)), "ends_after": None}, *WALKS, *news)
 

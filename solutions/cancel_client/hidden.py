@@ -28,7 +28,7 @@ from .checks import AGREED_AND_OVER, ARRIVES
 
 
 def _ctrl_c_after_q(random: Random) -> dict[str, Any]:
-    """Ctrl-C comes after a q that was refused, is refused, too, and the goal SUCCEEDS."""
+    """Ctrl-C comes after a refused q; its cancel is refused, too, and the goal SUCCEEDS."""
     return ctrl_c(random, {"ends_after": 4.2, "cancel": {"agreed": False}}, "q")
 
 

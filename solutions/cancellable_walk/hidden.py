@@ -20,7 +20,7 @@ Steps = list[list[Any]]
 
 
 def _walks(random: Random) -> dict[str, Any]:
-    """Turn its back, cross pi, give way twice, once to the same pose, and to one of two, reject meanwhile; fall.
+    """Goals behind the robot, preemption one by one (also by the same pose) and by goals sent together; then a fall.
 
     A velocity in odom's axes leads away from the second pose.
     """

@@ -39,7 +39,7 @@ def _targets(random: Random) -> dict[str, Any]:
 
 
 def _lengths(random: Random) -> dict[str, Any]:
-    """Read the lengths, set one, the other, both, at last a good and a bad one; ask all over the reach after each."""
+    """Read the lengths; set one, the other, both, at last a good one together with a bad one; ask after each."""
     names = list(DEFAULT.parameters)
     upper_arm, forearm, *_ = lengths = [[name, round(random.uniform(0.1, 0.6), 3)] for name in 3 * names]
     arm = DEFAULT.parameters
@@ -89,13 +89,11 @@ def _no_numbers(random: Random) -> dict[str, Any]:
         for bad in NO_LENGTHS
         for step in (["set", [random.choice(names), bad]], ["ask", [0.4, 0.3]], ["ask", [0.1, -0.1, True]])
     ]
-    points_again = [
-        [0.2, 0.3],
-        [0.0, 0.0],
-        [0.4, 0.3],
-        [-0.3, 0.3],
-    ]  # equal lengths reach the shoulder itself
-    again = [["set", *([name, 0.35] for name in names)], *(["ask", point] for point in points_again)]
+    points_of_equal_lengths = [[0.2, 0.3], [0.0, 0.0], [0.4, 0.3], [-0.3, 0.3]]  # the shoulder is one of them
+    again = [
+        ["set", *([name, 0.35] for name in names)],
+        *(["ask", point] for point in points_of_equal_lengths),
+    ]
     return {"steps": [*asked, *set_badly, *again]}
 
 

@@ -32,9 +32,8 @@ def in_order(*steps: list[Any], robot: tuple[str, ...] = RESTING, **options: Any
 
 
 ASK = in_order(["let_arrive"], ["ask", SOME_JOINTS], ["ask", []], interrupt=True)
-UNHEARD = in_order(
-    ["ask", SOME_JOINTS], robot=UNPLUGGED_ROBOT, interrupt=True
-)  # Ctrl-C before the first message
+# Ctrl-C before the first message
+UNHEARD = in_order(["ask", SOME_JOINTS], robot=UNPLUGGED_ROBOT, interrupt=True)
 MOVED = in_order(
     *(["let_arrive"], ["ask", [*POSTURE]], ["reverse", True], ["move", POSTURE], ["ask", [*POSTURE]]),
     *(["unplug"], ["wait", 5.5], ["ask", [*POSTURE]]),

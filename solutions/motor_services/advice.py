@@ -12,6 +12,7 @@ from autograder.authoring.robot_record import RobotRecord
 from autograder.authoring.robot_topic import DELIVERY
 
 A_WAIT = 0.7  # s; an answer that takes longer waited for the robot
+LEAST_WAIT = 1.8  # s before an answer may say that the robot did not confirm: 2 s, less what clocks differ by
 WATCHED = 1.5  # s after an answer in which the motors would have followed it
 _SAID = {"Motors: ON": True, "Motors: OFF": False}
 
@@ -82,7 +83,7 @@ def advice_on_power(call: Call) -> str:
 
 def advice_on_granting(call: Call, situation: str) -> str:
     """Say what is wrong about a refusal that had no reason."""
-    if call.latency > A_WAIT:
+    if A_WAIT < call.latency < LEAST_WAIT:
         return f"It gave up waiting for robot_state after {call.latency:.1f} s: wait for 2 to 4 s."
     before, after = _had_power(call, call.sent.t), _had_power(call, call.answered.t + DELIVERY)
     if before is not call.request.data and after is call.request.data:

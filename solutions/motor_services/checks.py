@@ -13,14 +13,14 @@ ON_A_STAND = ("--scene", "stand")
 INTERRUPT = Scenario("in_order", {"steps": [["ask", 1]], "interrupt": True}, robot=RESTING)
 CUT_AND_RETURNED = [["switch_elsewhere", False], ["ask", 3], ["switch_elsewhere", True], ["ask", 1]]
 NOT_CONFIRMED = [["publish_state", False], ["switch", False], ["settle"], ["ask", 1]]
-UNHEARD = Scenario(
-    "in_order", {"steps": [["ask", 1]], "interrupt": True}, robot=(*RESTING, "--robot-state-unpublished")
-)  # Ctrl-C before the first robot_state
+UNPUBLISHED_ROBOT = (*RESTING, "--robot-state-unpublished")
+# Ctrl-C before the first robot_state
+UNHEARD = Scenario("in_order", {"steps": [["ask", 1]], "interrupt": True}, robot=UNPUBLISHED_ROBOT)
 STATUS = Scenario("in_order", {"steps": CUT_AND_RETURNED + NOT_CONFIRMED}, robot=ON_A_STAND)
 SILENT_ROBOT = Scenario(
     "in_order",
     {"steps": [["ask", 3], ["switch", True], ["publish_state", True], ["ask", 1]]},
-    robot=(*RESTING, "--robot-state-unpublished"),
+    robot=UNPUBLISHED_ROBOT,
 )
 OFF_AGAIN = [["switch", False], ["settle"], ["switch", False], ["switch_elsewhere", True], ["switch", False]]
 ON_AGAIN = [["settle"], ["switch", True], ["settle"], ["switch", True, 5], ["settle"]]

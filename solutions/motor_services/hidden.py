@@ -13,7 +13,10 @@ from . import checks, model
 
 
 def _on_the_floor(random: Random) -> dict[str, Any]:
-    """Power while it walks any way but ahead, also in silence, once it stands, as it falls, and when it lies."""
+    """Power while it walks in any direction but ahead, once it stands, as it falls, and as it lies on the floor.
+
+    Once robot_state stops while it walks.
+    """
     side = random.choice((-1, 1))
     velocities = (
         [0.0, 0.0, side * random.uniform(0.25, 0.4)],
@@ -42,7 +45,7 @@ def _on_the_floor(random: Random) -> dict[str, Any]:
 
 
 def _on_the_stand(random: Random) -> dict[str, Any]:
-    """Both before the first robot_state, then in any order: repeats, another node, silences, many at once."""
+    """Power on and off before the first robot_state; then repeats, another node, silences, many at once."""
     first = random.choice((True, False))
     silence = round(random.uniform(0.5, 2.0), 1)
     blocks: list[list[list[Any]]] = [

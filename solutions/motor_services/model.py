@@ -23,6 +23,7 @@ from autograder.authoring.transcript import Transcript
 from ros_runtime.message_constants import RobotMode, name_of
 
 from .advice import (
+    LEAST_WAIT,
     advice_on_granting,
     advice_on_power,
     advice_on_refusing,
@@ -38,7 +39,6 @@ SAMPLE = 0.1  # s; the record samples the robot at 50 Hz, and robot_state comes 
 OBEYED = 2.0  # s after the answer in which the command must have reached the robot
 IN_TIME = 2.0  # s for every answer
 UNCONFIRMED = 5.0  # s for one that waits for a confirmation that does not come
-LEAST_WAIT = 1.8  # s before anybody may say that the robot did not confirm: 2, and what clocks differ by
 CONFIRMED_TIME = FROM_MEMORY_TIME + PERIOD  # s for the fastest of several answers that wait for the robot
 STARTS_TO_WALK = 3.0  # s
 TOGETHER = 0.5  # s between requests that come at once

@@ -60,7 +60,7 @@ _BY_NAME = (
 
 def succeeds(goal: Goal) -> str | None:
     """It SUCCEEDS when the last point's time is over and every joint is within goal_tolerance of it."""
-    if not ends_by_itself(goal) or left_alone(goal) or fate_of(goal) is not Fate.ARRIVES:
+    if not _ends_by(goal, Fate.ARRIVES):
         return None
     require_not_given_up(goal, _why_given_up(goal))
     result, plan, tolerance = goal.require_result(SUCCEEDED), plan_of(goal), tolerance_of(goal)
@@ -92,7 +92,7 @@ def succeeds(goal: Goal) -> str | None:
 
 def misses(goal: Goal) -> str | None:
     """A joint that is not at its end 1 s after it is due ends the goal with GOAL_TOLERANCE_VIOLATED."""
-    if not ends_by_itself(goal) or left_alone(goal) or fate_of(goal) is not Fate.MISSES:
+    if not _ends_by(goal, Fate.MISSES):
         return None
     hold, plan = hold_of(goal), plan_of(goal)
     assert hold
@@ -117,7 +117,7 @@ def misses(goal: Goal) -> str | None:
 
 def strays(goal: Goal) -> str | None:
     """An arm that is more than 0.5 rad off its trajectory ends the goal with PATH_TOLERANCE_VIOLATED."""
-    if not ends_by_itself(goal) or left_alone(goal) or fate_of(goal) is not Fate.STRAYS:
+    if not _ends_by(goal, Fate.STRAYS):
         return None
     hold, plan = hold_of(goal), plan_of(goal)
     assert hold
@@ -228,6 +228,11 @@ def gives_way(goal: Goal) -> str | None:
         at=end.t,
     )
     return f"by {len(newer)} newer"
+
+
+def _ends_by(goal: Goal, fate: Fate) -> bool:
+    """Return whether this fate, and nothing else, ends the goal, and the scenario waited for its end."""
+    return ends_by_itself(goal) and not left_alone(goal) and fate_of(goal) is fate
 
 
 def _code(goal: Goal) -> ErrorCode | None:

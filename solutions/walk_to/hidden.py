@@ -20,7 +20,7 @@ LISTENING = 1.5  # s after the last result in which nothing more may come
 
 
 def _steps(random: Random) -> dict[str, Any]:
-    """Turn its back, cross pi slowly on a diagonal, ask for what is impossible, and for many things at once; then fall.
+    """Turn its back, cross pi slowly on a diagonal, ask for the impossible and for much at once; fall, and get up.
 
     A velocity in odom's axes leads away from the second pose, and one that is limited axis by axis is 1.4 times too
     fast on the way there.

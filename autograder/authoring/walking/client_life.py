@@ -122,7 +122,7 @@ class ClientLife:
 
     @property
     def result(self) -> float:
-        """When the result was sent to it; to a client that never asks for it, when it would have been."""
+        """When the result was sent, or would have been sent if the client, which never did, had asked for it."""
         goal, after = self.goal, (self.run.params.get("server") or {}).get("result_after", 0.0)
         if goal and goal.result_sent:
             return goal.result_sent.t

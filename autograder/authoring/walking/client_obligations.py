@@ -390,10 +390,9 @@ def prints_each_feedback(run: Transcript, within: float = math.inf) -> str | Non
     life = life_of(run)
     if life.goal is None:
         return None
-    over = min(
-        [*(end.earliest for end in life.ends()), life.goal.finished.t if life.goal.finished else math.inf]
-    )
-    over = min(life.exited, over - ON_ITS_WAY)  # a program that has crashed does not say that all was printed
+    finished = life.goal.finished.t if life.goal.finished else math.inf
+    due = min([finished, *(end.earliest for end in life.ends())])  # from when on the program may end
+    over = min(life.exited, due - ON_ITS_WAY)
     sent = [each for each in life.goal.feedback if life.accepted <= each.t < over]
     lines = [event for event in run.all(ev.NodeOutput) if event.stream == "stdout"]
     rest = iter(lines)

@@ -7,14 +7,8 @@ from collections.abc import Iterator
 
 from autograder.audit.generated.program import Edits, Program, last_name
 
-_TIDY = (
-    "destroy_node",
-    "destroy_timer",
-    "destroy",
-    "try_shutdown",
-    "shutdown",
-    "join",
-)  # nobody misses these at the end of a process
+# Nobody misses these at the end of a process.
+_TIDY = ("destroy_node", "destroy_timer", "destroy", "try_shutdown", "shutdown", "join")
 
 
 def loses_the_exit_status(program: Program) -> Iterator[Edits]:
