@@ -76,7 +76,7 @@ BOTH = _alone(  # the right arm's goal is over first
     ["go", "right", "r", ["r_elbow", "r_shoulder_pitch"], [[1.5, [-1.0, 0.0]]]],
     *(["arrive", "right"], ["arrive", "left"]),
 )
-INTERRUPT = _unwatched(["interrupt"])
+INTERRUPT = _alone(far("move", "l"), ["get_going", "l_elbow"], ["interrupt"])
 
 LOOK, TRAJECTORY, BEND = "07_cancel_and_preempt#conventions", "09_arms#conventions", "09_arms#bend-why"
 
