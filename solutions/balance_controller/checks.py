@@ -37,6 +37,7 @@ REFUSALS = Scenario(
         "steps": [
             *(["ask"], ["settle"], ["set_each", {"kp_pitch": 40.0}], ["set_each", {"kp_roll": 12.5}]),
             *(["set_each", {"kd_pitch": -5.0}], ["set_each", {"max_torque": -1.0}], ["settle"]),
+            *(["set_each", {"max_torque": 0.0}], ["settle"]),
             *(["set_each", {"kd_roll": 44.0}], ["settle"]),
         ]
     },
@@ -103,7 +104,7 @@ publishes_once = of_sets(
 )
 refuses_bad_gains = check_of(
     "refuses_bad_gains",
-    *(model.refuses_weak_gains, model.refuses_negative_gains, model.gives_a_reason),
+    *(model.refuses_weak_gains, model.refuses_limits, model.refuses_negative_gains, model.gives_a_reason),
     title="A gain that is negative, or too weak to hold the trunk, is refused with a reason",
     points=2,
     on=REFUSALS,
