@@ -46,24 +46,22 @@ def has_its_gains(reading: Reading) -> str:
     """The five parameters are doubles, at first the robot's own gains, or those that the node was started with"""
     started_with = reading.call.run.params.get("started_with", {})
     for name, default in gains.DEFAULTS.items():
-        expect(
+        reading.call.require(
             reading.parameters[name].type == ParameterType.PARAMETER_DOUBLE,
             expected=f"a parameter {name} of type double",
             observed=_TYPES.get(reading.parameters[name].type, "another type"),
             help=f"Declare it with a float as its default: self.declare_parameter({name!r}, {default}, …).",
-            at=reading.call.answered.t,
         )
         wanted, near, whose, help = (
             (started_with[name], 0.0, "as it was started with", advice.STARTED_WITH)
             if name in started_with
             else (default, NEAR_DEFAULT, "the robot's own", advice.DEFAULTS)
         )
-        expect(
+        reading.call.require(
             bool(reading.before) or math.isclose(reading.gains[name], wanted, rel_tol=1e-6, abs_tol=near),
             expected=f"{name} {wanted:g}, {whose}",
             observed=f"{reading.gains[name]:g}",
             help=help,
-            at=reading.call.answered.t,
         )
     return "later" if reading.before else "started with some" if started_with else "defaults"
 
@@ -74,22 +72,20 @@ def describes_each(call: Call) -> str:
     described = iter(call.response.descriptors)
     for name in gains.NAMES:
         descriptor = next(described, ParameterDescriptor())
-        expect(
+        call.require(
             bool(descriptor.description.strip()),
             expected=f"a description of {name}",
             observed="none",
             help="Give declare_parameter a ParameterDescriptor(description=…, floating_point_range=[…]) as its third "
             "argument: say what the gain does, and its unit.",
-            at=call.answered.t,
         )
         ranges = descriptor.floating_point_range
-        expect(
+        call.require(
             any(one.from_value < gains.DEFAULTS[name] <= one.to_value for one in ranges),
             expected=f"a floating_point_range of {name} that holds {gains.DEFAULTS[name]:g}",
             observed=", ".join(f"{one.from_value:g} to {one.to_value:g}" for one in ranges) or "none",
             help="floating_point_range=[FloatingPointRange(from_value=…, to_value=…)], in a list: rclpy then refuses "
             "the rest by itself.",
-            at=call.answered.t,
         )
     return "all five"
 
@@ -101,12 +97,11 @@ def _refuses(sentence: str, *faults: str, clause: int = 3) -> Obligation:
         fault = next((each for each in change.faults.values() if each in faults), None)
         if fault is None:
             return None
-        expect(
+        change.call.require(
             not change.accepted,
             expected=f"{change.words} is refused: {advice.REFUSALS[fault][0]}",
             observed="accepted",
             help=advice.about_accepting(change, fault),
-            at=change.call.answered.t,
         )
         return f"{fault}, {'alone' if len(change.values) == 1 else 'among others'}"
 
@@ -126,12 +121,11 @@ def gives_a_reason(change: Change) -> str | None:
     """Every refusal has a reason"""
     if change.accepted:
         return None
-    expect(
+    change.call.require(
         bool(change.reason.strip()),
         expected=f"a reason why {change.words} is refused",
         observed="an empty reason",
         help='Give SetParametersResult a reason, too: "kp_pitch is 40.0; it has to be above 51.0".',
-        at=change.call.answered.t,
     )
     return "refused"
 
@@ -141,12 +135,11 @@ def accepts_the_table(change: Change) -> str | None:
     """All other values of the table are accepted"""
     if change.faults or any(value > gains.HIGHEST[name] for name, value in change.values.items()):
         return None
-    expect(
+    change.call.require(
         change.accepted,
         expected=f"{change.words} is accepted: it is within the ranges",
         observed=f"refused: {change.reason or 'without a reason'}",
         help=advice.about_refusing(change),
-        at=change.call.answered.t,
     )
     return "one" if len(change.values) == 1 else "several together"
 

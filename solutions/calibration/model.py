@@ -79,7 +79,7 @@ def _require_success(call: Call, story: truth.Story) -> None:
         see="" if published else lesson_on_hearing(run, "imu"),
     )
     took = call.answered.t - story.since
-    expect(
+    call.require(
         COLLECTING - EARLY <= took <= COLLECTING + LATER,
         expected=f"{COLLECTING:g} s of samples, collected after get_status had answered, and the answer within 1 s",
         observed=f"the answer came {took:.1f} s after that of get_status",
@@ -88,7 +88,6 @@ def _require_success(call: Call, story: truth.Story) -> None:
         else "Begin to collect when get_status has answered, not before, and wait 3 s from then."
         if call.latency >= COLLECTING - EARLY
         else "Wait 3 s between the first sample and the answer: count the time, not the samples.",
-        at=call.answered.t,
     )
 
 
@@ -165,12 +164,11 @@ def wastes_no_time(run: Transcript) -> str | None:
         if len(each) < SEVERAL:
             continue
         fastest = min(each, key=lambda call: call.answered.t - call.sent.t)
-        expect(
+        fastest.require(
             fastest.latency <= limit + FROM_MEMORY_TIME,
             expected=f"success: false after {limit:g} s" if limit else "refusals at once",
             observed=f"the fastest of {len(each)} took {fastest.latency:.1f} s",
             help=help,
-            at=fastest.answered.t,
         )
         judged.append(f"{len(each)} times")
     return ", ".join(judged) or None
@@ -186,29 +184,26 @@ def tells_the_means(call: Call) -> str | None:
         return None
     message, means = call.response.message, _means(call)
     numbers = numbers_in(message)
-    expect(
+    call.require(
         len(numbers) <= MOST_NUMBERS,
         expected=f"a message with the three means and the count, at most {MOST_NUMBERS} numbers in all",
         observed=f"{len(numbers)} numbers",
         help="Say what you have measured, once: whoever reads the message must know which numbers are meant.",
-        at=call.answered.t,
     )
     triples = triples_in(numbers)
     right = [triple for triple in triples if is_near(triple, means)]
-    expect(
+    call.require(
         bool(right),
         expected=f"a message with the mean angular velocity {shown_vector(means)} rad/s, within {TOLERANCE:g}",
         observed=f"message: {shown(message)}",
         help=advice_on_vector(call, [[float(one) for one in triple] for triple in triples], means)
         or "Put the three means into the message, x, y and z, as plain numbers in rad/s with at least four decimals.",
-        at=call.answered.t,
     )
-    expect(
+    call.require(
         any(max(map(decimals, triple)) >= DECIMALS for triple in right),
         expected=f"the means with at least {DECIMALS} decimals",
         observed=f"message: {shown(message)}",
         help="Round later: a bias of some thousandths needs four decimals or more, as in f'{x:.5f}'.",
-        at=call.answered.t,
     )
     return _situation(call)
 
@@ -223,7 +218,7 @@ def tells_the_count(call: Call) -> str | None:
     came = len(imu_between(run, story.since - DELIVERY / 2, call.answered.t))
     counts = whole_numbers(call.response.message)
     more = [count for count in counts if count > came]
-    expect(
+    call.require(
         any(FEWEST_SAMPLES <= count <= came for count in counts),
         expected=f"the count of samples in the message: {FEWEST_SAMPLES} or more, and {came} at most could come",
         observed=f"message: {shown(call.response.message)}",
@@ -231,7 +226,6 @@ def tells_the_count(call: Call) -> str | None:
         "get_status has answered."
         if more
         else "Put the number of samples that you averaged into the message.",
-        at=call.answered.t,
     )
     return _situation(call)
 
@@ -305,29 +299,26 @@ def latches_the_bias(run: Transcript) -> str | None:
 def _require_bias(call: Call, message: object, means: Sequence[float]) -> None:
     header, vector = message.header, message.vector  # type: ignore[attr-defined]
     found = (vector.x, vector.y, vector.z)
-    expect(
+    call.require(
         is_near(found, means),
         expected=f"imu_bias {shown_vector(means)} rad/s, within {TOLERANCE:g}",
         observed=shown_vector(found),
         help=advice_on_vector(call, [found], means)
         or "Publish the mean of the angular velocities of this calibration, in rad/s.",
-        at=call.answered.t,
     )
     triples = triples_in(numbers_in(call.response.message))
     told = [triple for triple in triples if is_near(triple, means)]
-    expect(
+    call.require(
         not told or any(is_near(found, triple, _rounding(triple)) for triple in told),
         expected="the same means in message and imu_bias, but for rounding",
         observed=f"imu_bias {shown_vector(found)}, message: {shown(call.response.message)}",
         help="Compute the means once, and round them only for the message, to four decimals or more.",
-        at=call.answered.t,
     )
-    expect(
+    call.require(
         header.frame_id == "imu_link",
         expected="header.frame_id 'imu_link': the bias is that of the sensor, about its axes",
         observed=f"header.frame_id {shown(header.frame_id)}",
         help='Set header.frame_id = "imu_link" before you publish.',
-        at=call.answered.t,
         see="01_robot_and_graph#frames-why",
     )
 

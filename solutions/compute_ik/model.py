@@ -86,12 +86,11 @@ def bends_the_elbow_as_asked(call: Call) -> str | None:
             help="Look where a NaN or an infinite number comes from: a division by zero, or acos of more than 1.",
             at=reply.at,
         )
-    expect(
+    reply.call.require(
         is_above == reply.elbow_up,
         expected=f"the elbow {side} the line from shoulder to target for {reply.question}",
         observed=f"{reply.angles}: the elbow is {side_in_words(is_above)} it",
         help=advice_on_the_side(reply.elbow_up, _side_of_the_twin(reply)),
-        at=reply.at,
     )
     return f"the elbow {side}"
 
@@ -117,12 +116,11 @@ def refuses_other_frames(call: Call) -> str:
     """A target in any frame but "shoulder" is FRAME_TRANSFORM_FAILURE, and no other is"""
     reply = Reply(call, DEFAULT)
     if reply.frame == "shoulder":
-        expect(
+        reply.call.require(
             reply.error_code != Response.FRAME_TRANSFORM_FAILURE,
             expected=f"another error_code for {reply.question}: that is the right frame",
             observed=f"error_code {code_in_words(reply.error_code)}",
             help="Compare request.target.header.frame_id with 'shoulder'.",
-            at=reply.at,
         )
         return "in shoulder"
     _require_code(
@@ -141,13 +139,12 @@ def refuses_a_pose_that_is_not_finite(call: Call) -> str | None:
     reply = Reply(call, DEFAULT)
     if reply.frame != "shoulder" or all(map(math.isfinite, reply.target)):
         return None
-    expect(
+    reply.call.require(
         not reply.is_a_success,
         expected=f"any error_code but SUCCESS for {reply.question}",
         observed=f"error_code {code_in_words(reply.error_code)}, {reply.angles}",
         help="Every comparison with NaN is false, so a test such as `distance > reach` lets it through: ask "
         "math.isfinite(), or test for what is good.",
-        at=reply.at,
     )
     return "NaN" if any(map(math.isnan, reply.target)) else "infinite"
 
@@ -275,14 +272,13 @@ def _side_of_the_twin(reply: Reply) -> bool | None:
 
 
 def _require_code(reply: Reply, code: int, *, because: str, help: str) -> None:
-    expect(
+    reply.call.require(
         reply.error_code == code,
         expected=f"error_code {CODES[code]} ({code}) for {reply.question}: {because}",
         observed=f"error_code {code_in_words(reply.error_code)}",
         help=help
         if reply.error_code in CODES
         else "Set response.error_code to one of ComputeIK.Response's constants. A new response has 0, which is none.",
-        at=reply.at,
     )
 
 

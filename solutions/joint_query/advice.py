@@ -53,7 +53,7 @@ def not_heard(run: RobotRecord) -> str:
     )
 
 
-def advice_on_refusal(call: Call) -> str:
+def on_refusal(call: Call) -> str:
     """Say what is wrong about a refusal of joints that exist, though joint_states arrives."""
     message, asked = call.response.message, call.run.all(ev.ServiceCalled)
     earlier = [name for other in asked if other.t < call.sent.t for name in other.request.names]
@@ -75,7 +75,7 @@ def advice_on_refusal(call: Call) -> str:
     return "Look up each name in the name list of the last joint_states, and set success when all are there."
 
 
-def advice_on_names(call: Call, names: list[str], wanted: list[str]) -> str:
+def on_names(call: Call, names: list[str], wanted: list[str]) -> str:
     """Say what is wrong about the names of an answer."""
     asked_together = [
         list(other.request.names)
@@ -100,7 +100,7 @@ def about_repeats(call: Call) -> str:
     return " A name that was asked for twice is answered twice." if len(set(asked)) < len(asked) else ""
 
 
-def advice_on_strangers(call: Call, unknown: Sequence[str]) -> str:
+def on_strangers(call: Call, unknown: Sequence[str]) -> str:
     """Say what is wrong about a success with unknown names."""
     joints = robot_joints(call.run)
     if any(name.strip().lower() in joints for name in unknown):
@@ -110,7 +110,7 @@ def advice_on_strangers(call: Call, unknown: Sequence[str]) -> str:
     return "An unknown name fails the whole request: success stays false and message says which names."
 
 
-def advice_on_positions(call: Call, names: list[str], positions: list[float], last: Positions) -> str:
+def on_positions(call: Call, names: list[str], positions: list[float], last: Positions) -> str:
     """Say what is wrong about positions (rad), given the last ones."""
     truth = [last.get(name, math.nan) for name in names]
     if _close(positions, [math.degrees(position) for position in truth], 1.0):

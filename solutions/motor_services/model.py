@@ -157,19 +157,17 @@ def grants_power_off(call: Call) -> str | None:
 def _require_granted(call: Call) -> str:
     on = call.request.data
     when = f"while the robot is {_situation(call)}" if last_states(call) else _situation(call)
-    expect(
+    call.require(
         call.response.success or _was_not_confirmed(call),
         expected=f"success: true to {question(call)} {when}",
         observed=shown_fields(call.response, "success", "message"),
         help=advice_on_granting(call, _situation(call)),
-        at=call.answered.t,
     )
-    expect(
+    call.require(
         bool(_commands(call)),
         expected=f"{question(call)} to reach the robot's motors within {OBEYED:.0f} s of the answer",
         observed=f"nothing switched them {on_or_off(on)}, though the answer was success",
         help=advice_on_power(call),
-        at=call.answered.t,
     )
     return _situation(call)
 
@@ -188,12 +186,11 @@ def refuses_power_off(call: Call) -> str | None:
         )
     elif call.response.success:
         return None
-    expect(
+    call.require(
         bool(call.response.message.strip()),
         expected="a message that says why power off is refused",
         observed="an empty message",
         help='Set response.message, for example to "the robot is walking: stop it first".',
-        at=call.answered.t,
     )
     return _situation(call)
 
@@ -270,13 +267,12 @@ def tells_the_motors(call: Call) -> str | None:
         return None
     possible = {robot.motors_enabled for robot in states}
     wanted = TEXTS[states[-1].motors_enabled]
-    expect(
+    call.require(
         call.response.success and call.response.message in [TEXTS[on] for on in possible],
         expected=f"success: true, message: {wanted!r}; in the last robot_state the motors are "
         f"{on_or_off(states[-1].motors_enabled)}, the robot {_situation(call)}",
         observed=shown_fields(call.response, "success", "message"),
         help=advice_on_status(call, wanted),
-        at=call.answered.t,
         see=lesson_on_hearing(call.run, "robot_state"),
     )
     return _situation(call) if len(possible) == 1 else "while they are switched"
@@ -288,14 +284,13 @@ def says_when_it_knows_nothing(call: Call) -> str | None:
     if last_states(call) != []:
         return None
     response = call.response
-    expect(
+    call.require(
         not response.success and response.message.strip(" .").lower() not in map(str.lower, TEXTS.values()),
         expected="success: false and a message that claims neither ON nor OFF: robot_state has not arrived yet",
         observed=shown_fields(response, "success", "message"),
         help="Start with no message (None) and answer success: false as long as none has arrived."
         if response.success
         else "Say in message that nothing is known yet: neither ON nor OFF.",
-        at=call.answered.t,
     )
     return "before the first robot_state"
 
@@ -324,14 +319,13 @@ def power_in_time(call: Call) -> str:
     """Every request for power is answered within 2 s; within 5 s if it waits for what the robot does not confirm"""
     waits = _waits_in_vain(call)
     limit = UNCONFIRMED if waits else IN_TIME
-    expect(
+    call.require(
         call.latency <= limit,
         expected=f"an answer to {question(call)} within {limit:g} s",
         observed=f"it took {call.latency:.1f} s",
         help="Publish and answer: the callback must not sleep while others wait for the same thread."
         if not waits
         else "Nothing confirms it: give the wait for robot_state an end, and say so in the answer.",
-        at=call.answered.t,
     )
     together = sum(abs(each - call.sent.t) < TOGETHER for each in _asked_for_power(call.run))
     return "one at a time" if together == 1 else "several together"
@@ -349,12 +343,11 @@ def power_never_sleeps(run: Transcript) -> str | None:
     judged = {kind: each for kind, each in by_kind.items() if len(each) >= ENOUGH_ANSWERS}
     for kind, each in judged.items():
         fastest = min(each, key=lambda call: call.answered.t - call.sent.t)
-        expect(
+        fastest.require(
             fastest.latency <= (FROM_MEMORY_TIME if kind == "refused" else CONFIRMED_TIME),
             expected=f"answers to {question(fastest)}, {kind}, without sleeping",
             observed=f"the fastest of {len(each)} took {fastest.latency:.1f} s",
             help=FROM_MEMORY,
-            at=fastest.answered.t,
         )
     return ", ".join(sorted(judged)) or None
 
