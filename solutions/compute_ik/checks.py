@@ -26,8 +26,10 @@ POINTS = in_order(*ANSWERS, interrupt=True)
 LIMITS = in_order(*(["ask", point] for point in NEAR_THE_LIMITS + BEYOND), robot=None)
 IN_FRAMES = in_order(*(["ask", [0.4, 0.3, False, frame]] for frame in FRAMES), robot=None)
 REAL_ARM = in_order(
-    *(["move_to", 0.4, 0.1], ["move_to", 0.3, -0.25], *(["ask", point] for point in OF_ROBOTS_ARM)),
-    *(["set_together", *OTHER_ARM], *(["ask", point] for point in OF_OTHER_ARM)),
+    *(["move_to", 0.4, 0.1], ["move_to", 0.3, -0.25]),
+    *(["ask", point] for point in OF_ROBOTS_ARM),
+    ["set_together", *OTHER_ARM],
+    *(["ask", point] for point in OF_OTHER_ARM),
     robot=(),
     started_with=ROBOTS_ARM,
     parameters=ROBOTS_ARM,

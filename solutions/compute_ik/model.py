@@ -92,7 +92,7 @@ def bends_the_elbow_as_asked(call: Call) -> str | None:
     reply.call.require(
         is_above == reply.elbow_up,
         expected=f"the elbow {side} the line from shoulder to target for {reply.question}",
-        observed=f"{reply.angles}: the elbow is {side_in_words(is_above)} it",
+        observed=f"{reply.angles}: the elbow is {side_in_words(bool(is_above))} it",
         help=advice_on_the_side(reply.elbow_up, _side_of_the_twin(reply)),
     )
     return f"the elbow {side}"

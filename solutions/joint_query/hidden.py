@@ -55,7 +55,7 @@ def _steps(random: Random) -> dict[str, Any]:
     burst = [[], joints(), joints(), repeated(), mixed(), joints(), strangers(), joints()]
     at_the_very_last: list[list[Any]] = []
     for position in (0.8, -0.8, 0.8, -0.8):
-        turned = [["turn", "head_pan", position], ["wait", 0.6], ["unplug"], ["let_arrive"]]
+        turned: list[list[Any]] = [["turn", "head_pan", position], ["wait", 0.6], ["unplug"], ["let_arrive"]]
         at_the_very_last += [*turned, ["ask", ["head_pan"]], ["plug_in"]]
     keeping_on: list[list[Any]] = [["ask", ["head_pan"]], ["wait", 0.1]] * 12
     blocks: list[list[list[Any]]] = [
