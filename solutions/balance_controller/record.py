@@ -12,7 +12,6 @@ from rcl_interfaces.msg import ParameterType, ParameterValue
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
-from autograder.authoring.failure import expect
 from autograder.authoring.missing import unseen
 from autograder.authoring.obligation import calls
 from autograder.authoring.readiness import require_alive
