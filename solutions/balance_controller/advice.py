@@ -21,8 +21,8 @@ REFUSALS = {
     NEGATIVE: ("it is negative", "Let the range begin at 0.0, or look at the value in the on-set callback."),
     NOT_FINITE: ("it is not finite", "Every comparison with NaN is false: ask math.isfinite()."),
     INTEGER: (
-        "it has an integer, and the parameter is a double",
-        "Leave dynamic_typing alone: a parameter that is declared with a float stays a double.",
+        "it is an integer",
+        "Leave dynamic_typing alone: a parameter declared with a float stays a double.",
     ),
     LIMIT: (
         "kp has to be above 51, and max_torque above 0",

@@ -74,7 +74,7 @@ def describes_each(call: Call) -> str:
             bool(descriptor.description.strip()),
             expected=f"a description of {name}",
             observed="none",
-            help="Give declare_parameter a ParameterDescriptor: its description says what the gain does, in which unit.",
+            help="Give declare_parameter a ParameterDescriptor with a description: what the gain does, in which unit.",
         )
         ranges = descriptor.floating_point_range
         call.require(
@@ -277,7 +277,7 @@ def publishes_its_start_once(run: Transcript) -> str | None:
         len(heard) == 1,
         expected=f"1 message on {TOPIC} at the start",
         observed=f"{len(heard)}",
-        help="Publish once at the end of the constructor, from no timer; register what publishes behind the declarations.",
+        help="Publish once, from no timer, at the end of the constructor: each declaration before it is a set, too.",
         at=heard[-1].t if heard else run.end,
     )
     _require_gains(heard[0], record.gains_at_first(run), old=gains.DEFAULTS, after="these are its parameters")

@@ -25,12 +25,12 @@ _TO_THE_END = "Look at robot_state until the 3 s are over, not only at the reque
 
 _REASONS = {  # because …, and what to do
     truth.UNKNOWN: (
-        "no robot_state had come, so nobody knows whether the robot stands",
+        "no robot_state had come",
         "Begin with no state (None), and refuse as long as it is None.",
     ),
     truth.WALKS: (
-        "the robot was WALKING when calibrate_imu was called",
-        "Keep the last robot_state, and refuse at once while its mode is RobotState.WALKING.",
+        "the robot was WALKING",
+        "Refuse while the mode in the last robot_state is RobotState.WALKING.",
     ),
     truth.ASKS: ("the calibration of another caller waited for get_status", _BUSY),
     truth.COLLECTS: ("the calibration of another caller was at work", _BUSY),
@@ -40,10 +40,7 @@ _REASONS = {  # because …, and what to do
         "its own request to get_status had no answer within 2 s",
         "Look at the future of this request only; forget it with remove_pending_request after 2 s.",
     ),
-    truth.MISSING: (
-        "nobody offers get_status",
-        "Give wait_for_service a timeout_sec, or leave it out: the limit of 2 s to the answer covers it.",
-    ),
+    truth.MISSING: ("nobody offers get_status", "Give wait_for_service a timeout_sec, or leave it out."),
     truth.WALKED_ON: ("the robot began to walk while the samples were collected", _TO_THE_END),
     truth.WALKED_SHORTLY: (
         "the robot walked while the samples were collected",
@@ -55,7 +52,7 @@ _REASONS = {  # because …, and what to do
     ),
     truth.FEW_SAMPLES: (
         "the imu was silent for so long that there were fewer than 100 samples",
-        "Fail when there are fewer than 100 samples, not only when there is none, and begin with an empty list.",
+        "Fail with fewer than 100 samples, not only with none, and begin each calibration with an empty list.",
     ),
 }
 
