@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from autograder.authoring import events as ev
-from autograder.authoring.failure import Failure
+from autograder.authoring.failure import Failure, expect
 from autograder.authoring.fields import expect_field
 from autograder.authoring.readiness import require_alive
-from autograder.authoring.robot_record import RobotRecord
 from autograder.authoring.root_cause import about_waiting
+
+if TYPE_CHECKING:
+    from autograder.authoring.transcript import Transcript
 
 
 @dataclass(frozen=True)
@@ -21,7 +23,7 @@ class Call:
     name: str
     sent: ev.ServiceCalled
     answer: ev.ServiceAnswered | None  # None: never, or too late
-    run: RobotRecord = field(repr=False)
+    run: Transcript = field(repr=False)
 
     @property
     def service(self) -> str:
@@ -76,6 +78,10 @@ class Call:
     def expect(self, path: str, value: Any, *, because: str, help: str, see: str = "") -> None:
         """Require that a field of the response has a value, `because` of what the robot or the request was."""
         expect_field(self.response, path, value, because=because, help=help, at=self.answered.t, see=see)
+
+    def require(self, condition: bool, *, expected: str, observed: str, help: str, see: str = "") -> None:
+        """Require of its answer that a condition holds."""
+        expect(condition, expected=expected, observed=observed, help=help, at=self.answered.t, see=see)
 
 
 @dataclass(frozen=True)

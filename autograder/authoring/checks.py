@@ -34,6 +34,7 @@ __all__ = [
     "check",
     "checks_in",
     "expect",
+    "in_order",
     "program",
 ]
 
@@ -89,6 +90,18 @@ class Scenario:
 def program(name: str, inputs: Inputs | None = None, **options: Any) -> Scenario:
     """Return a scenario without a robot for a student's program that ends by itself; `options` are its other fields."""
     return Scenario(name, inputs or {}, robot=None, student="program", **options)
+
+
+def in_order(
+    *steps: Sequence[Any],
+    robot: tuple[str, ...] | None = RESTING,
+    namespace: str = "/robot",
+    parameters: Mapping[str, Any] | None = None,
+    **inputs: Any,
+) -> Scenario:
+    """Return the scenario `in_order` with these steps; `inputs` are its other arguments."""
+    all_inputs = {"steps": list(steps), **inputs}
+    return Scenario("in_order", all_inputs, robot, namespace=namespace, parameters=parameters or {})
 
 
 @dataclass(frozen=True, eq=False)

@@ -108,6 +108,7 @@ def check_of(
     needs: Check | Sequence[Check] = (),
     title: str = "",
     see: str = "",
+    to_its_end: bool = True,
 ) -> Check:
     """Make a check that judges obligations in every scenario of `on`, each of which has to give rise to each of them.
 
@@ -119,6 +120,7 @@ def check_of(
         needs: checks that must have passed.
         title: of the check; by default the sentence of its first obligation.
         see: the lesson that its failures point to.
+        to_its_end: whether every step of a scenario must have been carried out.
     """
 
     def judge(run: Transcript) -> None:
@@ -126,7 +128,8 @@ def check_of(
             if not each.judge(run):
                 require_all_steps(run)
                 raise NoOccasion(each.sentence)
-        require_all_steps(run)
+        if to_its_end:
+            require_all_steps(run)
 
     return named_check(
         id,

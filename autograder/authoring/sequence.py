@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, MutableSequence, Sequence
+from random import Random
 from typing import Any
 
 from autograder.authoring import events as ev
@@ -10,6 +11,12 @@ from autograder.authoring.missing import Missing
 from autograder.authoring.transcript import Transcript
 
 STEPS = "steps"  # the input of a scenario that is a sequence
+
+
+def shuffled(random: Random, blocks: MutableSequence[list[Any]]) -> list[Any]:
+    """Shuffle blocks of steps, and return the steps."""
+    random.shuffle(blocks)
+    return [step for block in blocks for step in block]
 
 
 def require_all_steps(run: Transcript) -> None:

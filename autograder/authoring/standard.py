@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from autograder.authoring.checks import Check, Scenario, named_check
 from autograder.authoring.feedback import require_feedback
-from autograder.authoring.obligation import obligation, whole_run
+from autograder.authoring.obligation import check_of, obligation, whole_run
 from autograder.authoring.readiness import require_ready
 from autograder.authoring.server_checks import require_clean_exit
 from autograder.authoring.transcript import Transcript
@@ -47,21 +47,7 @@ def ends_cleanly(
         return "Ctrl-C"
 
     exits = obligation(*clauses, of=whole_run)(exits_with_status_0)
-
-    def judge(run: Transcript) -> None:
-        exits.judge(run)
-
-    return named_check(
-        "ends_cleanly",
-        exits.sentence,
-        judge,
-        points=points,
-        on=on,
-        needs=needs,
-        see=see,
-        clauses=exits.clauses,
-        obligations=[exits],
-    )
+    return check_of("ends_cleanly", exits, points=points, on=on, needs=needs, see=see, to_its_end=False)
 
 
 def feedback_ends_with_the_goal(

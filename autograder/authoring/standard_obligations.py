@@ -6,38 +6,52 @@ never_waits = answers_from_memory("get_battery_status", lambda call: "known" if 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
-from autograder.authoring.failure import expect
 from autograder.authoring.obligation import Obligation, calls, obligation, whole_run
 from autograder.authoring.transcript import Transcript
 
 # s: an answer from memory takes some ms of real time, which the arena's clock makes 10 times as many; of several
 # answers the fastest shows whether a callback waits, for a busy machine does not delay them all.
 FROM_MEMORY_TIME = 0.6
+TOGETHER = 0.5  # s between requests that come at once
 ENOUGH_ANSWERS = 3  # of which the fastest is looked at
 FROM_MEMORY = "Answer from memory: the callback must not sleep or wait for the next message."
+
+
+def one_or_several(call: Call) -> str:
+    """Return whether a request came alone, or several to its service at once."""
+    sent = [each.t for each in call.run.all(ev.ServiceCalled) if each.service == call.service]
+    return "one at a time" if sum(abs(t - call.sent.t) < TOGETHER for t in sent) == 1 else "several together"
 
 
 def answered_within(timeout: float, service: str, *, clause: int, help: str = FROM_MEMORY) -> Obligation:
     """Make the obligation that every request is answered within `timeout` (s), however many come together."""
 
     def answers_in_time(call: Call) -> str:
-        expect(
+        call.require(
             call.answered.t - call.sent.t <= timeout,
             expected=f"an answer within {timeout:g} s",
             observed=f"it took {call.latency:.1f} s",
             help=help,
-            at=call.answered.t,
         )
-        asked = [each.t for each in call.run.all(ev.ServiceCalled) if each.service == service]
-        together = sum(abs(t - call.sent.t) < 0.5 for t in asked)
-        return "one at a time" if together == 1 else "several together"
+        return one_or_several(call)
 
     answers_in_time.__doc__ = f"Every request is answered within {timeout:g} s, also when many come together"
     return obligation(clause, of=calls(service))(answers_in_time)
+
+
+def require_fastest(answers: Sequence[Call], limit: float, *, expected: str, help: str) -> None:
+    """Require that the fastest of several answers took no longer than `limit` (s)."""
+    fastest = min(answers, key=lambda call: call.answered.t - call.sent.t)
+    fastest.require(
+        fastest.latency <= limit,
+        expected=expected,
+        observed=f"the fastest of {len(answers)} took {fastest.latency:.1f} s",
+        help=help,
+    )
 
 
 def answers_from_memory(
@@ -51,14 +65,7 @@ def answers_from_memory(
             by_situation.setdefault(situation(call), []).append(call)
         judged = {name: each for name, each in by_situation.items() if len(each) >= ENOUGH_ANSWERS}
         for name, each in judged.items():
-            fastest = min(each, key=lambda call: call.answered.t - call.sent.t)
-            expect(
-                fastest.latency <= FROM_MEMORY_TIME,
-                expected=f"answers from memory, {name}",
-                observed=f"the fastest of {len(each)} took {fastest.latency:.1f} s",
-                help=help,
-                at=fastest.answered.t,
-            )
+            require_fastest(each, FROM_MEMORY_TIME, expected=f"answers from memory, {name}", help=help)
         return ", ".join(sorted(judged)) or None
 
     never_waits.__doc__ = "The callback answers from memory and never waits"

@@ -19,24 +19,16 @@ REFUSALS = {
         "Refuse a kp that is not above 51.0 in the on-set callback: the new values are in its argument.",
     ),
     NEGATIVE: ("it is negative", "Let the range begin at 0.0, or look at the value in the on-set callback."),
-    NOT_FINITE: (
-        "it is not finite",
-        "Every comparison with NaN is false, so a test such as `value < 0.0` lets it through, and infinity is above "
-        "every lower limit: ask math.isfinite(), or end each range at a number.",
-    ),
+    NOT_FINITE: ("it is not finite", "Every comparison with NaN is false: ask math.isfinite()."),
     INTEGER: (
-        "it has an integer, and the parameter is a double",
-        "Leave dynamic_typing alone: a parameter that is declared with a float stays a double.",
+        "it is an integer",
+        "Leave dynamic_typing alone: a parameter declared with a float stays a double.",
     ),
     LIMIT: (
         "kp has to be above 51, and max_torque above 0",
         "A floating_point_range includes both of its ends: refuse the limit itself in the on-set callback.",
     ),
 }
-DEFAULTS = "Take the defaults from the table of the task: a node that has just started should change nothing."
-STARTED_WITH = (
-    "Declare the parameters with their defaults and nothing more: rclpy puts the values from the start there."
-)
 KEEP_NO_COPY = (
     "Read all five parameters in the post-set callback, and keep no copy in the on-set callback: a set that is refused "
     "must leave nothing behind."
@@ -66,7 +58,7 @@ def about_silence(run: Transcript, *, is_late: bool, changes_something: bool) ->
         return "Publish in the callback itself, not from a timer.", ""
     if run.one(ev.Mark, "name", "nobody publishes"):
         return (
-            f"Nobody publishes {TOPIC} there: give create_publisher this name, without a slash or a ~.",
+            f"Nobody publishes {TOPIC} there: give create_publisher this name, without slash or ~.",
             OUTSIDE,
         )
     if not changes_something:
@@ -81,8 +73,7 @@ def about_values(found: Gains, wanted: Gains, old: Gains, wrong: Sequence[str]) 
         return f"Other gains are new in this message: read {' and '.join(wrong)} from the parameters, too."
     if set(wrong) <= before:
         return (
-            "These are the values of before the set. An on-set callback is called before they change: publish in the "
-            "post-set callback, and read the parameters there."
+            "These are the values of before the set: publish in the post-set callback, and read them there."
         )
     if all(name in _TWINS and found[name] == wanted[_TWINS[name]] for name in wrong):
         return "pitch and roll are exchanged: give each field of the message the parameter of its name."
@@ -96,9 +87,7 @@ def about_values(found: Gains, wanted: Gains, old: Gains, wrong: Sequence[str]) 
 def about_number(observed: int, accepted: Sequence[Change]) -> str:
     """Return what to do about so many messages, where each of the accepted sets has one."""
     if observed < len(accepted):
-        return (
-            "Each accepted set has a message: publish in the post-set callback each time, and from no timer."
-        )
+        return "Each accepted set has a message: publish in the post-set callback each time, from no timer."
     if len(accepted) == 1 and observed == len(accepted[0].values):
         return "Publish once in each call of the post-set callback, behind the loop over the parameters, not in it."
     return "Publish in the post-set callback and nowhere else: not in the on-set callback, and from no timer."

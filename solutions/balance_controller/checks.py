@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario, program
+from autograder.authoring.checks import in_order, program
 from autograder.authoring.obligation import check_of
 
 from . import model
@@ -19,58 +19,34 @@ FROM_THE_START = "10_parameters_and_balance#late-why"
 PUSHED = "10_parameters_and_balance#push-why"
 LATE = "01_robot_and_graph#late-why"
 
-SETS = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["describe"], ["ask"], ["settle"], ["set_each", {"kp_pitch": 320.0}], ["settle"]),
-            *(["set_together", {"kp_roll": 350.0, "kd_roll": 44.0, "max_torque": 4000.0}], ["settle"]),
-            *(["set_each", {"kd_roll": 40.0, "kp_pitch": 300.0}], ["settle"]),
-            *(["ask"], ["listen", "a late robot"]),
-        ]
-    },
+SETS = in_order(
+    *(["describe"], ["ask"], ["settle"], ["set_each", {"kp_pitch": 320.0}], ["settle"]),
+    *(["set_together", {"kp_roll": 350.0, "kd_roll": 44.0, "max_torque": 4000.0}], ["settle"]),
+    *(["set_each", {"kd_roll": 40.0, "kp_pitch": 300.0}], ["settle"], ["ask"], ["listen", "a late robot"]),
     robot=None,
 )
-REFUSALS = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["ask"], ["settle"], ["set_each", {"kp_pitch": 40.0}], ["set_each", {"kp_roll": 12.5}]),
-            *(["set_each", {"kd_pitch": -5.0}], ["set_each", {"max_torque": -1.0}], ["settle"]),
-            *(["set_each", {"max_torque": 0.0}], ["settle"]),
-            *(["set_each", {"kd_roll": 44.0}], ["settle"]),
-        ]
-    },
+REFUSALS = in_order(
+    *(["ask"], ["settle"], ["set_each", {"kp_pitch": 40.0}], ["set_each", {"kp_roll": 12.5}]),
+    *(["set_each", {"kd_pitch": -5.0}], ["set_each", {"max_torque": -1.0}], ["settle"]),
+    *(["set_each", {"max_torque": 0.0}], ["settle"], ["set_each", {"kd_roll": 44.0}], ["settle"]),
     robot=None,
 )
-ALL_OR_NONE = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["ask"], ["settle"], ["set_together", {"kp_pitch": 333.0, "kd_roll": -3.0}], ["settle"]),
-            *(["set_together", {"kd_pitch": 41.0, "kp_roll": 340.0, "kp_pitch": 20.0}], ["settle"]),
-            *(["ask"], ["set_each", {"max_torque": 5000.0}], ["settle"]),
-        ]
-    },
+ALL_OR_NONE = in_order(
+    *(["ask"], ["settle"], ["set_together", {"kp_pitch": 333.0, "kd_roll": -3.0}], ["settle"]),
+    *(["set_together", {"kd_pitch": 41.0, "kp_roll": 340.0, "kp_pitch": 20.0}], ["settle"]),
+    *(["ask"], ["set_each", {"max_torque": 5000.0}], ["settle"]),
     robot=None,
 )
 AT_START = {"kp_pitch": 310.0, "kd_roll": 41.5}
 # It has a robot, which notices a busy machine; on such a machine Python takes seconds to end.
-START = Scenario(
-    "in_order",
-    {"steps": [["ask"], ["settle"]], "latched": True, "interrupt": True, "started_with": AT_START},
-    robot=RESTING,
-    parameters=AT_START,
+START = in_order(
+    *(["ask"], ["settle"]), parameters=AT_START, latched=True, interrupt=True, started_with=AT_START
 )
 WEAK_START = program("start_with", {"name": "kp_pitch", "value": "40.0"}, timed=False)
-PUSH = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["ask"], ["settle"], ["set_together", {"kp_pitch": 340.0, "kp_roll": 370.0, "kd_roll": 46.0}]),
-            *(["settle"], ["push", 10.0, 0.0, 0.0]),
-        ]
-    },
+PUSH = in_order(
+    *(["ask"], ["settle"], ["set_together", {"kp_pitch": 340.0, "kp_roll": 370.0, "kd_roll": 46.0}]),
+    *(["settle"], ["push", 10.0, 0.0, 0.0]),
+    robot=(),
 )
 
 of_sets = partial(check_of, on=SETS)

@@ -8,8 +8,9 @@ from random import Random
 from typing import Any
 
 from autograder.authoring import standard_hidden
-from autograder.authoring.checks import Scenario, program
+from autograder.authoring.checks import Scenario, in_order, program
 from autograder.authoring.obligation import check_of
+from autograder.authoring.sequence import shuffled
 
 from . import checks, model
 from .gains import ABOVE, HIGHEST, NAMES, TOPPLE, sound_gains
@@ -66,15 +67,9 @@ def _steps(random: Random) -> dict[str, Any]:
         [["wait", round(random.uniform(3.0, 9.0), 1)], ["listen", "a robot in between"]],
         *([*part, ["settle"]] for part in (bad[:half], bad[half:])),
     ]
-    random.shuffle(blocks)
-    return {
-        "steps": [
-            *(["describe"], ["ask"], ["settle"], ["listen", "the first robot"]),
-            *(step for block in blocks for step in block),
-            *(["settle"], ["ask"], ["listen", "the last robot"]),
-        ],
-        "started_with": STARTED_WITH,
-    }
+    first = [["describe"], ["ask"], ["settle"], ["listen", "the first robot"]]
+    last = [["settle"], ["ask"], ["listen", "the last robot"]]
+    return {"steps": [*first, *shuffled(random, blocks), *last], "started_with": STARTED_WITH}
 
 
 def _any_push(random: Random) -> dict[str, Any]:
@@ -98,17 +93,10 @@ STARTED_WITH = {"kp_roll": 333.0, "kd_pitch": 50.0}
 ANY_ORDER = Scenario("in_order", _steps, robot=None, parameters=STARTED_WITH)
 ANY_PUSH = Scenario("in_order", _any_push)
 LIMITS = {name: str(limit) for name, limit in ABOVE.items()}
-BAD_STARTS = [
-    _bad_start(number, values)
-    for number, values in enumerate(
-        [LIMITS, *(dict.fromkeys(NAMES, value) for value in (".nan", "300", "-2.0"))]
-    )
-]
-OTHER_NAMESPACE = Scenario(
-    "in_order",
-    {"steps": [["ask"], ["settle"], ["set_each", {"kd_roll": 45.0}], ["settle"]]},
-    robot=None,
-    namespace="/lab_7/robot",
+BAD_VALUES = [LIMITS, *(dict.fromkeys(NAMES, value) for value in (".nan", "300", "-2.0"))]
+BAD_STARTS = [_bad_start(number, values) for number, values in enumerate(BAD_VALUES)]
+OTHER_NAMESPACE = in_order(
+    *(["ask"], ["settle"], ["set_each", {"kd_roll": 45.0}], ["settle"]), robot=None, namespace="/lab_7/robot"
 )
 
 in_any_order = partial(check_of, on=ANY_ORDER)

@@ -46,24 +46,20 @@ def has_its_gains(reading: Reading) -> str:
     """The five parameters are doubles, at first the robot's own gains, or those that the node was started with"""
     started_with = reading.call.run.params.get("started_with", {})
     for name, default in gains.DEFAULTS.items():
-        expect(
+        reading.call.require(
             reading.parameters[name].type == ParameterType.PARAMETER_DOUBLE,
             expected=f"a parameter {name} of type double",
             observed=_TYPES.get(reading.parameters[name].type, "another type"),
             help=f"Declare it with a float as its default: self.declare_parameter({name!r}, {default}, …).",
-            at=reading.call.answered.t,
         )
-        wanted, near, whose, help = (
-            (started_with[name], 0.0, "as it was started with", advice.STARTED_WITH)
-            if name in started_with
-            else (default, NEAR_DEFAULT, "the robot's own", advice.DEFAULTS)
-        )
-        expect(
+        wanted, near, whose = default, NEAR_DEFAULT, "the robot's own"
+        if name in started_with:
+            wanted, near, whose = started_with[name], 0.0, "as it was started with"
+        reading.call.require(
             bool(reading.before) or math.isclose(reading.gains[name], wanted, rel_tol=1e-6, abs_tol=near),
             expected=f"{name} {wanted:g}, {whose}",
             observed=f"{reading.gains[name]:g}",
-            help=help,
-            at=reading.call.answered.t,
+            help="Declare each parameter with the default of the task's table, and set nothing: rclpy does the rest.",
         )
     return "later" if reading.before else "started with some" if started_with else "defaults"
 
@@ -74,22 +70,18 @@ def describes_each(call: Call) -> str:
     described = iter(call.response.descriptors)
     for name in gains.NAMES:
         descriptor = next(described, ParameterDescriptor())
-        expect(
+        call.require(
             bool(descriptor.description.strip()),
             expected=f"a description of {name}",
             observed="none",
-            help="Give declare_parameter a ParameterDescriptor(description=…, floating_point_range=[…]) as its third "
-            "argument: say what the gain does, and its unit.",
-            at=call.answered.t,
+            help="Give declare_parameter a ParameterDescriptor with a description: what the gain does, in which unit.",
         )
         ranges = descriptor.floating_point_range
-        expect(
+        call.require(
             any(one.from_value < gains.DEFAULTS[name] <= one.to_value for one in ranges),
             expected=f"a floating_point_range of {name} that holds {gains.DEFAULTS[name]:g}",
             observed=", ".join(f"{one.from_value:g} to {one.to_value:g}" for one in ranges) or "none",
-            help="floating_point_range=[FloatingPointRange(from_value=…, to_value=…)], in a list: rclpy then refuses "
-            "the rest by itself.",
-            at=call.answered.t,
+            help="Give the descriptor floating_point_range=[FloatingPointRange(from_value=…, to_value=…)], a list.",
         )
     return "all five"
 
@@ -101,12 +93,11 @@ def _refuses(sentence: str, *faults: str, clause: int = 3) -> Obligation:
         fault = next((each for each in change.faults.values() if each in faults), None)
         if fault is None:
             return None
-        expect(
+        change.call.require(
             not change.accepted,
             expected=f"{change.words} is refused: {advice.REFUSALS[fault][0]}",
             observed="accepted",
             help=advice.about_accepting(change, fault),
-            at=change.call.answered.t,
         )
         return f"{fault}, {'alone' if len(change.values) == 1 else 'among others'}"
 
@@ -126,12 +117,11 @@ def gives_a_reason(change: Change) -> str | None:
     """Every refusal has a reason"""
     if change.accepted:
         return None
-    expect(
+    change.call.require(
         bool(change.reason.strip()),
         expected=f"a reason why {change.words} is refused",
         observed="an empty reason",
         help='Give SetParametersResult a reason, too: "kp_pitch is 40.0; it has to be above 51.0".',
-        at=change.call.answered.t,
     )
     return "refused"
 
@@ -141,12 +131,11 @@ def accepts_the_table(change: Change) -> str | None:
     """All other values of the table are accepted"""
     if change.faults or any(value > gains.HIGHEST[name] for name, value in change.values.items()):
         return None
-    expect(
+    change.call.require(
         change.accepted,
         expected=f"{change.words} is accepted: it is within the ranges",
         observed=f"refused: {change.reason or 'without a reason'}",
         help=advice.about_refusing(change),
-        at=change.call.answered.t,
     )
     return "one" if len(change.values) == 1 else "several together"
 
@@ -157,14 +146,13 @@ def has_what_it_accepted(reading: Reading) -> str | None:
     if not reading.before:
         return None
     last, found = reading.before[-1], reading.gains
-    if wrong := _wrong(found, last.after):
-        raise Failure(
-            expected=f"the parameters {_shown(last.after, wrong)}, as they were accepted",
-            observed=_shown(found, wrong),
-            help="Leave setting to rclpy: an on-set callback that calls set_parameters() itself sets what may still be "
-            "refused.",
-            at=reading.call.answered.t,
-        )
+    wrong = _wrong(found, last.after)
+    reading.call.require(
+        not wrong,
+        expected=f"the parameters {_shown(last.after, wrong)}, as they were accepted",
+        observed=_shown(found, wrong),
+        help="Leave setting to rclpy: what an on-set callback sets itself may still be refused.",
+    )
     how = "accepted" if last.accepted else "refused"
     return f"{how}, {'one' if len(last.values) == 1 else 'several together'}"
 
@@ -184,11 +172,8 @@ def publishes_them_in_time(batch: Batch) -> str | None:
     else:
         require_alive(run)
     answered = batch.changes[-1].call.answered.t
-    right = [
-        event.t
-        for event in run.heard(TOPIC)
-        if event.t >= batch.changes[0].call.sent.t and not _wrong(_gains_in(event), last.after)
-    ]
+    since = [event for event in run.heard(TOPIC) if event.t >= batch.changes[0].call.sent.t]
+    right = [event.t for event in since if not _wrong(_gains_in(event), last.after)]
     help, see = advice.about_silence(run, is_late=bool(right), changes_something=last.after != old)
     expect(
         bool(right) and right[0] <= answered + WITHIN,
@@ -227,13 +212,12 @@ def says_nothing_when_it_refuses(batch: Batch) -> str | None:
     if batch.accepted:
         return None
     if batch.messages:
-        first = batch.messages[0]
+        event = batch.messages[0]
         raise Failure(
             expected=f"nothing on {TOPIC}, because {batch.changes[0].words} was refused",
-            observed=_shown(_gains_in(first)),
-            help="An on-set callback only says yes or no: another one may still refuse. Publish in the post-set "
-            "callback, which rclpy calls only when all is accepted and stored.",
-            at=first.t,
+            observed=_shown(_gains_in(event)),
+            help="An on-set callback only says yes or no: publish in the post-set callback.",
+            at=event.t,
         )
     return "refused" if len(batch.changes[0].values) == 1 else "refused together"
 
@@ -245,11 +229,8 @@ def publishes_only_what_was_accepted(run: Transcript) -> str | None:
     accepted = [change for change in record.changes(run) if change.accepted]
     for event in heard:
         sent = [change.after for change in accepted if change.call.sent.t <= event.t]
-        wrong = [
-            name
-            for name in gains.NAMES
-            if all(name in _wrong(_gains_in(event), each) for each in (first, *sent))
-        ]
+        wrongs = [_wrong(_gains_in(event), each) for each in (first, *sent)]
+        wrong = [name for name in gains.NAMES if all(name in each for each in wrongs)]
         expect(
             not wrong,
             expected=f"{TOPIC} with gains that were accepted",
@@ -296,10 +277,7 @@ def publishes_its_start_once(run: Transcript) -> str | None:
         len(heard) == 1,
         expected=f"1 message on {TOPIC} at the start",
         observed=f"{len(heard)}",
-        help="Publish once at the end of the constructor, and from no timer. Each declaration is a set, too: register "
-        "what publishes behind the declarations."
-        if heard
-        else "Publish once at the end of the constructor: the robot has to know with which gains you begin.",
+        help="Publish once, from no timer, at the end of the constructor: each declaration before it is a set, too.",
         at=heard[-1].t if heard else run.end,
     )
     _require_gains(heard[0], record.gains_at_first(run), old=gains.DEFAULTS, after="these are its parameters")
@@ -317,11 +295,8 @@ def refuses_to_start(run: Transcript) -> str:
     if run.first(ev.NodeExited) is None:
         raise Failure(
             expected=f"a program that ends with status 1 when it is started with {name}:={value}",
-            observed=f"it still runs; the last line on stderr: {run.last_words}"
-            if run.last_words
-            else "it still runs",
-            help="It knows of the bad value and goes on. Return 1 from main() instead, for nobody may notice that "
-            "other gains are in use than those that were asked for."
+            observed=f"it still runs; the last line on stderr: {run.last_words or 'none'}",
+            help="It knows of the bad value and goes on: return 1 from main() instead."
             if name in run.output("stderr")
             else "Declaring sets the values from the start: refuse it in the on-set callback, and register that before "
             "you declare.",

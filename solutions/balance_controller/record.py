@@ -12,7 +12,6 @@ from rcl_interfaces.msg import ParameterType, ParameterValue
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
-from autograder.authoring.failure import expect
 from autograder.authoring.missing import unseen
 from autograder.authoring.obligation import calls
 from autograder.authoring.readiness import require_alive
@@ -147,12 +146,11 @@ def _sets(call: Call) -> list[tuple[dict[str, Any], Any]]:
     answer = call.response
     if hasattr(answer, "result"):
         return [(asked, answer.result)]
-    expect(
+    call.require(
         len(answer.results) == len(asked),
         expected=f"{len(asked)} results, one for each parameter",
         observed=f"{len(answer.results)}",
         help="Leave set_parameters to rclpy: it calls your callbacks and answers.",
-        at=call.answered.t,
     )
     return [
         ({name: value}, result) for (name, value), result in zip(asked.items(), answer.results, strict=True)

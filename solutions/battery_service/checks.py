@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.checks import RESTING, in_order
 from autograder.authoring.obligation import check_of
 
 from . import model
 
 UNPLUGGED_ROBOT = (*RESTING, "--battery-sensor-unplugged")
-ASK_ONCE = Scenario("in_order", {"steps": [["let_publish", 2], ["ask", 1]], "interrupt": True}, robot=RESTING)
-UNPLUGGED = Scenario(
-    "in_order", {"steps": [["ask", 8], ["plug_in"], ["let_publish", 1], ["ask", 1]]}, robot=UNPLUGGED_ROBOT
+ASK_ONCE = in_order(["let_publish", 2], ["ask", 1], interrupt=True)
+UNPLUGGED = in_order(["ask", 8], ["plug_in"], ["let_publish", 1], ["ask", 1], robot=UNPLUGGED_ROBOT)
+LEVELS = in_order(
+    *(["set_battery", 0.8], ["let_publish", 1], ["ask", 1]),
+    *(["set_battery", 0.35], ["let_publish", 1], ["ask", 1]),
 )
-NEW_LEVELS = [
-    step for level in (0.8, 0.35) for step in (["set_battery", level], ["let_publish", 1], ["ask", 1])
-]
-LEVELS = Scenario("in_order", {"steps": NEW_LEVELS}, robot=RESTING)
-INTERRUPT = Scenario("in_order", {"steps": [], "interrupt": True}, robot=UNPLUGGED_ROBOT)
+INTERRUPT = in_order(robot=UNPLUGGED_ROBOT, interrupt=True)
 
 BATTERY_RULES, KNOWS_NOTHING = "02_services#battery-rules", "02_services#m9-fix-why"
 
@@ -34,9 +32,7 @@ answers_with_the_last_message = check_of(
 
 says_when_it_knows_nothing = check_of(
     "says_when_it_knows_nothing",
-    model.answers_in_time,
-    model.never_waits,
-    model.says_when_it_knows_nothing,
+    *(model.answers_in_time, model.never_waits, model.says_when_it_knows_nothing),
     title="Before the first message it answers at once, with available: false and every number NaN",
     points=2,
     on=UNPLUGGED,

@@ -6,8 +6,9 @@ from random import Random
 from typing import Any
 
 from autograder.authoring import standard_hidden
-from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.checks import Scenario, in_order
 from autograder.authoring.obligation import check_of
+from autograder.authoring.sequence import shuffled
 
 from . import checks, model
 from .checks import BATTERY_RULES, UNPLUGGED, UNPLUGGED_ROBOT
@@ -37,16 +38,13 @@ def _steps(random: Random) -> dict[str, Any]:
         ],
         [["let_publish", 1], ["ask", 8]],
     ]
-    random.shuffle(blocks)
+    any_order = shuffled(random, blocks)
     before = [["ask", 1], ["wait", round(random.uniform(1.0, 6.0), 1)], ["ask", 8]]
-    first = [["plug_in"], ["let_publish", 1], ["ask", 1]]
-    return {"steps": [*before, *first, *(step for block in blocks for step in block)]}
+    return {"steps": [*before, ["plug_in"], ["let_publish", 1], ["ask", 1], *any_order]}
 
 
 ANY_ORDER = Scenario("in_order", _steps, robot=UNPLUGGED_ROBOT)
-OTHER_NAMESPACE = Scenario(
-    "in_order", {"steps": [["let_publish", 1], ["ask", 1]]}, robot=RESTING, namespace="/lab_7/robot"
-)
+OTHER_NAMESPACE = in_order(["let_publish", 1], ["ask", 1], namespace="/lab_7/robot")
 
 recovers_when_the_sensor_appears = check_of(
     "recovers_when_the_sensor_appears",

@@ -8,19 +8,20 @@ from typing import Any
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
 from autograder.authoring.connections import lesson_on_hearing, why_nothing_is_heard
-from autograder.authoring.failure import Failure
 from autograder.authoring.fields import differing_fields, shown_fields
 from autograder.authoring.obligation import calls, obligation
 from autograder.authoring.robot_topic import BATTERY, known_messages
 from autograder.authoring.standard_obligations import answered_within, answers_from_memory
 
 SERVICE = "get_battery_status"
+LOOKED_AT = ("percentage", "voltage", "current")  # fields that people look at first
+MOST_SHOWN = 6  # fields
 NUMBERS = ("percentage", "voltage", "current", "temperature", "charge", "capacity", "design_capacity")
+WHOLE = "copy the whole message, response.battery = message."
 
 
 def _knowledge(call: Call) -> str:
-    known = known_messages(call, BATTERY)
-    return "before the first message" if known == [] else "after the first message"
+    return "before the first message" if known_messages(call, BATTERY) == [] else "after the first message"
 
 
 answers_in_time = answered_within(2.0, SERVICE, clause=4)
@@ -48,13 +49,14 @@ def repeats_the_last_message(call: Call) -> str | None:
     )
     last = known[-1].message
     differing = min((differing_fields(call.response.battery, each.message) for each in known), key=len)
-    if differing:
-        raise Failure(
-            expected=f"the last battery_state: {shown_fields(last, *_compared(differing))}",
-            observed=shown_fields(call.response.battery, *_compared(differing)),
-            help=_advice(call, last, differing),
-            at=call.answered.t,
-        )
+    looked_at = dict.fromkeys([*LOOKED_AT, *(name.split(".")[0] for name in differing)])
+    compared = list(looked_at)[:MOST_SHOWN]
+    call.require(
+        not differing,
+        expected=f"the last battery_state: {shown_fields(last, *compared)}",
+        observed=shown_fields(call.response.battery, *compared),
+        help=_advice(call, last, differing),
+    )
     if math.isnan(last.percentage):
         return "a charge that is not measured"
     return "silence of 10 s or more" if silence >= 10.0 else "silence" if silence > 1.0 else "fresh message"
@@ -81,35 +83,17 @@ def says_when_it_knows_nothing(call: Call) -> str | None:
     return "before the first message"
 
 
-def _compared(differing: list[str]) -> list[str]:
-    """Return the fields to show: the three that people look at, and the first others that differ."""
-    return list(
-        dict.fromkeys(["percentage", "voltage", "current", *(name.split(".")[0] for name in differing)])
-    )[:6]
-
-
 def _advice(call: Call, last: Any, differing: list[str]) -> str:
     battery = call.response.battery
     earlier = [each.message for each in call.run.all(ev.BatteryPublished) if each.t < call.sent.t]
     if math.isnan(battery.percentage):
-        return (
-            "available is true, but the numbers are those for 'nothing known': assign the kept message, "
-            "response.battery = message."
-        )
+        return f"available is true, but the numbers are those for 'nothing known': {WHOLE}"
     if math.isclose(battery.percentage, 100 * last.percentage, rel_tol=0.01):
         return "BatteryState.percentage runs from 0 to 1, not from 0 to 100: pass it on as it came."
     if any(not differing_fields(battery, message) for message in earlier):
-        return (
-            "This is an older message. Replace the one you keep each time battery_state arrives, not only the first "
-            "time."
-        )
-    if not {"percentage", "voltage", "current"} & set(differing):
-        return (
-            f"Other fields are not as they came ({', '.join(differing[:4])}): copy the whole message, "
-            "response.battery = message."
-        )
+        return "This is an older message. Replace the one you keep each time battery_state arrives."
+    if not set(LOOKED_AT) & set(differing):
+        return f"Other fields are not as they came ({', '.join(differing[:4])}): {WHOLE}"
     if math.isclose(battery.percentage, last.percentage, abs_tol=0.01):
-        return "Pass each field on as it came, without rounding: copy the whole message, response.battery = message."
-    return (
-        "Do not compute or invent values: answer with the whole message that arrived last on battery_state."
-    )
+        return f"Pass each field on as it came, without rounding: {WHOLE}"
+    return "Do not compute or invent values: answer with the whole message that arrived last."

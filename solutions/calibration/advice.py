@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
 from autograder.authoring.connections import why_nothing_is_heard
@@ -13,7 +15,7 @@ from autograder.authoring.transcript import Transcript
 
 from . import truth
 from .message import TOLERANCE, is_near, whole_numbers
-from .truth import ASKING, COLLECTING, EARLY, FEWEST_SAMPLES, Story, imu_between, run_of, status_requests
+from .truth import ASKING, COLLECTING, EARLY, FEWEST_SAMPLES, Story, imu_between, status_requests
 
 AT_ONCE = 0.5  # s for a refusal without looking into anything
 GRAVITY = 9.81  # m/s²
@@ -23,12 +25,12 @@ _TO_THE_END = "Look at robot_state until the 3 s are over, not only at the reque
 
 _REASONS = {  # because …, and what to do
     truth.UNKNOWN: (
-        "no robot_state had come, so nobody knows whether the robot stands",
+        "no robot_state had come",
         "Begin with no state (None), and refuse as long as it is None.",
     ),
     truth.WALKS: (
-        "the robot was WALKING when calibrate_imu was called",
-        "Keep the last robot_state, and refuse at once while its mode is RobotState.WALKING.",
+        "the robot was WALKING",
+        "Refuse while the mode in the last robot_state is RobotState.WALKING.",
     ),
     truth.ASKS: ("the calibration of another caller waited for get_status", _BUSY),
     truth.COLLECTS: ("the calibration of another caller was at work", _BUSY),
@@ -38,10 +40,7 @@ _REASONS = {  # because …, and what to do
         "its own request to get_status had no answer within 2 s",
         "Look at the future of this request only; forget it with remove_pending_request after 2 s.",
     ),
-    truth.MISSING: (
-        "nobody offers get_status",
-        "Give wait_for_service a timeout_sec, or leave it out: the limit of 2 s to the answer covers it.",
-    ),
+    truth.MISSING: ("nobody offers get_status", "Give wait_for_service a timeout_sec, or leave it out."),
     truth.WALKED_ON: ("the robot began to walk while the samples were collected", _TO_THE_END),
     truth.WALKED_SHORTLY: (
         "the robot walked while the samples were collected",
@@ -53,8 +52,7 @@ _REASONS = {  # because …, and what to do
     ),
     truth.FEW_SAMPLES: (
         "the imu was silent for so long that there were fewer than 100 samples",
-        "Fail when there are fewer than 100 samples, not only when there is none, and begin each calibration with an "
-        "empty list.",
+        "Fail with fewer than 100 samples, not only with none, and begin each calibration with an empty list.",
     ),
 }
 
@@ -72,26 +70,14 @@ def advice_on_failing(call: Call, story: Story, published: int) -> str:
             return deaf
     waited, asked = call.latency, status_requests(call)
     if asked and story.situation == truth.SAYS_NO:
-        return (
-            f"get_status answered success: false, and your answer was {said}: any answer will do, as it shows that "
-            "the node of the motors is alive."
-        )
+        return f"get_status answered success: false, and your answer was {said}: any answer of it will do."
     if waited < AT_ONCE:
-        before = f", even after {story.after}" if story.after else ""
-        return (
-            f"You refused at once ({said}), though the robot stood and nothing else was at work: look again at each "
-            f"request, and forget a calibration however it ends{before} (try … finally)."
-        )
+        return f"You refused at once ({said}): look again at each request, and forget a calibration however it ends."
     if not asked and call.run.all(ev.ServiceOffered):
-        return (
-            f"The grader's get_status was never asked, and your answer was {said}: did the request get as far as "
-            "call_async?"
-        )
+        return f"The grader's get_status was never asked ({said}): did the request get as far as call_async?"
     if story.situation == truth.SLOW and waited < COLLECTING:
-        return (
-            f"get_status answered {story.since - call.sent.t:.1f} s after the request, and your answer after "
-            f"{waited:.1f} s was {said}: wait {ASKING:g} s for it, and then collect."
-        )
+        after = story.since - call.sent.t
+        return f"get_status answered after {after:.1f} s, you after {waited:.1f} s ({said}): wait {ASKING:g} s for it."
     if ASKING - EARLY <= waited < COLLECTING:
         return (
             f"get_status had answered, but not to you ({said}): its answer could not be handled while the callback "
@@ -109,7 +95,7 @@ def advice_on_failing(call: Call, story: Story, published: int) -> str:
 
 def advice_on_vector(call: Call, triples: Sequence[Sequence[float]], means: Sequence[float]) -> str | None:
     """Return what kind of mistake makes one of the triples of the means (rad/s), if it is known."""
-    run = run_of(call)
+    run = call.run
     now = imu_between(run, call.sent.t, call.answered.t)
     earlier = [event.command["bias"] for event in run.all(ev.RobotCommanded) if "bias" in event.command]
     for triple in triples:
@@ -139,14 +125,8 @@ def published_instead(run: Transcript) -> str:
 
 def _is_mixed(found: Sequence[float], means: Sequence[float], other: Sequence[float]) -> bool:
     """Return whether it is a mean of samples of two biases (rad/s), or of the other alone."""
-    way = [one - two for one, two in zip(means, other, strict=True)]
+    way, part = np.subtract(means, other), np.subtract(found, other)
     if not any(way):
         return False
-    share = _dot(way, [one - two for one, two in zip(found, other, strict=True)]) / _dot(way, way)
-    return 0.0 <= share <= 1.0 and is_near(
-        found, [two + share * step for two, step in zip(other, way, strict=True)]
-    )
-
-
-def _dot(one: Sequence[float], two: Sequence[float]) -> float:
-    return sum(a * b for a, b in zip(one, two, strict=True))
+    share = part @ way / (way @ way)
+    return 0.0 <= share <= 1.0 and is_near(part, share * way)

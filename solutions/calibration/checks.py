@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from autograder.authoring import standard
-from autograder.authoring.checks import MAY_REST, RESTING, Scenario
+from autograder.authoring.checks import MAY_REST, in_order
 from autograder.authoring.obligation import check_of
 
 from . import model, truth
@@ -13,12 +11,6 @@ from . import model, truth
 BIASES = [[0.012, -0.008, 0.005], [-0.006, 0.011, -0.009]]  # rad/s
 AHEAD = [0.3, 0.0, 0.0]  # m/s, m/s, rad/s
 SETTLE = ["wait", 1.5]  # s, for a change to be known everywhere, and for imu_bias to be heard
-
-
-def in_order(*steps: list[Any], robot: tuple[str, ...] = RESTING, **options: Any) -> Scenario:
-    """Return the scenario of these steps; `options` are its other inputs."""
-    return Scenario("in_order", {"steps": list(steps), **options}, robot=robot)
-
 
 INTERRUPT = in_order(interrupt=True)
 TWICE = in_order(
@@ -156,11 +148,7 @@ publishes_the_bias = check_of(
 )
 
 latches_the_bias = check_of(
-    "latches_the_bias",
-    model.latches_the_bias,
-    on=LATE_LISTENER,
-    needs=publishes_the_bias,
-    see=LATCHES,
+    "latches_the_bias", model.latches_the_bias, on=LATE_LISTENER, needs=publishes_the_bias, see=LATCHES
 )
 
 ends_cleanly = standard.ends_cleanly(on=INTERRUPT, needs=server_appears, clauses=[19])

@@ -7,13 +7,14 @@ from random import Random
 from typing import Any
 
 from autograder.authoring import standard_hidden
-from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.checks import RESTING, Scenario, in_order
 from autograder.authoring.failure import NoOccasion
 from autograder.authoring.obligation import check_of
+from autograder.authoring.sequence import shuffled
 from autograder.authoring.transcript import Transcript
 
 from . import checks, model, truth
-from .checks import ASKS, BIASES, GROUPS, KNOWS_NOTHING, MEASURED, SETTLE, WAITS, in_order
+from .checks import ASKS, BIASES, GROUPS, KNOWS_NOTHING, MEASURED, SETTLE, WAITS
 
 Step = list[Any]
 AT_ONCE: Step = ["status_answers", 0.0]
@@ -50,8 +51,7 @@ def _steps(random: Random) -> dict[str, Any]:
         ],
         [["begin", random.randint(2, 4)], ["end"]],
     ]
-    random.shuffle(blocks)
-    return {"steps": [*(step for block in blocks for step in block), SETTLE]}
+    return {"steps": [*shuffled(random, blocks), SETTLE]}
 
 
 def _steps_and_walks(random: Random) -> dict[str, Any]:
@@ -67,8 +67,7 @@ def _steps_and_walks(random: Random) -> dict[str, Any]:
         [["begin"], ["wait", round(random.uniform(0.1, 0.3), 2)], ["walk_steps", 1, *way()], ["end"], *stand],
         [["status_answers", 0.9], ["begin"], ["wait", 0.4], ["walk", *way()], ["end"], *stand, AT_ONCE],
     ]
-    random.shuffle(blocks)
-    return {"steps": [*(step for block in blocks for step in block), ["calibrate"], SETTLE]}
+    return {"steps": [*shuffled(random, blocks), ["calibrate"], SETTLE]}
 
 
 ANY_ORDER = Scenario("in_order", _steps, robot=RESTING)
@@ -77,12 +76,7 @@ NO_STATUS = in_order(
     *(["withdraw_status"], ["wait", 0.5], ["calibrate"]),
     *(["offer_status"], ["wait", FOUND], ["calibrate"], SETTLE),
 )
-OTHER_NAMESPACE = Scenario(
-    "in_order",
-    {"steps": [["set_bias", *BIASES[1]], SETTLE, ["calibrate"], SETTLE]},
-    robot=RESTING,
-    namespace="/lab_7/robot",
-)
+OTHER_NAMESPACE = in_order(["set_bias", *BIASES[1]], SETTLE, ["calibrate"], SETTLE, namespace="/lab_7/robot")
 
 in_any_order = partial(check_of, on=ANY_ORDER)
 

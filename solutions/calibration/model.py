@@ -12,7 +12,7 @@ from autograder.authoring.failure import Failure, expect
 from autograder.authoring.fields import shown
 from autograder.authoring.obligation import Obligation, calls, obligation, whole_run
 from autograder.authoring.robot_topic import DELIVERY
-from autograder.authoring.standard_obligations import FROM_MEMORY_TIME
+from autograder.authoring.standard_obligations import FROM_MEMORY_TIME, require_fastest
 from autograder.authoring.transcript import Transcript
 from ros_runtime.message_constants import RobotMode, name_of
 
@@ -20,7 +20,7 @@ from . import truth
 from .advice import advice_on_failing, advice_on_vector, published_instead, reasons_to_refuse
 from .heartbeat import require_heartbeat
 from .message import TOLERANCE, decimals, is_near, numbers_in, shown_vector, triples_in, whole_numbers
-from .truth import ASKING, COLLECTING, EARLY, FEWEST_SAMPLES, SERVICE, imu_between, run_of, story_of, those
+from .truth import ASKING, COLLECTING, EARLY, FEWEST_SAMPLES, SERVICE, imu_between, story_of, those
 
 DECIMALS = 4
 RATE = 50.0  # Hz, imu
@@ -68,7 +68,7 @@ def ends_right(*situations: str, after: str = "") -> Obligation:
 
 
 def _require_success(call: Call, story: truth.Story) -> None:
-    run = run_of(call)
+    run = call.run
     published = len(imu_between(run, call.sent.t, call.answered.t))
     call.expect(
         "success",
@@ -79,44 +79,38 @@ def _require_success(call: Call, story: truth.Story) -> None:
         see="" if published else lesson_on_hearing(run, "imu"),
     )
     took = call.answered.t - story.since
-    expect(
+    call.require(
         COLLECTING - EARLY <= took <= COLLECTING + LATER,
         expected=f"{COLLECTING:g} s of samples, collected after get_status had answered, and the answer within 1 s",
         observed=f"the answer came {took:.1f} s after that of get_status",
         help="Answer when the 3 s are over: wait for time, and not for a number of samples."
         if took > COLLECTING
-        else "Begin to collect when get_status has answered, not before, and wait 3 s from then."
-        if call.latency >= COLLECTING - EARLY
-        else "Wait 3 s between the first sample and the answer: count the time, not the samples.",
-        at=call.answered.t,
+        else "Begin to collect when get_status has answered, not before, and wait 3 s from then.",
     )
 
 
 def _require_no_success(call: Call, story: truth.Story) -> None:
     because, help = reasons_to_refuse(story.situation)
     call.expect("success", False, because=because, help=help)
-    text, at, unanswered = call.response.message, call.answered.t, story.situation in GETS_NO_ANSWER
-    expect(
+    text, unanswered = call.response.message, story.situation in GETS_NO_ANSWER
+    never_asked = unanswered and story.situation != truth.MISSING and not truth.status_requests(call)
+    call.require(
         "get_status" in text if unanswered else bool(text.strip()),
-        expected="a message that says why there is no calibration"
-        + (": get_status gave no answer" if unanswered else ""),
+        expected=f"a message that says why there is no calibration: {because}",
         observed=f"message: {shown(text)}",
         help="get_status was not even asked: forget a calibration however it ends, and ask afresh in the next one."
-        if unanswered and story.situation != truth.MISSING and not truth.status_requests(call)
-        else "Set response.message to a sentence with the reason"
-        + (", which names get_status." if unanswered else "."),
-        at=at,
+        if never_asked
+        else "Set response.message to a sentence with the reason; if get_status is the reason, name it.",
     )
     refused = story.end == "is refused"
     due = 0.0 if refused else ASKING if math.isnan(story.since) else story.since - call.sent.t + COLLECTING
-    expect(
+    call.require(
         call.latency <= due + LATER,
         expected=f"success: false within {due + 1.0:.1f} s",
         observed=f"it came {call.latency:.1f} s after the request",
         help=f"{help} Look at that before you begin, and return at once."
         if refused
         else "Answer as soon as it is certain that there will be no calibration.",
-        at=at,
     )
     _require_silence(call)
 
@@ -125,15 +119,12 @@ def _require_no_success(call: Call, story: truth.Story) -> None:
 def asks_get_status(call: Call) -> str | None:
     """It asks get_status from inside its callback"""
     story = story_of(call)
-    answered = call.answered
-    asked = [request.received.t for request in run_of(call).requests("get_status")]
-    expect(
+    asked = call.run.requests("get_status")
+    call.require(
         bool(truth.status_requests(call)),
         expected="a request to get_status while calibrate_imu works",
         observed=f"{len(asked)} requests, all of them at other times" if asked else "none",
-        help="Make a client of get_status in the constructor, and in the callback of calibrate_imu ask with "
-        "call_async before you collect.",
-        at=answered.t,
+        help="Make a client of get_status in the constructor, and ask with call_async before you collect.",
     )
     return story.situation if story else None
 
@@ -164,14 +155,8 @@ def wastes_no_time(run: Transcript) -> str | None:
         each = those(*situations)(run)
         if len(each) < SEVERAL:
             continue
-        fastest = min(each, key=lambda call: call.answered.t - call.sent.t)
-        expect(
-            fastest.latency <= limit + FROM_MEMORY_TIME,
-            expected=f"success: false after {limit:g} s" if limit else "refusals at once",
-            observed=f"the fastest of {len(each)} took {fastest.latency:.1f} s",
-            help=help,
-            at=fastest.answered.t,
-        )
+        expected = f"success: false after {limit:g} s" if limit else "refusals at once"
+        require_fastest(each, limit + FROM_MEMORY_TIME, expected=expected, help=help)
         judged.append(f"{len(each)} times")
     return ", ".join(judged) or None
 
@@ -186,29 +171,26 @@ def tells_the_means(call: Call) -> str | None:
         return None
     message, means = call.response.message, _means(call)
     numbers = numbers_in(message)
-    expect(
+    call.require(
         len(numbers) <= MOST_NUMBERS,
         expected=f"a message with the three means and the count, at most {MOST_NUMBERS} numbers in all",
         observed=f"{len(numbers)} numbers",
         help="Say what you have measured, once: whoever reads the message must know which numbers are meant.",
-        at=call.answered.t,
     )
     triples = triples_in(numbers)
     right = [triple for triple in triples if is_near(triple, means)]
-    expect(
+    call.require(
         bool(right),
         expected=f"a message with the mean angular velocity {shown_vector(means)} rad/s, within {TOLERANCE:g}",
         observed=f"message: {shown(message)}",
         help=advice_on_vector(call, [[float(one) for one in triple] for triple in triples], means)
         or "Put the three means into the message, x, y and z, as plain numbers in rad/s with at least four decimals.",
-        at=call.answered.t,
     )
-    expect(
+    call.require(
         any(max(map(decimals, triple)) >= DECIMALS for triple in right),
         expected=f"the means with at least {DECIMALS} decimals",
         observed=f"message: {shown(message)}",
         help="Round later: a bias of some thousandths needs four decimals or more, as in f'{x:.5f}'.",
-        at=call.answered.t,
     )
     return _situation(call)
 
@@ -218,20 +200,18 @@ def tells_the_count(call: Call) -> str | None:
     """The message holds the number of samples, which are those of this calibration"""
     if not call.response.success:
         return None
-    story, run = story_of(call), run_of(call)
+    story, run = story_of(call), call.run
     assert story
     came = len(imu_between(run, story.since - DELIVERY / 2, call.answered.t))
     counts = whole_numbers(call.response.message)
     more = [count for count in counts if count > came]
-    expect(
+    call.require(
         any(FEWEST_SAMPLES <= count <= came for count in counts),
         expected=f"the count of samples in the message: {FEWEST_SAMPLES} or more, and {came} at most could come",
         observed=f"message: {shown(call.response.message)}",
-        help=f"{more[0]} samples are more than those of this calibration: begin each one with an empty list, when "
-        "get_status has answered."
+        help=f"{more[0]} samples are more than those of this calibration: begin each one with an empty list."
         if more
         else "Put the number of samples that you averaged into the message.",
-        at=call.answered.t,
     )
     return _situation(call)
 
@@ -240,22 +220,17 @@ def tells_the_count(call: Call) -> str | None:
 def collects_for_three_seconds(run: Transcript) -> str | None:
     """The count is that of 3 s of samples"""
     whole = [call for call in those(truth.PROMPT, truth.SLOW, truth.SAYS_NO)(run) if call.response.success]
-    counts = [
-        count
-        for call in whole
-        for count in whole_numbers(call.response.message)
-        if FEWEST_SAMPLES <= count <= 2 * RATE * COLLECTING
-    ]
+    said = [count for call in whole for count in whole_numbers(call.response.message)]
+    counts = [count for count in said if FEWEST_SAMPLES <= count <= 2 * RATE * COLLECTING]
     if len(whole) < SEVERAL or not counts:
         return None
     due = RATE * COLLECTING
     nearest = min(counts, key=lambda count: abs(count - due))
-    expect(
+    whole[-1].require(
         abs(nearest - due) <= SHARE * due,
         expected=f"the samples of {COLLECTING:g} s, {due:g} or nearly as many",
         observed=f"{nearest} at best, of {len(whole)} calibrations",
         help="Average every sample that comes in the 3 s, and no other, and tell how many these are.",
-        at=whole[-1].answered.t,
     )
     return "several"
 
@@ -265,20 +240,16 @@ def publishes_the_means(call: Call) -> str | None:
     """Each success publishes one message on imu_bias: the means of its message, in frame imu_link"""
     if not call.response.success:
         return None
-    answered, run, means = call.answered, run_of(call), _means(call)
-    published = [
-        event
-        for event in run.heard("imu_bias")
-        if answered.t - LATEST_BEFORE <= event.t <= answered.t + DELIVERY
-    ]
-    expect(
+    answered, run, means = call.answered, call.run, _means(call)
+    earliest, latest = answered.t - LATEST_BEFORE, answered.t + DELIVERY
+    published = [event for event in run.heard("imu_bias") if earliest <= event.t <= latest]
+    call.require(
         len(published) == 1,
         expected="one message on imu_bias for each success, within 1 s of the answer",
         observed=f"{len(published)} messages" if published else published_instead(run),
         help="Publish once, when all is known to be well, just before you answer success: true."
         if published
         else "Make the publisher of imu_bias in the constructor, and publish one Vector3Stamped before you answer.",
-        at=answered.t,
     )
     _require_bias(call, published[0].message, means)
     return _situation(call)
@@ -291,12 +262,11 @@ def latches_the_bias(run: Transcript) -> str | None:
     if not done:
         return None
     heard = run.heard("imu_bias")
-    expect(
+    done[-1].require(
         bool(heard),
         expected="the last imu_bias, sent to a node that subscribes after the calibration",
         observed="none",
         help="Give the publisher durability TRANSIENT_LOCAL: it keeps the last message for those who come later.",
-        at=done[-1].answered.t,
     )
     _require_bias(done[-1], heard[-1].message, _means(done[-1]))
     return "subscribed later"
@@ -305,41 +275,35 @@ def latches_the_bias(run: Transcript) -> str | None:
 def _require_bias(call: Call, message: object, means: Sequence[float]) -> None:
     header, vector = message.header, message.vector  # type: ignore[attr-defined]
     found = (vector.x, vector.y, vector.z)
-    expect(
+    call.require(
         is_near(found, means),
         expected=f"imu_bias {shown_vector(means)} rad/s, within {TOLERANCE:g}",
         observed=shown_vector(found),
         help=advice_on_vector(call, [found], means)
         or "Publish the mean of the angular velocities of this calibration, in rad/s.",
-        at=call.answered.t,
     )
     triples = triples_in(numbers_in(call.response.message))
     told = [triple for triple in triples if is_near(triple, means)]
-    expect(
+    call.require(
         not told or any(is_near(found, triple, _rounding(triple)) for triple in told),
         expected="the same means in message and imu_bias, but for rounding",
         observed=f"imu_bias {shown_vector(found)}, message: {shown(call.response.message)}",
         help="Compute the means once, and round them only for the message, to four decimals or more.",
-        at=call.answered.t,
     )
-    expect(
+    call.require(
         header.frame_id == "imu_link",
         expected="header.frame_id 'imu_link': the bias is that of the sensor, about its axes",
         observed=f"header.frame_id {shown(header.frame_id)}",
         help='Set header.frame_id = "imu_link" before you publish.',
-        at=call.answered.t,
         see="01_robot_and_graph#frames-why",
     )
 
 
 def _require_silence(call: Call) -> None:
     """Require that imu_bias stayed silent from a request until shortly after its answer, but for others' successes."""
-    run = run_of(call)
-    successes = [
-        other.answer.t
-        for other in calls(SERVICE)(run)
-        if other.name != call.name and other.answer and other.answer.response.success
-    ]
+    run = call.run
+    others = [other.answer for other in calls(SERVICE)(run) if other.name != call.name and other.answer]
+    successes = [answer.t for answer in others if answer.response.success]
     for event in run.heard("imu_bias"):
         excused = any(end - LATEST_BEFORE <= event.t <= end + DELIVERY for end in successes)
         if call.sent.t <= event.t <= call.answered.t + DELIVERY and not excused:
@@ -356,10 +320,8 @@ def _means(call: Call) -> tuple[float, ...]:
     """Return the means (rad/s) of what the robot published on imu while a calibration collected."""
     story = story_of(call)
     assert story
-    samples = imu_between(run_of(call), story.since, call.answered.t)
-    return tuple(
-        sum(sample.angular_velocity[axis] for sample in samples) / max(1, len(samples)) for axis in range(3)
-    )
+    samples = [each.angular_velocity for each in imu_between(call.run, story.since, call.answered.t)]
+    return tuple(sum(each[axis] for each in samples) / max(1, len(samples)) for axis in range(3))
 
 
 def _rounding(triple: Sequence[str]) -> float:
@@ -370,9 +332,6 @@ def _rounding(triple: Sequence[str]) -> float:
 def _situation(call: Call) -> str:
     story = story_of(call)
     return f"{story.situation}, after {story.after or 'nothing'}" if story else ""
-
-
-# -- heartbeat --------------------------------------------------------------------------------------------------------
 
 
 @obligation(17, of=whole_run)

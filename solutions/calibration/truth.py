@@ -82,7 +82,7 @@ def those(*situations: str, after: str = "") -> Callable[[Transcript], list[Call
 
 def story_of(call: Call) -> Story | None:
     """Return what a request has to come to; None if nobody can tell."""
-    run, sent, end = run_of(call), call.sent.t, _end_of(call)
+    run, sent, end = call.run, call.sent.t, _end_of(call)
     known_from = _states_from(run)
     if end <= known_from:
         return Story("is refused", UNKNOWN)
@@ -103,12 +103,6 @@ def story_of(call: Call) -> Story | None:
     return _calibration(call)
 
 
-def run_of(call: Call) -> Transcript:
-    """Return the transcript of a call."""
-    assert isinstance(call.run, Transcript)
-    return call.run
-
-
 def imu_between(run: Transcript, start: float, end: float) -> list[ev.ImuPublished]:
     """Return what the robot published on imu between two times (s)."""
     return [sample for sample in run.all(ev.ImuPublished) if start <= sample.t <= end]
@@ -116,11 +110,8 @@ def imu_between(run: Transcript, start: float, end: float) -> list[ev.ImuPublish
 
 def status_requests(call: Call) -> list[Request]:
     """Return the requests to get_status from a request to calibrate to its answer."""
-    return [
-        request
-        for request in run_of(call).requests("get_status")
-        if call.sent.t <= request.received.t <= _end_of(call)
-    ]
+    asked = call.run.requests("get_status")
+    return [request for request in asked if call.sent.t <= request.received.t <= _end_of(call)]
 
 
 _STANDS_OR_WALKS = (RobotMode.STANDING, RobotMode.WALKING)
@@ -143,7 +134,7 @@ def _at_work(call: Call) -> list[Call]:
 
     Of those that come together one may calibrate: the one that did, or else the first.
     """
-    others = [other for other in calls(SERVICE)(run_of(call)) if other.name != call.name]
+    others = [other for other in calls(SERVICE)(call.run) if other.name != call.name]
     rivals = [other for other in others if abs(other.sent.t - call.sent.t) < TOGETHER]
     together = sorted([call, *rivals], key=lambda one: one.sent.t)
     winner = next((one for one in together if one.answer and one.answer.response.success), together[0])
@@ -156,7 +147,7 @@ def _at_work(call: Call) -> list[Call]:
 
 def _calibration(call: Call) -> Story | None:
     """Return what a request comes to that is not refused."""
-    run, sent = run_of(call), call.sent.t
+    run, sent = call.run, call.sent.t
     after = _end_before(call)
     status = _status(call)
     if status is None:
@@ -189,7 +180,7 @@ def _came(run: Transcript, start: float, end: float) -> int:
 
 def _status(call: Call) -> tuple[str, float] | None:
     """Return what get_status does, and when (s) it answers: NaN, if not in time."""
-    run, sent = run_of(call), call.sent.t
+    run, sent = call.run, call.sent.t
     ready = run.first(ev.NodeReady)
     withdrawn = {event.server: event.t for event in run.all(ev.ServiceWithdrawn)}
     offered = [(event.t, withdrawn.get(event.server, math.inf)) for event in run.all(ev.ServiceOffered)]
@@ -220,7 +211,7 @@ def _status(call: Call) -> tuple[str, float] | None:
 
 def _status_as_planned(call: Call) -> tuple[str, float] | None:
     """Return what get_status would have done, had it been asked."""
-    begun = steps_until(run_of(call), call.sent.t)
+    begun = steps_until(call.run, call.sent.t)
     planned = [step for step in begun if step[0].startswith("status_")]
     if not planned:
         return PROMPT, call.sent.t
@@ -239,9 +230,6 @@ def _walking(run: Transcript, start: float, end: float) -> list[ev.RobotTruth]:
 
 def _end_before(call: Call) -> str:
     """Return how the last calibration that ended before a request came out."""
-    ended = [
-        (other.answer.t, other.answer.response.success)
-        for other in calls(SERVICE)(run_of(call))
-        if other.answer and other.answer.t <= call.sent.t
-    ]
+    answers = [other.answer for other in calls(SERVICE)(call.run) if other.answer]
+    ended = [(answer.t, answer.response.success) for answer in answers if answer.t <= call.sent.t]
     return ("a success" if max(ended)[1] else "a failure") if ended else ""

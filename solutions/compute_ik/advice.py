@@ -13,35 +13,19 @@ from .two_link_arm import TOLERANCE, Point, TwoLinkArm
 SAME = 1e-3  # rad
 NEARLY = 0.01  # m; rounding to two digits moves the hand no farther
 Reading = Callable[[float, float], tuple[float, float]]
-# How to read the angles (shoulder, elbow) so that a common mistake becomes right, and what to do about it.
+_BETWEEN = "The elbow's angle is 0 where the arm is straight; this is the angle between the links:"
+# How to read the angles of shoulder and elbow so that a common mistake becomes right, and what to do about it.
 _MISREADINGS: list[tuple[Reading, str]] = [
+    (lambda s, e: (math.radians(s), math.radians(e)), "These are degrees: leave out math.degrees()."),
+    (lambda s, e: (s, e - s), "The elbow's angle is counted from the upper arm: subtract the shoulder's."),
+    (lambda s, e: (s, math.pi - e), f"{_BETWEEN} turn the sign of the cosine."),
+    (lambda s, e: (s, e - math.pi), f"{_BETWEEN} take pi from it."),
     (
-        lambda shoulder, elbow: (math.radians(shoulder), math.radians(elbow)),
-        "These are degrees. ROS has radians: leave out math.degrees().",
+        lambda s, e: (s, -e),
+        "The angles belong to different sides: a positive elbow needs a smaller shoulder.",
     ),
-    (
-        lambda shoulder, elbow: (shoulder, elbow - shoulder),
-        "The elbow's angle is counted from the upper arm, not from x: subtract the shoulder's angle.",
-    ),
-    (
-        lambda shoulder, elbow: (shoulder, math.pi - elbow),
-        "The elbow's angle is 0 where the arm is straight; this is the angle between the links: turn the sign of the "
-        "cosine in the law of cosines.",
-    ),
-    (
-        lambda shoulder, elbow: (shoulder, elbow - math.pi),
-        "The elbow's angle is 0 where the arm is straight; this is the angle between the links: take pi from it.",
-    ),
-    (
-        lambda shoulder, elbow: (shoulder, -elbow),
-        "The two angles belong to different sides: where the elbow's angle is positive, the shoulder's is smaller than "
-        "the direction of the target, and the other way round.",
-    ),
-    (
-        lambda shoulder, elbow: (-shoulder, -elbow),
-        "These angles count clockwise. With x forward and y up, counter-clockwise is positive.",
-    ),
-    (lambda shoulder, elbow: (elbow, shoulder), "shoulder and elbow are exchanged in the response."),
+    (lambda s, e: (-s, -e), "These angles count clockwise: positive is counter-clockwise, from x to y."),
+    (lambda s, e: (e, s), "shoulder and elbow are exchanged in the response."),
 ]
 
 
@@ -66,16 +50,14 @@ def advice_for(
         return "That is the target with x and y exchanged: it is math.atan2(y, x), in this order."
     for other in before:
         if other != arm and other.misses(shoulder, elbow, target) <= TOLERANCE:
-            return (
-                f"That is right for {other.upper_arm:.2f} and {other.forearm:.2f} m: read the parameters "
-                "upper_arm_length and forearm_length in the callback, and compute with what they are then."
-            )
-    if arm.misses(shoulder, elbow, target) <= NEARLY and _are_rounded(shoulder, elbow):
+            lengths = f"{other.upper_arm:.2f} and {other.forearm:.2f} m"
+            return f"That is right for {lengths}: read upper_arm_length and forearm_length in the callback."
+    are_rounded = all(round(angle, 3) == angle for angle in (shoulder, elbow))
+    if are_rounded and arm.misses(shoulder, elbow, target) <= NEARLY:
         return "The angles are rounded, and 0.01 rad moves the hand by millimetres: leave out round()."
     if _is_bent_right(elbow, target, arm):
         return (
-            "The distance is right, so the elbow's angle is; the direction is not: look at the shoulder's, and take "
-            "atan2(y, x), which knows all four quadrants, instead of atan(y / x) or asin."
+            "The distance is right, the direction is not: take atan2(y, x), which knows all four quadrants."
         )
     return (
         "Put the angles back in: x = l1 cos(shoulder) + l2 cos(shoulder + elbow), y the same with sin. Begin with the "
@@ -86,26 +68,13 @@ def advice_for(
 def advice_on_the_side(elbow_up: bool, twin_is_above: bool | None) -> str:
     """Say what to do about an elbow on the wrong side, given the side of the answer with the other elbow_up."""
     if twin_is_above is None:
-        return (
-            "elbow_up decides the sign of the elbow's angle: ahead of the shoulder a positive angle has the elbow "
-            "below the line."
-        )
-    other, side = shown(not elbow_up), side_in_words(twin_is_above)
+        return "elbow_up decides the sign of the elbow's angle: a positive one has the elbow below the line."
+    other, side = f"With elbow_up {shown(not elbow_up)} the elbow was", side_in_words(twin_is_above)
     if twin_is_above == elbow_up:
-        return (
-            f"With elbow_up {other} the elbow was {side}: elbow_up is used the wrong way round. Turn the sign of the "
-            "elbow's angle."
-        )
-    return (
-        f"With elbow_up {other} the elbow was also {side}: elbow_up is not used. Let it decide the sign of the elbow's "
-        "angle."
-    )
+        return f"{other} {side}: elbow_up is used the wrong way round. Turn the sign of the elbow's angle."
+    return f"{other} also {side}: elbow_up is not used. Let it decide the sign of the elbow's angle."
 
 
 def _is_bent_right(elbow: float, target: Point, arm: TwoLinkArm) -> bool:
     """Return whether the elbow's angle brings the hand as far from the shoulder as the target is."""
     return abs(math.hypot(*arm.hand_at(0.0, elbow)) - math.hypot(*target)) <= TOLERANCE
-
-
-def _are_rounded(*angles: float) -> bool:
-    return all(round(angle, 3) == angle for angle in angles)

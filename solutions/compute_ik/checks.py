@@ -5,17 +5,14 @@ from __future__ import annotations
 import math
 
 from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.checks import in_order
 from autograder.authoring.obligation import check_of
 
 from . import model
 
 CODES_WHY, COSINE = "04_your_own_interfaces#server-why", "04_your_own_interfaces#cosine-why"
 FRAMES = ["shoulder", "base_link", "l_shoulder", "", "/shoulder", "Shoulder"]
-ROBOTS_ARM = {
-    "upper_arm_length": 0.22,
-    "forearm_length": 0.30,
-}  # m: to the elbow, and on to between the fingers
+ROBOTS_ARM = {"upper_arm_length": 0.22, "forearm_length": 0.30}  # m: to elbow, and on to between the fingers
 OTHER_ARM = [["upper_arm_length", 0.35], ["forearm_length", 0.2]]  # m
 REACHED = [[0.4, 0.3], [0.45, -0.1], [0.1, 0.3], [0.53, 0.12], [-0.2, 0.35], [-0.3, -0.1]]
 NEAR_THE_LIMITS = [[0.4, 0.3], [0.1, 0.5378], [-0.3, 0.463], [0.053, 0.0, True]]
@@ -25,23 +22,18 @@ OF_OTHER_ARM = [[0.5, 0.1], [0.2, -0.1, True], [0.3, -0.2]]
 
 # It has a robot, which notices a busy machine; on such a machine Python takes seconds to end.
 ANSWERS = [["ask", [*point, elbow_up]] for point in REACHED for elbow_up in (False, True)]
-POINTS = Scenario("in_order", {"steps": ANSWERS, "interrupt": True}, robot=RESTING)
-LIMITS = Scenario("in_order", {"steps": [["ask", point] for point in NEAR_THE_LIMITS + BEYOND]}, robot=None)
-IN_FRAMES = Scenario(
-    "in_order", {"steps": [["ask", [0.4, 0.3, False, frame]] for frame in FRAMES]}, robot=None
-)
-REAL_ARM = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["move_to", 0.4, 0.1], ["move_to", 0.3, -0.25], *(["ask", point] for point in OF_ROBOTS_ARM)),
-            *(["set_together", *OTHER_ARM], *(["ask", point] for point in OF_OTHER_ARM)),
-        ],
-        "started_with": ROBOTS_ARM,
-    },
+POINTS = in_order(*ANSWERS, interrupt=True)
+LIMITS = in_order(*(["ask", point] for point in NEAR_THE_LIMITS + BEYOND), robot=None)
+IN_FRAMES = in_order(*(["ask", [0.4, 0.3, False, frame]] for frame in FRAMES), robot=None)
+REAL_ARM = in_order(
+    *(["move_to", 0.4, 0.1], ["move_to", 0.3, -0.25]),
+    *(["ask", point] for point in OF_ROBOTS_ARM),
+    ["set_together", *OTHER_ARM],
+    *(["ask", point] for point in OF_OTHER_ARM),
+    robot=(),
+    started_with=ROBOTS_ARM,
     parameters=ROBOTS_ARM,
 )
-
 
 server_appears = standard.server_appears("compute_ik", on=POINTS, clauses=[10])
 
@@ -76,11 +68,7 @@ says_what_is_out_of_reach = check_of(
 )
 
 refuses_other_frames = check_of(
-    "refuses_other_frames",
-    model.refuses_other_frames,
-    on=IN_FRAMES,
-    needs=server_appears,
-    see=CODES_WHY,
+    "refuses_other_frames", model.refuses_other_frames, on=IN_FRAMES, needs=server_appears, see=CODES_WHY
 )
 
 moves_the_real_hand = check_of(

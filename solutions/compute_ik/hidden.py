@@ -7,34 +7,50 @@ from random import Random
 from typing import Any
 
 from autograder.authoring import standard_hidden
-from autograder.authoring.checks import Scenario, named_check
+from autograder.authoring.checks import Scenario, in_order
 from autograder.authoring.obligation import check_of
-from autograder.authoring.transcript import Transcript
 
 from . import checks, model
-from .questions import AT_A_LIMIT, anywhere, at_distance
 from .two_link_arm import DEFAULT, TwoLinkArm
 
 OTHER_FRAMES = ["", "/shoulder", "a/shoulder", "Shoulder", "shoulder ", "shoulder_link", "map"]
 NO_NUMBERS = [math.nan, math.inf, -math.inf]
 NO_LENGTHS = [0.0, -0.25, math.nan]
 BURST = 8  # a service keeps its last 10 requests
+AT_A_LIMIT = 0.002  # m from a limit of the reach: twice what the statement leaves open
+
+
+def _anywhere(random: Random, arm: TwoLinkArm) -> list[Any]:
+    """Draw a question about a point that an arm reaches, the ends of the reach as often as the middle."""
+    part = random.choice([random.uniform(0.0, 0.05), random.uniform(0.0, 1.0), random.uniform(0.95, 1.0)])
+    nearest, farthest = arm.nearest + AT_A_LIMIT, arm.farthest - AT_A_LIMIT
+    return _at_distance(random, nearest + part * (farthest - nearest))
+
+
+def _at_distance(random: Random, distance: float) -> list[Any]:
+    """Draw a question [x, y, elbow_up] about a point so far (m) from the shoulder, more often ahead of it."""
+    direction = random.uniform(-math.pi, math.pi) / random.choice([1.0, 2.5])
+    x, y = distance * math.cos(direction), distance * math.sin(direction)
+    return [round(x, 5), round(y, 5), random.random() < 0.5]
 
 
 def _targets(random: Random) -> dict[str, Any]:
     """Ask in any order for points over the whole reach, just within and beyond each limit, in frames and at heights."""
     limits = [
-        at_distance(random, limit + away)
+        _at_distance(random, limit + away)
         for limit in (DEFAULT.nearest, DEFAULT.farthest)
         for away in (-AT_A_LIMIT, -AT_A_LIMIT, 0.0, AT_A_LIMIT, AT_A_LIMIT)
     ]
-    beyond = [at_distance(random, random.uniform(0.56, 5.0)), at_distance(random, random.uniform(0.0, 0.04))]
-    within = [anywhere(random, DEFAULT) for _ in range(12)]
-    frames = [[*anywhere(random, DEFAULT), frame] for frame in OTHER_FRAMES]
-    high = [[*anywhere(random, DEFAULT), "shoulder", random.choice([-1.0, 0.3, 40.0])] for _ in range(3)]
+    beyond = [
+        _at_distance(random, random.uniform(0.56, 5.0)),
+        _at_distance(random, random.uniform(0.0, 0.04)),
+    ]
+    within = [_anywhere(random, DEFAULT) for _ in range(12)]
+    frames = [[*_anywhere(random, DEFAULT), frame] for frame in OTHER_FRAMES]
+    high = [[*_anywhere(random, DEFAULT), "shoulder", random.choice([-1.0, 0.3, 40.0])] for _ in range(3)]
     questions = [*limits, *beyond, *within, *frames, *high]
     random.shuffle(questions)
-    burst = [anywhere(random, DEFAULT) for _ in range(BURST)]
+    burst = [_anywhere(random, DEFAULT) for _ in range(BURST)]
     return {"steps": [*(["ask", question] for question in questions), ["ask", *burst], ["ask", [0.4, 0.3]]]}
 
 
@@ -48,10 +64,10 @@ def _lengths(random: Random) -> dict[str, Any]:
         before = TwoLinkArm(*arm.values())
         arm.update(dict(lengths))
         after = TwoLinkArm(*arm.values())
-        points = [anywhere(random, each) for each in (after, after, after, before)]
+        points = [_anywhere(random, each) for each in (after, after, after, before)]
         distances = [after.farthest - AT_A_LIMIT, after.farthest + AT_A_LIMIT, after.nearest + AT_A_LIMIT]
         distances += [after.nearest - AT_A_LIMIT, 0.5 * after.nearest] if after.nearest > AT_A_LIMIT else []
-        limits = [at_distance(random, distance) for distance in distances]
+        limits = [_at_distance(random, distance) for distance in distances]
         return [[verb, *lengths], *(["ask", question] for question in [*points, *limits])]
 
     forearm_first = [["forearm_length", round(random.uniform(0.35, 0.6), 3)], ["upper_arm_length", 0.2]]
@@ -63,13 +79,9 @@ def _lengths(random: Random) -> dict[str, Any]:
     sets = [step for block in blocks for step in set_and_ask(*block)]
     good, bad = random.sample(names, 2)
     half_good = ["set_together", [good, round(0.7 * arm[good], 3)], [bad, random.choice(NO_LENGTHS)]]
-    return {
-        "steps": [
-            ["get", *names],
-            *(["ask", anywhere(random, DEFAULT)] for _ in range(2)),
-            *(*sets, half_good, *(["ask", anywhere(random, TwoLinkArm(*arm.values()))] for _ in range(4))),
-        ]
-    }
+    first = [["ask", _anywhere(random, DEFAULT)] for _ in range(2)]
+    last = [["ask", _anywhere(random, TwoLinkArm(*arm.values()))] for _ in range(4)]
+    return {"steps": [["get", *names], *first, *sets, half_good, *last]}
 
 
 def _no_numbers(random: Random) -> dict[str, Any]:
@@ -82,42 +94,28 @@ def _no_numbers(random: Random) -> dict[str, Any]:
         [math.nan, 0.3, True, "base_link"],
     ]
     random.shuffle(points)
-    asked = [["ask", question] for bad in points for question in (bad, anywhere(random, DEFAULT))]
+    steps = [["ask", question] for bad in points for question in (bad, _anywhere(random, DEFAULT))]
     names = list(DEFAULT.parameters)
-    set_badly = [
-        step
-        for bad in NO_LENGTHS
-        for step in (["set", [random.choice(names), bad]], ["ask", [0.4, 0.3]], ["ask", [0.1, -0.1, True]])
-    ]
-    points_of_equal_lengths = [[0.2, 0.3], [0.0, 0.0], [0.4, 0.3], [-0.3, 0.3]]  # the shoulder is one of them
-    again = [
-        ["set", *([name, 0.35] for name in names)],
-        *(["ask", point] for point in points_of_equal_lengths),
-    ]
-    return {"steps": [*asked, *set_badly, *again]}
+    for bad in NO_LENGTHS:
+        steps += [["set", [random.choice(names), bad]], ["ask", [0.4, 0.3]], ["ask", [0.1, -0.1, True]]]
+    steps.append(["set", *([name, 0.35] for name in names)])
+    with_equal_lengths = [[0.2, 0.3], [0.0, 0.0], [0.4, 0.3], [-0.3, 0.3]]  # the shoulder is one of them
+    return {"steps": [*steps, *(["ask", point] for point in with_equal_lengths)]}
 
 
 ANY_TARGET = Scenario("in_order", _targets, robot=None)
 ANY_LENGTH = Scenario("in_order", _lengths, robot=None)
 NO_NUMBER = Scenario("in_order", _no_numbers, robot=None)
-OTHER_NAMESPACE = Scenario("in_order", {"steps": [["ask", [0.4, 0.3]]]}, robot=None, namespace="/lab_7/robot")
+OTHER_NAMESPACE = in_order(["ask", [0.4, 0.3]], robot=None, namespace="/lab_7/robot")
 
 reaches_any_point = check_of(
     "reaches_any_point",
-    *(
-        model.answers_every_call,
-        model.answers_in_time,
-        model.reaches_the_point,
-        model.bends_the_elbow_as_asked,
-    ),
-    *(model.says_what_is_out_of_reach, model.refuses_other_frames),
+    *(model.answers_every_call, model.answers_in_time, model.reaches_the_point),
+    *(model.bends_the_elbow_as_asked, model.says_what_is_out_of_reach, model.refuses_other_frames),
     title="All around the shoulder, up to both limits and in any frame, the answer is right, also of eight at once",
     points=2,
     on=ANY_TARGET,
-    needs=[
-        *(checks.bends_the_elbow_as_asked, checks.says_what_is_out_of_reach),
-        checks.refuses_other_frames,
-    ],
+    needs=[checks.bends_the_elbow_as_asked, checks.says_what_is_out_of_reach, checks.refuses_other_frames],
     see=checks.COSINE,
 )
 
@@ -131,19 +129,13 @@ refuses_what_is_no_number = check_of(
 )
 
 
-def _declares_its_lengths(run: Transcript) -> None:
-    model.lengths_are_parameters.judge(run)
-
-
-declares_its_lengths = named_check(  # whatever becomes of the node after that
+declares_its_lengths = check_of(
     "declares_its_lengths",
-    model.lengths_are_parameters.sentence,
-    _declares_its_lengths,
+    model.lengths_are_parameters,
     on=ANY_LENGTH,
     needs=checks.server_appears,
     see="04_your_own_interfaces#parameters-intro",
-    clauses=model.lengths_are_parameters.clauses,
-    obligations=[model.lengths_are_parameters],
+    to_its_end=False,  # whatever becomes of the node after that
 )
 
 does_what_it_says_of_new_lengths = check_of(

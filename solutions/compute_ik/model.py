@@ -59,11 +59,15 @@ def reaches_the_point(call: Call) -> str | None:
     if refuses_nothing_within_reach.require(call) is None and not reply.is_a_success:
         return None
     missed_by = reply.arm.misses(*reply.shoulder_and_elbow, reply.target)
+    where = "no place at all"
+    if missed_by < math.inf:
+        x, y = reply.arm.hand_at(*reply.shoulder_and_elbow)
+        where = f"the hand is at ({x:.3f}, {y:.3f}), {missed_by * 1000:.0f} mm off"
     if missed_by > TOLERANCE:
         raise Failure(
             expected=f"angles that bring the hand within 1 mm of {reply.question}, with links of "
             f"{reply.arm.upper_arm:.2f} and {reply.arm.forearm:.2f} m",
-            observed=f"{reply.angles}: {_where_that_is(reply, missed_by)}",
+            observed=f"{reply.angles}: {where}",
             help=advice_for(*reply.shoulder_and_elbow, reply.target, reply.arm, _arms_before(call)),
             at=reply.at,
         )
@@ -79,19 +83,17 @@ def bends_the_elbow_as_asked(call: Call) -> str | None:
     if reply is None or not reply.is_within_reach or reply.target[0] < AHEAD or not reply.is_a_success:
         return None
     side, is_above = side_in_words(reply.elbow_up), reply.elbow_is_above
-    if is_above is None:
-        raise Failure(
-            expected=f"two angles for {reply.question}",
-            observed=f"{reply.angles}, which is nowhere",
-            help="Look where a NaN or an infinite number comes from: a division by zero, or acos of more than 1.",
-            at=reply.at,
-        )
-    expect(
+    reply.call.require(
+        is_above is not None,
+        expected=f"two angles for {reply.question}",
+        observed=f"{reply.angles}, which is nowhere",
+        help="Look where a NaN or an infinite number comes from: a division by zero, or acos of more than 1.",
+    )
+    reply.call.require(
         is_above == reply.elbow_up,
         expected=f"the elbow {side} the line from shoulder to target for {reply.question}",
-        observed=f"{reply.angles}: the elbow is {side_in_words(is_above)} it",
+        observed=f"{reply.angles}: the elbow is {side_in_words(bool(is_above))} it",
         help=advice_on_the_side(reply.elbow_up, _side_of_the_twin(reply)),
-        at=reply.at,
     )
     return f"the elbow {side}"
 
@@ -106,8 +108,7 @@ def says_what_is_out_of_reach(call: Call) -> str | None:
         reply,
         Response.NO_IK_SOLUTION,
         because=reply.reach,
-        help="Look at cos(elbow) before acos: beyond -1 and 1 there is no such triangle. Forcing it into that range "
-        "makes a failure look like a success.",
+        help="Look at cos(elbow) before acos: beyond -1 and 1 there is no such triangle; force nothing into it.",
     )
     return "too far" if reply.distance > reply.arm.farthest else "too near"
 
@@ -117,12 +118,11 @@ def refuses_other_frames(call: Call) -> str:
     """A target in any frame but "shoulder" is FRAME_TRANSFORM_FAILURE, and no other is"""
     reply = Reply(call, DEFAULT)
     if reply.frame == "shoulder":
-        expect(
+        reply.call.require(
             reply.error_code != Response.FRAME_TRANSFORM_FAILURE,
             expected=f"another error_code for {reply.question}: that is the right frame",
             observed=f"error_code {code_in_words(reply.error_code)}",
             help="Compare request.target.header.frame_id with 'shoulder'.",
-            at=reply.at,
         )
         return "in shoulder"
     _require_code(
@@ -141,13 +141,11 @@ def refuses_a_pose_that_is_not_finite(call: Call) -> str | None:
     reply = Reply(call, DEFAULT)
     if reply.frame != "shoulder" or all(map(math.isfinite, reply.target)):
         return None
-    expect(
+    reply.call.require(
         not reply.is_a_success,
         expected=f"any error_code but SUCCESS for {reply.question}",
         observed=f"error_code {code_in_words(reply.error_code)}, {reply.angles}",
-        help="Every comparison with NaN is false, so a test such as `distance > reach` lets it through: ask "
-        "math.isfinite(), or test for what is good.",
-        at=reply.at,
+        help="Every comparison with NaN is false: ask math.isfinite(), or test for what is good.",
     )
     return "NaN" if any(map(math.isnan, reply.target)) else "infinite"
 
@@ -172,11 +170,11 @@ def lengths_are_parameters(run: Transcript) -> str:
         for name in call.request.names:
             length = DEFAULT.parameters[name]
             value = next(values, ParameterValue())  # a node that lacks one may say nothing of any
+            is_double = value.type == ParameterType.PARAMETER_DOUBLE
             expect(
-                value.type == ParameterType.PARAMETER_DOUBLE
-                and math.isclose(value.double_value, length, abs_tol=1e-6),
+                is_double and math.isclose(value.double_value, length, abs_tol=1e-6),
                 expected=f"a parameter {name} of type double with the value {length:.2f}",
-                observed=_in_words(value),
+                observed=f"the value {value.double_value:g}" if is_double else "no value of that type",
                 help=f"Declare it with its default in the constructor: self.declare_parameter({name!r}, {length:.2f}).",
                 at=call.sent.t,
             )
@@ -210,15 +208,9 @@ def moves_the_real_hand(run: Transcript) -> str | None:
 # -- the truth --------------------------------------------------------------------------------------------------------
 
 
-def _transcript(call: Call) -> Transcript:
-    if not isinstance(call.run, Transcript):
-        raise TypeError("a call of an obligation is one of a transcript")
-    return call.run
-
-
 def _settings(call: Call) -> list[Call]:
     """Return the calls that set parameters before a call; each must have been answered."""
-    asked = [each for each in _transcript(call).calls if each.service.split("/")[-1] in SETTING]
+    asked = [each for each in call.run.calls if each.service.split("/")[-1] in SETTING]
     return [each for each in asked if each.sent.t < call.sent.t and each.answered]
 
 
@@ -266,38 +258,17 @@ def _reply(call: Call) -> Reply | None:
 
 def _side_of_the_twin(reply: Reply) -> bool | None:
     """Return the side of the elbow in the answer for the same target with the other elbow_up, if there is one."""
-    others = (Reply(each, reply.arm) for each in calls(SERVICE)(_transcript(reply.call)) if each.answer)
+    others = (Reply(each, reply.arm) for each in calls(SERVICE)(reply.call.run) if each.answer)
     twins = (each for each in others if each.target == reply.target and each.elbow_up != reply.elbow_up)
     return next((twin.elbow_is_above for twin in twins), None)
 
 
-# -- requirements -----------------------------------------------------------------------------------------------------
-
-
 def _require_code(reply: Reply, code: int, *, because: str, help: str) -> None:
-    expect(
+    reply.call.require(
         reply.error_code == code,
         expected=f"error_code {CODES[code]} ({code}) for {reply.question}: {because}",
         observed=f"error_code {code_in_words(reply.error_code)}",
         help=help
         if reply.error_code in CODES
         else "Set response.error_code to one of ComputeIK.Response's constants. A new response has 0, which is none.",
-        at=reply.at,
     )
-
-
-# -- words ------------------------------------------------------------------------------------------------------------
-
-
-def _where_that_is(reply: Reply, missed_by: float) -> str:
-    if math.isinf(missed_by):
-        return "no place at all"
-    x, y = reply.arm.hand_at(*reply.shoulder_and_elbow)
-    return f"the hand is at ({x:.3f}, {y:.3f}), {missed_by * 1000:.0f} mm off"
-
-
-def _in_words(value: ParameterValue) -> str:
-    if value.type == ParameterType.PARAMETER_NOT_SET:
-        return "no value: it is not declared, or without a default"
-    is_double = value.type == ParameterType.PARAMETER_DOUBLE
-    return f"the value {value.double_value:g}" if is_double else "a value of another type"

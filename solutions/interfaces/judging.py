@@ -14,17 +14,16 @@ from autograder.authoring.transcript import Transcript
 
 BUSY = 60.0  # s of processor time; a correct file needs 25
 NO_FILE = "there is no definition in this folder"  # what the build says then
-NOTHING: Mapping[str, str] = {}
 LONGEST = 300  # characters of what a verdict quotes
 
 
-def require_built(run: Transcript, wanted: Mapping[str, str] = NOTHING) -> dict[str, Any]:
+def require_built(run: Transcript, wanted: Mapping[str, str] | None = None) -> dict[str, Any]:
     """Require that the file was built, and return its parts (request, …, feedback) with fields and constants.
 
     `wanted` are the fields that the task asks for (name → ROS type), for a line that does not build.
     """
     try:
-        return _built(run, wanted)
+        return _built(run, wanted or {})
     except (AttributeError, KeyError, TypeError, ValueError) as error:  # it comes from the student's sandbox
         raise unseen(run, f"the build's report is not whole: {error!r}") from None
 
@@ -126,16 +125,12 @@ def _misnamed(name: str, candidates: Sequence[str]) -> str:
     """Ask for the task's name when a single other field of the same type may be meant, else return ""."""
     if len(candidates) != 1:
         return ""
-    return (
-        f"Rename `{_cut(candidates[0])}` to `{name}`: a program finds a field by its name, letter by letter."
-    )
+    return f"Rename `{_cut(candidates[0])}` to `{name}`: programs find a field by its name, letter by letter."
 
 
 def _why_this_type(wanted: str, written: str) -> str:
     if wanted.endswith("Stamped"):
         return f"Write {wanted}: without the header nobody can say in which frame the numbers are."
-    if wanted.endswith("/Duration"):
-        return f"Write {wanted}: it says itself that it is a time, in sec and nanosec."
     return f"Write {wanted}: for a program {_cut(written)} is another type, and the two do not fit together."
 
 
@@ -156,11 +151,7 @@ def _is_whole(part: Any) -> bool:
 
 
 def _report(run: Transcript) -> dict[str, Any]:
-    """Read what the build printed at its end.
-
-    Raises:
-        Failure: the file kept the build from coming to its end.
-    """
+    """Read what the build printed at its end; it is a Failure if the file kept it from coming there."""
     try:
         return json.loads(run.output("stdout"))
     except ValueError:

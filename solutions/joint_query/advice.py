@@ -48,12 +48,12 @@ def contains_name(message: str, name: str) -> bool:
 def not_heard(run: RobotRecord) -> str:
     """Return why no joint_states reach the node, as far as the grader saw."""
     return why_nothing_is_heard(run, "joint_states") or (
-        "Subscribe to joint_states: compare the name (relative) and the type letter by letter, and give "
-        "qos_profile_sensor_data. The robot publishes best effort, which a reliable subscription never gets."
+        "Subscribe to joint_states, a relative name, with qos_profile_sensor_data: the robot publishes best effort, "
+        "which a reliable subscription never gets."
     )
 
 
-def advice_on_refusal(call: Call) -> str:
+def on_refusal(call: Call) -> str:
     """Say what is wrong about a refusal of joints that exist, though joint_states arrives."""
     message, asked = call.response.message, call.run.all(ev.ServiceCalled)
     earlier = [name for other in asked if other.t < call.sent.t for name in other.request.names]
@@ -62,9 +62,7 @@ def advice_on_refusal(call: Call) -> str:
         return f"The message names {left[0]}, of an earlier request: begin a new list of unknown names in each request."
     silence = call.sent.t - (known_messages(call, JOINTS) or [])[-1].t
     if silence > SILENCE:
-        return (
-            f"The last message came {silence:.1f} s ago, and that is no reason to forget it: answer with it."
-        )
+        return f"The last message came {silence:.1f} s ago, and that is no reason to forget it."
     if not call.request.names:
         return "An empty list asks for every joint of the last joint_states: that is a success."
     if about_repeats(call):
@@ -75,22 +73,15 @@ def advice_on_refusal(call: Call) -> str:
     return "Look up each name in the name list of the last joint_states, and set success when all are there."
 
 
-def advice_on_names(call: Call, names: list[str], wanted: list[str]) -> str:
+def on_names(call: Call, names: list[str], wanted: list[str]) -> str:
     """Say what is wrong about the names of an answer."""
-    asked_together = [
-        list(other.request.names)
-        for other in call.run.all(ev.ServiceCalled)
-        if other.call != call.name and abs(other.t - call.sent.t) < DELIVERY
-    ]
-    if names in asked_together:
+    others = [other for other in call.run.calls if other.name != call.name]
+    if any(names == other.request.names and abs(other.sent.t - call.sent.t) < DELIVERY for other in others):
         return "Requests may be served at the same time: keep what belongs to one in local variables, not in self."
     if sorted(names) == sorted(wanted):
         return "These are the right joints in another order: go through request.names, not the robot's list or a set."
     if set(names) == set(wanted):
-        return (
-            "Go through request.names one by one: a set or a dictionary holds each name once."
-            + about_repeats(call)
-        )
+        return "Go through request.names one by one: a set holds each name once." + about_repeats(call)
     return "Put exactly the names of the request into joint_state.name, one position for each."
 
 
@@ -100,7 +91,7 @@ def about_repeats(call: Call) -> str:
     return " A name that was asked for twice is answered twice." if len(set(asked)) < len(asked) else ""
 
 
-def advice_on_strangers(call: Call, unknown: Sequence[str]) -> str:
+def on_strangers(call: Call, unknown: Sequence[str]) -> str:
     """Say what is wrong about a success with unknown names."""
     joints = robot_joints(call.run)
     if any(name.strip().lower() in joints for name in unknown):
@@ -110,7 +101,7 @@ def advice_on_strangers(call: Call, unknown: Sequence[str]) -> str:
     return "An unknown name fails the whole request: success stays false and message says which names."
 
 
-def advice_on_positions(call: Call, names: list[str], positions: list[float], last: Positions) -> str:
+def on_positions(call: Call, names: list[str], positions: list[float], last: Positions) -> str:
     """Say what is wrong about positions (rad), given the last ones."""
     truth = [last.get(name, math.nan) for name in names]
     if _close(positions, [math.degrees(position) for position in truth], 1.0):
@@ -121,17 +112,9 @@ def advice_on_positions(call: Call, names: list[str], positions: list[float], la
         return "Only the signs differ: a joint turns both ways, so pass the positions on as they came."
     earlier = [positions_by_name(each) for each in call.run.all(ev.JointsPublished) if each.t < call.sent.t]
     if any(all(map(is_at, names, positions, [table] * len(names))) for table in earlier):
-        return (
-            "This is where the joints were at another time. Replace what you keep each time joint_states arrives, "
-            "and make every answer anew."
-        )
+        return "This is where the joints were at another time: replace what you keep each time joint_states arrives."
     if all(any(same(position, other) for other in last.values()) for position in positions):
-        return (
-            "These positions belong to other joints. position[i] of a joint_states belongs to name[i] of the same "
-            "message: look it up by name, as in dict(zip(message.name, message.position))."
-        )
-    if any(map(same, positions, truth)):
-        return "The other joints are right: pass every position on as it came, without limits or corrections."
+        return "These positions belong to other joints: look them up in dict(zip(message.name, message.position))."
     return "Answer with joint_states.position of the last message, looked up by the joint's name."
 
 

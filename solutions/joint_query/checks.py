@@ -2,34 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.checks import RESTING, in_order
 from autograder.authoring.obligation import check_of
 
 from . import model
 
 # Joints that stand at different angles, one twice, in an order that is neither the robot's nor the alphabet's.
-SOME_JOINTS = [
-    "r_knee",
-    "l_shoulder_roll",
-    "r_shoulder_roll",
-    "r_knee",
-    "l_hip_pitch",
-    "l_elbow",
-    "r_shoulder_pitch",
-]
+SOME_JOINTS = ["r_knee", "l_shoulder_roll", "r_shoulder_roll", "r_knee", "l_hip_pitch", "l_elbow"]
+SOME_JOINTS += ["r_shoulder_pitch"]
 POSTURE = {"r_elbow": -0.9, "l_wrist_yaw": 0.3, "l_shoulder_pitch": -0.5}  # rad
 POSTURE |= {"head_pan": 0.7, "r_shoulder_roll": -0.8, "l_elbow": -1.4}  # rad
 STRANGERS = ["tail_yaw", "l_knee", "r_wing_pitch", "head_pan", "antenna_2", "l_wheel", "gripper"]
 UNPLUGGED_ROBOT = (*RESTING, "--joint-sensors-unplugged")
-
-
-def in_order(*steps: list[Any], robot: tuple[str, ...] = RESTING, **options: Any) -> Scenario:
-    """Return the scenario of these steps; `options` are its other inputs."""
-    return Scenario("in_order", {"steps": list(steps), **options}, robot=robot)
-
 
 ASK = in_order(["let_arrive"], ["ask", SOME_JOINTS], ["ask", []], interrupt=True)
 # Ctrl-C before the first message
@@ -58,11 +43,7 @@ finds_the_joints = check_of(
 )
 
 keeps_the_order_asked = check_of(
-    "keeps_the_order_asked",
-    model.keeps_the_order_asked,
-    on=ASK,
-    needs=finds_the_joints,
-    see=ITS_JOINTS,
+    "keeps_the_order_asked", model.keeps_the_order_asked, on=ASK, needs=finds_the_joints, see=ITS_JOINTS
 )
 
 positions_are_the_robots = check_of(
@@ -75,11 +56,7 @@ positions_are_the_robots = check_of(
 )
 
 no_names_means_all = check_of(
-    "no_names_means_all",
-    model.lists_every_joint_once,
-    on=ASK,
-    needs=finds_the_joints,
-    see=ALL_JOINTS,
+    "no_names_means_all", model.lists_every_joint_once, on=ASK, needs=finds_the_joints, see=ALL_JOINTS
 )
 
 follows_the_robot = check_of(

@@ -7,8 +7,9 @@ from random import Random
 from typing import Any
 
 from autograder.authoring import standard_hidden
-from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.checks import Scenario, in_order
 from autograder.authoring.obligation import check_of
+from autograder.authoring.sequence import shuffled
 
 from . import checks, model
 from .checks import ITS_JOINTS, KNOWS_NOTHING, SOME_JOINTS, STRANGERS, UNPLUGGED, UNPLUGGED_ROBOT
@@ -52,14 +53,10 @@ def _steps(random: Random) -> dict[str, Any]:
 
     first, second, third, fourth, fifth = (readings() for _ in range(5))
     burst = [[], joints(), joints(), repeated(), mixed(), joints(), strangers(), joints()]
-    at_the_very_last: list[list[Any]] = [
-        step
-        for position in (0.8, -0.8, 0.8, -0.8)
-        for step in (
-            *(["turn", "head_pan", position], ["wait", 0.6], ["unplug"], ["let_arrive"]),
-            *(["ask", ["head_pan"]], ["plug_in"]),
-        )
-    ]
+    at_the_very_last: list[list[Any]] = []
+    for position in (0.8, -0.8, 0.8, -0.8):
+        turned: list[list[Any]] = [["turn", "head_pan", position], ["wait", 0.6], ["unplug"], ["let_arrive"]]
+        at_the_very_last += [*turned, ["ask", ["head_pan"]], ["plug_in"]]
     keeping_on: list[list[Any]] = [["ask", ["head_pan"]], ["wait", 0.1]] * 12
     blocks: list[list[list[Any]]] = [
         [
@@ -80,19 +77,17 @@ def _steps(random: Random) -> dict[str, Any]:
         [["ask", [""], strangers()[:1]], ["ask", mixed()], ["ask", joints()], ["ask", repeated()]],
         [["read", {}], ["turn", "head_pan", 0.8], *keeping_on],
     ]
-    random.shuffle(blocks)
+    any_order = shuffled(random, blocks)
     before = [
         *(["ask", joints()], ["ask", []], ["wait", seconds(0.5, 1.5)]),
         ["ask", *random.sample(burst, random.randint(2, MOST_AT_ONCE))],
     ]
     after = [["plug_in"], ["read", fourth], ["let_arrive"], ["ask", [*fourth]], ["ask", joints(), []]]
-    return {"steps": [*before, *after, *(step for block in blocks for step in block)]}
+    return {"steps": [*before, *after, *any_order]}
 
 
 ANY_ORDER = Scenario("in_order", _steps, robot=UNPLUGGED_ROBOT)
-OTHER_NAMESPACE = Scenario(
-    "in_order", {"steps": [["let_arrive"], ["ask", SOME_JOINTS]]}, robot=RESTING, namespace="/lab_7/robot"
-)
+OTHER_NAMESPACE = in_order(["let_arrive"], ["ask", SOME_JOINTS], namespace="/lab_7/robot")
 
 in_any_order = partial(check_of, on=ANY_ORDER)
 

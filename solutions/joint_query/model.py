@@ -8,37 +8,14 @@ from itertools import pairwise
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
 from autograder.authoring.connections import lesson_on_hearing
-from autograder.authoring.failure import Failure, expect
 from autograder.authoring.fields import shown_fields
 from autograder.authoring.obligation import calls, obligation, whole_run
 from autograder.authoring.robot_topic import JOINTS, known_messages
 from autograder.authoring.standard_obligations import answered_within, answers_from_memory
 from autograder.authoring.transcript import Transcript
 
-from .advice import (
-    about_repeats,
-    advice_on_names,
-    advice_on_positions,
-    advice_on_refusal,
-    advice_on_strangers,
-    asked,
-    contains_name,
-    described,
-    listed,
-    not_heard,
-    quoted,
-)
-from .truth import (
-    is_at,
-    is_deaf,
-    moved_between,
-    must_know,
-    ought_to_succeed,
-    positions_by_name,
-    robot_joints,
-    situation,
-    unknown_names,
-)
+from . import advice, truth
+from .advice import asked, contains_name, described, listed, quoted
 
 SERVICE = "get_joint_positions"
 # A busy machine may hold up a message, but not most of them, while it passes the requests to the same node: more than
@@ -47,7 +24,7 @@ ENOUGH_PAIRS, MOST_STALE = 6, 0.6
 
 
 def _knowledge(call: Call) -> str:
-    return "after the first message" if must_know(call) else "before the first message"
+    return "after the first message" if truth.must_know(call) else "before the first message"
 
 
 answers_in_time = answered_within(2.0, SERVICE, clause=6)
@@ -57,23 +34,22 @@ never_waits = answers_from_memory(SERVICE, _knowledge, clause=6)
 @obligation(1, 2, of=calls(SERVICE))
 def finds_the_joints(call: Call) -> str | None:
     """Asked for joints that the robot has, or for all, it answers success: true"""
-    if not ought_to_succeed(call):
+    if not truth.ought_to_succeed(call):
         return None
-    deaf = is_deaf(call)
-    expect(
+    deaf = truth.is_deaf(call)
+    call.require(
         call.response.success,
         expected=f"success: true for {asked(call)}, which the robot has",
         observed=shown_fields(call.response, "success", "message"),
-        help=not_heard(call.run) if deaf else advice_on_refusal(call),
-        at=call.answered.t,
+        help=advice.not_heard(call.run) if deaf else advice.on_refusal(call),
         see=lesson_on_hearing(call.run, "joint_states"),
     )
-    return "without a message" if deaf else situation(call)
+    return "without a message" if deaf else truth.situation(call)
 
 
 def _is_a_success(call: Call) -> bool:
     """Return whether it answered success where it should; require it if no such call of the run did."""
-    if not ought_to_succeed(call):
+    if not truth.ought_to_succeed(call):
         return False
     answered = [each for each in call.run.all(ev.ServiceAnswered) if getattr(each.response, "success", False)]
     if not answered:
@@ -83,15 +59,16 @@ def _is_a_success(call: Call) -> bool:
 
 def _require_heard(call: Call) -> None:
     """Require that no joints are answered with that the robot had nobody to tell of."""
-    if is_deaf(call) and call.response.success:
-        joints = call.response.joint_state
-        raise Failure(
-            expected="an answer from the robot's joint_states",
-            observed=f"{described(joints.name, joints.position)}, although no joint_states had reached your node",
-            help=not_heard(call.run),
-            at=call.answered.t,
-            see=lesson_on_hearing(call.run, "joint_states"),
-        )
+    if not truth.is_deaf(call):
+        return
+    joints = call.response.joint_state
+    call.require(
+        not call.response.success,
+        expected="an answer from the robot's joint_states",
+        observed=f"{described(joints.name, joints.position)}, although no joint_states had reached your node",
+        help=advice.not_heard(call.run),
+        see=lesson_on_hearing(call.run, "joint_states"),
+    )
 
 
 @obligation(1, of=calls(SERVICE))
@@ -100,12 +77,11 @@ def keeps_the_order_asked(call: Call) -> str | None:
     wanted, names = list(call.request.names), list(call.response.joint_state.name)
     if not wanted or not _is_a_success(call):
         return None
-    expect(
+    call.require(
         names == wanted,
         expected=f"joint_state.name as asked: {listed(wanted)}",
         observed=listed(names),
-        help=advice_on_names(call, names, wanted),
-        at=call.answered.t,
+        help=advice.on_names(call, names, wanted),
     )
     return "a name twice" if len(set(wanted)) < len(wanted) else "different names"
 
@@ -116,14 +92,13 @@ def lists_every_joint_once(call: Call) -> str | None:
     _require_heard(call)
     if call.request.names or not _is_a_success(call):
         return None
-    names, joints = list(call.response.joint_state.name), robot_joints(call.run)
+    names, joints = list(call.response.joint_state.name), truth.robot_joints(call.run)
     missing = sorted(set(joints) - set(names))
-    expect(
+    call.require(
         sorted(names) == sorted(joints),
         expected=f"all {len(joints)} joints of the robot, each once, in any order",
         observed=f"{len(names)} names; missing: {listed(missing)}",
         help="When request.names is empty, answer as if every name of the last joint_states had been asked for.",
-        at=call.answered.t,
     )
     return "all joints"
 
@@ -136,36 +111,34 @@ def positions_are_the_last(call: Call) -> str | None:
     if not _is_a_success(call) or not (call.request.names or names):
         return None
     missing = [name for name in call.request.names if name not in names]
-    expect(
+    call.require(
         len(names) == len(positions) > 0 and not missing,
         expected=f"a position for each of {asked(call)}, and as many positions as names",
         observed=f"{len(names)} names and {len(positions)} positions"
         + (f", none for {listed(missing)}" if missing else ""),
         help="Fill joint_state.name and joint_state.position together, for every name of the request: position[i] "
-        "belongs to name[i]." + about_repeats(call),
-        at=call.answered.t,
+        "belongs to name[i]." + advice.about_repeats(call),
     )
-    tables = [positions_by_name(message) for message in known_messages(call, JOINTS) or ()]
+    tables = [truth.positions_by_name(message) for message in known_messages(call, JOINTS) or ()]
     off = min(
-        ([i for i, at in enumerate(positions) if not is_at(names[i], at, table)] for table in tables),
+        ([i for i, at in enumerate(positions) if not truth.is_at(names[i], at, table)] for table in tables),
         key=len,
     )
-    if off:
-        wrong, last = [names[i] for i in off], tables[-1]
-        raise Failure(
-            expected=f"as in the last joint_states: {described(wrong, [last.get(name, math.nan) for name in wrong])}",
-            observed=described(wrong, [positions[i] for i in off]),
-            help=advice_on_positions(call, names, positions, last),
-            at=call.answered.t,
-        )
-    return situation(call)
+    wrong, last = [names[i] for i in off], tables[-1]
+    call.require(
+        not off,
+        expected=f"as in the last joint_states: {described(wrong, [last.get(name, math.nan) for name in wrong])}",
+        observed=described(wrong, [positions[i] for i in off]),
+        help=advice.on_positions(call, names, positions, last),
+    )
+    return truth.situation(call)
 
 
 @obligation(5, of=calls(SERVICE))
 def goes_by_names_not_places(call: Call) -> str | None:
     """When joint_states lists the joints in another order, each position is still its own joint's"""
     orders = [message.names for message in known_messages(call, JOINTS) or ()]
-    changed = any(names != robot_joints(call.run) for names in orders)
+    changed = any(names != truth.robot_joints(call.run) for names in orders)
     return finds_the_joints.require(call) and positions_are_the_last.require(call) if changed else None
 
 
@@ -173,21 +146,15 @@ def goes_by_names_not_places(call: Call) -> str | None:
 def keeps_up_with_a_motion(run: Transcript) -> str | None:
     """While a joint moves, an answer differs from the one before: none comes from a table renewed at intervals"""
     answers = [call for call in calls(SERVICE)(run) if _is_a_success(call)]
-    pairs = [(one, other) for one, other in pairwise(answers) if moved_between(one, other)]
+    pairs = [(one, other) for one, other in pairwise(answers) if truth.moved_between(one, other)]
     if len(pairs) < ENOUGH_PAIRS:
         return None
-    stale = [
-        other
-        for one, other in pairs
-        if other.response.joint_state.position == one.response.joint_state.position
-    ]
-    expect(
-        len(stale) <= MOST_STALE * len(pairs),
+    same = [other for one, other in pairs if other.response.joint_state == one.response.joint_state]
+    (same or answers)[0].require(
+        len(same) <= MOST_STALE * len(pairs),
         expected=f"another answer each time, as {asked(pairs[0][0])} moved and joint_states went on in between",
-        observed=f"{len(stale)} of {len(pairs)} answers were the same as the one before",
-        help="Keep the message itself each time one arrives, and look the joints up in it at each request: a table "
-        "that is renewed at intervals is old in between.",
-        at=stale[0].answered.t if stale else None,
+        observed=f"{len(same)} of {len(pairs)} answers were the same as the one before",
+        help="Keep the message itself each time one arrives, and look the joints up in it at each request.",
     )
     return "while a joint moves"
 
@@ -196,17 +163,16 @@ def keeps_up_with_a_motion(run: Transcript) -> str | None:
 def refuses_unknown_joints(call: Call) -> str | None:
     """Asked for a name that no joint of the robot has, letter by letter, it answers success: false"""
     _require_heard(call)
-    if not must_know(call) or not (unknown := unknown_names(call)):
+    if not truth.must_know(call) or not (unknown := truth.unknown_names(call)):
         return None
     message = call.response.message
-    expect(
+    call.require(
         not call.response.success,
         expected=f"success: false for {asked(call)}, because the robot has no {quoted(unknown)}",
         observed=shown_fields(call.response, "success", "message"),
         help="The message names the unknown joints, but success is true: leave response.success False."
         if any(contains_name(message, name) for name in unknown if name)
-        else advice_on_strangers(call, unknown),
-        at=call.answered.t,
+        else advice.on_strangers(call, unknown),
     )
     return "among known ones" if len(set(unknown)) < len(set(call.request.names)) else "only unknown ones"
 
@@ -214,18 +180,17 @@ def refuses_unknown_joints(call: Call) -> str | None:
 @obligation(3, of=calls(SERVICE))
 def names_every_unknown_joint(call: Call) -> str | None:
     """The message of a refusal contains every unknown name as it was asked for"""
-    if not must_know(call) or not (unknown := unknown_names(call)) or call.response.success:
+    if not truth.must_know(call) or not (unknown := truth.unknown_names(call)) or call.response.success:
         return None
     message = call.response.message
     unnamed = [name for name in unknown if not contains_name(message, name)]
-    expect(
+    call.require(
         not unnamed,
         expected=f"a message with every unknown joint: {quoted(unknown)}",
         observed=f"{message[:200]!r}, without {quoted(unnamed)}",
         help="Collect the unknown names of the whole request before you answer, instead of stopping at the first."
         if len(unnamed) < len(unknown)
         else "Put the unknown names of this request into response.message, as they were asked for.",
-        at=call.answered.t,
     )
     return "one unknown" if len(set(unknown)) == 1 else "several unknown"
 
@@ -233,13 +198,12 @@ def names_every_unknown_joint(call: Call) -> str | None:
 @obligation(4, of=calls(SERVICE))
 def says_when_it_knows_nothing(call: Call) -> str | None:
     """Before the first joint_states it answers success: false, whatever was asked"""
-    if is_deaf(call) or known_messages(call, JOINTS) != []:
+    if truth.is_deaf(call) or known_messages(call, JOINTS) != []:
         return None
-    expect(
+    call.require(
         not call.response.success,
         expected=f"success: false for {asked(call)}, because the robot has not published its joints yet",
         observed=shown_fields(call.response, "success", "message"),
         help="Start with no message (None) and answer success: false as long as none has arrived.",
-        at=call.answered.t,
     )
     return "names" if call.request.names else "all joints"

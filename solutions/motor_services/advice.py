@@ -14,10 +14,11 @@ from autograder.authoring.robot_topic import DELIVERY
 A_WAIT = 0.7  # s; an answer that takes longer waited for the robot
 LEAST_WAIT = 1.8  # s before an answer may say that the robot did not confirm: 2 s, less what clocks differ by
 WATCHED = 1.5  # s after an answer in which the motors would have followed it
+_FROM_THE_LAST = "Keep the last robot_state, and answer from motors_enabled in it."
 _SAID = {"Motors: ON": True, "Motors: OFF": False}
 
 
-def advice_on_status(call: Call, wanted: str) -> str:
+def on_status(call: Call, wanted: str) -> str:
     """Say what is wrong about an answer of get_status."""
     response = call.response
     if response.message == wanted:
@@ -25,19 +26,12 @@ def advice_on_status(call: Call, wanted: str) -> str:
     if response.message.strip().rstrip(".").lower() == wanted.lower():
         return f"The text is compared letter by letter, as a program would: {wanted!r}."
     if deaf := why_nothing_is_heard(call.run, "robot_state"):
-        return (
-            f"{deaf} Subscribe to robot_state, keep the last message, and answer from motors_enabled in it."
-        )
+        return f"{deaf} {_FROM_THE_LAST}"
     if history := _history_of_the_status(call.run):
-        return (
-            f"{history} Answer from motors_enabled of the last robot_state, not from the first one or a flag."
-        )
+        return f"{history} {_FROM_THE_LAST}"
     if not response.success:
-        return (
-            "Your node gets robot_state, but still says that it knows nothing: look at each request whether a message "
-            "has come."
-        )
-    return "Your node gets robot_state: keep its last message, and answer from motors_enabled in it."
+        return "Your node gets robot_state: look at each request whether a message has come."
+    return f"Your node gets robot_state. {_FROM_THE_LAST}"
 
 
 def _history_of_the_status(run: RobotRecord) -> str:
@@ -53,11 +47,8 @@ def _history_of_the_status(run: RobotRecord) -> str:
     truth = [[robot.motors_enabled for robot in run.ground_truth if robot.t <= t][-1:] for _on, t in said]
     if all(true == [not on] for (on, _t), true in zip(said, truth, strict=True)):
         return "get_status said the opposite of the robot: true in motors_enabled means ON."
-    requests = [
-        (asked.t, asked.request.data)
-        for asked in run.all(ev.ServiceCalled)
-        if asked.service == "enable_motors"
-    ]
+    asked_all = run.all(ev.ServiceCalled)
+    requests = [(asked.t, asked.request.data) for asked in asked_all if asked.service == "enable_motors"]
     after = [(on, [data for asked_at, data in requests if asked_at < t][-1:]) for on, t in said]
     if any(asked for _on, asked in after) and all(asked in ([], [on]) for on, asked in after):
         return "get_status followed your last request, not the robot."
@@ -66,13 +57,14 @@ def _history_of_the_status(run: RobotRecord) -> str:
     return ""
 
 
-def advice_on_power(call: Call) -> str:
+def on_power(call: Call) -> str:
     """Say what the grader saw on motor_power."""
     run, wanted = call.run, call.request.data
     publish = f"Publish Bool(data=request.data) on motor_power when {question(call)} is granted."
     if seen := why_nothing_is_commanded(run, "motor_power", before=call.answered.t):
         return f"On motor_power the grader saw {seen}. {publish}"
-    later = _next_question(call)
+    sent = [other.t for other in run.all(ev.ServiceCalled) if other.service == call.service]
+    later = min((t for t in sent if t > call.sent.t), default=math.inf)
     received = [message for message in run.all(ev.MotorPowerReceived) if call.sent.t <= message.t < later]
     if not received:
         return f"On motor_power the grader saw no message after the request. {publish}"
@@ -81,7 +73,7 @@ def advice_on_power(call: Call) -> str:
     return f"On motor_power the right message came, but too late. {publish}"
 
 
-def advice_on_granting(call: Call, situation: str) -> str:
+def on_granting(call: Call, situation: str) -> str:
     """Say what is wrong about a refusal that had no reason."""
     if A_WAIT < call.latency < LEAST_WAIT:
         return f"It gave up waiting for robot_state after {call.latency:.1f} s: wait for 2 to 4 s."
@@ -90,13 +82,10 @@ def advice_on_granting(call: Call, situation: str) -> str:
         return "The motors did as asked, but success is false: it says whether you grant the request, not what data is."
     if call.request.data:
         return "Never refuse power on: refuse only data: false, and only while the last robot_state.mode is WALKING."
-    return (
-        "Refuse power off only while the mode in the last robot_state is RobotState.WALKING: now it was "
-        f"{situation}."
-    )
+    return f"Refuse power off only while the last robot_state.mode is WALKING: now it was {situation}."
 
 
-def advice_on_refusing(call: Call) -> str:
+def on_refusing(call: Call) -> str:
     """Say what is wrong about a granted request that should have been refused."""
     if _had_power(call, call.answered.t + WATCHED):
         if not call.response.message.strip():
@@ -122,9 +111,3 @@ def question(call: Call) -> str:
 def on_or_off(on: bool) -> str:
     """Return 'on' or 'off'."""
     return "on" if on else "off"
-
-
-def _next_question(call: Call) -> float:
-    """Return when the next request for the motors was sent (s): from then on they may change again."""
-    sent = [other.t for other in call.run.all(ev.ServiceCalled) if other.service == call.service]
-    return min((t for t in sent if t > call.sent.t), default=math.inf)

@@ -3,31 +3,35 @@
 from __future__ import annotations
 
 from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.checks import RESTING, in_order
 from autograder.authoring.obligation import check_of
 
 from . import model
 
 # A stand holds the robot by its chest, so that it hangs limp without power and stands when it returns.
 ON_A_STAND = ("--scene", "stand")
-INTERRUPT = Scenario("in_order", {"steps": [["ask", 1]], "interrupt": True}, robot=RESTING)
-CUT_AND_RETURNED = [["switch_elsewhere", False], ["ask", 3], ["switch_elsewhere", True], ["ask", 1]]
-NOT_CONFIRMED = [["publish_state", False], ["switch", False], ["settle"], ["ask", 1]]
 UNPUBLISHED_ROBOT = (*RESTING, "--robot-state-unpublished")
+INTERRUPT = in_order(["ask", 1], interrupt=True)
 # Ctrl-C before the first robot_state
-UNHEARD = Scenario("in_order", {"steps": [["ask", 1]], "interrupt": True}, robot=UNPUBLISHED_ROBOT)
-STATUS = Scenario("in_order", {"steps": CUT_AND_RETURNED + NOT_CONFIRMED}, robot=ON_A_STAND)
-SILENT_ROBOT = Scenario(
-    "in_order",
-    {"steps": [["ask", 3], ["switch", True], ["publish_state", True], ["ask", 1]]},
-    robot=UNPUBLISHED_ROBOT,
+UNHEARD = in_order(["ask", 1], robot=UNPUBLISHED_ROBOT, interrupt=True)
+STATUS = in_order(
+    *(["switch_elsewhere", False], ["ask", 3], ["switch_elsewhere", True], ["ask", 1]),
+    *(["publish_state", False], ["switch", False], ["settle"], ["ask", 1]),
+    robot=ON_A_STAND,
 )
-OFF_AGAIN = [["switch", False], ["settle"], ["switch", False], ["switch_elsewhere", True], ["switch", False]]
-ON_AGAIN = [["settle"], ["switch", True], ["settle"], ["switch", True, 5], ["settle"]]
-SWITCH = Scenario("in_order", {"steps": OFF_AGAIN + ON_AGAIN}, robot=ON_A_STAND)
-WALKS = [["walk", [0.3, 0.0, 0.0]], ["switch", False, 3], ["wait", 1.6]]
-FALLS = [["knock_over", [0.0, 60.0, 0.0]], ["switch", False], ["settle"]]
-WALK = Scenario("in_order", {"steps": WALKS + FALLS})
+SILENT_ROBOT = in_order(
+    *(["ask", 3], ["switch", True], ["publish_state", True], ["ask", 1]), robot=UNPUBLISHED_ROBOT
+)
+SWITCH = in_order(
+    *(["switch", False], ["settle"], ["switch", False], ["switch_elsewhere", True], ["switch", False]),
+    *(["settle"], ["switch", True], ["settle"], ["switch", True, 5], ["settle"]),
+    robot=ON_A_STAND,
+)
+WALK = in_order(
+    *(["walk", [0.3, 0.0, 0.0]], ["switch", False, 3], ["wait", 1.6]),
+    *(["knock_over", [0.0, 60.0, 0.0]], ["switch", False], ["settle"]),
+    robot=(),
+)
 
 SERVES, SWITCHES = "02_services#first-file", "02_services#set-file"
 REFUSES, KNOWS_NOTHING = "02_services#set-refuse-why", "02_services#m9-fix-why"

@@ -6,8 +6,9 @@ from random import Random
 from typing import Any
 
 from autograder.authoring import standard_hidden
-from autograder.authoring.checks import Scenario
+from autograder.authoring.checks import Scenario, in_order
 from autograder.authoring.obligation import check_of
+from autograder.authoring.sequence import shuffled
 
 from . import checks, model
 
@@ -30,18 +31,11 @@ def _on_the_floor(random: Random) -> dict[str, Any]:
         [["switch", False], ["switch", True], ["switch", False], ["wait", 0.5]],
         [["publish_state", False], ["wait", 5.5], ["switch", False], ["ask", 1], ["publish_state", True]],
     ]
-    random.shuffle(walking)
-    fallen: list[list[list[Any]]] = [[["switch", True]], [["switch", False]], [["ask", 2]]]
-    random.shuffle(fallen)
-    return {
-        "steps": [
-            ["walk", [round(value, 3) for value in random.choice(velocities)]],
-            *(step for block in walking for step in block),
-            *(["stop"], ["ask", 1], ["wait", 1.0], ["switch", False], ["ask", 1], ["wait", 2.5]),
-            *(step for block in fallen for step in block),
-            ["settle"],
-        ]
-    }
+    while_walking = shuffled(random, walking)
+    on_the_floor = shuffled(random, [[["switch", True]], [["switch", False]], [["ask", 2]]])
+    walk = ["walk", [round(value, 3) for value in random.choice(velocities)]]
+    falls = [["stop"], ["ask", 1], ["wait", 1.0], ["switch", False], ["ask", 1], ["wait", 2.5]]
+    return {"steps": [walk, *while_walking, *falls, *on_the_floor, ["settle"]]}
 
 
 def _on_the_stand(random: Random) -> dict[str, Any]:
@@ -61,27 +55,16 @@ def _on_the_stand(random: Random) -> dict[str, Any]:
             *(["ask", 1], ["publish_state", True], ["ask", 1]),
         ],
     ]
-    random.shuffle(blocks)
-    unknown = [["switch", True], ["switch", False]]
-    random.shuffle(unknown)
+    any_order = shuffled(random, blocks)
+    unknown = shuffled(random, [[["switch", True]], [["switch", False]]])
     before = [["ask", 1], *unknown, ["wait", round(random.uniform(0.5, 2.0), 1)], ["ask", 2]]
-    return {
-        "steps": [
-            *before,
-            ["publish_state", True],
-            ["ask", 1],
-            *(step for block in blocks for step in block),
-        ],
-        "interrupt": True,
-    }
+    return {"steps": [*before, ["publish_state", True], ["ask", 1], *any_order], "interrupt": True}
 
 
 FLOOR = Scenario("in_order", _on_the_floor)
 STAND = Scenario("in_order", _on_the_stand, robot=(*checks.ON_A_STAND, "--robot-state-unpublished"))
 SWITCH_AND_ASK = [step for on in (False, True) for step in (["switch", on], ["settle"], ["ask", 1])]
-OTHER_NAMESPACE = Scenario(
-    "in_order", {"steps": SWITCH_AND_ASK}, robot=checks.ON_A_STAND, namespace="/lab_7/robot"
-)
+OTHER_NAMESPACE = in_order(*SWITCH_AND_ASK, robot=checks.ON_A_STAND, namespace="/lab_7/robot")
 
 refuses_however_it_walks = check_of(
     "refuses_however_it_walks",

@@ -7,8 +7,8 @@ from itertools import pairwise
 from autograder.authoring import events as ev
 from autograder.authoring.call import Call
 from autograder.authoring.connections import lesson_on_hearing
-from autograder.authoring.failure import Failure, expect
-from autograder.authoring.fields import shown_fields
+from autograder.authoring.failure import Failure
+from autograder.authoring.fields import shown, shown_fields
 from autograder.authoring.obligation import calls, obligation, whole_run
 from autograder.authoring.robot_record import RobotRecord
 from autograder.authoring.robot_topic import DELIVERY
@@ -16,21 +16,17 @@ from autograder.authoring.standard_obligations import (
     ENOUGH_ANSWERS,
     FROM_MEMORY,
     FROM_MEMORY_TIME,
+    TOGETHER,
     answered_within,
     answers_from_memory,
+    one_or_several,
+    require_fastest,
 )
 from autograder.authoring.transcript import Transcript
 from ros_runtime.message_constants import RobotMode, name_of
 
-from .advice import (
-    LEAST_WAIT,
-    advice_on_granting,
-    advice_on_power,
-    advice_on_refusing,
-    advice_on_status,
-    on_or_off,
-    question,
-)
+from . import advice
+from .advice import LEAST_WAIT, on_or_off, question
 
 ENABLE, STATUS = "enable_motors", "get_status"
 TEXTS = {True: "Motors: ON", False: "Motors: OFF"}
@@ -41,8 +37,6 @@ IN_TIME = 2.0  # s for every answer
 UNCONFIRMED = 5.0  # s for one that waits for a confirmation that does not come
 CONFIRMED_TIME = FROM_MEMORY_TIME + PERIOD  # s for the fastest of several answers that wait for the robot
 STARTS_TO_WALK = 3.0  # s
-TOGETHER = 0.5  # s between requests that come at once
-AS_TOLD = "Publish nothing unasked: motor_power only when a request is granted, and cmd_vel never."
 
 
 # -- what the node can know -------------------------------------------------------------------------------------------
@@ -157,19 +151,17 @@ def grants_power_off(call: Call) -> str | None:
 def _require_granted(call: Call) -> str:
     on = call.request.data
     when = f"while the robot is {_situation(call)}" if last_states(call) else _situation(call)
-    expect(
+    call.require(
         call.response.success or _was_not_confirmed(call),
         expected=f"success: true to {question(call)} {when}",
         observed=shown_fields(call.response, "success", "message"),
-        help=advice_on_granting(call, _situation(call)),
-        at=call.answered.t,
+        help=advice.on_granting(call, _situation(call)),
     )
-    expect(
+    call.require(
         bool(_commands(call)),
         expected=f"{question(call)} to reach the robot's motors within {OBEYED:.0f} s of the answer",
         observed=f"nothing switched them {on_or_off(on)}, though the answer was success",
-        help=advice_on_power(call),
-        at=call.answered.t,
+        help=advice.on_power(call),
     )
     return _situation(call)
 
@@ -184,16 +176,15 @@ def refuses_power_off(call: Call) -> str | None:
             "success",
             False,
             because="the robot was WALKING when power off was asked for",
-            help=advice_on_refusing(call),
+            help=advice.on_refusing(call),
         )
     elif call.response.success:
         return None
-    expect(
+    call.require(
         bool(call.response.message.strip()),
         expected="a message that says why power off is refused",
         observed="an empty message",
         help='Set response.message, for example to "the robot is walking: stop it first".',
-        at=call.answered.t,
     )
     return _situation(call)
 
@@ -211,16 +202,12 @@ def commands_only_what_was_granted(run: Transcript) -> str:
             for call in causes
         ):
             continue
-        earlier = [call for call in asked if call.sent.t <= command.t]
-        refused = [call for call in earlier if call.answer and call.request.data is command.on and not causes]
         when = "before any request"
-        if before := refused[-1:] or earlier[-1:]:
-            when = f"{command.t - before[0].answered.t:.1f} s after the answer"
-        wrong = "" if not causes and not refused else f" after {question((causes or refused)[-1])}"
+        if before := causes or [call for call in asked if call.sent.t <= command.t]:
+            when = f"{command.t - before[-1].sent.t:.1f} s after {question(before[-1])}"
         raise Failure(
             expected="no command to the motors but what was granted",
-            observed=f"motor_power: {str(command.on).lower()}{wrong}, "
-            + ("which was refused" if causes else when),
+            observed=f"motor_power: {shown(command.on)} {when}" + (", which was refused" if causes else ""),
             help="Return before anything is published when a request is refused, and do not keep it for later; where "
             "it is granted, publish what data says, at once.",
             at=command.t,
@@ -232,7 +219,7 @@ def commands_only_what_was_granted(run: Transcript) -> str:
 def lets_it_walk(run: Transcript) -> str | None:
     """A robot that was told to walk walks on, whatever the node is asked"""
     told = [each for each in run.all(ev.RobotCommanded) if each.command.get("do") != "robot_state"]
-    judged = []
+    judged = False
     for number, event in enumerate(told):
         if event.command.get("do") != "walk" or not any(event.command["velocity"]):
             continue
@@ -241,22 +228,20 @@ def lets_it_walk(run: Transcript) -> str | None:
         began = next((robot.t for robot in seen if robot.mode == RobotMode.WALKING), None)
         if began is None and end < event.t + STARTS_TO_WALK:
             continue
-        idle = (
-            next((each for each in seen if each.t >= began and each.mode != RobotMode.WALKING), None)
-            if began is not None
-            else seen[-1]
-        )
+        idle: ev.RobotTruth | None = seen[-1]
+        if began is not None:
+            idle = next((each for each in seen if each.t >= began and each.mode != RobotMode.WALKING), None)
         asked = [call for call in calls(ENABLE)(run) if event.t < call.sent.t <= (idle.t if idle else end)]
         after = f" after {question(asked[-1])}" if asked else ""
         if idle:
             raise Failure(
                 expected=f"the robot walking on as it was told{after}",
                 observed=f"it is {name_of(RobotMode, idle.mode)}, its motors are {on_or_off(idle.motors_enabled)}",
-                help=AS_TOLD,
+                help="Publish nothing unasked: motor_power only when a request is granted, and cmd_vel never.",
                 at=idle.t,
             )
-        judged += ["walking"] * bool(asked)
-    return judged[0] if judged else None
+        judged = judged or bool(asked)
+    return "walking" if judged else None
 
 
 # -- status -----------------------------------------------------------------------------------------------------------
@@ -270,13 +255,12 @@ def tells_the_motors(call: Call) -> str | None:
         return None
     possible = {robot.motors_enabled for robot in states}
     wanted = TEXTS[states[-1].motors_enabled]
-    expect(
+    call.require(
         call.response.success and call.response.message in [TEXTS[on] for on in possible],
         expected=f"success: true, message: {wanted!r}; in the last robot_state the motors are "
         f"{on_or_off(states[-1].motors_enabled)}, the robot {_situation(call)}",
         observed=shown_fields(call.response, "success", "message"),
-        help=advice_on_status(call, wanted),
-        at=call.answered.t,
+        help=advice.on_status(call, wanted),
         see=lesson_on_hearing(call.run, "robot_state"),
     )
     return _situation(call) if len(possible) == 1 else "while they are switched"
@@ -288,14 +272,13 @@ def says_when_it_knows_nothing(call: Call) -> str | None:
     if last_states(call) != []:
         return None
     response = call.response
-    expect(
+    call.require(
         not response.success and response.message.strip(" .").lower() not in map(str.lower, TEXTS.values()),
         expected="success: false and a message that claims neither ON nor OFF: robot_state has not arrived yet",
         observed=shown_fields(response, "success", "message"),
         help="Start with no message (None) and answer success: false as long as none has arrived."
         if response.success
         else "Say in message that nothing is known yet: neither ON nor OFF.",
-        at=call.answered.t,
     )
     return "before the first robot_state"
 
@@ -306,13 +289,9 @@ def says_when_it_knows_nothing(call: Call) -> str | None:
 def _knowledge(call: Call) -> str:
     if not last_states(call):
         return "before the first robot_state"
-    together = any(0 <= call.sent.t - each < TOGETHER for each in _asked_for_power(call.run))
+    power = [asked.t for asked in call.run.all(ev.ServiceCalled) if asked.service == ENABLE]
+    together = any(0 <= call.sent.t - t < TOGETHER for t in power)
     return "together with enable_motors" if together else "alone"
-
-
-def _asked_for_power(run: RobotRecord) -> list[float]:
-    """Return when (s) power was asked for."""
-    return [asked.t for asked in run.all(ev.ServiceCalled) if asked.service == ENABLE]
 
 
 status_in_time = answered_within(IN_TIME, STATUS, clause=5)
@@ -324,17 +303,15 @@ def power_in_time(call: Call) -> str:
     """Every request for power is answered within 2 s; within 5 s if it waits for what the robot does not confirm"""
     waits = _waits_in_vain(call)
     limit = UNCONFIRMED if waits else IN_TIME
-    expect(
+    call.require(
         call.latency <= limit,
         expected=f"an answer to {question(call)} within {limit:g} s",
         observed=f"it took {call.latency:.1f} s",
         help="Publish and answer: the callback must not sleep while others wait for the same thread."
         if not waits
         else "Nothing confirms it: give the wait for robot_state an end, and say so in the answer.",
-        at=call.answered.t,
     )
-    together = sum(abs(each - call.sent.t) < TOGETHER for each in _asked_for_power(call.run))
-    return "one at a time" if together == 1 else "several together"
+    return one_or_several(call)
 
 
 @obligation(5, of=whole_run)
@@ -348,20 +325,14 @@ def power_never_sleeps(run: Transcript) -> str | None:
             by_kind.setdefault("granted", []).append(call)
     judged = {kind: each for kind, each in by_kind.items() if len(each) >= ENOUGH_ANSWERS}
     for kind, each in judged.items():
-        fastest = min(each, key=lambda call: call.answered.t - call.sent.t)
-        expect(
-            fastest.latency <= (FROM_MEMORY_TIME if kind == "refused" else CONFIRMED_TIME),
-            expected=f"answers to {question(fastest)}, {kind}, without sleeping",
-            observed=f"the fastest of {len(each)} took {fastest.latency:.1f} s",
-            help=FROM_MEMORY,
-            at=fastest.answered.t,
-        )
+        limit = FROM_MEMORY_TIME if kind == "refused" else CONFIRMED_TIME
+        expected = f"answers to {ENABLE}, {kind}, without sleeping"
+        require_fastest(each, limit, expected=expected, help=FROM_MEMORY)
     return ", ".join(sorted(judged)) or None
 
 
 @obligation(6, of=whole_run)
 def serves_the_robot(run: Transcript) -> str | None:
     """All names are relative: the robot in the node's namespace is commanded and heard"""
-    if all(each.judge(run) for each in (grants_power_off, tells_the_motors, grants_power_on)):
-        return "another namespace"
-    return None
+    judged = all(each.judge(run) for each in (grants_power_off, tells_the_motors, grants_power_on))
+    return "another namespace" if judged else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from autograder.authoring.checks import check, program
 from autograder.authoring.transcript import Transcript
 
-from .judging import Situation, judge_of, require_answers
+from .judging import judge_of, require_answers, situation
 
 PATTERNS = "01_robot_and_graph#patterns"  # the lesson
 ANSWERS = program("print_answers", timed=False)
@@ -18,78 +18,60 @@ def answers_everything(run: Transcript) -> None:
 
 
 SEEN = (
-    Situation(
+    situation(
         1,
         "joint angles for whoever draws or logs them",
-        "topic",
-        "a",
-        {
-            "service": "Every listener would have to send twenty requests a second for numbers that flow anyway.",
-            "action": "An action needs a goal that can be reached or cancelled, and there is none here.",
-            "b": "A lost sample does no harm: the next one comes 50 ms later.",
-            "c": "The robot sends the angles whether anybody asks or not, and that decides it.",
-        },
+        "topic a",
+        service="Every listener would have to send twenty requests a second for numbers that flow anyway.",
+        action="An action needs a goal that can be reached or cancelled, and there is none here.",
+        b="A lost sample does no harm: the next one comes 50 ms later.",
+        c="The robot sends the angles whether anybody asks or not, and that decides it.",
     ),
-    Situation(
+    situation(
         2,
         "motors on or off, unless the robot walks",
-        "service",
-        "b",
-        {
-            "topic": "A topic carries no answer: the program that publishes “off” never learns that the robot refused.",
-            "action": "The robot does it or refuses it at once, so there is nothing to watch or to cancel.",
-            "a": "How often it happens does not matter. What matters is whether the caller needs an answer.",
-            "c": "No pattern guarantees that the work is done: the server can die before it.",
-        },
+        "service b",
+        topic="A topic carries no answer: the program that publishes “off” never learns that the robot refused.",
+        action="The robot does it or refuses it at once, so there is nothing to watch or to cancel.",
+        a="How often it happens does not matter. What matters is whether the caller needs an answer.",
+        c="No pattern guarantees that the work is done: the server can die before it.",
     ),
-    Situation(
+    situation(
         3,
         "walk to the table",
-        "action",
-        "c",
-        {
-            "topic": "A topic tells the caller neither that the robot arrived nor how to cancel this walk.",
-            "service": "The caller would wait for half a minute, see no progress, and could not stop the robot.",
-            "a": "The distance does not matter. Ask whether the caller may have to stop or watch the walk.",
-            "b": "A service tells that as well. What else can only an action do?",
-        },
+        "action c",
+        topic="A topic tells the caller neither that the robot arrived nor how to cancel this walk.",
+        service="The caller would wait for half a minute, see no progress, and could not stop the robot.",
+        a="The distance does not matter. Ask whether the caller may have to stop or watch the walk.",
+        b="A service tells that as well. What else can only an action do?",
     ),
-    Situation(
+    situation(
         4,
         "velocity commands from a joystick",
-        "topic",
-        "a",
-        {
-            "service": "Twenty commands a second need no answers: the next command comes before you could use one.",
-            "action": "A velocity is no goal: it is never reached.",
-            "b": "Topics, services and actions all carry commands, so the word does not decide it.",
-            "c": "A lost command does no harm: the next one comes 50 ms later, and silence means stop.",
-        },
+        "topic a",
+        service="Twenty commands a second need no answers: the next command comes before you could use one.",
+        action="A velocity is no goal: it is never reached.",
+        b="Topics, services and actions all carry commands, so the word does not decide it.",
+        c="A lost command does no harm: the next one comes 50 ms later, and silence means stop.",
     ),
-    Situation(
+    situation(
         5,
         "joint angles for a point the hand shall reach",
-        "service",
-        "b",
-        {
-            "topic": "On a topic nothing connects an answer with its question: whose answer is it?",
-            "action": "The robot computes it in less than a millisecond, so there is nothing to watch or to cancel.",
-            "a": "All three patterns can carry the result of a calculation.",
-            "c": "A message on a topic can have a frame, too.",
-        },
+        "service b",
+        topic="On a topic nothing connects an answer with its question: whose answer is it?",
+        action="The robot computes it in less than a millisecond, so there is nothing to watch or to cancel.",
+        a="All three patterns can carry the result of a calculation.",
+        c="A message on a topic can have a frame, too.",
     ),
-    Situation(
+    situation(
         6,
         "grasp the cup and lift it",
-        "action",
-        "a",
-        {
-            "topic": "A topic does not tell the caller that the cup has slipped.",
-            "service": "The caller could not stop the arm on the way, and would not see how far it is.",
-            "b": "The answer of a service can hold a number, too.",
-            "c": "The duration does not matter. What matters is that it can fail on the way and can be stopped.",
-        },
+        "action a",
+        topic="A topic does not tell the caller that the cup has slipped.",
+        service="The caller could not stop the arm on the way, and would not see how far it is.",
+        b="The answer of a service can hold a number, too.",
+        c="The duration does not matter. What matters is that it can fail on the way and can be stopped.",
     ),
 )
 
-situations = [check(on=ANSWERS, see=PATTERNS, clauses=[1, 2, 3])(judge_of(situation)) for situation in SEEN]
+situations = [check(on=ANSWERS, see=PATTERNS, clauses=[1, 2, 3])(judge_of(one)) for one in SEEN]

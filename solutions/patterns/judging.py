@@ -20,7 +20,7 @@ _LINE = re.compile(r"\s*(\d{1,4})\W+(\w+)\W+(\w+)\s*")
 
 @dataclass(frozen=True)
 class Situation:
-    """The right answer to one situation, and what is wrong with each of the others."""
+    """The right answer to one situation, and what speaks `against` each of the others."""
 
     number: int
     about: str
@@ -29,11 +29,24 @@ class Situation:
     against: Mapping[str, str]
 
 
+def situation(number: int, about: str, answer: str, **against: str) -> Situation:
+    """Return a situation; its right answer is written as it is printed: "topic a"."""
+    pattern, reason = answer.split()
+    return Situation(number, about, pattern, reason, against)
+
+
 def judge_of(situation: Situation) -> Callable[[Transcript], None]:
     """Return the check of one situation."""
 
     def judge(run: Transcript) -> None:
-        require_answer(run, situation)
+        answers, expected = _answers(run), "the pattern that fits, and the reason that decides it"
+        how = _how_to_answer(run, situation.number)
+        expect(situation.number in answers, expected=expected, observed="no answer", help=how)
+        pattern, reason = answers[situation.number]
+        _require_form(situation.number, pattern, reason)
+        if (pattern, reason) != (situation.pattern, situation.reason):
+            help = situation.against[pattern if pattern != situation.pattern else reason]
+            raise Failure(expected=expected, observed=f"{pattern}, because of {reason}", help=help)
 
     judge.__name__ = f"situation_{situation.number}"
     judge.__doc__ = f"Situation {situation.number}: {situation.about}"
@@ -52,27 +65,6 @@ def require_answers(run: Transcript) -> None:
         expected="a line “NUMBER PATTERN REASON” for each of the 12 situations",
         observed=f"none for {', '.join(map(str, missing))}",
         help=_how_to_answer(run, missing[0] if missing else 0),
-    )
-
-
-def require_answer(run: Transcript, situation: Situation) -> None:
-    """Require that one situation was answered with the right pattern for the right reason."""
-    answers = _answers(run)
-    expect(
-        situation.number in answers,
-        expected="the pattern that fits, and the reason that decides it",
-        observed="no answer",
-        help=_how_to_answer(run, situation.number),
-    )
-    pattern, reason = answers[situation.number]
-    _require_form(situation.number, pattern, reason)
-    if (pattern, reason) == (situation.pattern, situation.reason):
-        return
-    wrong = pattern if pattern != situation.pattern else reason
-    raise Failure(
-        expected="the pattern that fits, and the reason that decides it",
-        observed=f"{pattern}, because of {reason}",
-        help=situation.against[wrong],
     )
 
 
