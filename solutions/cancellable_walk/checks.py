@@ -146,8 +146,5 @@ aborts_when_the_robot_falls = fall_is_reported(
     model, on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why"
 )
 ends_cleanly = standard.ends_cleanly(
-    clauses=[13],
-    on=[INTERRUPT, PREEMPT],
-    needs=server_appears,
-    see="07_cancel_and_preempt#conventions",
+    clauses=[13], on=[INTERRUPT, PREEMPT], needs=server_appears, see="07_cancel_and_preempt#conventions"
 )

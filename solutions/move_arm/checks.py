@@ -108,18 +108,10 @@ passes_every_point = check_of(
     see="09_arms#velocities-why",
 )
 fills_the_result = check_of(
-    "fills_the_result",
-    model.names_no_error,
-    on=MOVE,
-    needs=arrives,
-    see="07_cancel_and_preempt#m13-why",
+    "fills_the_result", model.names_no_error, on=MOVE, needs=arrives, see="07_cancel_and_preempt#m13-why"
 )
 feedback_keeps_its_rate = check_of(
-    "feedback_keeps_its_rate",
-    model.feedback_at_10_hz,
-    on=MOVE,
-    needs=accepts_a_trajectory,
-    see=LOOK,
+    "feedback_keeps_its_rate", model.feedback_at_10_hz, on=MOVE, needs=accepts_a_trajectory, see=LOOK
 )
 feedback_is_true = check_of(
     "feedback_is_true", model.feedback_is_true, on=MOVE, needs=accepts_a_trajectory, see=BEND
@@ -157,11 +149,7 @@ rejects_times_that_do_not_rise = check_of(
     see=TRAJECTORY,
 )
 rejects_nan = check_of(
-    "rejects_nan",
-    model.rejects_not_finite,
-    on=IMPOSSIBLE,
-    needs=accepts_a_trajectory,
-    see=TRAJECTORY,
+    "rejects_nan", model.rejects_not_finite, on=IMPOSSIBLE, needs=accepts_a_trajectory, see=TRAJECTORY
 )
 rejects_out_of_range = check_of(
     "rejects_out_of_range",

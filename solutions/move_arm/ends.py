@@ -10,7 +10,14 @@ from __future__ import annotations
 from autograder.authoring import events as ev
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED, Goal
-from autograder.authoring.walking.life import ended_at, granted, left_alone, phase, requests_to_cancel
+from autograder.authoring.walking.life import (
+    ended_at,
+    granted,
+    left_alone,
+    phase,
+    requests_to_cancel,
+    successors,
+)
 from autograder.authoring.walking.reports import require_error_code
 from ros_runtime.message_constants import name_of
 
@@ -26,7 +33,6 @@ from .life import (
     silent_since,
     situation,
     strays_at,
-    successors,
     tolerance_of,
 )
 from .motion import require_moving

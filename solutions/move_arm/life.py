@@ -9,10 +9,18 @@ from enum import Enum
 
 from autograder.authoring import events as ev
 from autograder.authoring.goal import Goal
-from autograder.authoring.walking.life import accepted, ended_at, granted, interrupted, others, run_of
+from autograder.authoring.walking.life import (
+    accepted,
+    ended_at,
+    granted,
+    interrupted,
+    others,
+    run_of,
+    successors,
+)
 
 from .endings import GOAL_TOLERANCE, PATIENCE
-from .objections import AGAINST, UNSAID
+from .objections import is_sound
 from .plan import errors, largest
 from .truth import joints_at, plan_of
 
@@ -42,18 +50,7 @@ class Hold:
 
 def is_carried_out(goal: Goal) -> bool:
     """Return whether it was accepted, and nothing speaks against it."""
-    return accepted(goal) and all(objection.holds(goal) is False for objection in (*AGAINST, UNSAID))
-
-
-def rivals(goal: Goal) -> list[Goal]:
-    """Return the other goals for the same arm that were accepted; none, if this one was not."""
-    same = [other for other in others(goal) if other.request.arm == goal.request.arm]
-    return [other for other in same if accepted(other)] if accepted(goal) else []
-
-
-def successors(goal: Goal) -> list[Goal]:
-    """Return the goals that came for its arm and were accepted while it was active, the first of them first."""
-    return [other for other in rivals(goal) if goal.sent.t < other.sent.t < ended_at(goal)]
+    return accepted(goal) and is_sound(goal)
 
 
 def neighbours(goal: Goal) -> list[Goal]:

@@ -22,6 +22,7 @@ from autograder.authoring.walking.life import (
     next_sent,
     requests_to_cancel,
     run_of,
+    successors,
 )
 
 from .endings import why_given_up
@@ -35,7 +36,6 @@ from .life import (
     next_for_the_arm,
     silent_since,
     situation,
-    successors,
 )
 from .plan import errors, largest, speeds
 from .truth import joints_at, joints_between, plan_of

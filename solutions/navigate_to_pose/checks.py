@@ -121,11 +121,7 @@ names_its_phases = GOING(
     "names_its_phases", model.names_its_phases, needs=[faces_its_way, *TOLD], see="08_navigation#loops-intro"
 )
 tells_its_time = check_of(
-    "tells_its_time",
-    model.tells_its_time,
-    on=[GO, PREEMPT],
-    needs=TOLD,
-    see="08_navigation#conventions",
+    "tells_its_time", model.tells_its_time, on=[GO, PREEMPT], needs=TOLD, see="08_navigation#conventions"
 )
 estimates_the_time = GOING(
     "estimates_the_time", model.estimates_the_time, needs=TOLD, see="08_navigation#eta-why"
@@ -179,11 +175,7 @@ rejects_a_wrong_pose = check_of(
     see="08_navigation#map-why",
 )
 rejects_a_wrong_tolerance = check_of(
-    "rejects_a_wrong_tolerance",
-    model.rejects_tolerances,
-    on=IMPOSSIBLE,
-    needs=accepts_a_goal,
-    see=REJECT,
+    "rejects_a_wrong_tolerance", model.rejects_tolerances, on=IMPOSSIBLE, needs=accepts_a_goal, see=REJECT
 )
 rejects_without_power = check_of(
     "rejects_without_power", model.rejects_without_power, on=HERE, needs=accepts_a_goal, see=REJECT
@@ -276,8 +268,5 @@ aborts_when_the_robot_falls = check_of(
     see="07_cancel_and_preempt#fall-why",
 )
 ends_cleanly = standard.ends_cleanly(
-    on=[INTERRUPT, PREEMPT],
-    needs=server_appears,
-    see="07_cancel_and_preempt#conventions",
-    clauses=[21],
+    on=[INTERRUPT, PREEMPT], needs=server_appears, see="07_cancel_and_preempt#conventions", clauses=[21]
 )

@@ -84,11 +84,7 @@ accepts_a_goal = check_of(
 )
 rejects_a_wrong_frame, rejects_nan = rejections(model, on=IMPOSSIBLE, needs=accepts_a_goal, see=REJECT)
 rejects_what_is_no_rotation = check_of(
-    "rejects_what_is_no_rotation",
-    model.rejects_no_rotation,
-    on=IMPOSSIBLE,
-    needs=accepts_a_goal,
-    see=REJECT,
+    "rejects_what_is_no_rotation", model.rejects_no_rotation, on=IMPOSSIBLE, needs=accepts_a_goal, see=REJECT
 )
 rejects_a_senseless_velocity = check_of(
     "rejects_a_senseless_velocity",
@@ -99,11 +95,7 @@ rejects_a_senseless_velocity = check_of(
     see=REJECT,
 )
 rejects_before_the_first_odom = check_of(
-    "rejects_before_the_first_odom",
-    model.rejects_before_odom,
-    on=UNREADY,
-    needs=accepts_a_goal,
-    see=REJECT,
+    "rejects_before_the_first_odom", model.rejects_before_odom, on=UNREADY, needs=accepts_a_goal, see=REJECT
 )
 rejects_without_power = check_of(
     "rejects_without_power",
@@ -190,8 +182,5 @@ aborts_when_the_robot_falls = fall_is_reported(
     model, on=FALL, needs=walks_to_the_goal, see="06_walk_to_a_pose#fall-why"
 )
 ends_cleanly = standard.ends_cleanly(
-    clauses=[13],
-    on=[INTERRUPT, INTERFERE],
-    needs=server_appears,
-    see="01_robot_and_graph#listen-intro",
+    clauses=[13], on=[INTERRUPT, INTERFERE], needs=server_appears, see="01_robot_and_graph#listen-intro"
 )

@@ -64,21 +64,23 @@ def overlaps(goal: Goal, asked: Goal) -> bool | None:
 
 def successors(goal: Goal) -> list[Goal]:
     """Return the goals that were sent and accepted while this one was active, the first of them first."""
-    return [other for other in _rivals(goal) if goal.accepted_at < other.sent.t < ended_at(goal)]
+    return [other for other in rivals(goal) if goal.accepted_at < other.sent.t < ended_at(goal)]
 
 
 def together_with(goal: Goal) -> list[Goal]:
     """Return the accepted goals that were sent before this one was answered, or the other way round."""
     return [
         other
-        for other in _rivals(goal)
+        for other in rivals(goal)
         if other.sent.t <= goal.accepted_at and goal.sent.t <= other.accepted_at
     ]
 
 
-def _rivals(goal: Goal) -> list[Goal]:
-    """Return the other goals that were accepted; none, if this one was not."""
-    return [other for other in others(goal) if accepted(other)] if accepted(goal) else []
+def rivals(goal: Goal) -> list[Goal]:
+    """Return the other goals, where goals name arms for the same arm, that were accepted; none, if this one was not."""
+    arm = getattr(goal.request, "arm", None)
+    same = [other for other in others(goal) if getattr(other.request, "arm", None) == arm]
+    return [other for other in same if accepted(other)] if accepted(goal) else []
 
 
 def requests_to_cancel(goal: Goal) -> list[Cancel]:
@@ -124,12 +126,6 @@ def was_put_down(goal: Goal) -> bool:
     """Return whether the scenario pushed the robot or cut its power while the goal was active."""
     commands = [each for each in goal.run.all(ev.RobotCommanded) if goal.sent.t <= each.t <= ended_at(goal)]
     return any(each.command.get("do") in ("push", "motor_power") for each in commands)
-
-
-def fallen_between(goal: Goal, start: float, end: float) -> ev.RobotTruth | None:
-    """Return the robot when it had fallen between two moments (s)."""
-    robots = goal.run.robot_between(start, max(start, end))
-    return next((robot for robot in robots if robot.mode == RobotState.FALLEN), None)
 
 
 def interrupted(goal: Goal) -> bool:

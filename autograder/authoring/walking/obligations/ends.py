@@ -10,6 +10,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 from autograder.authoring.failure import expect
+from autograder.authoring.falls import fall_after
 from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.goal_endings import why_rclpy_aborted
 from autograder.authoring.missing import unseen
@@ -21,7 +22,6 @@ from autograder.authoring.walking.life import (
     accepted,
     cancels_on_the_way,
     ended_at,
-    fallen_between,
     granted,
     interrupted,
     is_undisturbed,
@@ -135,7 +135,7 @@ def tells_a_fall(goal: Goal) -> str | None:
         return None
     if any(other.sent.t < down.t for other in successors(goal)) or together_with(goal):
         return None
-    fallen = fallen_between(goal, down.t, goal.run.end)
+    fallen = fall_after(goal.run, down.t)
     if fallen is None:
         raise unseen(goal.run, "the robot did not fall")
     if goal.result is None and left_alone(goal):
