@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario
 from autograder.authoring.obligation import check_of
@@ -100,41 +102,36 @@ rejects_without_power = check_of(
     needs=accepts_a_goal,
     see="07_cancel_and_preempt#conventions",
 )
-cancels_in_mid_stride = check_of(
+of_a_cancel = partial(check_of, on=CANCEL)
+cancels_in_mid_stride = of_a_cancel(
     "cancels_in_mid_stride",
     *model.canceled_in_mid_stride,
     title="A cancel while the robot walks is agreed to and ends CANCELED",
     points=2,
-    on=CANCEL,
     needs=accepts_a_goal,
     see="07_cancel_and_preempt#m1-why",
 )
-stops_when_canceled = check_of(
+stops_when_canceled = of_a_cancel(
     "stops_when_canceled",
     model.stops_when_canceled,
     title="Within 2 s of the cancel the robot stands still and upright",
     points=2,
-    on=CANCEL,
     needs=cancels_in_mid_stride,
     see="07_cancel_and_preempt#m12-robot-why",
 )
-walks_again_after_a_cancel = check_of(
+walks_again_after_a_cancel = of_a_cancel(
     "walks_again_after_a_cancel",
     model.accepts,
     model.grants_cancels,
     model.succeeds,
     model.reports_where_it_ended,
     title="A new goal after a cancel, also an early or a hasty one, is walked to, and results hold what was measured",
-    on=CANCEL,
     needs=[cancels_in_mid_stride, arrives],
     see="07_cancel_and_preempt#fix-intro",
 )
 new_goal_preempts_the_old = check_of(
     "new_goal_preempts_the_old",
-    model.accepts,
-    model.gives_way,
-    model.says_why_it_aborted,
-    model.succeeds,
+    *(model.accepts, model.gives_way, model.says_why_it_aborted, model.succeeds),
     model.reports_where_it_ended,
     title="A new goal, but none that is rejected, aborts the old one with PREEMPTED and is walked to; results are true",
     points=2,

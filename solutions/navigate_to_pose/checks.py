@@ -91,14 +91,13 @@ server_appears = standard.server_appears(
     "the action navigate_to_pose", on=INTERRUPT, see="06_walk_to_a_pose#small-intro", clauses=[21]
 )
 accepts_a_goal = GOING("accepts_a_goal", model.accepts, needs=server_appears, see=REJECT)
-arrives = check_of(
+arrives = GOING(
     "arrives",
     model.succeeds,
     model.stands_at_success,
     model.names_no_error,
     title="It SUCCEEDS, and the robot then stands within 0.10 m and 0.15 rad of the goal (tolerance 0)",
     points=2,
-    on=GO,
     needs=accepts_a_goal,
     see="06_walk_to_a_pose#settle-why",
 )
@@ -180,13 +179,8 @@ rejects_a_wrong_tolerance = check_of(
 rejects_without_power = check_of(
     "rejects_without_power", model.rejects_without_power, on=HERE, needs=accepts_a_goal, see=REJECT
 )
-gets_back_on_its_way = check_of(
-    "gets_back_on_its_way",
-    model.finds_its_way_back,
-    points=2,
-    on=ASTRAY,
-    needs=arrives,
-    see="08_navigation#loops-why",
+gets_back_on_its_way = RETURNING(
+    "gets_back_on_its_way", model.finds_its_way_back, points=2, needs=arrives, see="08_navigation#loops-why"
 )
 counts_the_recovery = RETURNING(
     "counts_the_recovery",
@@ -211,13 +205,12 @@ measures_a_detour = RETURNING(
     needs=[gets_back_on_its_way, measures_its_path],
     see="08_navigation#odometer-why",
 )
-gives_up_in_time = check_of(
+gives_up_in_time = HOLDING(
     "gives_up_in_time",
     model.gives_up_in_time,
     model.says_why_it_aborted,
     title="Held up, it ends ABORTED with TIMEOUT after 30 s and 15 s per metre",
     points=2,
-    on=HELD,
     needs=arrives,
     see="08_navigation#late-why",
 )
