@@ -21,20 +21,8 @@ from autograder.authoring.walking.life import (
 from autograder.authoring.walking.reports import require_error_code
 from ros_runtime.message_constants import name_of
 
+from . import life
 from .endings import PATIENCE, ErrorCode, require_not_given_up
-from .life import (
-    MEASURED,
-    PATH_TOLERANCE,
-    Fate,
-    ends_by_itself,
-    fate_of,
-    hold_of,
-    is_carried_out,
-    silent_since,
-    situation,
-    strays_at,
-    tolerance_of,
-)
 from .motion import require_moving
 from .plan import errors, largest
 from .truth import joints_at, joints_between, plan_of
@@ -66,10 +54,10 @@ _BY_NAME = (
 
 def succeeds(goal: Goal) -> str | None:
     """It SUCCEEDS when the last point's time is over and every joint is within goal_tolerance of it."""
-    if not _ends_by(goal, Fate.ARRIVES):
+    if not _ends_by(goal, life.Fate.ARRIVES):
         return None
     require_not_given_up(goal, _why_given_up(goal))
-    result, plan, tolerance = goal.require_result(SUCCEEDED), plan_of(goal), tolerance_of(goal)
+    result, plan, tolerance = goal.require_result(SUCCEEDED), plan_of(goal), life.tolerance_of(goal)
     expect(
         result.t >= plan.end - EARLY,
         expected="the goal to go on until its last point is due",
@@ -79,7 +67,7 @@ def succeeds(goal: Goal) -> str | None:
     )
     joint, error = largest(errors(joints_at(goal.run, result.t).positions, plan.final()))
     expect(
-        error <= tolerance + MEASURED,
+        error <= tolerance + life.MEASURED,
         expected=f"every joint within {tolerance:.2f} rad of the last point when the goal SUCCEEDED",
         observed=f"{joint} is {error:.2f} rad away in the simulator",
         help="Wait until the last point's time_from_start is over, then compare joint_states with its positions, "
@@ -90,17 +78,17 @@ def succeeds(goal: Goal) -> str | None:
         result.t <= plan.end + PATIENCE + REACTION,
         expected=f"the goal to end within {PATIENCE:g} s of its last point's time",
         observed=f"it SUCCEEDED {result.t - plan.end:.1f} s after it",
-        help=_OTHER_ARM if situation(goal).endswith("arm") else _LATE,
+        help=_OTHER_ARM if life.situation(goal).endswith("arm") else _LATE,
         at=result.t,
     )
-    return f"{situation(goal)}; {phase(goal)}"
+    return f"{life.situation(goal)}; {phase(goal)}"
 
 
 def misses(goal: Goal) -> str | None:
     """A joint that is not at its end 1 s after it is due ends the goal with GOAL_TOLERANCE_VIOLATED."""
-    if not _ends_by(goal, Fate.MISSES):
+    if not _ends_by(goal, life.Fate.MISSES):
         return None
-    hold, plan = hold_of(goal), plan_of(goal)
+    hold, plan = life.hold_of(goal), plan_of(goal)
     assert hold
     result = goal.require_result(
         ABORTED,
@@ -123,9 +111,9 @@ def misses(goal: Goal) -> str | None:
 
 def strays(goal: Goal) -> str | None:
     """An arm that is more than 0.5 rad off its trajectory ends the goal with PATH_TOLERANCE_VIOLATED."""
-    if not _ends_by(goal, Fate.STRAYS):
+    if not _ends_by(goal, life.Fate.STRAYS):
         return None
-    hold, plan = hold_of(goal), plan_of(goal)
+    hold, plan = life.hold_of(goal), plan_of(goal)
     assert hold
     joint = hold.joints[-1]
     require_moving(goal, hold.since)
@@ -139,17 +127,17 @@ def strays(goal: Goal) -> str | None:
         for report in joints_between(goal.run, min(hold.since, result.t), result.t)
     )
     expect(
-        off >= PATH_TOLERANCE - SOONER,
-        expected=f"the goal to go on until {joint} is {PATH_TOLERANCE} rad off its trajectory",
+        off >= life.PATH_TOLERANCE - SOONER,
+        expected=f"the goal to go on until {joint} is {life.PATH_TOLERANCE} rad off its trajectory",
         observed=f"it ended when {joint} was {off:.2f} rad off",
         help="An arm is always a little late. Abort only over 0.5 rad, and measure from where the trajectory has the "
         "joint now.",
         at=result.t,
     )
-    late = result.t - strays_at(goal, hold)
+    late = result.t - life.strays_at(goal, hold)
     expect(
         late <= REACTION,
-        expected=f"the goal ABORTED as soon as {joint} is {PATH_TOLERANCE} rad off",
+        expected=f"the goal ABORTED as soon as {joint} is {life.PATH_TOLERANCE} rad off",
         observed=f"{late:.1f} s later",
         help="Look at the deviation in every round, not only at the end.",
         at=result.t,
@@ -157,20 +145,20 @@ def strays(goal: Goal) -> str | None:
     require_error_code(
         goal,
         "PATH_TOLERANCE_VIOLATED",
-        because=f"{joint} was held, and more than {PATH_TOLERANCE} rad off its trajectory",
+        because=f"{joint} was held, and more than {life.PATH_TOLERANCE} rad off its trajectory",
     )
     return "held"
 
 
 def notices_silence(goal: Goal) -> str | None:
     """When joint_states say nothing for 1 s the goal ends with INVALID_JOINTS."""
-    lost = silent_since(goal) if is_carried_out(goal) else None
+    lost = life.silent_since(goal) if life.is_carried_out(goal) else None
     if lost is None or lost < goal.accepted_at or granted(goal) or successors(goal) or left_alone(goal):
         return None
     require_moving(goal, lost)
     result = goal.require_result(ABORTED, help=_SILENT)
     plan, known = plan_of(goal), joints_at(goal.run, lost).positions
-    seems_off = largest(errors(known, plan.at(lost + NOTICED)))[1] >= PATH_TOLERANCE - SOONER
+    seems_off = largest(errors(known, plan.at(lost + NOTICED)))[1] >= life.PATH_TOLERANCE - SOONER
     if not (seems_off and _code(goal) is ErrorCode.PATH_TOLERANCE_VIOLATED):
         _require_code(goal, "INVALID_JOINTS", "nothing is known of the joints any more", _SILENT)
     expect(
@@ -188,7 +176,7 @@ def grants_cancels(goal: Goal) -> str | None:
     asked = [
         cancel
         for cancel in requests_to_cancel(goal)
-        if is_carried_out(goal) and goal.accepted_at <= cancel.sent.t < ended_at(goal)
+        if life.is_carried_out(goal) and goal.accepted_at <= cancel.sent.t < ended_at(goal)
     ]
     if not asked or any(other.sent.t < asked[0].sent.t + OVERTAKING for other in successors(goal)):
         return None
@@ -213,7 +201,7 @@ def grants_cancels(goal: Goal) -> str | None:
 def gives_way(goal: Goal) -> str | None:
     """A new goal for the same arm aborts the old one with PREEMPTED."""
     newer = successors(goal)
-    if not is_carried_out(goal):
+    if not life.is_carried_out(goal):
         return None
     if not newer:
         _require_no_preemption(goal)
@@ -236,9 +224,9 @@ def gives_way(goal: Goal) -> str | None:
     return f"by {len(newer)} newer"
 
 
-def _ends_by(goal: Goal, fate: Fate) -> bool:
+def _ends_by(goal: Goal, fate: life.Fate) -> bool:
     """Return whether this fate, and nothing else, ends the goal, and the scenario waited for its end."""
-    return ends_by_itself(goal) and not left_alone(goal) and fate_of(goal) is fate
+    return life.ends_by_itself(goal) and not left_alone(goal) and life.fate_of(goal) is fate
 
 
 def _code(goal: Goal) -> ErrorCode | None:
@@ -263,7 +251,7 @@ def _require_code(goal: Goal, code: str, because: str, help: str) -> None:
 
 def _require_no_preemption(goal: Goal) -> None:
     """Require that a goal did not give way when no other for its arm was accepted."""
-    if _code(goal) is ErrorCode.PREEMPTED and ends_by_itself(goal):
+    if _code(goal) is ErrorCode.PREEMPTED and life.ends_by_itself(goal):
         require_not_given_up(goal)
 
 
@@ -276,4 +264,4 @@ def _why_given_up(goal: Goal) -> str:
     ]
     if reverse:
         return _BY_NAME
-    return _OTHER_ARM if situation(goal).endswith("arm") else ""
+    return _OTHER_ARM if life.situation(goal).endswith("arm") else ""

@@ -14,25 +14,7 @@ from autograder.authoring.falls import fall_after
 from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.goal_endings import why_rclpy_aborted
 from autograder.authoring.missing import unseen
-from autograder.authoring.walking import reports
-from autograder.authoring.walking.life import (
-    AT_IT,
-    BIG_TURN,
-    TERMINAL,
-    accepted,
-    cancels_on_the_way,
-    ended_at,
-    granted,
-    interrupted,
-    is_undisturbed,
-    left_alone,
-    near_arrival,
-    others,
-    phase,
-    successors,
-    together_with,
-    went_down,
-)
+from autograder.authoring.walking import life, reports
 from autograder.authoring.walking.motion import require_reached
 from autograder.authoring.walking.planar import error
 from autograder.authoring.walking.truth import require_arrival
@@ -45,7 +27,7 @@ GIVING_WAY = 5.0  # s
 
 def comes_near(goal: Goal) -> str | None:
     """It walks: the robot comes within 0.10 m and 0.15 rad of the goal."""
-    if not is_undisturbed(goal) or left_alone(goal):
+    if not life.is_undisturbed(goal) or life.left_alone(goal):
         return None
     require_reached(goal)
     return _whereto(goal)
@@ -53,7 +35,7 @@ def comes_near(goal: Goal) -> str | None:
 
 def succeeds(goal: Goal) -> str | None:
     """It SUCCEEDS, and the robot is then within 0.10 m and 0.15 rad of the goal."""
-    if not is_undisturbed(goal) or left_alone(goal):
+    if not life.is_undisturbed(goal) or life.left_alone(goal):
         return None
     require_arrival(goal)
     return _whereto(goal)
@@ -61,20 +43,26 @@ def succeeds(goal: Goal) -> str | None:
 
 def goes_on(goal: Goal) -> str | None:
     """A goal goes on, whatever is asked meanwhile and refused."""
-    if not accepted(goal) or goal.answer is None:
+    if not life.accepted(goal) or goal.answer is None:
         return None
     rejected = any(
-        other.answer and not other.answer.accepted and goal.answer.t < other.sent.t < ended_at(goal)
-        for other in others(goal)
+        other.answer and not other.answer.accepted and goal.answer.t < other.sent.t < life.ended_at(goal)
+        for other in life.others(goal)
     )
-    refused = any(cancel.answer and not cancel.answer.canceling for cancel in cancels_on_the_way(goal))
+    refused = any(cancel.answer and not cancel.answer.canceling for cancel in life.cancels_on_the_way(goal))
     if not rejected and not refused:
         return None
     what, result = "another was rejected" if rejected else "the cancel was refused", goal.result
-    if result is None or successors(goal) or granted(goal) or went_down(goal) or interrupted(goal):
+    if (
+        result is None
+        or life.successors(goal)
+        or life.granted(goal)
+        or life.went_down(goal)
+        or life.interrupted(goal)
+    ):
         return what
     expect(
-        result.status == SUCCEEDED and near_arrival(goal, result.t),
+        result.status == SUCCEEDED and life.near_arrival(goal, result.t),
         expected=f"the first goal to go on after {what}",
         observed=f"it ended {name_of(GoalStatus, result.status)} at {result.t:.1f} s",
         help=why_rclpy_aborted(goal) or f"Leave the goal that runs alone when {what}.",
@@ -85,13 +73,13 @@ def goes_on(goal: Goal) -> str | None:
 
 def gives_way(goal: Goal) -> str | None:
     """A goal that was accepted later aborts the one that is active, with PREEMPTED."""
-    newer = successors(goal)
+    newer = life.successors(goal)
     if not newer:
         _require_no_preemption(goal)
         return None
     came = newer[0].sent.t
-    canceled = any(cancel.sent.t <= came for cancel in granted(goal))
-    if canceled or went_down(goal) or (goal.status == SUCCEEDED and near_arrival(goal, came)):
+    canceled = any(cancel.sent.t <= came for cancel in life.granted(goal))
+    if canceled or life.went_down(goal) or (goal.status == SUCCEEDED and life.near_arrival(goal, came)):
         return None
     end = goal.require_result(
         ABORTED,
@@ -111,10 +99,10 @@ def gives_way(goal: Goal) -> str | None:
 
 def only_one_is_newest(goal: Goal) -> str | None:
     """Of goals that are accepted in the same moment all but one give way."""
-    together = [goal, *together_with(goal)]
-    if len(together) == 1 or goal.result is None or successors(goal):
+    together = [goal, *life.together_with(goal)]
+    if len(together) == 1 or goal.result is None or life.successors(goal):
         return None
-    if any(went_down(each) or granted(each) for each in together):
+    if any(life.went_down(each) or life.granted(each) for each in together):
         return None
     kept = [each for each in together if each.result is None or not _was_preempted(each)]
     expect(
@@ -130,15 +118,15 @@ def only_one_is_newest(goal: Goal) -> str | None:
 
 def tells_a_fall(goal: Goal) -> str | None:
     """When the robot falls, pushed or without power, the goal is ABORTED with FELL."""
-    down = went_down(goal)
-    if down is None or any(cancel.sent.t < down.t for cancel in granted(goal)):
+    down = life.went_down(goal)
+    if down is None or any(cancel.sent.t < down.t for cancel in life.granted(goal)):
         return None
-    if any(other.sent.t < down.t for other in successors(goal)) or together_with(goal):
+    if any(other.sent.t < down.t for other in life.successors(goal)) or life.together_with(goal):
         return None
     fallen = fall_after(goal.run, down.t)
     if fallen is None:
         raise unseen(goal.run, "the robot did not fall")
-    if goal.result is None and left_alone(goal):
+    if goal.result is None and life.left_alone(goal):
         return None
     if goal.result and goal.status == SUCCEEDED and goal.result.t <= fallen.t:
         return "as it arrived"
@@ -161,18 +149,18 @@ def tells_a_fall(goal: Goal) -> str | None:
 def status_in_order(goal: Goal) -> str | None:
     """A goal's status goes forward: accepted, executing, at most canceling, and then its one end."""
     seen = [each.status for each in goal.statuses]
-    if not seen or not accepted(goal):
+    if not seen or not life.accepted(goal):
         return None
     for earlier, later in pairwise(seen):
         expect(
-            later > earlier and earlier not in TERMINAL,
+            later > earlier and earlier not in life.TERMINAL,
             expected=f"no other status after {name_of(GoalStatus, earlier)}",
             observed=name_of(GoalStatus, later),
             help="Make one terminal call for a goal, and none after it.",
             at=goal.statuses[-1].t,
         )
     if goal.result:
-        final = [status for status in seen if status in TERMINAL]
+        final = [status for status in seen if status in life.TERMINAL]
         expect(
             not final or final == [goal.result.status],
             expected=f"the status {name_of(GoalStatus, goal.result.status)} that came with the result",
@@ -185,16 +173,14 @@ def status_in_order(goal: Goal) -> str | None:
 
 def _whereto(goal: Goal) -> str:
     distance, turn = error(goal.run.robot_at(goal.sent.t), goal)
-    way = "here" if distance < AT_IT else "a walk"
-    return (
-        f"{way}, {'turning back' if turn > 2.0 else 'turning' if turn > BIG_TURN else 'ahead'}; {phase(goal)}"
-    )
+    way = "here" if distance < life.AT_IT else "a walk"
+    return f"{way}, {'turning back' if turn > 2.0 else 'turning' if turn > life.BIG_TURN else 'ahead'}; {life.phase(goal)}"
 
 
 def _require_no_preemption(goal: Goal) -> None:
     """Require that a goal did not give way to one that was rejected, or that never was."""
     expect(
-        not _was_preempted(goal) or bool(together_with(goal)),
+        not _was_preempted(goal) or bool(life.together_with(goal)),
         expected="a goal that goes on: no other was accepted while it was active",
         observed="it ended ABORTED with PREEMPTED",
         help="Let the old goal give way in handle_accepted_callback: goal_callback may still reject the new one.",

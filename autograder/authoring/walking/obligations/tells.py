@@ -13,17 +13,7 @@ from autograder.authoring.failure import expect
 from autograder.authoring.feedback import require_good_feedback_rate
 from autograder.authoring.goal import ABORTED, LISTENED, SUCCEEDED, Goal
 from autograder.authoring.goal_endings import why_rclpy_aborted
-from autograder.authoring.walking import reports
-from autograder.authoring.walking.life import (
-    TERMINAL,
-    accepted,
-    ended_at,
-    interrupted,
-    is_undisturbed,
-    left_alone,
-    near_arrival,
-    way_to,
-)
+from autograder.authoring.walking import life, reports
 from ros_runtime.message_constants import GoalStatus, name_of
 
 LONG = 3.0  # s; a goal of less tells little about a rate
@@ -35,10 +25,10 @@ FASTEST = 0.4  # m/s that the robot can walk
 def feedback_at_5_hz(goal: Goal) -> str | None:
     """Feedback comes at 5 Hz without a gap over 1 s."""
     if (
-        not accepted(goal)
-        or left_alone(goal)
-        or interrupted(goal)
-        or goal.accepted_at + LONG > ended_at(goal)
+        not life.accepted(goal)
+        or life.left_alone(goal)
+        or life.interrupted(goal)
+        or goal.accepted_at + LONG > life.ended_at(goal)
     ):
         return None
     require_good_feedback_rate(goal)
@@ -47,7 +37,7 @@ def feedback_at_5_hz(goal: Goal) -> str | None:
 
 def feedback_is_true(goal: Goal) -> str | None:
     """Pose, distance and steps in the feedback are the robot's, for this goal; the estimate is one."""
-    if not accepted(goal) or not goal.feedback:
+    if not life.accepted(goal) or not goal.feedback:
         return None
     reports.require_true_feedback(goal)
     return "the first goal" if goal.run.robot_at(goal.sent.t).steps == 0 else "a later goal"
@@ -55,7 +45,7 @@ def feedback_is_true(goal: Goal) -> str | None:
 
 def estimates_the_time(goal: Goal) -> str | None:
     """The estimate of the time left is not negative, positive while much is left, and smaller near the end."""
-    if not accepted(goal) or not goal.feedback:
+    if not life.accepted(goal) or not goal.feedback:
         return None
     estimates = [_seconds(each.feedback.estimated_time_remaining) for each in goal.feedback]
     for each, estimate in zip(goal.feedback, estimates, strict=True):
@@ -71,11 +61,11 @@ def estimates_the_time(goal: Goal) -> str | None:
             at=each.t,
         )
     result = goal.result
-    arrived = goal.status == SUCCEEDED and result is not None and near_arrival(goal, result.t)
+    arrived = goal.status == SUCCEEDED and result is not None and life.near_arrival(goal, result.t)
     is_slow = goal.request.max_velocity <= FASTEST
     if (
-        not (is_undisturbed(goal) and arrived and is_slow)
-        or way_to(goal) < CLEARLY
+        not (life.is_undisturbed(goal) and arrived and is_slow)
+        or life.way_to(goal) < CLEARLY
         or len(estimates) < ENOUGH
     ):
         return "on the way"
@@ -93,7 +83,7 @@ def estimates_the_time(goal: Goal) -> str | None:
 
 def feedback_ends_with_the_goal(goal: Goal) -> str | None:
     """After the result no more feedback comes."""
-    if not accepted(goal) or goal.result is None or goal.run.end < goal.result.t + LISTENED:
+    if not life.accepted(goal) or goal.result is None or goal.run.end < goal.result.t + LISTENED:
         return None
     if not goal.feedback:
         return None
@@ -103,7 +93,12 @@ def feedback_ends_with_the_goal(goal: Goal) -> str | None:
 
 def names_no_error(goal: Goal) -> str | None:
     """The error_code of a goal that is not ABORTED is NONE."""
-    if not accepted(goal) or goal.result is None or goal.status not in TERMINAL or interrupted(goal):
+    if (
+        not life.accepted(goal)
+        or goal.result is None
+        or goal.status not in life.TERMINAL
+        or life.interrupted(goal)
+    ):
         return None
     status = name_of(GoalStatus, goal.result.status)
     if goal.status != ABORTED:
@@ -121,7 +116,7 @@ def reports_where_it_ended(goal: Goal) -> str | None:
 
 def says_why_it_aborted(goal: Goal) -> str | None:
     """A goal that is ABORTED says why, in error_msg."""
-    if goal.status != ABORTED or not accepted(goal) or interrupted(goal):
+    if goal.status != ABORTED or not life.accepted(goal) or life.interrupted(goal):
         return None
     assert goal.result
     expect(
