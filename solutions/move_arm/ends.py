@@ -1,14 +1,9 @@
-"""How a goal for an arm ends: the arm arrives or does not, the goal is cancelled, or another takes the arm.
-
-Each function is what an obligation of an exercise's model requires:
-
-succeeds = obligation(7, of=goals)(ends.succeeds)
-"""
+"""How a goal for an arm ends: the arm arrives or does not, the goal is cancelled, or another takes the arm."""
 
 from __future__ import annotations
 
 from autograder.authoring import events as ev
-from autograder.authoring.failure import Failure, expect
+from autograder.authoring.failure import expect
 from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED, Goal
 from autograder.authoring.walking.life import (
     ended_at,
@@ -18,8 +13,8 @@ from autograder.authoring.walking.life import (
     requests_to_cancel,
     successors,
 )
+from autograder.authoring.walking.obligations.ends import require_preempted
 from autograder.authoring.walking.reports import require_error_code
-from ros_runtime.message_constants import name_of
 
 from . import life
 from .endings import PATIENCE, ErrorCode, require_not_given_up
@@ -30,7 +25,6 @@ from .truth import joints_at, joints_between, plan_of
 EARLY = 0.5  # s that a server may have begun before its answer was seen
 SOONER = 0.15  # rad less, at which a server may already see that a joint is off
 REACTION = 1.5  # s for the server to say so
-GIVING_WAY = 5.0  # s
 OVERTAKING = 0.3  # s
 QUIET = 0.8  # s without joint_states before which nobody may give up
 NOTICED = 1.5  # s without them after which a server has noticed
@@ -159,8 +153,9 @@ def notices_silence(goal: Goal) -> str | None:
     result = goal.require_result(ABORTED, help=_SILENT)
     plan, known = plan_of(goal), joints_at(goal.run, lost).positions
     seems_off = largest(errors(known, plan.at(lost + NOTICED)))[1] >= life.PATH_TOLERANCE - SOONER
-    if not (seems_off and _code(goal) is ErrorCode.PATH_TOLERANCE_VIOLATED):
-        _require_code(goal, "INVALID_JOINTS", "nothing is known of the joints any more", _SILENT)
+    if not (seems_off and result.result.error_code == ErrorCode.PATH_TOLERANCE_VIOLATED):
+        because = "nothing is known of the joints any more"
+        require_error_code(goal, "INVALID_JOINTS", because=because, help=_SILENT)
     expect(
         QUIET <= result.t - lost <= GIVEN_UP,
         expected="the goal ABORTED 1 s after the last joint_states",
@@ -204,7 +199,9 @@ def gives_way(goal: Goal) -> str | None:
     if not life.is_carried_out(goal):
         return None
     if not newer:
-        _require_no_preemption(goal)
+        code = goal.result.result.error_code if goal.result else ErrorCode.NONE
+        if code == ErrorCode.PREEMPTED and life.ends_by_itself(goal):
+            require_not_given_up(goal)
         return None
     came = newer[0].sent.t
     canceled = any(cancel.sent.t <= came + OVERTAKING for cancel in granted(goal))
@@ -212,47 +209,13 @@ def gives_way(goal: Goal) -> str | None:
         return None
     if came >= goal.accepted_at + EARLY:
         require_moving(goal, came)
-    end = goal.require_result(ABORTED, help=_WENT_ON)
-    _require_code(goal, "PREEMPTED", "a new goal has taken the arm", _WENT_ON)
-    expect(
-        end.t <= came + GIVING_WAY,
-        expected=f"the old goal to end within {GIVING_WAY:g} s of the new one",
-        observed=f"it ended {end.t - came:.1f} s after it",
-        help=_WENT_ON,
-        at=end.t,
-    )
+    require_preempted(goal, came, _WENT_ON)
     return f"by {len(newer)} newer"
 
 
 def _ends_by(goal: Goal, fate: life.Fate) -> bool:
     """Return whether this fate, and nothing else, ends the goal, and the scenario waited for its end."""
     return life.ends_by_itself(goal) and not left_alone(goal) and life.fate_of(goal) is fate
-
-
-def _code(goal: Goal) -> ErrorCode | None:
-    """Return the error_code of a goal that was ABORTED, if it is one."""
-    code = goal.result.result.error_code if goal.result and goal.status == ABORTED else None
-    return ErrorCode(code) if code in list(ErrorCode) else None
-
-
-def _require_code(goal: Goal, code: str, because: str, help: str) -> None:
-    """Require the error_code of a goal that was ABORTED; `help` is what to do if it ended for another reason."""
-    given = _code(goal)
-    if given not in (None, ErrorCode.NONE, ErrorCode[code]):
-        assert goal.result
-        raise Failure(
-            expected=f"error_code {code}, because {because}",
-            observed=f"error_code {name_of(ErrorCode, given)}",
-            help=help,
-            at=goal.result.t,
-        )
-    require_error_code(goal, code, because=because)
-
-
-def _require_no_preemption(goal: Goal) -> None:
-    """Require that a goal did not give way when no other for its arm was accepted."""
-    if _code(goal) is ErrorCode.PREEMPTED and life.ends_by_itself(goal):
-        require_not_given_up(goal)
 
 
 def _why_given_up(goal: Goal) -> str:

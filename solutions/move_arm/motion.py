@@ -1,9 +1,4 @@
-"""How an arm moves: it passes its points, stops when it has to, and stays where it is without a goal.
-
-Each function is what an obligation of an exercise's model requires:
-
-passes_every_point = obligation(6, of=goals)(motion.passes_every_point)
-"""
+"""How an arm moves: it passes its points, stops when it has to, and stays where it is without a goal."""
 
 from __future__ import annotations
 

@@ -136,8 +136,12 @@ def interrupted(goal: Goal) -> bool:
 
 def is_undisturbed(goal: Goal) -> bool:
     """Return whether nothing happened in its life but its walk: no cancel that was granted, no goal, fall or Ctrl-C."""
-    disturbed = granted(goal) or successors(goal) or went_down(goal) or interrupted(goal)
-    return accepted(goal) and not disturbed and not together_with(goal)
+    return accepted(goal) and not was_disturbed(goal) and not together_with(goal)
+
+
+def was_disturbed(goal: Goal) -> bool:
+    """Return whether a cancel that was granted, a goal that came later, a fall or Ctrl-C ended it."""
+    return bool(granted(goal) or successors(goal) or went_down(goal) or interrupted(goal))
 
 
 def next_sent(goal: Goal, after: float) -> float:

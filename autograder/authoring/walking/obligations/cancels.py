@@ -1,9 +1,4 @@
-"""What a request to cancel a goal brings about, or does not.
-
-Each function is what an obligation of an exercise's model requires:
-
-refuses_cancels = obligation(9, of=goals)(cancels.refuses_cancels)
-"""
+"""What a request to cancel a goal brings about, or does not."""
 
 from __future__ import annotations
 

@@ -1,12 +1,8 @@
-"""How a goal ends: it is reached, another takes its place, or the robot falls.
-
-Each function is what an obligation of an exercise's model requires:
-
-comes_near = obligation(9, of=goals)(ends.comes_near)
-"""
+"""How a goal ends: it is reached, another takes its place, or the robot falls."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 
 from autograder.authoring.failure import expect
@@ -23,22 +19,20 @@ from ros_runtime.message_constants import GoalStatus, name_of
 
 FALLING = 1.0  # s before the simulator calls it a fall, in which a server may already see one
 GIVING_WAY = 5.0  # s
+_WENT_ON = (
+    "The old goal went on after the new one was accepted. How does its loop learn that it is no longer the newest? "
+    "(handle_accepted_callback)"
+)
 
 
 def comes_near(goal: Goal) -> str | None:
     """It walks: the robot comes within 0.10 m and 0.15 rad of the goal."""
-    if not life.is_undisturbed(goal) or life.left_alone(goal):
-        return None
-    require_reached(goal)
-    return _whereto(goal)
+    return _arrives(goal, require_reached)
 
 
 def succeeds(goal: Goal) -> str | None:
     """It SUCCEEDS, and the robot is then within 0.10 m and 0.15 rad of the goal."""
-    if not life.is_undisturbed(goal) or life.left_alone(goal):
-        return None
-    require_arrival(goal)
-    return _whereto(goal)
+    return _arrives(goal, require_arrival)
 
 
 def goes_on(goal: Goal) -> str | None:
@@ -53,13 +47,7 @@ def goes_on(goal: Goal) -> str | None:
     if not rejected and not refused:
         return None
     what, result = "another was rejected" if rejected else "the cancel was refused", goal.result
-    if (
-        result is None
-        or life.successors(goal)
-        or life.granted(goal)
-        or life.went_down(goal)
-        or life.interrupted(goal)
-    ):
+    if result is None or life.was_disturbed(goal):
         return what
     expect(
         result.status == SUCCEEDED and life.near_arrival(goal, result.t),
@@ -81,20 +69,21 @@ def gives_way(goal: Goal) -> str | None:
     canceled = any(cancel.sent.t <= came for cancel in life.granted(goal))
     if canceled or life.went_down(goal) or (goal.status == SUCCEEDED and life.near_arrival(goal, came)):
         return None
-    end = goal.require_result(
-        ABORTED,
-        help="The old goal went on after the new one was accepted. How does its loop learn that it is no longer the "
-        "newest? (handle_accepted_callback)",
-    )
-    reports.require_error_code(goal, "PREEMPTED", because="a new goal has taken its place")
+    require_preempted(goal, came, _WENT_ON)
+    return f"by {len(newer)} newer"
+
+
+def require_preempted(goal: Goal, came: float, help: str) -> None:
+    """Require that a goal gave way to one that came at a time (s); `help`: if it went on, or gave up by itself."""
+    end = goal.require_result(ABORTED, help=help)
+    reports.require_error_code(goal, "PREEMPTED", because="a new goal has taken its place", help=help)
     expect(
         end.t <= came + GIVING_WAY,
         expected=f"the old goal to end within {GIVING_WAY:g} s of the new one",
         observed=f"it ended {end.t - came:.1f} s after it",
-        help="Look in every round of the old goal's loop whether it is still the newest.",
+        help=help,
         at=end.t,
     )
-    return f"by {len(newer)} newer"
 
 
 def only_one_is_newest(goal: Goal) -> str | None:
@@ -171,10 +160,14 @@ def status_in_order(goal: Goal) -> str | None:
     return name_of(GoalStatus, seen[-1])
 
 
-def _whereto(goal: Goal) -> str:
+def _arrives(goal: Goal, require: Callable[[Goal], object]) -> str | None:
+    if not life.is_undisturbed(goal) or life.left_alone(goal):
+        return None
+    require(goal)
     distance, turn = error(goal.run.robot_at(goal.sent.t), goal)
     way = "here" if distance < life.AT_IT else "a walk"
-    return f"{way}, {'turning back' if turn > 2.0 else 'turning' if turn > life.BIG_TURN else 'ahead'}; {life.phase(goal)}"
+    turned = "turning back" if turn > 2.0 else "turning" if turn > life.BIG_TURN else "ahead"
+    return f"{way}, {turned}; {life.phase(goal)}"
 
 
 def _require_no_preemption(goal: Goal) -> None:

@@ -1,9 +1,4 @@
-"""What a server says of a goal, in feedback and result.
-
-Each function is what an obligation of an exercise's model requires:
-
-feedback_at_5_hz = obligation(9, of=goals)(tells.feedback_at_5_hz)
-"""
+"""What a server says of a goal, in feedback and result."""
 
 from __future__ import annotations
 

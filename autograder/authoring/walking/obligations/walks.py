@@ -1,9 +1,4 @@
-"""How the robot goes to a goal, and that it stands when none is active.
-
-Each function is what an obligation of an exercise's model requires:
-
-obeys_max_velocity = obligation(9, of=goals)(walks.obeys_max_velocity)
-"""
+"""How the robot goes to a goal, and that it stands when none is active."""
 
 from __future__ import annotations
 
@@ -16,7 +11,7 @@ from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking import halt, life
 from autograder.authoring.walking.motion import require_limited_velocity, require_short_turn
 from autograder.authoring.walking.planar import heading, target
-from autograder.authoring.walking.truth import STOP_SPEED, STOP_TIME
+from autograder.authoring.walking.truth import STOP, STOP_SPEED, STOP_TIME
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.angles import wrap
 
@@ -125,7 +120,7 @@ def stands_without_a_goal(run: Transcript) -> str | None:
             robot.speed < STOP_SPEED,
             expected=f"the robot slower than {STOP_SPEED:.2f} m/s while no goal is active",
             observed=f"{robot.speed:.2f} m/s",
-            help="Publish a zero Twist on cmd_vel before the terminal call, and nothing else on it afterwards.",
+            help=STOP,
             at=robot.t,
         )
     return "all the time"
