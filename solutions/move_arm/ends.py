@@ -5,14 +5,7 @@ from __future__ import annotations
 from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
 from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED, Goal
-from autograder.authoring.walking.life import (
-    ended_at,
-    granted,
-    left_alone,
-    phase,
-    requests_to_cancel,
-    successors,
-)
+from autograder.authoring.walking.life import cancels_on_the_way, granted, left_alone, phase, successors
 from autograder.authoring.walking.obligations.ends import require_preempted
 from autograder.authoring.walking.reports import require_error_code
 
@@ -80,10 +73,10 @@ def succeeds(goal: Goal) -> str | None:
 
 def misses(goal: Goal) -> str | None:
     """A joint that is not at its end 1 s after it is due ends the goal with GOAL_TOLERANCE_VIOLATED."""
-    if not _ends_by(goal, life.Fate.MISSES):
+    hold = life.hold_of(goal) if _ends_by(goal, life.Fate.MISSES) else None
+    if hold is None:
         return None
-    hold, plan = life.hold_of(goal), plan_of(goal)
-    assert hold
+    plan = plan_of(goal)
     result = goal.require_result(
         ABORTED,
         help="Succeed only when joint_states say that every joint is within goal_tolerance of the last point."
@@ -105,11 +98,10 @@ def misses(goal: Goal) -> str | None:
 
 def strays(goal: Goal) -> str | None:
     """An arm that is more than 0.5 rad off its trajectory ends the goal with PATH_TOLERANCE_VIOLATED."""
-    if not _ends_by(goal, life.Fate.STRAYS):
+    hold = life.hold_of(goal) if _ends_by(goal, life.Fate.STRAYS) else None
+    if hold is None:
         return None
-    hold, plan = life.hold_of(goal), plan_of(goal)
-    assert hold
-    joint = hold.joints[-1]
+    joint, plan = hold.joints[-1], plan_of(goal)
     require_moving(goal, hold.since)
     result = goal.require_result(
         ABORTED,
@@ -128,7 +120,7 @@ def strays(goal: Goal) -> str | None:
         "joint now.",
         at=result.t,
     )
-    late = result.t - life.strays_at(goal, hold)
+    late = result.t - life.first_off(goal, hold)
     expect(
         late <= REACTION,
         expected=f"the goal ABORTED as soon as {joint} is {life.PATH_TOLERANCE} rad off",
@@ -136,11 +128,8 @@ def strays(goal: Goal) -> str | None:
         help="Look at the deviation in every round, not only at the end.",
         at=result.t,
     )
-    require_error_code(
-        goal,
-        "PATH_TOLERANCE_VIOLATED",
-        because=f"{joint} was held, and more than {life.PATH_TOLERANCE} rad off its trajectory",
-    )
+    because = f"{joint} was held, and more than {life.PATH_TOLERANCE} rad off its trajectory"
+    require_error_code(goal, "PATH_TOLERANCE_VIOLATED", because=because)
     return "held"
 
 
@@ -168,11 +157,7 @@ def notices_silence(goal: Goal) -> str | None:
 
 def grants_cancels(goal: Goal) -> str | None:
     """A cancel at any moment is agreed to and ends CANCELED."""
-    asked = [
-        cancel
-        for cancel in requests_to_cancel(goal)
-        if life.is_carried_out(goal) and goal.accepted_at <= cancel.sent.t < ended_at(goal)
-    ]
+    asked = cancels_on_the_way(goal) if life.is_carried_out(goal) else []
     if not asked or any(other.sent.t < asked[0].sent.t + OVERTAKING for other in successors(goal)):
         return None
     first, due = asked[0], plan_of(goal).end
@@ -220,11 +205,7 @@ def _ends_by(goal: Goal, fate: life.Fate) -> bool:
 
 def _why_given_up(goal: Goal) -> str:
     """Return what to do about a goal that was given up, where something happened that may have led there."""
-    reverse = [
-        each
-        for each in goal.run.all(ev.RobotCommanded)
-        if each.command["do"] == "joint_states" and each.t < goal.sent.t
-    ]
-    if reverse:
+    commands = [each for each in goal.run.all(ev.RobotCommanded) if each.t < goal.sent.t]
+    if any(each.command["do"] == "joint_states" for each in commands):
         return _BY_NAME
     return _OTHER_ARM if life.situation(goal).endswith("arm") else ""

@@ -69,12 +69,9 @@ def moves_until_canceled(goal: Goal) -> str | None:
 def stops_when_canceled(goal: Goal) -> str | None:
     """Within 1 s of the cancel the arm stands still."""
     asked = _first_cancel(goal)
-    if (
-        asked is None
-        or not (goals.granted(goal) or goal.status == SUCCEEDED)
-        or goals.successors(goal)
-        or life.hold_of(goal)
-    ):
+    if asked is None or goals.successors(goal) or life.hold_of(goal):
+        return None
+    if not goals.granted(goal) and goal.status != SUCCEEDED:
         return None
     until = min(asked + WATCHED, life.next_for_the_arm(goal, asked))
     if until < asked + STOP_TIME + AT_LEAST:
@@ -153,17 +150,11 @@ def stays_without_a_goal(run: Transcript) -> str | None:
     reports = run.all(ev.JointsTruth)
     if not reports or not run.goals:
         return None
-    for arm in ("l", "r"):
-        held = {each.command.get("joint") for each in run.all(ev.RobotCommanded)}
-        joints = [
-            joint for joint in reports[0].positions if joint.startswith(f"{arm}_") and joint not in held
-        ]
-        lives = [
-            (goal.sent.t, goals.ended_at(goal) + STOP_TIME)
-            for goal in run.goals
-            if goal.request.arm == arm and goals.accepted(goal)
-        ]
-        _require_rest(joints, reports, lives)
+    held = {each.command.get("joint") for each in run.all(ev.RobotCommanded)}
+    for arm in ("l_", "r_"):
+        joints = [joint for joint in reports[0].positions if joint.startswith(arm) and joint not in held]
+        own = [goal for goal in run.goals if goal.request.arm == arm[0] and goals.accepted(goal)]
+        _require_rest(joints, reports, [(goal.sent.t, goals.ended_at(goal) + STOP_TIME) for goal in own])
     return "all the time"
 
 

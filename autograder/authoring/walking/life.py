@@ -17,6 +17,8 @@ from ros_runtime.message_constants import GoalStatus, name_of
 TERMINAL = (GoalStatus.SUCCEEDED, GoalStatus.CANCELED, GoalStatus.ABORTED)
 AT_IT = 0.1  # m; a robot that is no farther from its goal need not walk
 BIG_TURN = 0.3  # rad
+FASTEST = 0.4  # m/s that the robot can walk
+AT_LEAST = 0.5  # s of watching that prove that the robot stands
 NEAR = 0.15  # m more than the tolerance, and…
 TURNED = 0.3  # rad from the goal are "just before arrival"
 
@@ -122,12 +124,6 @@ def went_down(goal: Goal) -> ev.RobotTruth | None:
     return next((robot for robot in robots if robot.mode in (RobotState.OFF, RobotState.FALLEN)), None)
 
 
-def was_put_down(goal: Goal) -> bool:
-    """Return whether the scenario pushed the robot or cut its power while the goal was active."""
-    commands = [each for each in goal.run.all(ev.RobotCommanded) if goal.sent.t <= each.t <= ended_at(goal)]
-    return any(each.command.get("do") in ("push", "motor_power") for each in commands)
-
-
 def interrupted(goal: Goal) -> bool:
     """Return whether Ctrl-C was pressed while the goal was active."""
     signalled = goal.run.first(ev.NodeSignalled)
@@ -165,14 +161,6 @@ def phase(goal: Goal) -> str:
     if ended_at(last) > goal.sent.t:
         return "while another is active"
     return f"after {name_of(GoalStatus, last.status or GoalStatus.UNKNOWN)}"
-
-
-# -- the robot, and the scenario --------------------------------------------------------------------------------------
-
-
-def is_walking(goal: Goal, t: float) -> bool:
-    """Return whether the robot walked just before a moment (s)."""
-    return any(robot.mode == RobotState.WALKING for robot in goal.run.robot_between(t - 0.3, t))
 
 
 def left_alone(goal: Goal) -> bool:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from autograder.authoring import events as ev
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED, Goal
 from autograder.authoring.goal_endings import why_rclpy_aborted
 from autograder.authoring.walking import life
 from autograder.authoring.walking.truth import STOP_TIME, require_stopped, require_walking
+from humanoid_interfaces.msg import RobotState
 
 GETTING_GOING = 1.0  # s
 OVERTAKING = 0.3  # s
-AT_LEAST = 0.5  # s of watching that prove that the robot stands
 
 
 def refuses_cancels(goal: Goal) -> str | None:
@@ -110,7 +111,7 @@ def stops_when_canceled(goal: Goal) -> str | None:
         return None
     asked = obeyed[0].sent.t
     end = min(life.next_sent(goal, asked), life.run_of(goal).end)
-    if end < asked + STOP_TIME + AT_LEAST:
+    if end < asked + STOP_TIME + life.AT_LEAST:
         return None
     require_stopped(goal.run, asked, until=end)
     return _when(goal, asked)
@@ -122,7 +123,8 @@ def _when(goal: Goal, t: float) -> str:
         return "before acceptance"
     if t > life.ended_at(goal):
         return "after the end"
-    return "in mid-stride" if life.is_walking(goal, t) else "before the first step"
+    is_walking = any(robot.mode == RobotState.WALKING for robot in goal.run.robot_between(t - 0.3, t))
+    return "in mid-stride" if is_walking else "before the first step"
 
 
 def _ends_canceled(goal: Goal, asked: float) -> str | None:
@@ -130,7 +132,11 @@ def _ends_canceled(goal: Goal, asked: float) -> str | None:
 
     A goal that comes after the cancel changes nothing about that, but what comes at once may overtake it.
     """
-    if life.left_alone(goal) or (life.went_down(goal) and life.was_put_down(goal)):
+    commands = [
+        each for each in goal.run.all(ev.RobotCommanded) if goal.sent.t <= each.t <= life.ended_at(goal)
+    ]
+    was_put_down = any(each.command.get("do") in ("push", "motor_power") for each in commands)
+    if life.left_alone(goal) or (life.went_down(goal) and was_put_down):
         return None
     if any(other.sent.t < asked + OVERTAKING for other in life.successors(goal)):
         return None

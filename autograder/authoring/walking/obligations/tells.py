@@ -14,17 +14,13 @@ from ros_runtime.message_constants import GoalStatus, name_of
 LONG = 3.0  # s; a goal of less tells little about a rate
 ENOUGH = 8  # feedback messages
 CLEARLY, LEAST = 0.5, 1.0  # m, s; the robot needs more than so long for so much
-FASTEST = 0.4  # m/s that the robot can walk
 
 
 def feedback_at_5_hz(goal: Goal) -> str | None:
     """Feedback comes at 5 Hz without a gap over 1 s."""
-    if (
-        not life.accepted(goal)
-        or life.left_alone(goal)
-        or life.interrupted(goal)
-        or goal.accepted_at + LONG > life.ended_at(goal)
-    ):
+    if not life.accepted(goal) or life.left_alone(goal) or life.interrupted(goal):
+        return None
+    if goal.accepted_at + LONG > life.ended_at(goal):
         return None
     require_good_feedback_rate(goal)
     return "all the way"
@@ -42,9 +38,10 @@ def estimates_the_time(goal: Goal) -> str | None:
     """The estimate of the time left is not negative, positive while much is left, and smaller near the end."""
     if not life.accepted(goal) or not goal.feedback:
         return None
-    estimates = [_seconds(each.feedback.estimated_time_remaining) for each in goal.feedback]
+    estimates = [seconds(each.feedback.estimated_time_remaining) for each in goal.feedback]
+    is_slow = goal.request.max_velocity <= life.FASTEST
     for each, estimate in zip(goal.feedback, estimates, strict=True):
-        much = each.feedback.distance_remaining > CLEARLY and goal.request.max_velocity <= FASTEST
+        much = is_slow and each.feedback.distance_remaining > CLEARLY
         least = LEAST if much else 0.0
         expect(
             estimate >= least,
@@ -57,12 +54,8 @@ def estimates_the_time(goal: Goal) -> str | None:
         )
     result = goal.result
     arrived = goal.status == SUCCEEDED and result is not None and life.near_arrival(goal, result.t)
-    is_slow = goal.request.max_velocity <= FASTEST
-    if (
-        not (life.is_undisturbed(goal) and arrived and is_slow)
-        or life.way_to(goal) < CLEARLY
-        or len(estimates) < ENOUGH
-    ):
+    walked = life.is_undisturbed(goal) and arrived and is_slow and life.way_to(goal) >= CLEARLY
+    if not walked or len(estimates) < ENOUGH:
         return "on the way"
     quarter = len(estimates) // 4
     first, last = max(estimates[: 2 * quarter]), min(estimates[-quarter:])
@@ -125,5 +118,6 @@ def says_why_it_aborted(goal: Goal) -> str | None:
     return "aborted"
 
 
-def _seconds(duration: Duration) -> float:
+def seconds(duration: Duration) -> float:
+    """Return a duration in s."""
     return float(duration.sec + duration.nanosec * 1e-9)

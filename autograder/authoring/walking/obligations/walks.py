@@ -16,15 +16,13 @@ from humanoid_interfaces.msg import RobotState
 from ros_runtime.angles import wrap
 
 FAR = 0.25  # m; a shorter way tells little about a speed
-FASTEST = 0.4  # m/s that the robot can walk
-AT_LEAST = 0.5  # s of watching that prove that the robot stands
 BEGINNING = 3.0  # s in which a goal makes the robot walk
 
 
 def obeys_max_velocity(goal: Goal) -> str | None:
     """From the start to the arrival the robot's mean speed is at most max_velocity."""
     limit = goal.request.max_velocity
-    if not life.accepted(goal) or not limit or limit > FASTEST or not life.began_at_rest(goal):
+    if not life.accepted(goal) or not limit or limit > life.FASTEST or not life.began_at_rest(goal):
         return None
     if not life.is_undisturbed(goal) or life.left_alone(goal) or life.way_to(goal) < FAR:
         return None
@@ -71,7 +69,7 @@ def stands_at_success(goal: Goal) -> str | None:
         return None
     assert goal.result
     end = life.next_sent(goal, goal.result.t)
-    if end - goal.result.t < AT_LEAST:
+    if end - goal.result.t < life.AT_LEAST:
         return None
     halt.require_standing_at_success(goal, end)
     return "a goal where it stands" if life.way_to(goal) < life.AT_IT else "a walk"
