@@ -10,6 +10,7 @@ from typing import Any
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario
 from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.server_checks import in_order
 
 from . import model
 
@@ -17,10 +18,6 @@ LATER = 1.5  # s after a result in which nothing more may be published
 STOPPING = 2.5  # s in which an arm must stop and stay still
 TWO, THERE, FURTHER = ["l_elbow", "l_wrist_yaw"], [-0.8, 0.1], [-1.0, 0.2]
 SHORT = ["l_shoulder_pitch", "l_elbow"]
-
-
-def _alone(*steps: Sequence[Any]) -> Scenario:
-    return Scenario("in_order", {"steps": list(steps)})
 
 
 def _unwatched(*steps: Sequence[Any]) -> Scenario:
@@ -32,7 +29,7 @@ def far(name: str, arm: str) -> list[Any]:
     return ["go", name, arm, [f"{arm}_elbow", f"{arm}_wrist_pitch"], [[4.0, [-2.1, 0.3]]]]
 
 
-MOVE = _alone(
+MOVE = in_order(
     [
         *("go", "move", "l", ["l_elbow", "l_shoulder_pitch", "l_wrist_yaw"]),
         [[1.5, [-0.9, -0.2, 0.2]], [2.8, [-1.2, -0.3, 0.4]], [4.1, [-0.9, -0.2, 0.2]]],
@@ -56,28 +53,28 @@ IMPOSSIBLE = _unwatched(
     ["go", "above the range", "l", TWO, [[1.0, [0.2, 0.1]], [2.0, FURTHER]]],
     ["go", "below the range", "l", TWO, [[1.0, THERE], [2.0, [-2.6, 0.2]]]],
 )
-BLOCK = _alone(
+BLOCK = in_order(
     ["go", "move", "l", ["l_shoulder_pitch", "l_elbow", "l_wrist_pitch"], [[4.0, [0.0, -2.1, 0.2]]]],
     *(["get_going", "l_elbow"], ["hold", "l_elbow"], ["end", "move"], ["wait", 0.5]),
     *(["release", "l_elbow"], ["wait", STOPPING]),
 )
-HOLD_SHORT = _alone(
+HOLD_SHORT = in_order(
     ["go", "move", "l", SHORT, [[3.0, [0.0, -1.7]]]],
     *(["hold_short", "move", 0.35, "l_elbow"], ["end", "move"], ["wait", LATER]),
 )
-CANCEL = _alone(
+CANCEL = in_order(
     far("move", "l"), ["get_going", "l_elbow"], ["cancel", "move"], ["end", "move"], ["wait", STOPPING]
 )
-PREEMPT = _alone(
+PREEMPT = in_order(
     *(far("old", "l"), ["get_going", "l_elbow"]),
     *(["go", "new", "l", TWO, [[2.5, [-0.2, 0.4]]]], ["end", "old"], ["arrive", "new"]),
 )
-BOTH = _alone(  # the right arm's goal is over first
+BOTH = in_order(  # the right arm's goal is over first
     *(far("left", "l"), ["get_going", "l_elbow"]),
     ["go", "right", "r", ["r_elbow", "r_shoulder_pitch"], [[1.5, [-1.0, 0.0]]]],
     *(["arrive", "right"], ["arrive", "left"]),
 )
-INTERRUPT = _alone(far("move", "l"), ["get_going", "l_elbow"], ["interrupt"])
+INTERRUPT = in_order(far("move", "l"), ["get_going", "l_elbow"], ["interrupt"])
 
 LOOK, THE_END = "07_cancel_and_preempt#conventions", "07_cancel_and_preempt#m13-why"
 TRAJECTORY, BEND = "09_arms#conventions", "09_arms#bend-why"

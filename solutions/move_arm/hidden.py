@@ -10,6 +10,7 @@ from autograder.authoring import standard_hidden
 from autograder.authoring.checks import Scenario
 from autograder.authoring.obligation import check_of
 from autograder.authoring.walking.drawn import NUMBERS, rounded
+from autograder.authoring.walking.server_checks import in_order
 
 from . import checks, model
 from .checks import LATER
@@ -90,10 +91,8 @@ def _impossible(random: Random) -> list[list[Any]]:
 
 
 ANY_ORDER = Scenario("in_order", _steps)
-OTHER_NAMESPACE = Scenario(
-    "in_order",
-    {"steps": [["go", "move", "l", ["l_elbow"], [[1.5, [-1.0]]]], ["arrive", "move"]]},
-    namespace="/lab_7/robot",
+OTHER_NAMESPACE = in_order(
+    ["go", "move", "l", ["l_elbow"], [[1.5, [-1.0]]]], ["arrive", "move"], namespace="/lab_7/robot"
 )
 
 in_any_order = partial(check_of, on=ANY_ORDER)

@@ -7,9 +7,9 @@ from functools import partial
 from typing import Any
 
 from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.checks import RESTING
 from autograder.authoring.obligation import check_of
-from autograder.authoring.walking.server_checks import INTERRUPT, WRONG_POSES
+from autograder.authoring.walking.server_checks import INTERRUPT, WRONG_POSES, in_order
 
 from . import model
 
@@ -23,66 +23,33 @@ def arrive(name: str, distance: float) -> list[Any]:
     return ["arrive", name, 36.0 + 15.0 * distance]
 
 
-GO = Scenario("in_order", {"steps": [["go", "go", -1.4, 1.4, -2.6], arrive("go", 2.0), ["wait", LISTENING]]})
-HERE = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "stay", 0.0, 0.0, 0.0], ["end", "stay"], ["wait", LISTENING]),
-            *(["cut_power"], ["go", "unpowered", 1.0, 0.0, 0.0]),
-        ]
-    },
+GO = in_order(["go", "go", -1.4, 1.4, -2.6], arrive("go", 2.0), ["wait", LISTENING])
+HERE = in_order(
+    *(["go", "stay", 0.0, 0.0, 0.0], ["end", "stay"], ["wait", LISTENING]),
+    *(["cut_power"], ["go", "unpowered", 1.0, 0.0, 0.0]),
 )
-IMPOSSIBLE = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *WRONG_POSES,
-            *(["ask", f"tolerance {value:g}", "tolerance", value] for value in (0.03, -0.2, math.nan)),
-        ]
-    },
+IMPOSSIBLE = in_order(
+    *WRONG_POSES,
+    *(["ask", f"tolerance {value:g}", "tolerance", value] for value in (0.03, -0.2, math.nan)),
     robot=RESTING,
 )
-ASTRAY = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "go", 1.8, 0.0, 0.0], ["get_away", 0.9], ["lead_astray", 4.0, 1]),
-            *(arrive("go", 1.8), ["go_on", "undisturbed", 0.4, 0.0, 0.0], arrive("undisturbed", 0.4)),
-        ]
-    },
+ASTRAY = in_order(
+    *(["go", "go", 1.8, 0.0, 0.0], ["get_away", 0.9], ["lead_astray", 4.0, 1]),
+    *(arrive("go", 1.8), ["go_on", "undisturbed", 0.4, 0.0, 0.0], arrive("undisturbed", 0.4)),
 )
-HELD = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "held", 1.0, 0.0, 0.0], ["get_away", 0.55], ["hold"], arrive("held", 1.0)),
-            *(["let_go"], ["wait", WATCHING + 0.5]),
-        ]
-    },
+HELD = in_order(
+    *(["go", "held", 1.0, 0.0, 0.0], ["get_away", 0.55], ["hold"], arrive("held", 1.0)),
+    *(["let_go"], ["wait", WATCHING + 0.5]),
 )
-MID_STRIDE = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "canceled", 2.0, 0.0, 0.0], ["walk_for", 1.5], ["cancel", "canceled"]),
-            *(["end", "canceled"], ["wait", WATCHING]),
-        ]
-    },
+MID_STRIDE = in_order(
+    *(["go", "canceled", 2.0, 0.0, 0.0], ["walk_for", 1.5], ["cancel", "canceled"]),
+    *(["end", "canceled"], ["wait", WATCHING]),
 )
-PREEMPT = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "old", *FAR], ["walk_for", 2.0], ["go", "new", 1.2, 0.4, 0.5], ["end", "old"]),
-            *(arrive("new", 1.0), ["go_on", "interrupted", *FAR], ["walk_for", 0.3], ["interrupt"]),
-        ]
-    },
+PREEMPT = in_order(
+    *(["go", "old", *FAR], ["walk_for", 2.0], ["go", "new", 1.2, 0.4, 0.5], ["end", "old"]),
+    *(arrive("new", 1.0), ["go_on", "interrupted", *FAR], ["walk_for", 0.3], ["interrupt"]),
 )
-FALL = Scenario(
-    "in_order",
-    {"steps": [["go", "walk", *FAR], ["walk_for", 0.5], ["knock_over", 0.0, 60.0, 0.0], ["end", "walk"]]},
-)
+FALL = in_order(["go", "walk", *FAR], ["walk_for", 0.5], ["knock_over", 0.0, 60.0, 0.0], ["end", "walk"])
 
 REJECT = "06_walk_to_a_pose#reject-task"
 GOING, RETURNING, HOLDING = (partial(check_of, on=scenario) for scenario in (GO, ASTRAY, HELD))

@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import partial
 from types import ModuleType
+from typing import Any
 
 from autograder.authoring.checks import RESTING, Check, Scenario
 from autograder.authoring.obligation import check_of
+
+
+def in_order(*steps: Sequence[Any], **options: Any) -> Scenario:
+    """Return the scenario of these steps; `options` are its other fields."""
+    return Scenario("in_order", {"steps": list(steps)}, **options)
+
 
 WRONG_POSES = [
     ["ask", "wrong frame", "header.frame_id", "map"],
@@ -15,10 +23,8 @@ WRONG_POSES = [
     ["ask", "NaN height", "pose.position.z", math.nan],
     ["ask", "NaN orientation", "pose.orientation.z", math.nan],
 ]
-INTERRUPT = Scenario("in_order", {"steps": [["interrupt"]]}, robot=RESTING)
-OTHER_NAMESPACE = Scenario(
-    "in_order", {"steps": [["go", "walk", 0.3, 0.0, 0.0], ["arrive", "walk"]]}, namespace="/lab_7/robot"
-)
+INTERRUPT = in_order(["interrupt"], robot=RESTING)
+OTHER_NAMESPACE = in_order(["go", "walk", 0.3, 0.0, 0.0], ["arrive", "walk"], namespace="/lab_7/robot")
 
 
 def two_walks(first: float = 0.0, second: float = 0.0) -> Scenario:
@@ -28,9 +34,7 @@ def two_walks(first: float = 0.0, second: float = 0.0) -> Scenario:
     speed shows. Its heading lies beyond pi, so its quaternion has a negative w.
     """
     walks = [["go", "walk", 0.55, 0.2, 2.8, first], ["go", "again", 0.15, 0.34, 3.3, second]]
-    return Scenario(
-        "in_order", {"steps": [step for go in walks for step in (go, ["arrive", go[1]], ["wait", 1.5])]}
-    )
+    return in_order(*(step for go in walks for step in (go, ["arrive", go[1]], ["wait", 1.5])))
 
 
 def rejections(model: ModuleType, *, on: Scenario, needs: Check, see: str) -> tuple[Check, Check]:
