@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.checks import RESTING
 from autograder.authoring.obligation import check_of
-from autograder.authoring.walking.server_checks import (
-    INTERRUPT,
-    WRONG_POSES,
-    fall_is_reported,
-    rejections,
-    reports,
-    two_walks,
-)
+from autograder.authoring.walking import server_checks
+from autograder.authoring.walking.server_checks import INTERRUPT, WRONG_POSES, in_order
 
 from . import model
 
@@ -20,40 +16,22 @@ FAR = [2.0, 0.0, 0.0]  # m, m, rad
 STANDING = 2.6  # s after the result of a cancelled goal in which the robot is watched
 WHILE_IT_STOPS = 0.35  # s from a cancel to the next goal
 
-WALK = two_walks()
-IMPOSSIBLE = Scenario("in_order", {"steps": WRONG_POSES}, robot=RESTING)
-UNPOWERED = Scenario("in_order", {"steps": [["cut_power"], ["go", "unpowered", 1.0, 0.0, 0.0]]})
-CANCEL = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "canceled", *FAR], ["walk_for", 1.0], ["cancel", "canceled"]),
-            *(["end", "canceled"], ["wait", STANDING]),
-            *(["go_on", "early", *FAR], ["cancel", "early"], ["end", "early"], ["wait", 1.0]),
-            *(["go_on", "hasty", *FAR], ["walk_for", 0.5], ["cancel", "hasty"], ["wait", WHILE_IT_STOPS]),
-            *(["go_on", "again", 0.5, 0.0, 0.0], ["end", "hasty"], ["arrive", "again"], ["wait", 1.0]),
-        ]
-    },
+WALK = server_checks.two_walks()
+IMPOSSIBLE = in_order(*WRONG_POSES, robot=RESTING)
+UNPOWERED = in_order(["cut_power"], ["go", "unpowered", 1.0, 0.0, 0.0])
+CANCEL = in_order(
+    *(["go", "canceled", *FAR], ["walk_for", 1.0], ["cancel", "canceled"]),
+    *(["end", "canceled"], ["wait", STANDING]),
+    *(["go_on", "early", *FAR], ["cancel", "early"], ["end", "early"], ["wait", 1.0]),
+    *(["go_on", "hasty", *FAR], ["walk_for", 0.5], ["cancel", "hasty"], ["wait", WHILE_IT_STOPS]),
+    *(["go_on", "again", 0.5, 0.0, 0.0], ["end", "hasty"], ["arrive", "again"], ["wait", 1.0]),
 )
-PREEMPT = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(
-                ["go", "old", *FAR],
-                ["walk_for", 1.7],
-                ["ask", "in map", "header.frame_id", "map"],
-                ["wait", 0.3],
-            ),
-            *(["go", "new", 0.9, 0.2, 0.3], ["end", "old"], ["arrive", "new"], ["wait", 1.0]),
-            *(["go", "interrupted", *FAR], ["walk_for", 0.3], ["interrupt"]),
-        ]
-    },
+PREEMPT = in_order(
+    *(["go", "old", *FAR], ["walk_for", 1.7], ["ask", "in map", "header.frame_id", "map"], ["wait", 0.3]),
+    *(["go", "new", 0.9, 0.2, 0.3], ["end", "old"], ["arrive", "new"], ["wait", 1.0]),
+    *(["go", "interrupted", *FAR], ["walk_for", 0.3], ["interrupt"]),
 )
-FALL = Scenario(
-    "in_order",
-    {"steps": [["go", "walk", *FAR], ["walk_for", 0.5], ["knock_over", 0.0, 60.0, 0.0], ["end", "walk"]]},
-)
+FALL = in_order(["go", "walk", *FAR], ["walk_for", 0.5], ["knock_over", 0.0, 60.0, 0.0], ["end", "walk"])
 
 server_appears = standard.server_appears(
     "the action walk_to", on=INTERRUPT, clauses=[13], see="07_cancel_and_preempt#fix-file"
@@ -78,19 +56,21 @@ arrives = check_of(
     needs=accepts_a_goal,
     see="07_cancel_and_preempt#fix-intro",
 )
-fills_the_result, feedback_keeps_its_rate, feedback_is_true, feedback_ends_with_the_goal = reports(
-    model,
-    on=WALK,
-    under_way=accepts_a_goal,
-    arrives=arrives,
-    see=(
-        "07_cancel_and_preempt#m13-why",
-        "07_cancel_and_preempt#conventions",
-        "07_cancel_and_preempt#turner-intro",
-        "07_cancel_and_preempt#m13-why",
-    ),
+fills_the_result, feedback_keeps_its_rate, feedback_is_true, feedback_ends_with_the_goal = (
+    server_checks.reports(
+        model,
+        on=WALK,
+        under_way=accepts_a_goal,
+        arrives=arrives,
+        see=(
+            "07_cancel_and_preempt#m13-why",
+            "07_cancel_and_preempt#conventions",
+            "07_cancel_and_preempt#turner-intro",
+            "07_cancel_and_preempt#m13-why",
+        ),
+    )
 )
-rejects_a_wrong_frame, rejects_nan = rejections(
+rejects_a_wrong_frame, rejects_nan = server_checks.rejections(
     model, on=IMPOSSIBLE, needs=accepts_a_goal, see="07_cancel_and_preempt#conventions"
 )
 rejects_without_power = check_of(
@@ -100,41 +80,36 @@ rejects_without_power = check_of(
     needs=accepts_a_goal,
     see="07_cancel_and_preempt#conventions",
 )
-cancels_in_mid_stride = check_of(
+of_a_cancel = partial(check_of, on=CANCEL)
+cancels_in_mid_stride = of_a_cancel(
     "cancels_in_mid_stride",
     *model.canceled_in_mid_stride,
     title="A cancel while the robot walks is agreed to and ends CANCELED",
     points=2,
-    on=CANCEL,
     needs=accepts_a_goal,
     see="07_cancel_and_preempt#m1-why",
 )
-stops_when_canceled = check_of(
+stops_when_canceled = of_a_cancel(
     "stops_when_canceled",
     model.stops_when_canceled,
     title="Within 2 s of the cancel the robot stands still and upright",
     points=2,
-    on=CANCEL,
     needs=cancels_in_mid_stride,
     see="07_cancel_and_preempt#m12-robot-why",
 )
-walks_again_after_a_cancel = check_of(
+walks_again_after_a_cancel = of_a_cancel(
     "walks_again_after_a_cancel",
     model.accepts,
     model.grants_cancels,
     model.succeeds,
     model.reports_where_it_ended,
     title="A new goal after a cancel, also an early or a hasty one, is walked to, and results hold what was measured",
-    on=CANCEL,
     needs=[cancels_in_mid_stride, arrives],
     see="07_cancel_and_preempt#fix-intro",
 )
 new_goal_preempts_the_old = check_of(
     "new_goal_preempts_the_old",
-    model.accepts,
-    model.gives_way,
-    model.says_why_it_aborted,
-    model.succeeds,
+    *(model.accepts, model.gives_way, model.says_why_it_aborted, model.succeeds),
     model.reports_where_it_ended,
     title="A new goal, but none that is rejected, aborts the old one with PREEMPTED and is walked to; results are true",
     points=2,
@@ -142,12 +117,9 @@ new_goal_preempts_the_old = check_of(
     needs=arrives,
     see="07_cancel_and_preempt#preempt-why",
 )
-aborts_when_the_robot_falls = fall_is_reported(
+aborts_when_the_robot_falls = server_checks.fall_is_reported(
     model, on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why"
 )
 ends_cleanly = standard.ends_cleanly(
-    clauses=[13],
-    on=[INTERRUPT, PREEMPT],
-    needs=server_appears,
-    see="07_cancel_and_preempt#conventions",
+    clauses=[13], on=[INTERRUPT, PREEMPT], needs=server_appears, see="07_cancel_and_preempt#conventions"
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from random import Random
 from typing import Any
 
@@ -12,8 +13,8 @@ from autograder.authoring.obligation import check_of
 from autograder.authoring.walking.drawn import impossible, rounded
 from autograder.authoring.walking.server_checks import OTHER_NAMESPACE
 
-from . import model
-from .checks import FAR, STANDING, WHILE_IT_STOPS, arrives, cancels_in_mid_stride, stops_when_canceled
+from . import checks, model
+from .checks import FAR, STANDING
 
 AFTERWARDS = 0.8  # s from a result to the next goal
 Steps = list[list[Any]]
@@ -43,7 +44,7 @@ def _walks(random: Random) -> dict[str, Any]:
         ],
         [
             *(["go_on", "canceled", *FAR], ["walk_for", random.uniform(0.2, 0.8)], ["cancel", "canceled"]),
-            ["wait", WHILE_IT_STOPS],
+            ["wait", checks.WHILE_IT_STOPS],
             *(["go", "at once", *beyond, 0.0], ["go", "instead", *aside, 0.0]),
             *(["end", "canceled"], ["end", "at once"], ["arrive", "instead"]),
         ],
@@ -135,39 +136,25 @@ ANY_ORDER = Scenario("in_order", _walks)
 SEVERAL_PHASES = Scenario("in_order", _phases)
 CANCELS = Scenario("in_order", _cancels)
 
+of_cancels = partial(check_of, on=CANCELS)
 arrives_anywhere = check_of(
     "arrives_anywhere",
-    model.accepts,
-    model.rejects_frames,
-    model.rejects_nan,
-    model.rejects_without_power,
-    model.goes_on,
-    model.succeeds,
-    model.turns_the_short_way,
-    model.status_in_order,
-    model.stands_at_success,
-    model.stands_without_a_goal,
-    model.feedback_at_5_hz,
-    model.feedback_is_true,
-    model.reports_where_it_ended,
-    model.says_why_it_aborted,
-    model.grants_cancels,
-    model.answers_every_cancel,
-    model.gives_way,
-    model.only_one_is_newest,
-    model.tells_a_fall,
+    *(model.accepts, model.rejects_frames, model.rejects_nan, model.rejects_without_power, model.goes_on),
+    *(model.succeeds, model.turns_the_short_way, model.status_in_order, model.stands_at_success),
+    *(model.stands_without_a_goal, model.feedback_at_5_hz, model.feedback_is_true),
+    *(model.reports_where_it_ended, model.says_why_it_aborted, model.grants_cancels),
+    *(model.answers_every_cancel, model.gives_way, model.only_one_is_newest, model.tells_a_fall),
     title="It reaches poses with any heading, one after the other, whatever is asked meanwhile, and keeps every clause",
     points=2,
     on=ANY_ORDER,
-    needs=arrives,
+    needs=checks.arrives,
     see="01_robot_and_graph#frames-intro",
 )
-cancels_at_the_start = check_of(
+cancels_at_the_start = of_cancels(
     "cancels_at_the_start",
     *model.canceled_at_the_start,
     title="A cancel before execution, or at the first feedback, ends CANCELED with the robot still",
-    on=CANCELS,
-    needs=cancels_in_mid_stride,
+    needs=checks.cancels_in_mid_stride,
     see="07_cancel_and_preempt#m1-why",
 )
 stops_in_any_phase_of_the_gait = check_of(
@@ -178,51 +165,41 @@ stops_in_any_phase_of_the_gait = check_of(
     title="Wherever its feet are when the cancel comes, the robot stops upright",
     points=2,
     on=SEVERAL_PHASES,
-    needs=stops_when_canceled,
+    needs=checks.stops_when_canceled,
     see="07_cancel_and_preempt#why",
 )
-cancels_near_arrival = check_of(
+cancels_near_arrival = of_cancels(
     "cancels_near_arrival",
     *model.canceled_near_arrival,
     title="A cancel just before arrival ends CANCELED, or SUCCEEDED at the goal, with the robot still",
-    on=CANCELS,
-    needs=stops_when_canceled,
+    needs=checks.stops_when_canceled,
     see="07_cancel_and_preempt#fix-read",
 )
-survives_a_cancel_after_the_end = check_of(
+survives_a_cancel_after_the_end = of_cancels(
     "survives_a_cancel_after_the_end",
-    model.refuses_late_cancels,
-    model.accepts,
-    model.succeeds,
-    model.stands_at_success,
-    model.stands_without_a_goal,
-    model.status_in_order,
-    model.feedback_is_true,
-    model.reports_where_it_ended,
-    model.tells_a_fall,
+    *(model.refuses_late_cancels, model.accepts, model.succeeds, model.stands_at_success),
+    *(model.stands_without_a_goal, model.status_in_order, model.feedback_is_true),
+    *(model.reports_where_it_ended, model.tells_a_fall),
     title="A cancel at or after the end changes nothing: the next goal is walked to, and every report is true",
-    on=CANCELS,
-    needs=arrives,
+    needs=checks.arrives,
     see="07_cancel_and_preempt#late-why",
 )
-survives_two_cancels = check_of(
+survives_two_cancels = of_cancels(
     "survives_two_cancels",
     *model.canceled_twice,
     model.answers_every_cancel,
     model.feedback_ends_with_the_goal,
     title="The same cancel asked for twice ends CANCELED once, and both are answered",
-    on=CANCELS,
-    needs=cancels_in_mid_stride,
+    needs=checks.cancels_in_mid_stride,
     see="07_cancel_and_preempt#m12-why",
 )
-obeys_a_stranger = check_of(
+obeys_a_stranger = of_cancels(
     "obeys_a_stranger",
     *model.canceled_by_a_stranger,
     title="Another client may cancel every goal",
-    on=CANCELS,
-    needs=stops_when_canceled,
+    needs=checks.stops_when_canceled,
     see="07_cancel_and_preempt#conventions",
 )
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    "walks the robot", model.succeeds, clauses=[13], on=OTHER_NAMESPACE, needs=arrives
+    "walks the robot", model.succeeds, clauses=[13], on=OTHER_NAMESPACE, needs=checks.arrives
 )

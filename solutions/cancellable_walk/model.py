@@ -14,22 +14,16 @@ from autograder.authoring.walking.objections import (
     UNSAID_ROTATION,
     UNSAID_VELOCITY,
     accepting,
-    rejecting,
+    rejects,
 )
 from autograder.authoring.walking.obligations import cancels, ends, tells, walks
 
 accepts = obligation(1, 3, 11, of=goals)(
     accepting(FRAME, NOT_FINITE, NO_POWER, UNSAID_ROTATION, UNSAID_VELOCITY)
 )
-rejects_frames = obligation(1, of=goals)(
-    rejecting("rejects_frames", FRAME, "It rejects a pose in any other frame than odom")
-)
-rejects_nan = obligation(2, of=goals)(
-    rejecting("rejects_nan", NOT_FINITE, "It rejects a pose that holds NaN or infinity")
-)
-rejects_without_power = obligation(3, of=goals)(
-    rejecting("rejects_without_power", NO_POWER, "It rejects a goal while the motors are off")
-)
+rejects_frames = rejects(1, FRAME)
+rejects_nan = rejects(2, NOT_FINITE)
+rejects_without_power = rejects(3, NO_POWER)
 walks_at_its_own_velocity = obligation(4, of=goals)(walks.walks_at_its_own_velocity)
 succeeds = obligation(5, 6, of=goals)(ends.succeeds)
 status_in_order = obligation(5, of=goals)(ends.status_in_order)

@@ -15,6 +15,7 @@ from autograder.authoring.missing import unseen
 from autograder.authoring.obligation import goals
 from autograder.authoring.scripted_goal import ScriptedCancel, ScriptedGoal
 from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.planar import numbers_of
 
 NAVIGATE, PICK, BATTERY = "navigate_to_pose", "pick_and_place", "battery_state"
 TABLE, TAKE, HOME, PUT = "to the table", "take the object", "home", "put it down"
@@ -171,9 +172,7 @@ def objection(request: Any) -> str:
     pose, force = request.place_pose.pose, request.grasp_force
     if (frame := request.place_pose.header.frame_id) != "odom":
         return f"its place_pose is in frame {frame!r}, and not in odom"
-    numbers = {f"position.{axis}": getattr(pose.position, axis) for axis in "xyz"}
-    numbers |= {f"orientation.{axis}": getattr(pose.orientation, axis) for axis in "xyzw"}
-    for name, number in numbers.items():
+    for name, number in numbers_of(pose).items():
         if not math.isfinite(number):
             return f"{name} of its place_pose is {number:g}"
     return "" if math.isfinite(force) and force > 0 else f"nothing can be held with {force:g} N"

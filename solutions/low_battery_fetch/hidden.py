@@ -275,10 +275,7 @@ waits_no_longer_than_it_must = in_failures(
     needs=[checks.cancels_a_silent_child, checks.fetches],
 )
 gives_up_without_a_server = of_servers(
-    "gives_up_without_a_server",
-    model.gives_up_the_missing,
-    on=MISSING,
-    needs=checks.says_why_a_child_failed,
+    "gives_up_without_a_server", model.gives_up_the_missing, on=MISSING, needs=checks.says_why_a_child_failed
 )
 fails_when_another_cancels_the_child = in_failures(
     "fails_when_another_cancels_the_child",

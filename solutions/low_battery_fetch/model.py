@@ -16,18 +16,7 @@ from autograder.authoring.readiness import require_alive
 from autograder.authoring.transcript import Transcript
 
 from . import turns
-from .fetching import (
-    BATTERY,
-    NAVIGATE,
-    PICK,
-    SILENCE,
-    SLACK,
-    Child,
-    Fetch,
-    children,
-    fetches,
-    objection,
-)
+from .fetching import BATTERY, NAVIGATE, PICK, SILENCE, SLACK, Child, Fetch, children, fetches, objection
 from .turns import Turn, require_turn
 
 AT_ONCE = 1.0 + SLACK  # s from a reason to the request to cancel the child

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario
 from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.server_checks import in_order
 
 from . import model
 
@@ -16,10 +18,6 @@ LATER = 1.5  # s after a result in which nothing more may be published
 STOPPING = 2.5  # s in which an arm must stop and stay still
 TWO, THERE, FURTHER = ["l_elbow", "l_wrist_yaw"], [-0.8, 0.1], [-1.0, 0.2]
 SHORT = ["l_shoulder_pitch", "l_elbow"]
-
-
-def _alone(*steps: Sequence[Any]) -> Scenario:
-    return Scenario("in_order", {"steps": list(steps)})
 
 
 def _unwatched(*steps: Sequence[Any]) -> Scenario:
@@ -31,7 +29,7 @@ def far(name: str, arm: str) -> list[Any]:
     return ["go", name, arm, [f"{arm}_elbow", f"{arm}_wrist_pitch"], [[4.0, [-2.1, 0.3]]]]
 
 
-MOVE = _alone(
+MOVE = in_order(
     [
         *("go", "move", "l", ["l_elbow", "l_shoulder_pitch", "l_wrist_yaw"]),
         [[1.5, [-0.9, -0.2, 0.2]], [2.8, [-1.2, -0.3, 0.4]], [4.1, [-0.9, -0.2, 0.2]]],
@@ -55,30 +53,31 @@ IMPOSSIBLE = _unwatched(
     ["go", "above the range", "l", TWO, [[1.0, [0.2, 0.1]], [2.0, FURTHER]]],
     ["go", "below the range", "l", TWO, [[1.0, THERE], [2.0, [-2.6, 0.2]]]],
 )
-BLOCK = _alone(
+BLOCK = in_order(
     ["go", "move", "l", ["l_shoulder_pitch", "l_elbow", "l_wrist_pitch"], [[4.0, [0.0, -2.1, 0.2]]]],
     *(["get_going", "l_elbow"], ["hold", "l_elbow"], ["end", "move"], ["wait", 0.5]),
     *(["release", "l_elbow"], ["wait", STOPPING]),
 )
-HOLD_SHORT = _alone(
+HOLD_SHORT = in_order(
     ["go", "move", "l", SHORT, [[3.0, [0.0, -1.7]]]],
     *(["hold_short", "move", 0.35, "l_elbow"], ["end", "move"], ["wait", LATER]),
 )
-CANCEL = _alone(
+CANCEL = in_order(
     far("move", "l"), ["get_going", "l_elbow"], ["cancel", "move"], ["end", "move"], ["wait", STOPPING]
 )
-PREEMPT = _alone(
+PREEMPT = in_order(
     *(far("old", "l"), ["get_going", "l_elbow"]),
     *(["go", "new", "l", TWO, [[2.5, [-0.2, 0.4]]]], ["end", "old"], ["arrive", "new"]),
 )
-BOTH = _alone(  # the right arm's goal is over first
+BOTH = in_order(  # the right arm's goal is over first
     *(far("left", "l"), ["get_going", "l_elbow"]),
     ["go", "right", "r", ["r_elbow", "r_shoulder_pitch"], [[1.5, [-1.0, 0.0]]]],
     *(["arrive", "right"], ["arrive", "left"]),
 )
-INTERRUPT = _alone(far("move", "l"), ["get_going", "l_elbow"], ["interrupt"])
+INTERRUPT = in_order(far("move", "l"), ["get_going", "l_elbow"], ["interrupt"])
 
-LOOK, TRAJECTORY, BEND = "07_cancel_and_preempt#conventions", "09_arms#conventions", "09_arms#bend-why"
+LOOK, THE_END = "07_cancel_and_preempt#conventions", "07_cancel_and_preempt#m13-why"
+TRAJECTORY, BEND = "09_arms#conventions", "09_arms#bend-why"
 
 server_appears = standard.server_appears(
     "the action move_arm", on=INTERRUPT, see="07_cancel_and_preempt#fix-file", clauses=[17]
@@ -91,140 +90,82 @@ accepts_a_trajectory = check_of(
     needs=server_appears,
     see=TRAJECTORY,
 )
-arrives = check_of(
+of_a_move = partial(check_of, on=MOVE, needs=accepts_a_trajectory)
+of_the_impossible = partial(check_of, on=IMPOSSIBLE, needs=accepts_a_trajectory, see=TRAJECTORY)
+arrives = of_a_move(
     "arrives",
     model.succeeds,
     title="It SUCCEEDS, and every joint is then within 0.05 rad of the last point",
     points=2,
-    on=MOVE,
-    needs=accepts_a_trajectory,
     see="09_arms#clock-why",
 )
-passes_every_point = check_of(
-    "passes_every_point",
-    model.passes_points,
-    on=MOVE,
-    needs=accepts_a_trajectory,
-    see="09_arms#velocities-why",
-)
-fills_the_result = check_of(
-    "fills_the_result",
-    model.names_no_error,
-    on=MOVE,
-    needs=arrives,
-    see="07_cancel_and_preempt#m13-why",
-)
-feedback_keeps_its_rate = check_of(
-    "feedback_keeps_its_rate",
-    model.feedback_at_10_hz,
-    on=MOVE,
-    needs=accepts_a_trajectory,
-    see=LOOK,
-)
-feedback_is_true = check_of(
-    "feedback_is_true", model.feedback_is_true, on=MOVE, needs=accepts_a_trajectory, see=BEND
-)
-feedback_ends_with_the_goal = check_of(
-    "feedback_ends_with_the_goal",
-    model.no_late_feedback,
-    on=MOVE,
-    needs=arrives,
-    see="07_cancel_and_preempt#m13-why",
-)
-rejects_foreign_joints = check_of(
+after_a_move = partial(check_of, on=MOVE, needs=arrives, see=THE_END)
+passes_every_point = of_a_move("passes_every_point", model.passes_points, see="09_arms#velocities-why")
+fills_the_result = after_a_move("fills_the_result", model.names_no_error)
+feedback_keeps_its_rate = of_a_move("feedback_keeps_its_rate", model.feedback_at_10_hz, see=LOOK)
+feedback_is_true = of_a_move("feedback_is_true", model.feedback_is_true, see=BEND)
+feedback_ends_with_the_goal = after_a_move("feedback_ends_with_the_goal", model.no_late_feedback)
+rejects_foreign_joints = of_the_impossible(
     "rejects_foreign_joints",
     model.rejects_arms,
     model.rejects_joints,
     title="It rejects an arm that is neither l nor r, and joints that are not this arm's",
-    on=IMPOSSIBLE,
-    needs=accepts_a_trajectory,
     see="09_arms#silent-why",
 )
-rejects_lists_that_do_not_fit = check_of(
+rejects_lists_that_do_not_fit = of_the_impossible(
     "rejects_lists_that_do_not_fit",
     model.rejects_no_point,
     model.rejects_lengths,
     title="It rejects a trajectory without a point, and points with too few or too many positions",
-    on=IMPOSSIBLE,
-    needs=accepts_a_trajectory,
-    see=TRAJECTORY,
 )
-rejects_times_that_do_not_rise = check_of(
-    "rejects_times_that_do_not_rise",
-    model.rejects_times,
-    on=IMPOSSIBLE,
-    needs=accepts_a_trajectory,
-    see=TRAJECTORY,
+rejects_times_that_do_not_rise = of_the_impossible("rejects_times_that_do_not_rise", model.rejects_times)
+rejects_nan = of_the_impossible("rejects_nan", model.rejects_not_finite)
+rejects_out_of_range = of_the_impossible(
+    "rejects_out_of_range", model.rejects_beyond, see="09_arms#silent-why"
 )
-rejects_nan = check_of(
-    "rejects_nan",
-    model.rejects_not_finite,
-    on=IMPOSSIBLE,
-    needs=accepts_a_trajectory,
-    see=TRAJECTORY,
+of_a_block = partial(check_of, on=BLOCK, see=BEND)
+aborts_when_the_arm_is_blocked = of_a_block(
+    "aborts_when_the_arm_is_blocked", model.strays, points=2, needs=arrives
 )
-rejects_out_of_range = check_of(
-    "rejects_out_of_range",
-    model.rejects_beyond,
-    on=IMPOSSIBLE,
-    needs=accepts_a_trajectory,
-    see="09_arms#silent-why",
-)
-aborts_when_the_arm_is_blocked = check_of(
-    "aborts_when_the_arm_is_blocked", model.strays, points=2, on=BLOCK, needs=arrives, see=BEND
-)
-names_the_blocked_joint = check_of(
+names_the_blocked_joint = of_a_block(
     "names_the_blocked_joint",
     model.names_the_joint,
     title="error_msg names the joint that was blocked, and no other",
-    on=BLOCK,
     needs=aborts_when_the_arm_is_blocked,
-    see=BEND,
 )
-holds_when_the_arm_was_blocked = check_of(
+holds_when_the_arm_was_blocked = of_a_block(
     "holds_when_the_arm_was_blocked",
     model.holds_when_given_up,
     title="After that the arm does not go on, also when nothing blocks it any more",
-    on=BLOCK,
     needs=aborts_when_the_arm_is_blocked,
     see="09_arms#release-why",
 )
-aborts_when_the_end_is_missed = check_of(
-    "aborts_when_the_end_is_missed", model.misses, points=2, on=HOLD_SHORT, needs=arrives, see=BEND
+short_of_the_end = partial(check_of, on=HOLD_SHORT, see=BEND)
+aborts_when_the_end_is_missed = short_of_the_end(
+    "aborts_when_the_end_is_missed", model.misses, points=2, needs=arrives
 )
-names_the_worst_joint = check_of(
+names_the_worst_joint = short_of_the_end(
     "names_the_worst_joint",
     model.names_the_joint,
     title="error_msg names the joint that is farthest from its end, and no other",
-    on=HOLD_SHORT,
     needs=aborts_when_the_end_is_missed,
-    see=BEND,
 )
-cancels = check_of(
+of_a_cancel = partial(check_of, on=CANCEL, see="09_arms#brake-why")
+cancels = of_a_cancel(
     "cancels",
     model.grants_cancels,
     model.moves_until_canceled,
     title="A cancel while the arm moves is agreed to and ends CANCELED",
     points=2,
-    on=CANCEL,
     needs=accepts_a_trajectory,
     see="07_cancel_and_preempt#m1-why",
 )
-stops_when_canceled = check_of(
-    "stops_when_canceled",
-    model.stops_when_canceled,
-    points=2,
-    on=CANCEL,
-    needs=cancels,
-    see="09_arms#brake-why",
-)
-holds_by_an_empty_trajectory = check_of(
+stops_when_canceled = of_a_cancel("stops_when_canceled", model.stops_when_canceled, points=2, needs=cancels)
+holds_by_an_empty_trajectory = of_a_cancel(
     "holds_by_an_empty_trajectory",
     model.stops_by_an_empty_trajectory,
     title="What stops the arm is an empty trajectory",
-    on=CANCEL,
     needs=stops_when_canceled,
-    see="09_arms#brake-why",
 )
 new_goal_preempts_the_old = check_of(
     "new_goal_preempts_the_old",

@@ -1,34 +1,16 @@
-"""How a goal for an arm ends: the arm arrives or does not, the goal is cancelled, or another takes the arm.
-
-Each function is what an obligation of an exercise's model requires:
-
-succeeds = obligation(7, of=goals)(ends.succeeds)
-"""
+"""How a goal for an arm ends: the arm arrives or does not, the goal is cancelled, or another takes the arm."""
 
 from __future__ import annotations
 
 from autograder.authoring import events as ev
-from autograder.authoring.failure import Failure, expect
+from autograder.authoring.failure import expect
 from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED, Goal
-from autograder.authoring.walking.life import ended_at, granted, left_alone, phase, requests_to_cancel
+from autograder.authoring.walking.life import cancels_on_the_way, granted, left_alone, phase, successors
+from autograder.authoring.walking.obligations.ends import require_preempted
 from autograder.authoring.walking.reports import require_error_code
-from ros_runtime.message_constants import name_of
 
+from . import life
 from .endings import PATIENCE, ErrorCode, require_not_given_up
-from .life import (
-    MEASURED,
-    PATH_TOLERANCE,
-    Fate,
-    ends_by_itself,
-    fate_of,
-    hold_of,
-    is_carried_out,
-    silent_since,
-    situation,
-    strays_at,
-    successors,
-    tolerance_of,
-)
 from .motion import require_moving
 from .plan import errors, largest
 from .truth import joints_at, joints_between, plan_of
@@ -36,7 +18,6 @@ from .truth import joints_at, joints_between, plan_of
 EARLY = 0.5  # s that a server may have begun before its answer was seen
 SOONER = 0.15  # rad less, at which a server may already see that a joint is off
 REACTION = 1.5  # s for the server to say so
-GIVING_WAY = 5.0  # s
 OVERTAKING = 0.3  # s
 QUIET = 0.8  # s without joint_states before which nobody may give up
 NOTICED = 1.5  # s without them after which a server has noticed
@@ -60,10 +41,10 @@ _BY_NAME = (
 
 def succeeds(goal: Goal) -> str | None:
     """It SUCCEEDS when the last point's time is over and every joint is within goal_tolerance of it."""
-    if not _ends_by(goal, Fate.ARRIVES):
+    if not _ends_by(goal, life.Fate.ARRIVES):
         return None
     require_not_given_up(goal, _why_given_up(goal))
-    result, plan, tolerance = goal.require_result(SUCCEEDED), plan_of(goal), tolerance_of(goal)
+    result, plan, tolerance = goal.require_result(SUCCEEDED), plan_of(goal), life.tolerance_of(goal)
     expect(
         result.t >= plan.end - EARLY,
         expected="the goal to go on until its last point is due",
@@ -73,7 +54,7 @@ def succeeds(goal: Goal) -> str | None:
     )
     joint, error = largest(errors(joints_at(goal.run, result.t).positions, plan.final()))
     expect(
-        error <= tolerance + MEASURED,
+        error <= tolerance + life.MEASURED,
         expected=f"every joint within {tolerance:.2f} rad of the last point when the goal SUCCEEDED",
         observed=f"{joint} is {error:.2f} rad away in the simulator",
         help="Wait until the last point's time_from_start is over, then compare joint_states with its positions, "
@@ -84,18 +65,18 @@ def succeeds(goal: Goal) -> str | None:
         result.t <= plan.end + PATIENCE + REACTION,
         expected=f"the goal to end within {PATIENCE:g} s of its last point's time",
         observed=f"it SUCCEEDED {result.t - plan.end:.1f} s after it",
-        help=_OTHER_ARM if situation(goal).endswith("arm") else _LATE,
+        help=_OTHER_ARM if life.situation(goal).endswith("arm") else _LATE,
         at=result.t,
     )
-    return f"{situation(goal)}; {phase(goal)}"
+    return f"{life.situation(goal)}; {phase(goal)}"
 
 
 def misses(goal: Goal) -> str | None:
     """A joint that is not at its end 1 s after it is due ends the goal with GOAL_TOLERANCE_VIOLATED."""
-    if not _ends_by(goal, Fate.MISSES):
+    hold = life.hold_of(goal) if _ends_by(goal, life.Fate.MISSES) else None
+    if hold is None:
         return None
-    hold, plan = hold_of(goal), plan_of(goal)
-    assert hold
+    plan = plan_of(goal)
     result = goal.require_result(
         ABORTED,
         help="Succeed only when joint_states say that every joint is within goal_tolerance of the last point."
@@ -117,11 +98,10 @@ def misses(goal: Goal) -> str | None:
 
 def strays(goal: Goal) -> str | None:
     """An arm that is more than 0.5 rad off its trajectory ends the goal with PATH_TOLERANCE_VIOLATED."""
-    if not _ends_by(goal, Fate.STRAYS):
+    hold = life.hold_of(goal) if _ends_by(goal, life.Fate.STRAYS) else None
+    if hold is None:
         return None
-    hold, plan = hold_of(goal), plan_of(goal)
-    assert hold
-    joint = hold.joints[-1]
+    joint, plan = hold.joints[-1], plan_of(goal)
     require_moving(goal, hold.since)
     result = goal.require_result(
         ABORTED,
@@ -133,40 +113,38 @@ def strays(goal: Goal) -> str | None:
         for report in joints_between(goal.run, min(hold.since, result.t), result.t)
     )
     expect(
-        off >= PATH_TOLERANCE - SOONER,
-        expected=f"the goal to go on until {joint} is {PATH_TOLERANCE} rad off its trajectory",
+        off >= life.PATH_TOLERANCE - SOONER,
+        expected=f"the goal to go on until {joint} is {life.PATH_TOLERANCE} rad off its trajectory",
         observed=f"it ended when {joint} was {off:.2f} rad off",
         help="An arm is always a little late. Abort only over 0.5 rad, and measure from where the trajectory has the "
         "joint now.",
         at=result.t,
     )
-    late = result.t - strays_at(goal, hold)
+    late = result.t - life.first_off(goal, hold)
     expect(
         late <= REACTION,
-        expected=f"the goal ABORTED as soon as {joint} is {PATH_TOLERANCE} rad off",
+        expected=f"the goal ABORTED as soon as {joint} is {life.PATH_TOLERANCE} rad off",
         observed=f"{late:.1f} s later",
         help="Look at the deviation in every round, not only at the end.",
         at=result.t,
     )
-    require_error_code(
-        goal,
-        "PATH_TOLERANCE_VIOLATED",
-        because=f"{joint} was held, and more than {PATH_TOLERANCE} rad off its trajectory",
-    )
+    because = f"{joint} was held, and more than {life.PATH_TOLERANCE} rad off its trajectory"
+    require_error_code(goal, "PATH_TOLERANCE_VIOLATED", because=because)
     return "held"
 
 
 def notices_silence(goal: Goal) -> str | None:
     """When joint_states say nothing for 1 s the goal ends with INVALID_JOINTS."""
-    lost = silent_since(goal) if is_carried_out(goal) else None
+    lost = life.silent_since(goal) if life.is_carried_out(goal) else None
     if lost is None or lost < goal.accepted_at or granted(goal) or successors(goal) or left_alone(goal):
         return None
     require_moving(goal, lost)
     result = goal.require_result(ABORTED, help=_SILENT)
     plan, known = plan_of(goal), joints_at(goal.run, lost).positions
-    seems_off = largest(errors(known, plan.at(lost + NOTICED)))[1] >= PATH_TOLERANCE - SOONER
-    if not (seems_off and _code(goal) is ErrorCode.PATH_TOLERANCE_VIOLATED):
-        _require_code(goal, "INVALID_JOINTS", "nothing is known of the joints any more", _SILENT)
+    seems_off = largest(errors(known, plan.at(lost + NOTICED)))[1] >= life.PATH_TOLERANCE - SOONER
+    if not (seems_off and result.result.error_code == ErrorCode.PATH_TOLERANCE_VIOLATED):
+        because = "nothing is known of the joints any more"
+        require_error_code(goal, "INVALID_JOINTS", because=because, help=_SILENT)
     expect(
         QUIET <= result.t - lost <= GIVEN_UP,
         expected="the goal ABORTED 1 s after the last joint_states",
@@ -179,11 +157,7 @@ def notices_silence(goal: Goal) -> str | None:
 
 def grants_cancels(goal: Goal) -> str | None:
     """A cancel at any moment is agreed to and ends CANCELED."""
-    asked = [
-        cancel
-        for cancel in requests_to_cancel(goal)
-        if is_carried_out(goal) and goal.accepted_at <= cancel.sent.t < ended_at(goal)
-    ]
+    asked = cancels_on_the_way(goal) if life.is_carried_out(goal) else []
     if not asked or any(other.sent.t < asked[0].sent.t + OVERTAKING for other in successors(goal)):
         return None
     first, due = asked[0], plan_of(goal).end
@@ -207,10 +181,12 @@ def grants_cancels(goal: Goal) -> str | None:
 def gives_way(goal: Goal) -> str | None:
     """A new goal for the same arm aborts the old one with PREEMPTED."""
     newer = successors(goal)
-    if not is_carried_out(goal):
+    if not life.is_carried_out(goal):
         return None
     if not newer:
-        _require_no_preemption(goal)
+        code = goal.result.result.error_code if goal.result else ErrorCode.NONE
+        if code == ErrorCode.PREEMPTED and life.ends_by_itself(goal):
+            require_not_given_up(goal)
         return None
     came = newer[0].sent.t
     canceled = any(cancel.sent.t <= came + OVERTAKING for cancel in granted(goal))
@@ -218,56 +194,18 @@ def gives_way(goal: Goal) -> str | None:
         return None
     if came >= goal.accepted_at + EARLY:
         require_moving(goal, came)
-    end = goal.require_result(ABORTED, help=_WENT_ON)
-    _require_code(goal, "PREEMPTED", "a new goal has taken the arm", _WENT_ON)
-    expect(
-        end.t <= came + GIVING_WAY,
-        expected=f"the old goal to end within {GIVING_WAY:g} s of the new one",
-        observed=f"it ended {end.t - came:.1f} s after it",
-        help=_WENT_ON,
-        at=end.t,
-    )
+    require_preempted(goal, came, _WENT_ON)
     return f"by {len(newer)} newer"
 
 
-def _ends_by(goal: Goal, fate: Fate) -> bool:
+def _ends_by(goal: Goal, fate: life.Fate) -> bool:
     """Return whether this fate, and nothing else, ends the goal, and the scenario waited for its end."""
-    return ends_by_itself(goal) and not left_alone(goal) and fate_of(goal) is fate
-
-
-def _code(goal: Goal) -> ErrorCode | None:
-    """Return the error_code of a goal that was ABORTED, if it is one."""
-    code = goal.result.result.error_code if goal.result and goal.status == ABORTED else None
-    return ErrorCode(code) if code in list(ErrorCode) else None
-
-
-def _require_code(goal: Goal, code: str, because: str, help: str) -> None:
-    """Require the error_code of a goal that was ABORTED; `help` is what to do if it ended for another reason."""
-    given = _code(goal)
-    if given not in (None, ErrorCode.NONE, ErrorCode[code]):
-        assert goal.result
-        raise Failure(
-            expected=f"error_code {code}, because {because}",
-            observed=f"error_code {name_of(ErrorCode, given)}",
-            help=help,
-            at=goal.result.t,
-        )
-    require_error_code(goal, code, because=because)
-
-
-def _require_no_preemption(goal: Goal) -> None:
-    """Require that a goal did not give way when no other for its arm was accepted."""
-    if _code(goal) is ErrorCode.PREEMPTED and ends_by_itself(goal):
-        require_not_given_up(goal)
+    return life.ends_by_itself(goal) and not left_alone(goal) and life.fate_of(goal) is fate
 
 
 def _why_given_up(goal: Goal) -> str:
     """Return what to do about a goal that was given up, where something happened that may have led there."""
-    reverse = [
-        each
-        for each in goal.run.all(ev.RobotCommanded)
-        if each.command["do"] == "joint_states" and each.t < goal.sent.t
-    ]
-    if reverse:
+    commands = [each for each in goal.run.all(ev.RobotCommanded) if each.t < goal.sent.t]
+    if any(each.command["do"] == "joint_states" for each in commands):
         return _BY_NAME
-    return _OTHER_ARM if situation(goal).endswith("arm") else ""
+    return _OTHER_ARM if life.situation(goal).endswith("arm") else ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from random import Random
 from typing import Any
 
@@ -9,25 +10,10 @@ from autograder.authoring import standard_hidden
 from autograder.authoring.checks import Scenario
 from autograder.authoring.obligation import check_of
 from autograder.authoring.walking.drawn import NUMBERS, rounded
+from autograder.authoring.walking.server_checks import in_order
 
-from . import model
-from .checks import (
-    BEND,
-    BLOCK,
-    LATER,
-    SHORT,
-    STOPPING,
-    TRAJECTORY,
-    aborts_when_the_arm_is_blocked,
-    aborts_when_the_end_is_missed,
-    arrives,
-    far,
-    feedback_is_true,
-    moves_both_arms,
-    passes_every_point,
-    rejects_out_of_range,
-    stops_when_canceled,
-)
+from . import checks, model
+from .checks import LATER
 from .ranges import RANGES
 
 RIGHT = ["r_wrist_pitch", "r_elbow", "r_shoulder_roll"]
@@ -45,19 +31,19 @@ def _steps(random: Random) -> dict[str, Any]:
     between = [before + 0.3 * (after - before) for before, after in zip(first, last, strict=True)]
     elbow, wrist = last[1] - at(1.1, 1.2), random.choice((-1, 1)) * at(0.45, 0.5)
     steps: list[Any] = [
-        *(far("early", early), ["cancel", "early"], ["end", "early"], ["wait", STOPPING]),
+        *(checks.far("early", early), ["cancel", "early"], ["end", "early"], ["wait", checks.STOPPING]),
         # two of the points are within the same second
         ["go", "whole", "r", RIGHT, [[2.0, first], [2.8, between], [4.4, last]]],
         ["wait", at(1.2, 1.6)],
         ["go", "beside", "l", ["l_elbow", "l_wrist_yaw"], [[2.5, [at(-1.7, -1.5), at(-0.5, 0.5)]]]],
         *(["get_going", "l_elbow"], ["cancel", "beside"], ["end", "beside"]),
         *(["be_over", "whole"], ["wait", LATER]),
-        ["go", "near enough", "l", SHORT, [[2.5, [0.0, at(-2.1, -1.9)]]], 0.45],
+        ["go", "near enough", "l", checks.SHORT, [[2.5, [0.0, at(-2.1, -1.9)]]], 0.45],
         *(["hold_short", "near enough", 0.35, "l_elbow"], ["arrive", "near enough"]),
         *(["release", "l_elbow"], ["wait", SETTLING]),
         *(["go", "blocked upwards", "l", ["l_elbow"], [[3.0, [-0.3]]]], ["get_going", "l_elbow"]),
         *(["hold", "l_elbow"], ["end", "blocked upwards"], ["release", "l_elbow"], ["wait", SETTLING]),
-        ["go", "in time", "l", SHORT, [[2.5, [0.0, at(-0.9, -0.7)]]]],
+        ["go", "in time", "l", checks.SHORT, [[2.5, [0.0, at(-0.9, -0.7)]]]],
         *(["hold_short", "in time", 0.35, "l_elbow"], ["release_late", "in time", 0.4, "l_elbow"]),
         *(["arrive", "in time"], ["wait", LATER]),
         ["go", "too late", "r", ["r_wrist_yaw", "r_elbow"], [[3.0, [wrist, elbow]]]],
@@ -105,117 +91,78 @@ def _impossible(random: Random) -> list[list[Any]]:
 
 
 ANY_ORDER = Scenario("in_order", _steps)
-OTHER_NAMESPACE = Scenario(
-    "in_order",
-    {"steps": [["go", "move", "l", ["l_elbow"], [[1.5, [-1.0]]]], ["arrive", "move"]]},
-    namespace="/lab_7/robot",
+OTHER_NAMESPACE = in_order(
+    ["go", "move", "l", ["l_elbow"], [[1.5, [-1.0]]]], ["arrive", "move"], namespace="/lab_7/robot"
 )
 
-moves_the_right_arm = check_of(
+in_any_order = partial(check_of, on=ANY_ORDER)
+moves_the_right_arm = in_any_order(
     "moves_the_right_arm",
-    model.accepts,
-    model.passes_points,
-    model.succeeds,
-    model.names_no_error,
-    model.misses,
-    model.strays,
-    model.names_the_joint,
-    model.holds_when_given_up,
-    model.feedback_at_10_hz,
-    model.feedback_is_true,
-    model.no_late_feedback,
-    model.grants_cancels,
-    model.answers_cancels,
-    model.stops_by_an_empty_trajectory,
-    model.keeps_order,
-    model.gives_way,
-    model.stays_without_a_goal,
+    *(model.accepts, model.passes_points, model.succeeds, model.names_no_error, model.misses, model.strays),
+    *(model.names_the_joint, model.holds_when_given_up, model.feedback_at_10_hz, model.feedback_is_true),
+    *(model.no_late_feedback, model.grants_cancels, model.answers_cancels),
+    *(model.stops_by_an_empty_trajectory, model.keeps_order, model.gives_way, model.stays_without_a_goal),
     title="It moves both arms through points that are drawn, whatever happens meanwhile, and keeps every clause",
     points=2,
-    on=ANY_ORDER,
-    needs=[arrives, passes_every_point],
+    needs=[checks.arrives, checks.passes_every_point],
     see="09_arms#clock-why",
 )
-reads_joint_states_by_name = check_of(
-    "reads_joint_states_by_name",
-    model.succeeds_by_name,
-    on=ANY_ORDER,
-    needs=arrives,
-    see="02_services#first-file",
+reads_joint_states_by_name = in_any_order(
+    "reads_joint_states_by_name", model.succeeds_by_name, needs=checks.arrives, see="02_services#first-file"
 )
-knows_each_joints_range = check_of(
+knows_each_joints_range = in_any_order(
     "knows_each_joints_range",
-    model.accepts,
-    model.rejects_beyond,
-    model.rejects_not_finite,
-    model.rejects_arms,
-    model.rejects_joints,
-    model.rejects_no_point,
-    model.rejects_lengths,
-    model.rejects_times,
+    *(model.accepts, model.rejects_beyond, model.rejects_not_finite, model.rejects_arms),
+    *(model.rejects_joints, model.rejects_no_point, model.rejects_lengths, model.rejects_times),
     title="It knows each joint's range: a little outside is rejected, at any point, as is all that is no trajectory",
     points=2,
-    on=ANY_ORDER,
-    needs=rejects_out_of_range,
+    needs=checks.rejects_out_of_range,
     see="09_arms#silent-why",
 )
 feedback_shows_a_blocked_arm = check_of(
     "feedback_shows_a_blocked_arm",
     model.feedback_is_true,
     title="max_error grows while the arm is blocked",
-    on=BLOCK,
-    needs=[aborts_when_the_arm_is_blocked, feedback_is_true],
-    see=BEND,
+    on=checks.BLOCK,
+    needs=[checks.aborts_when_the_arm_is_blocked, checks.feedback_is_true],
+    see=checks.BEND,
 )
-obeys_goal_tolerance = check_of(
-    "obeys_goal_tolerance",
-    model.succeeds_by_its_tolerance,
-    on=ANY_ORDER,
-    needs=aborts_when_the_end_is_missed,
-    see=BEND,
+short_of_the_end = partial(
+    check_of, on=ANY_ORDER, needs=checks.aborts_when_the_end_is_missed, see=checks.BEND
 )
-waits_a_second_for_the_end = check_of(
-    "waits_a_second_for_the_end",
-    model.succeeds_late,
-    on=ANY_ORDER,
-    needs=aborts_when_the_end_is_missed,
-    see=BEND,
-)
-cancels_at_the_start = check_of(
+obeys_goal_tolerance = short_of_the_end("obeys_goal_tolerance", model.succeeds_by_its_tolerance)
+waits_a_second_for_the_end = short_of_the_end("waits_a_second_for_the_end", model.succeeds_late)
+cancels_at_the_start = in_any_order(
     "cancels_at_the_start",
     model.grants_cancels,
     model.stops_when_canceled,
     title="A cancel right after the acceptance ends CANCELED with the arm still",
-    on=ANY_ORDER,
-    needs=stops_when_canceled,
+    needs=checks.stops_when_canceled,
     see="07_cancel_and_preempt#m1-why",
 )
-moves_again_after_a_cancel = check_of(
+moves_again_after_a_cancel = in_any_order(
     "moves_again_after_a_cancel",
     model.succeeds_after_a_cancel,
-    on=ANY_ORDER,
-    needs=[stops_when_canceled, arrives],
+    needs=[checks.stops_when_canceled, checks.arrives],
     see="07_cancel_and_preempt#fix-intro",
 )
-a_cancel_spares_the_other_arm = check_of(
+a_cancel_spares_the_other_arm = in_any_order(
     "a_cancel_spares_the_other_arm",
     model.succeeds_beside_the_other,
     model.stops_when_canceled,
     title="When one arm's goal is cancelled, that arm stops and the other goes on",
     points=2,
-    on=ANY_ORDER,
-    needs=[stops_when_canceled, moves_both_arms],
+    needs=[checks.stops_when_canceled, checks.moves_both_arms],
     see="09_arms#replace-why",
 )
-aborts_without_joint_states = check_of(
+aborts_without_joint_states = in_any_order(
     "aborts_without_joint_states",
     model.notices_silence,
     model.holds_when_given_up,
     title="When joint_states say nothing for 1 s the goal ends with INVALID_JOINTS and the arm stops",
-    on=ANY_ORDER,
-    needs=arrives,
-    see=TRAJECTORY,
+    needs=checks.arrives,
+    see=checks.TRAJECTORY,
 )
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    "moves the arm of the robot", model.succeeds, clauses=[17], on=OTHER_NAMESPACE, needs=arrives
+    "moves the arm of the robot", model.succeeds, clauses=[17], on=OTHER_NAMESPACE, needs=checks.arrives
 )

@@ -9,10 +9,18 @@ from enum import Enum
 
 from autograder.authoring import events as ev
 from autograder.authoring.goal import Goal
-from autograder.authoring.walking.life import accepted, ended_at, granted, interrupted, others, run_of
+from autograder.authoring.walking.life import (
+    accepted,
+    ended_at,
+    granted,
+    interrupted,
+    others,
+    run_of,
+    successors,
+)
 
 from .endings import GOAL_TOLERANCE, PATIENCE
-from .objections import AGAINST, UNSAID
+from .objections import is_sound
 from .plan import errors, largest
 from .truth import joints_at, plan_of
 
@@ -42,18 +50,7 @@ class Hold:
 
 def is_carried_out(goal: Goal) -> bool:
     """Return whether it was accepted, and nothing speaks against it."""
-    return accepted(goal) and all(objection.holds(goal) is False for objection in (*AGAINST, UNSAID))
-
-
-def rivals(goal: Goal) -> list[Goal]:
-    """Return the other goals for the same arm that were accepted; none, if this one was not."""
-    same = [other for other in others(goal) if other.request.arm == goal.request.arm]
-    return [other for other in same if accepted(other)] if accepted(goal) else []
-
-
-def successors(goal: Goal) -> list[Goal]:
-    """Return the goals that came for its arm and were accepted while it was active, the first of them first."""
-    return [other for other in rivals(goal) if goal.sent.t < other.sent.t < ended_at(goal)]
+    return accepted(goal) and is_sound(goal)
 
 
 def neighbours(goal: Goal) -> list[Goal]:
@@ -75,11 +72,8 @@ def next_for_the_arm(goal: Goal, after: float) -> float:
 
 def silent_since(goal: Goal) -> float | None:
     """Return when (s) joint_states stopped, if they were silent while the goal was active."""
-    switches = [
-        each
-        for each in goal.run.all(ev.RobotCommanded)
-        if each.command.get("do") == "joint_sensors" and each.t < ended_at(goal)
-    ]
+    commands = [each for each in goal.run.all(ev.RobotCommanded) if each.t < ended_at(goal)]
+    switches = [each for each in commands if each.command.get("do") == "joint_sensors"]
     return switches[-1].t if switches and not switches[-1].command["connected"] else None
 
 
@@ -107,11 +101,6 @@ def hold_of(goal: Goal) -> Hold | None:
     return Hold(tuple(joints), since, until) if joints else None
 
 
-def strays_at(goal: Goal, hold: Hold) -> float:
-    """Return when (s) a held joint is off its trajectory by the path's tolerance, or would be; infinity if never."""
-    return _first_off(goal, hold, PATH_TOLERANCE)
-
-
 def fate_of(goal: Goal) -> Fate | None:
     """Return how an accepted goal ends by what the arm did; None: nobody can tell."""
     hold = hold_of(goal)
@@ -119,10 +108,11 @@ def fate_of(goal: Goal) -> Fate | None:
         return Fate.ARRIVES
     plan, tolerance = plan_of(goal), tolerance_of(goal)
     was_held_to_its_end = ended_at(goal) <= hold.until
-    if was_held_to_its_end or _first_off(goal, hold, PATH_TOLERANCE - NEARLY) < hold.until:
-        if (strays := strays_at(goal, hold)) < math.inf:
-            return Fate.STRAYS if was_held_to_its_end or strays < hold.until else None
-        if _first_off(goal, hold, PATH_TOLERANCE - NEARLY) < math.inf:
+    perhaps, surely = first_off(goal, hold, PATH_TOLERANCE - NEARLY), first_off(goal, hold, PATH_TOLERANCE)
+    if was_held_to_its_end or perhaps < hold.until:
+        if surely < math.inf:
+            return Fate.STRAYS if was_held_to_its_end or surely < hold.until else None
+        if perhaps < math.inf:
             return None
     _, short = largest(errors(_held(goal, hold, plan.end), _only(plan.final(), hold)))
     if short <= tolerance - MEASURED or hold.until <= plan.end + IN_TIME:
@@ -135,8 +125,11 @@ def tolerance_of(goal: Goal) -> float:
     return goal.request.goal_tolerance or GOAL_TOLERANCE
 
 
-def _first_off(goal: Goal, hold: Hold, off: float) -> float:
-    """Return when (s) a held joint is off its trajectory by `off` (rad); where it was let go early it is thought on."""
+def first_off(goal: Goal, hold: Hold, off: float = PATH_TOLERANCE) -> float:
+    """Return when (s) a held joint is off its trajectory by `off` (rad); where it was let go early it is thought on.
+
+    Infinity if it never is.
+    """
     plan = plan_of(goal)
     for number in range(math.ceil((plan.end - hold.since) / ROUND) + 1):
         t = hold.since + number * ROUND

@@ -7,57 +7,33 @@ from collections.abc import Callable
 from autograder.authoring import events as ev
 from autograder.authoring.goal import CANCELED, Goal
 from autograder.authoring.obligation import Obligation, goals, obligation, whole_run
-from autograder.authoring.walking.life import phase
-from autograder.authoring.walking.objections import rejecting
-from autograder.authoring.walking.obligations.cancels import answers_every_cancel
+from autograder.authoring.walking.life import phase, rivals
+from autograder.authoring.walking.objections import rejects
+from autograder.authoring.walking.obligations import cancels, tells
 from autograder.authoring.walking.obligations.ends import status_in_order
-from autograder.authoring.walking.obligations.tells import (
-    feedback_ends_with_the_goal as no_feedback_afterwards,
-)
 
 from . import ends, motion, reports
-from .life import hold_of, is_carried_out, neighbours, rivals
-from .objections import (
-    AGAINST,
-    ARM,
-    JOINT,
-    LENGTH,
-    NO_POINT,
-    NOT_FINITE,
-    RANGE,
-    TIMES,
-    UNSAID,
-    Objection,
-)
+from .life import hold_of, is_carried_out, neighbours
+from .objections import ARM, JOINT, LENGTH, NO_POINT, NOT_FINITE, RANGE, TIMES, is_sound
 from .truth import require_accepted
-
-
-def _rejects(clause: int, name: str, objection: Objection, sentence: str) -> Obligation:
-    return obligation(clause, of=goals)(rejecting(name, objection, sentence))
 
 
 @obligation(1, 15, of=goals)
 def accepts(goal: Goal) -> str | None:
     """It accepts a trajectory of one arm's joints when nothing speaks against it, whatever the arms do."""
-    if any(objection.holds(goal) is not False for objection in (*AGAINST, UNSAID)):
+    if not is_sound(goal):
         return None
     require_accepted(goal)
     return f"arm {goal.request.arm}, {phase(goal)}"
 
 
-rejects_arms = _rejects(2, "rejects_arms", ARM, "It rejects an arm that is neither l nor r")
-rejects_joints = _rejects(2, "rejects_joints", JOINT, "It rejects joints that are not this arm's")
-rejects_no_point = _rejects(3, "rejects_no_point", NO_POINT, "It rejects a trajectory without a point")
-rejects_lengths = _rejects(
-    3, "rejects_lengths", LENGTH, "It rejects points with too few or too many positions"
-)
-rejects_times = _rejects(
-    4, "rejects_times", TIMES, "It rejects a trajectory whose times do not rise from point to point"
-)
-rejects_not_finite = _rejects(
-    5, "rejects_not_finite", NOT_FINITE, "It rejects a trajectory that holds NaN or an infinite position"
-)
-rejects_beyond = _rejects(5, "rejects_beyond", RANGE, "It rejects a position outside the joint's range")
+rejects_arms = rejects(2, ARM)
+rejects_joints = rejects(2, JOINT)
+rejects_no_point = rejects(3, NO_POINT)
+rejects_lengths = rejects(3, LENGTH)
+rejects_times = rejects(4, TIMES)
+rejects_not_finite = rejects(5, NOT_FINITE)
+rejects_beyond = rejects(5, RANGE)
 passes_points = obligation(6, of=goals)(motion.passes_every_point)
 succeeds = obligation(7, of=goals)(ends.succeeds)
 names_no_error = obligation(8, of=goals)(reports.names_no_error)
@@ -68,9 +44,9 @@ names_the_joint = obligation(11, of=goals)(reports.names_the_joint)
 notices_silence = obligation(12, of=goals)(ends.notices_silence)
 feedback_at_10_hz = obligation(13, of=goals)(reports.feedback_at_10_hz)
 feedback_is_true = obligation(13, of=goals)(reports.feedback_is_true)
-no_late_feedback = obligation(13, of=goals)(no_feedback_afterwards)
+no_late_feedback = obligation(13, of=goals)(tells.feedback_ends_with_the_goal)
 grants_cancels = obligation(14, of=goals)(ends.grants_cancels)
-answers_cancels = obligation(14, of=goals)(answers_every_cancel)
+answers_cancels = obligation(14, of=goals)(cancels.answers_every_cancel)
 moves_until_canceled = obligation(14, of=goals)(motion.moves_until_canceled)
 stops_when_canceled = obligation(14, of=goals)(motion.stops_when_canceled)
 stops_by_an_empty_trajectory = obligation(14, of=goals)(motion.stops_by_an_empty_trajectory)

@@ -1,9 +1,4 @@
-"""How an arm moves: it passes its points, stops when it has to, and stays where it is without a goal.
-
-Each function is what an obligation of an exercise's model requires:
-
-passes_every_point = obligation(6, of=goals)(motion.passes_every_point)
-"""
+"""How an arm moves: it passes its points, stops when it has to, and stays where it is without a goal."""
 
 from __future__ import annotations
 
@@ -14,29 +9,10 @@ from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.missing import unseen
 from autograder.authoring.transcript import Transcript
-from autograder.authoring.walking.life import (
-    accepted,
-    ended_at,
-    granted,
-    left_alone,
-    next_sent,
-    requests_to_cancel,
-    run_of,
-)
+from autograder.authoring.walking import life as goals
 
+from . import life
 from .endings import why_given_up
-from .life import (
-    Fate,
-    ends_by_itself,
-    fate_of,
-    hold_of,
-    is_carried_out,
-    neighbours,
-    next_for_the_arm,
-    silent_since,
-    situation,
-    successors,
-)
 from .plan import errors, largest, speeds
 from .truth import joints_at, joints_between, plan_of
 
@@ -54,13 +30,13 @@ SHORT = 0.25  # rad that a joint stays away from the end of a trajectory that wa
 
 def passes_every_point(goal: Goal) -> str | None:
     """The arm passes every point of the trajectory at about its time."""
-    if not ends_by_itself(goal) or left_alone(goal) or hold_of(goal):
+    if not life.ends_by_itself(goal) or goals.left_alone(goal) or life.hold_of(goal):
         return None
     plan = plan_of(goal)
     for number, places in enumerate(plan.places[1:]):
         due = plan.due(number)
         wanted = dict(zip(plan.joints, places, strict=True))
-        until = min(due + AROUND, next_for_the_arm(goal, goal.sent.t))
+        until = min(due + AROUND, life.next_for_the_arm(goal, goal.sent.t))
         seen = joints_between(goal.run, due - AROUND, max(until, due - AROUND))
         joint, error = min(
             (largest(errors(each.positions, wanted)) for each in seen), key=lambda pair: pair[1]
@@ -74,13 +50,17 @@ def passes_every_point(goal: Goal) -> str | None:
             else "Publish the whole trajectory once on joint_trajectory, with every point and its time_from_start.",
             at=due,
         )
-    return f"{len(plan.times) - 1} points, {situation(goal)}"
+    return f"{len(plan.times) - 1} points, {life.situation(goal)}"
 
 
 def moves_until_canceled(goal: Goal) -> str | None:
     """The arm moves when the cancel comes."""
     asked = _first_cancel(goal)
-    if asked is None or not goal.accepted_at + GETTING_GOING <= asked < plan_of(goal).end or hold_of(goal):
+    if (
+        asked is None
+        or not goal.accepted_at + GETTING_GOING <= asked < plan_of(goal).end
+        or life.hold_of(goal)
+    ):
         return None
     require_moving(goal, asked)
     return "on the way"
@@ -89,9 +69,11 @@ def moves_until_canceled(goal: Goal) -> str | None:
 def stops_when_canceled(goal: Goal) -> str | None:
     """Within 1 s of the cancel the arm stands still."""
     asked = _first_cancel(goal)
-    if asked is None or not (granted(goal) or goal.status == SUCCEEDED) or successors(goal) or hold_of(goal):
+    if asked is None or goals.successors(goal) or life.hold_of(goal):
         return None
-    until = min(asked + WATCHED, next_for_the_arm(goal, asked))
+    if not goals.granted(goal) and goal.status != SUCCEEDED:
+        return None
+    until = min(asked + WATCHED, life.next_for_the_arm(goal, asked))
     if until < asked + STOP_TIME + AT_LEAST:
         return None
     joints = goal.request.trajectory.joint_names
@@ -109,15 +91,15 @@ def stops_when_canceled(goal: Goal) -> str | None:
             "seen: an empty trajectory means hold.",
             at=at,
         )
-    return "beside the other arm" if neighbours(goal) else "alone"
+    return "beside the other arm" if life.neighbours(goal) else "alone"
 
 
 def stops_by_an_empty_trajectory(goal: Goal) -> str | None:
     """What stops a cancelled arm is an empty trajectory, unless the other arm moves."""
     asked = _first_cancel(goal)
-    if asked is None or neighbours(goal) or successors(goal) or not granted(goal):
+    if asked is None or life.neighbours(goal) or goals.successors(goal) or not goals.granted(goal):
         return None
-    run, until = run_of(goal), next_sent(goal, asked)
+    run, until = goals.run_of(goal), goals.next_sent(goal, asked)
     published = [each for each in run.heard("joint_trajectory") if each.t <= until]
     if not published:
         raise unseen(run, "nobody heard anything on joint_trajectory")
@@ -137,11 +119,13 @@ def stops_by_an_empty_trajectory(goal: Goal) -> str | None:
 
 def holds_when_given_up(goal: Goal) -> str | None:
     """An arm that strayed from its path, or of which nothing is known any more, holds, also when nothing blocks it."""
-    silent = is_carried_out(goal) and silent_since(goal) is not None
-    if goal.status != ABORTED or not (silent or (ends_by_itself(goal) and fate_of(goal) is Fate.STRAYS)):
+    silent = life.is_carried_out(goal) and life.silent_since(goal) is not None
+    if goal.status != ABORTED or not (
+        silent or (life.ends_by_itself(goal) and life.fate_of(goal) is life.Fate.STRAYS)
+    ):
         return None
-    hold, until = hold_of(goal), next_for_the_arm(goal, goal.sent.t)
-    since = ended_at(goal) + BRAKING
+    hold, until = life.hold_of(goal), life.next_for_the_arm(goal, goal.sent.t)
+    since = goals.ended_at(goal) + BRAKING
     released = max(since, hold.until) if hold else since
     if until < released + AT_LEAST:
         return None
@@ -166,17 +150,11 @@ def stays_without_a_goal(run: Transcript) -> str | None:
     reports = run.all(ev.JointsTruth)
     if not reports or not run.goals:
         return None
-    for arm in ("l", "r"):
-        held = {each.command.get("joint") for each in run.all(ev.RobotCommanded)}
-        joints = [
-            joint for joint in reports[0].positions if joint.startswith(f"{arm}_") and joint not in held
-        ]
-        lives = [
-            (goal.sent.t, ended_at(goal) + STOP_TIME)
-            for goal in run.goals
-            if goal.request.arm == arm and accepted(goal)
-        ]
-        _require_rest(joints, reports, lives)
+    held = {each.command.get("joint") for each in run.all(ev.RobotCommanded)}
+    for arm in ("l_", "r_"):
+        joints = [joint for joint in reports[0].positions if joint.startswith(arm) and joint not in held]
+        own = [goal for goal in run.goals if goal.request.arm == arm[0] and goals.accepted(goal)]
+        _require_rest(joints, reports, [(goal.sent.t, goals.ended_at(goal) + STOP_TIME) for goal in own])
     return "all the time"
 
 
@@ -196,8 +174,8 @@ def require_moving(goal: Goal, at: float) -> None:
 
 def _first_cancel(goal: Goal) -> float | None:
     """Return when (s) it was first asked to cancel an accepted goal that was active."""
-    times = [cancel.sent.t for cancel in requests_to_cancel(goal)] if is_carried_out(goal) else []
-    return min((t for t in times if t < ended_at(goal)), default=None)
+    times = [cancel.sent.t for cancel in goals.requests_to_cancel(goal)] if life.is_carried_out(goal) else []
+    return min((t for t in times if t < goals.ended_at(goal)), default=None)
 
 
 def _require_rest(

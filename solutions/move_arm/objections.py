@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from itertools import pairwise
 
 from autograder.authoring.goal import Goal
@@ -16,42 +15,56 @@ ARMS = ("l", "r")
 AT_THE_END = 0.001  # rad; what is so near the end of a range may be rounded
 
 
-def _is_foreign(goal: Goal, joint: str) -> bool:
-    return joint not in RANGES or not joint.startswith(f"{goal.request.arm}_")
+def _is_no_arm(goal: Goal) -> str:
+    arm = goal.request.arm
+    return "" if arm in ARMS else f"the robot has the arms l and r, and no {arm}"
 
 
-def _foreign(goal: Goal) -> list[str]:
-    names = goal.request.trajectory.joint_names if goal.request.arm in ARMS else ()
-    return [name for name in names if _is_foreign(goal, name)]
+def _has_foreign_joint(goal: Goal) -> str:
+    arm = goal.request.arm
+    for joint in goal.request.trajectory.joint_names if arm in ARMS else ():
+        if joint not in RANGES or not joint.startswith(f"{arm}_"):
+            return f"{joint} is not a joint of the arm {arm}"
+    return ""
 
 
-def _odd_points(goal: Goal) -> list[int]:
+def _has_odd_point(goal: Goal) -> str:
     joints = len(goal.request.trajectory.joint_names)
-    return [n for n, point in enumerate(goal.request.trajectory.points) if len(point.positions) != joints]
+    for number, point in enumerate(goal.request.trajectory.points):
+        if len(point.positions) != joints:
+            return f"point {number} has too few or too many positions"
+    return ""
 
 
-def _unordered_points(goal: Goal) -> list[int]:
+def _has_unordered_times(goal: Goal) -> str:
     times = map(seconds_of, goal.request.trajectory.points)
-    return [n for n, (earlier, later) in enumerate(pairwise(times), start=1) if later <= earlier]
+    for number, (earlier, later) in enumerate(pairwise(times), start=1):
+        if later <= earlier:
+            return f"point {number} is not later than the point before"
+    return ""
 
 
-def _unending_positions(goal: Goal) -> list[float]:
-    points = goal.request.trajectory.points
-    return [position for point in points for position in point.positions if not math.isfinite(position)]
+def _is_not_finite(goal: Goal) -> str:
+    for point in goal.request.trajectory.points:
+        for position in point.positions:
+            if not math.isfinite(position):
+                return f"a position is {position:g}, not a finite number"
+    return ""
 
 
-def _beyond(goal: Goal, slack: float) -> Iterator[str]:
-    """Yield each position that is finite and beyond its joint's range by more than `slack` (rad), in words."""
+def _beyond(goal: Goal, slack: float) -> str:
+    """Return the first position that is finite and beyond its joint's range by more than `slack` (rad), in words."""
     for number, point in enumerate(goal.request.trajectory.points):
         for joint, position in zip(goal.request.trajectory.joint_names, point.positions, strict=False):
             lower, upper = RANGES.get(joint, (-math.inf, math.inf))
             if math.isfinite(position) and not lower - slack <= position <= upper + slack:
-                yield f"{joint} cannot get to {position:.2f} rad (point {number})"
+                return f"{joint} cannot get to {position:.2f} rad (point {number})"
+    return ""
 
 
-def _is_beyond(goal: Goal) -> bool | None:
-    surely, perhaps = any(_beyond(goal, AT_THE_END)), any(_beyond(goal, -AT_THE_END))
-    return surely if surely == perhaps else None
+def _is_beyond(goal: Goal) -> str | None:
+    surely, perhaps = _beyond(goal, AT_THE_END), _beyond(goal, -AT_THE_END)
+    return surely if bool(surely) == bool(perhaps) else None
 
 
 def _is_left_open(goal: Goal) -> bool:
@@ -62,43 +75,55 @@ def _is_left_open(goal: Goal) -> bool:
 
 
 ARM = Objection(
-    lambda goal: f"the robot has the arms l and r, and no {goal.request.arm}",
+    _is_no_arm,
     "Look at goal_request.arm in goal_callback.",
-    lambda goal: goal.request.arm not in ARMS,
+    "rejects_arms",
+    "It rejects an arm that is neither l nor r",
 )
 JOINT = Objection(
-    lambda goal: f"{_foreign(goal)[0]} is not a joint of the arm {goal.request.arm}",
+    _has_foreign_joint,
     "An arm has the joints in joint_limits.names that begin with its letter, l_ or r_. A leg's joint begins so, too, "
     "but is not in that list.",
-    lambda goal: bool(_foreign(goal)),
+    "rejects_joints",
+    "It rejects joints that are not this arm's",
 )
 NO_POINT = Objection(
-    lambda goal: "there is nowhere to go",
+    lambda goal: "" if goal.request.trajectory.points else "there is nowhere to go",
     "An empty list is false: `if not trajectory.points`.",
-    lambda goal: not goal.request.trajectory.points,
+    "rejects_no_point",
+    "It rejects a trajectory without a point",
 )
 LENGTH = Objection(
-    lambda goal: f"point {_odd_points(goal)[0]} has too few or too many positions",
+    _has_odd_point,
     "Compare len(point.positions) with len(trajectory.joint_names), for every point.",
-    lambda goal: bool(_odd_points(goal)),
+    "rejects_lengths",
+    "It rejects points with too few or too many positions",
 )
 TIMES = Objection(
-    lambda goal: f"point {_unordered_points(goal)[0]} is not later than the point before",
+    _has_unordered_times,
     "time_from_start.sec + time_from_start.nanosec * 1e-9 must be greater than that of the point before.",
-    lambda goal: bool(_unordered_points(goal)),
+    "rejects_times",
+    "It rejects a trajectory whose times do not rise from point to point",
 )
 NOT_FINITE = Objection(
-    lambda goal: f"a position is {_unending_positions(goal)[0]:g}, not a finite number",
+    _is_not_finite,
     "Test every position of every point with math.isfinite(): NaN compares false with everything, so it is neither "
     "below nor above a limit.",
-    lambda goal: bool(_unending_positions(goal)),
+    "rejects_not_finite",
+    "It rejects a trajectory that holds NaN or an infinite position",
 )
 RANGE = Objection(
-    lambda goal: next(_beyond(goal, AT_THE_END)),
+    _is_beyond,
     "Look at every position of every point, and compare it with lower and upper of this very joint in joint_limits: "
     "the right arm's ranges mirror the left one's.",
-    _is_beyond,
+    "rejects_beyond",
+    "It rejects a position outside the joint's range",
 )
 # What the statement leaves open: no joint, a joint twice, a first time of 0, a tolerance that is none.
-UNSAID = Objection(lambda goal: "", "", lambda goal: None if _is_left_open(goal) else False)
-AGAINST = (ARM, JOINT, NO_POINT, LENGTH, TIMES, NOT_FINITE, RANGE)
+UNSAID = Objection(lambda goal: None if _is_left_open(goal) else "")
+AGAINST = (ARM, JOINT, NO_POINT, LENGTH, TIMES, NOT_FINITE, RANGE, UNSAID)
+
+
+def is_sound(goal: Goal) -> bool:
+    """Return whether nothing speaks against a goal."""
+    return all(objection.because(goal) == "" for objection in AGAINST)

@@ -1,9 +1,4 @@
-"""What a server says of an arm, in feedback and result.
-
-Each function is what an obligation of an exercise's model requires:
-
-feedback_is_true = obligation(13, of=goals)(reports.feedback_is_true)
-"""
+"""What a server says of an arm, in feedback and result."""
 
 from __future__ import annotations
 

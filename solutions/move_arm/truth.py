@@ -20,10 +20,10 @@ _ACCEPT = (
 )
 
 
-def require_accepted(goal: Goal, help: str = "") -> Goal:
+def require_accepted(goal: Goal) -> Goal:
     """Require that the server accepted the goal."""
     deaf = (why_nothing_is_heard(goal.run, topic) for topic in ("joint_limits", "joint_states"))
-    return goal.require_accepted(next(filter(None, deaf), help or _ACCEPT))
+    return goal.require_accepted(next(filter(None, deaf), _ACCEPT))
 
 
 def plan_of(goal: Goal) -> Plan:

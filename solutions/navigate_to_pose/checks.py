@@ -7,9 +7,9 @@ from functools import partial
 from typing import Any
 
 from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.checks import RESTING
 from autograder.authoring.obligation import check_of
-from autograder.authoring.walking.server_checks import INTERRUPT, WRONG_POSES
+from autograder.authoring.walking.server_checks import INTERRUPT, WRONG_POSES, in_order
 
 from . import model
 
@@ -23,66 +23,33 @@ def arrive(name: str, distance: float) -> list[Any]:
     return ["arrive", name, 36.0 + 15.0 * distance]
 
 
-GO = Scenario("in_order", {"steps": [["go", "go", -1.4, 1.4, -2.6], arrive("go", 2.0), ["wait", LISTENING]]})
-HERE = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "stay", 0.0, 0.0, 0.0], ["end", "stay"], ["wait", LISTENING]),
-            *(["cut_power"], ["go", "unpowered", 1.0, 0.0, 0.0]),
-        ]
-    },
+GO = in_order(["go", "go", -1.4, 1.4, -2.6], arrive("go", 2.0), ["wait", LISTENING])
+HERE = in_order(
+    *(["go", "stay", 0.0, 0.0, 0.0], ["end", "stay"], ["wait", LISTENING]),
+    *(["cut_power"], ["go", "unpowered", 1.0, 0.0, 0.0]),
 )
-IMPOSSIBLE = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *WRONG_POSES,
-            *(["ask", f"tolerance {value:g}", "tolerance", value] for value in (0.03, -0.2, math.nan)),
-        ]
-    },
+IMPOSSIBLE = in_order(
+    *WRONG_POSES,
+    *(["ask", f"tolerance {value:g}", "tolerance", value] for value in (0.03, -0.2, math.nan)),
     robot=RESTING,
 )
-ASTRAY = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "go", 1.8, 0.0, 0.0], ["get_away", 0.9], ["lead_astray", 4.0, 1]),
-            *(arrive("go", 1.8), ["go_on", "undisturbed", 0.4, 0.0, 0.0], arrive("undisturbed", 0.4)),
-        ]
-    },
+ASTRAY = in_order(
+    *(["go", "go", 1.8, 0.0, 0.0], ["get_away", 0.9], ["lead_astray", 4.0, 1]),
+    *(arrive("go", 1.8), ["go_on", "undisturbed", 0.4, 0.0, 0.0], arrive("undisturbed", 0.4)),
 )
-HELD = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "held", 1.0, 0.0, 0.0], ["get_away", 0.55], ["hold"], arrive("held", 1.0)),
-            *(["let_go"], ["wait", WATCHING + 0.5]),
-        ]
-    },
+HELD = in_order(
+    *(["go", "held", 1.0, 0.0, 0.0], ["get_away", 0.55], ["hold"], arrive("held", 1.0)),
+    *(["let_go"], ["wait", WATCHING + 0.5]),
 )
-MID_STRIDE = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "canceled", 2.0, 0.0, 0.0], ["walk_for", 1.5], ["cancel", "canceled"]),
-            *(["end", "canceled"], ["wait", WATCHING]),
-        ]
-    },
+MID_STRIDE = in_order(
+    *(["go", "canceled", 2.0, 0.0, 0.0], ["walk_for", 1.5], ["cancel", "canceled"]),
+    *(["end", "canceled"], ["wait", WATCHING]),
 )
-PREEMPT = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "old", *FAR], ["walk_for", 2.0], ["go", "new", 1.2, 0.4, 0.5], ["end", "old"]),
-            *(arrive("new", 1.0), ["go_on", "interrupted", *FAR], ["walk_for", 0.3], ["interrupt"]),
-        ]
-    },
+PREEMPT = in_order(
+    *(["go", "old", *FAR], ["walk_for", 2.0], ["go", "new", 1.2, 0.4, 0.5], ["end", "old"]),
+    *(arrive("new", 1.0), ["go_on", "interrupted", *FAR], ["walk_for", 0.3], ["interrupt"]),
 )
-FALL = Scenario(
-    "in_order",
-    {"steps": [["go", "walk", *FAR], ["walk_for", 0.5], ["knock_over", 0.0, 60.0, 0.0], ["end", "walk"]]},
-)
+FALL = in_order(["go", "walk", *FAR], ["walk_for", 0.5], ["knock_over", 0.0, 60.0, 0.0], ["end", "walk"])
 
 REJECT = "06_walk_to_a_pose#reject-task"
 GOING, RETURNING, HOLDING = (partial(check_of, on=scenario) for scenario in (GO, ASTRAY, HELD))
@@ -91,14 +58,13 @@ server_appears = standard.server_appears(
     "the action navigate_to_pose", on=INTERRUPT, see="06_walk_to_a_pose#small-intro", clauses=[21]
 )
 accepts_a_goal = GOING("accepts_a_goal", model.accepts, needs=server_appears, see=REJECT)
-arrives = check_of(
+arrives = GOING(
     "arrives",
     model.succeeds,
     model.stands_at_success,
     model.names_no_error,
     title="It SUCCEEDS, and the robot then stands within 0.10 m and 0.15 rad of the goal (tolerance 0)",
     points=2,
-    on=GO,
     needs=accepts_a_goal,
     see="06_walk_to_a_pose#settle-why",
 )
@@ -121,11 +87,7 @@ names_its_phases = GOING(
     "names_its_phases", model.names_its_phases, needs=[faces_its_way, *TOLD], see="08_navigation#loops-intro"
 )
 tells_its_time = check_of(
-    "tells_its_time",
-    model.tells_its_time,
-    on=[GO, PREEMPT],
-    needs=TOLD,
-    see="08_navigation#conventions",
+    "tells_its_time", model.tells_its_time, on=[GO, PREEMPT], needs=TOLD, see="08_navigation#conventions"
 )
 estimates_the_time = GOING(
     "estimates_the_time", model.estimates_the_time, needs=TOLD, see="08_navigation#eta-why"
@@ -179,22 +141,13 @@ rejects_a_wrong_pose = check_of(
     see="08_navigation#map-why",
 )
 rejects_a_wrong_tolerance = check_of(
-    "rejects_a_wrong_tolerance",
-    model.rejects_tolerances,
-    on=IMPOSSIBLE,
-    needs=accepts_a_goal,
-    see=REJECT,
+    "rejects_a_wrong_tolerance", model.rejects_tolerances, on=IMPOSSIBLE, needs=accepts_a_goal, see=REJECT
 )
 rejects_without_power = check_of(
     "rejects_without_power", model.rejects_without_power, on=HERE, needs=accepts_a_goal, see=REJECT
 )
-gets_back_on_its_way = check_of(
-    "gets_back_on_its_way",
-    model.finds_its_way_back,
-    points=2,
-    on=ASTRAY,
-    needs=arrives,
-    see="08_navigation#loops-why",
+gets_back_on_its_way = RETURNING(
+    "gets_back_on_its_way", model.finds_its_way_back, points=2, needs=arrives, see="08_navigation#loops-why"
 )
 counts_the_recovery = RETURNING(
     "counts_the_recovery",
@@ -219,13 +172,12 @@ measures_a_detour = RETURNING(
     needs=[gets_back_on_its_way, measures_its_path],
     see="08_navigation#odometer-why",
 )
-gives_up_in_time = check_of(
+gives_up_in_time = HOLDING(
     "gives_up_in_time",
     model.gives_up_in_time,
     model.says_why_it_aborted,
     title="Held up, it ends ABORTED with TIMEOUT after 30 s and 15 s per metre",
     points=2,
-    on=HELD,
     needs=arrives,
     see="08_navigation#late-why",
 )
@@ -276,8 +228,5 @@ aborts_when_the_robot_falls = check_of(
     see="07_cancel_and_preempt#fall-why",
 )
 ends_cleanly = standard.ends_cleanly(
-    on=[INTERRUPT, PREEMPT],
-    needs=server_appears,
-    see="07_cancel_and_preempt#conventions",
-    clauses=[21],
+    on=[INTERRUPT, PREEMPT], needs=server_appears, see="07_cancel_and_preempt#conventions", clauses=[21]
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from random import Random
 from typing import Any
 
@@ -12,20 +13,8 @@ from autograder.authoring.obligation import check_of
 from autograder.authoring.walking.drawn import rounded
 from autograder.authoring.walking.server_checks import OTHER_NAMESPACE
 
-from . import model
-from .checks import (
-    FAR,
-    LISTENING,
-    WATCHING,
-    arrive,
-    arrives,
-    cancels_in_mid_stride,
-    counts_no_detour_without_one,
-    counts_the_recovery,
-    measures_its_path,
-    new_goal_preempts_the_old,
-    tells_its_time,
-)
+from . import checks, model
+from .checks import FAR, LISTENING, arrive
 
 Steps = list[list[Any]]
 
@@ -44,7 +33,7 @@ def _steps(random: Random) -> dict[str, Any]:
     behind = (x - 0.9 * math.cos(angle), y - 0.9 * math.sin(angle), random.uniform(-math.pi, math.pi))
 
     def canceled(name: str, pose: list[float], *wait: Any) -> Steps:
-        return [["go_on", name, *pose], *wait, ["cancel", name], ["end", name], ["wait", WATCHING]]
+        return [["go_on", name, *pose], *wait, ["cancel", name], ["end", name], ["wait", checks.WATCHING]]
 
     blocks: list[Steps] = [
         canceled("early", FAR),
@@ -88,70 +77,53 @@ def _to_the_other_side(random: Random) -> dict[str, Any]:
 ANY_ORDER = Scenario("in_order", _steps)
 TO_THE_OTHER_SIDE = Scenario("in_order", _to_the_other_side)
 
-arrives_within_the_tolerance = check_of(
+in_any_order = partial(check_of, on=ANY_ORDER)
+arrives_within_the_tolerance = in_any_order(
     "arrives_within_the_tolerance",
-    model.accepts,
-    model.rejects_frames,
-    model.rejects_without_power,
-    model.goes_on,
-    model.succeeds,
-    model.stands_at_success,
-    model.stands_without_a_goal,
-    model.status_in_order,
-    model.succeeds_where_it_stands,
-    model.feedback_at_5_hz,
-    model.feedback_ends_with_the_goal,
-    model.feedback_is_true,
-    model.gives_way,
-    model.tells_a_fall,
-    model.names_no_error,
+    *(model.accepts, model.rejects_frames, model.rejects_without_power, model.goes_on, model.succeeds),
+    *(model.stands_at_success, model.stands_without_a_goal, model.status_in_order),
+    *(model.succeeds_where_it_stands, model.feedback_at_5_hz, model.feedback_ends_with_the_goal),
+    *(model.feedback_is_true, model.gives_way, model.tells_a_fall, model.names_no_error),
     model.says_why_it_aborted,
     title="It reaches poses with any heading, one after the other, each within its tolerance, and keeps every clause",
     points=2,
-    on=ANY_ORDER,
-    needs=arrives,
+    needs=checks.arrives,
     see="06_walk_to_a_pose#settle-why",
 )
-tells_each_goal_its_own_story = check_of(
+tells_each_goal_its_own_story = in_any_order(
     "tells_each_goal_its_own_story",
     model.measures_its_path,
     model.counts_no_recovery,
     model.progress_rises,
     title="Path, recoveries and progress begin at 0 with each goal",
-    on=ANY_ORDER,
-    needs=[arrives_within_the_tolerance, measures_its_path, counts_no_detour_without_one],
+    needs=[arrives_within_the_tolerance, checks.measures_its_path, checks.counts_no_detour_without_one],
     see="08_navigation#odometer-why",
 )
-cancels_in_any_phase = check_of(
+cancels_in_any_phase = in_any_order(
     "cancels_in_any_phase",
     model.grants_cancels,
     model.stops_when_canceled,
     title="Before its first step and while it turns, too, a cancel ends CANCELED, with the robot still",
-    on=ANY_ORDER,
-    needs=cancels_in_mid_stride,
+    needs=checks.cancels_in_mid_stride,
     see="07_cancel_and_preempt#fix-intro",
 )
 gets_back_from_anywhere = check_of(
     "gets_back_from_anywhere",
-    model.counts_the_detour,
-    model.finds_its_way_back,
-    model.feedback_at_5_hz,
-    model.feedback_is_true,
+    *(model.counts_the_detour, model.finds_its_way_back, model.feedback_at_5_hz, model.feedback_is_true),
     model.measures_its_path,
     title="Led astray to the other side, it counts that, too, and arrives",
     on=TO_THE_OTHER_SIDE,
-    needs=counts_the_recovery,
+    needs=checks.counts_the_recovery,
     see="08_navigation#loops-why",
 )
-a_new_goal_has_a_time_of_its_own = check_of(
+a_new_goal_has_a_time_of_its_own = in_any_order(
     "a_new_goal_has_a_time_of_its_own",
     model.succeeds,
     model.tells_its_time,
     title="navigation_time of a goal that preempts begins at its own acceptance",
-    on=ANY_ORDER,
-    needs=[new_goal_preempts_the_old, tells_its_time],
+    needs=[checks.new_goal_preempts_the_old, checks.tells_its_time],
     see="08_navigation#conventions",
 )
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    "walks the robot", model.succeeds, clauses=[21], on=OTHER_NAMESPACE, needs=arrives
+    "walks the robot", model.succeeds, clauses=[21], on=OTHER_NAMESPACE, needs=checks.arrives
 )

@@ -6,8 +6,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from builtin_interfaces.msg import Duration
-
 from autograder.authoring import events as ev
 from autograder.authoring.feedback import require_feedback
 from autograder.authoring.goal import SUCCEEDED, Goal
@@ -72,11 +70,6 @@ def led_astray(goal: Goal) -> tuple[float, float] | None:
     if off < OFF_ITS_WAY:
         raise unseen(run, f"the robot was only {off:.1f} rad off its way when it was given back")
     return taken.t, given.t
-
-
-def seconds(duration: Duration) -> float:
-    """Return a duration in s."""
-    return float(duration.sec + duration.nanosec * 1e-9)
 
 
 def off_the_way(robot: ev.RobotTruth, goal: Goal) -> float:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from autograder.authoring.goal import Goal
 from autograder.authoring.obligation import goals, obligation, whole_run
 from autograder.authoring.walking.objections import (
@@ -13,7 +11,7 @@ from autograder.authoring.walking.objections import (
     UNSAID_ROTATION,
     Objection,
     accepting,
-    rejecting,
+    rejects,
 )
 from autograder.authoring.walking.obligations import cancels, ends, tells, walks
 
@@ -22,35 +20,27 @@ from . import odometer, phases, progress, recoveries, times
 SMALLEST = 0.05  # m
 
 
-def _is_no_tolerance(goal: Goal) -> bool | None:
+def _is_no_tolerance(goal: Goal) -> str | None:
     tolerance = goal.request.tolerance
     if abs(tolerance - SMALLEST) < 1e-6:
         return None  # as a float it may be a little less
-    return math.isnan(tolerance) or (tolerance != 0.0 and tolerance < SMALLEST)
+    can_be_kept = tolerance == 0.0 or tolerance >= SMALLEST
+    return "" if can_be_kept else f"a tolerance of {tolerance:g} m cannot be kept"
 
 
 TOLERANCE = Objection(
-    lambda goal: f"a tolerance of {goal.request.tolerance:g} m cannot be kept",
+    _is_no_tolerance,
     "0 asks for the default of 0.10 m; anything else below 0.05 m is rejected, negative numbers and NaN too: "
     "NaN < 0.05 is false, so ask math.isfinite() as well.",
-    _is_no_tolerance,
+    "rejects_tolerances",
+    "It rejects a tolerance that is NaN, or below 0.05 m and not 0",
 )
 
 accepts = obligation(1, 2, 18, of=goals)(accepting(FRAME, NOT_FINITE, UNSAID_ROTATION, TOLERANCE, NO_POWER))
-rejects_frames = obligation(1, of=goals)(
-    rejecting("rejects_frames", FRAME, "It rejects a pose in any other frame than odom")
-)
-rejects_nan = obligation(1, of=goals)(
-    rejecting("rejects_nan", NOT_FINITE, "It rejects a pose that holds NaN")
-)
-rejects_without_power = obligation(1, of=goals)(
-    rejecting("rejects_without_power", NO_POWER, "It rejects a goal while the motors are off")
-)
-rejects_tolerances = obligation(2, of=goals)(
-    rejecting(
-        "rejects_tolerances", TOLERANCE, "It rejects a tolerance that is NaN, or below 0.05 m and not 0"
-    )
-)
+rejects_frames = rejects(1, FRAME)
+rejects_nan = rejects(1, NOT_FINITE)
+rejects_without_power = rejects(1, NO_POWER)
+rejects_tolerances = rejects(2, TOLERANCE)
 goes_on = obligation(1, of=goals)(ends.goes_on)
 faces_its_way = obligation(3, of=goals)(phases.faces_its_way)
 succeeds = obligation(2, 4, of=goals)(ends.succeeds)

@@ -34,9 +34,8 @@ def measures_its_path(goal: Goal) -> str | None:
     walked = length_walked(goal.run, goal.accepted_at, end.t)
     directly = length_walked(goal.run, goal.accepted_at, end.t, STRIDE)
     claimed = float(end.result.distance_traveled)
-    straight = math.dist(
-        *((r.x, r.y) for r in (goal.run.robot_at(goal.accepted_at), goal.run.robot_at(end.t)))
-    )
+    there, here = goal.run.robot_at(goal.accepted_at), goal.run.robot_at(end.t)
+    straight = math.hypot(here.x - there.x, here.y - there.y)
     if claimed > walked:
         help = _ODOM_TELLS if operated(goal) else _OF_EACH_GOAL if others(goal) else _COUNTS_SWAY
     elif abs(claimed - straight) < LEAST / 2:

@@ -12,11 +12,12 @@ from autograder.authoring.walking.life import (
     left_alone,
     phase,
 )
+from autograder.authoring.walking.obligations.tells import seconds
 from autograder.authoring.walking.planar import error
 from autograder.authoring.walking.reports import require_error_code
 from autograder.authoring.walking.truth import require_arrival, require_stopped
 
-from .legs import Leg, at_moment, operated, seconds, told, under_way
+from .legs import Leg, at_moment, operated, told, under_way
 
 TIME_SLACK = 1.0  # s that a reported time may be off: feedback's period and delivery
 FACTOR = 2.0
@@ -113,13 +114,8 @@ def stands_after_the_limit(goal: Goal) -> str | None:
 def succeeds_where_it_stands(goal: Goal) -> str | None:
     """A goal equal to the present pose SUCCEEDS within 4 s, and the robot does not walk."""
     distance, turn = error(goal.run.robot_at(goal.sent.t), goal)
-    if (
-        distance > HERE
-        or turn > HERE
-        or not is_undisturbed(goal)
-        or left_alone(goal)
-        or not began_at_rest(goal)
-    ):
+    is_there = distance <= HERE and turn <= HERE and began_at_rest(goal)
+    if not is_there or not is_undisturbed(goal) or left_alone(goal):
         return None
     require_arrival(goal)
     end = goal.require_result(SUCCEEDED)

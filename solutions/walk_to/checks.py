@@ -3,32 +3,22 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 from autograder.authoring import standard
 from autograder.authoring.checks import RESTING, Scenario
 from autograder.authoring.obligation import check_of
-from autograder.authoring.walking.server_checks import (
-    INTERRUPT,
-    WRONG_POSES,
-    fall_is_reported,
-    rejections,
-    reports,
-    two_walks,
-)
+from autograder.authoring.walking import server_checks
+from autograder.authoring.walking.server_checks import INTERRUPT, WRONG_POSES, in_order
 
 from . import model
 
-WALK = two_walks(0.2, 0.03)
-IMPOSSIBLE = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *WRONG_POSES,
-            ["ask", "zero quaternion", "pose.orientation.w", 0.0],
-            ["ask", "negative velocity", "max_velocity", -0.2],
-            ["ask", "NaN velocity", "max_velocity", math.nan],
-        ]
-    },
+WALK = server_checks.two_walks(0.2, 0.03)
+IMPOSSIBLE = in_order(
+    *WRONG_POSES,
+    ["ask", "zero quaternion", "pose.orientation.w", 0.0],
+    ["ask", "negative velocity", "max_velocity", -0.2],
+    ["ask", "NaN velocity", "max_velocity", math.nan],
     robot=RESTING,
 )
 # The robot that is played stands, whatever it is told: one that asks whether it walks takes a second goal.
@@ -44,28 +34,13 @@ UNREADY = Scenario(
     },
     robot=None,
 )
-INTERFERE = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(
-                ["go", "walk", 2.0, 0.0, 0.0],
-                ["go", "at once", 0.0, 0.5, 0.0],
-                ["walk_for", 0.5],
-                ["cancel", "walk"],
-            ),
-            *(["go", "second", 0.0, 0.5, 0.0], ["wait", 2.0], ["interrupt"]),
-        ]
-    },
+INTERFERE = in_order(
+    *(["go", "walk", 2.0, 0.0, 0.0], ["go", "at once", 0.0, 0.5, 0.0], ["walk_for", 0.5], ["cancel", "walk"]),
+    *(["go", "second", 0.0, 0.5, 0.0], ["wait", 2.0], ["interrupt"]),
 )
-FALL = Scenario(
-    "in_order",
-    {
-        "steps": [
-            *(["go", "walk", 2.0, 0.0, 0.0, 0.3], ["walk_for", 0.5], ["knock_over", 0.0, 60.0, 0.0]),
-            *(["end", "walk"], ["wait", 1.5], ["go", "lying", 1.0, 0.0, 0.0]),
-        ]
-    },
+FALL = in_order(
+    *(["go", "walk", 2.0, 0.0, 0.0, 0.3], ["walk_for", 0.5], ["knock_over", 0.0, 60.0, 0.0]),
+    *(["end", "walk"], ["wait", 1.5], ["go", "lying", 1.0, 0.0, 0.0]),
 )
 
 REJECT = "06_walk_to_a_pose#reject-task"
@@ -82,28 +57,18 @@ accepts_a_goal = check_of(
     needs=server_appears,
     see=REJECT,
 )
-rejects_a_wrong_frame, rejects_nan = rejections(model, on=IMPOSSIBLE, needs=accepts_a_goal, see=REJECT)
-rejects_what_is_no_rotation = check_of(
-    "rejects_what_is_no_rotation",
-    model.rejects_no_rotation,
-    on=IMPOSSIBLE,
-    needs=accepts_a_goal,
-    see=REJECT,
+of_the_impossible = partial(check_of, on=IMPOSSIBLE, needs=accepts_a_goal, see=REJECT)
+rejects_a_wrong_frame, rejects_nan = server_checks.rejections(
+    model, on=IMPOSSIBLE, needs=accepts_a_goal, see=REJECT
 )
-rejects_a_senseless_velocity = check_of(
+rejects_what_is_no_rotation = of_the_impossible("rejects_what_is_no_rotation", model.rejects_no_rotation)
+rejects_a_senseless_velocity = of_the_impossible(
     "rejects_a_senseless_velocity",
     model.rejects_velocities,
     title="It rejects a max_velocity that is negative or NaN",
-    on=IMPOSSIBLE,
-    needs=accepts_a_goal,
-    see=REJECT,
 )
 rejects_before_the_first_odom = check_of(
-    "rejects_before_the_first_odom",
-    model.rejects_before_odom,
-    on=UNREADY,
-    needs=accepts_a_goal,
-    see=REJECT,
+    "rejects_before_the_first_odom", model.rejects_before_odom, on=UNREADY, needs=accepts_a_goal, see=REJECT
 )
 rejects_without_power = check_of(
     "rejects_without_power",
@@ -131,20 +96,19 @@ rejects_a_second_goal = check_of(
     needs=refuses_a_cancel,
     see="07_cancel_and_preempt#two-why",
 )
-walks_to_the_goal = check_of(
+of_a_walk = partial(check_of, on=WALK)
+walks_to_the_goal = of_a_walk(
     "walks_to_the_goal",
     model.comes_near,
     model.turns_the_short_way,
     points=2,
-    on=WALK,
     needs=accepts_a_goal,
     see=FRAMES,
 )
-obeys_max_velocity = check_of(
+obeys_max_velocity = of_a_walk(
     "obeys_max_velocity",
     model.obeys_max_velocity,
     title="On the way it is no faster than max_velocity",
-    on=WALK,
     needs=walks_to_the_goal,
     see=FRAMES,
 )
@@ -155,43 +119,33 @@ chooses_its_own_velocity = check_of(
     needs=accepts_a_goal,
     see="01_robot_and_graph#listen-intro",
 )
-arrives = check_of(
-    "arrives", model.succeeds, points=2, on=WALK, needs=walks_to_the_goal, see="06_walk_to_a_pose#settle-why"
+arrives = of_a_walk(
+    "arrives", model.succeeds, points=2, needs=walks_to_the_goal, see="06_walk_to_a_pose#settle-why"
 )
-ends_with_a_zero_twist = check_of(
-    "ends_with_a_zero_twist",
-    model.ends_with_a_zero_twist,
-    model.does_not_steer_without_a_goal,
-    on=WALK,
-    needs=arrives,
-    see="06_walk_to_a_pose#touch-why",
+at_the_end = partial(check_of, on=WALK, needs=arrives, see="06_walk_to_a_pose#touch-why")
+ends_with_a_zero_twist = at_the_end(
+    "ends_with_a_zero_twist", model.ends_with_a_zero_twist, model.does_not_steer_without_a_goal
 )
-stands_when_it_succeeds = check_of(
-    "stands_when_it_succeeds",
-    model.stands_at_success,
-    model.stands_without_a_goal,
-    on=WALK,
-    needs=arrives,
-    see="06_walk_to_a_pose#touch-why",
+stands_when_it_succeeds = at_the_end(
+    "stands_when_it_succeeds", model.stands_at_success, model.stands_without_a_goal
 )
-fills_the_result, feedback_keeps_its_rate, feedback_is_true, feedback_ends_with_the_goal = reports(
-    model,
-    on=WALK,
-    under_way=walks_to_the_goal,
-    arrives=arrives,
-    see=(
-        "06_walk_to_a_pose#settle-why",
-        "06_walk_to_a_pose#conventions",
-        "06_walk_to_a_pose#settle-intro",
-        "06_walk_to_a_pose#settle-intro",
-    ),
+fills_the_result, feedback_keeps_its_rate, feedback_is_true, feedback_ends_with_the_goal = (
+    server_checks.reports(
+        model,
+        on=WALK,
+        under_way=walks_to_the_goal,
+        arrives=arrives,
+        see=(
+            "06_walk_to_a_pose#settle-why",
+            "06_walk_to_a_pose#conventions",
+            "06_walk_to_a_pose#settle-intro",
+            "06_walk_to_a_pose#settle-intro",
+        ),
+    )
 )
-aborts_when_the_robot_falls = fall_is_reported(
+aborts_when_the_robot_falls = server_checks.fall_is_reported(
     model, on=FALL, needs=walks_to_the_goal, see="06_walk_to_a_pose#fall-why"
 )
 ends_cleanly = standard.ends_cleanly(
-    clauses=[13],
-    on=[INTERRUPT, INTERFERE],
-    needs=server_appears,
-    see="01_robot_and_graph#listen-intro",
+    clauses=[13], on=[INTERRUPT, INTERFERE], needs=server_appears, see="01_robot_and_graph#listen-intro"
 )

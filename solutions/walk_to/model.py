@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from autograder.authoring.goal import Goal
-from autograder.authoring.obligation import Obligation, goals, obligation, whole_run
+from autograder.authoring.obligation import goals, obligation, whole_run
 from autograder.authoring.walking.objections import (
     BUSY,
     FRAME,
@@ -12,43 +12,29 @@ from autograder.authoring.walking.objections import (
     NO_ROTATION,
     NOT_FINITE,
     VELOCITY,
-    Objection,
     accepting,
     one_of_several,
-    rejecting,
+    rejects,
 )
 from autograder.authoring.walking.obligations import cancels, ends, tells, walks
-
-
-def _rejects(clause: int, name: str, objection: Objection, sentence: str) -> Obligation:
-    return obligation(clause, of=goals)(rejecting(name, objection, sentence))
-
 
 _accept = accepting(FRAME, NOT_FINITE, NO_ROTATION, VELOCITY, NO_ODOM, NO_POWER, BUSY)
 
 
 def _accept_unless_busy(goal: Goal) -> str | None:
     """It accepts a pose in frame odom when nothing speaks against it but perhaps a goal that it should have rejected"""
-    return "while another is active" if BUSY.holds(goal) is not False else _accept(goal)
+    return "while another is active" if BUSY.because(goal) != "" else _accept(goal)
 
 
 accepts = obligation(1, 4, 5, of=goals)(_accept)
 accepts_unless_busy = obligation(4, of=goals)(_accept_unless_busy)
-rejects_frames = _rejects(1, "rejects_frames", FRAME, "It rejects a pose in any other frame than odom")
-rejects_nan = _rejects(2, "rejects_nan", NOT_FINITE, "It rejects a pose that holds NaN or infinity")
-rejects_no_rotation = _rejects(
-    2, "rejects_no_rotation", NO_ROTATION, "It rejects an orientation of four zeros"
-)
-rejects_velocities = _rejects(
-    3, "rejects_velocities", VELOCITY, "It rejects a max_velocity that is negative, NaN or infinite"
-)
-rejects_before_odom = _rejects(
-    4, "rejects_before_odom", NO_ODOM, "It rejects goals before the first odom, and accepts them after it"
-)
-rejects_without_power = _rejects(
-    4, "rejects_without_power", NO_POWER, "It rejects a goal while the motors are off"
-)
-rejects_while_busy = _rejects(5, "rejects_while_busy", BUSY, "It rejects a goal while another runs")
+rejects_frames = rejects(1, FRAME)
+rejects_nan = rejects(2, NOT_FINITE)
+rejects_no_rotation = rejects(2, NO_ROTATION)
+rejects_velocities = rejects(3, VELOCITY)
+rejects_before_odom = rejects(4, NO_ODOM)
+rejects_without_power = rejects(4, NO_POWER)
+rejects_while_busy = rejects(5, BUSY)
 takes_one_of_several = obligation(5, of=goals)(one_of_several)
 refuses_cancels = obligation(5, of=goals)(cancels.refuses_cancels)
 goes_on = obligation(5, of=goals)(ends.goes_on)

@@ -17,6 +17,8 @@ from ros_runtime.message_constants import GoalStatus, name_of
 TERMINAL = (GoalStatus.SUCCEEDED, GoalStatus.CANCELED, GoalStatus.ABORTED)
 AT_IT = 0.1  # m; a robot that is no farther from its goal need not walk
 BIG_TURN = 0.3  # rad
+FASTEST = 0.4  # m/s that the robot can walk
+AT_LEAST = 0.5  # s of watching that prove that the robot stands
 NEAR = 0.15  # m more than the tolerance, and…
 TURNED = 0.3  # rad from the goal are "just before arrival"
 
@@ -64,21 +66,23 @@ def overlaps(goal: Goal, asked: Goal) -> bool | None:
 
 def successors(goal: Goal) -> list[Goal]:
     """Return the goals that were sent and accepted while this one was active, the first of them first."""
-    return [other for other in _rivals(goal) if goal.accepted_at < other.sent.t < ended_at(goal)]
+    return [other for other in rivals(goal) if goal.accepted_at < other.sent.t < ended_at(goal)]
 
 
 def together_with(goal: Goal) -> list[Goal]:
     """Return the accepted goals that were sent before this one was answered, or the other way round."""
     return [
         other
-        for other in _rivals(goal)
+        for other in rivals(goal)
         if other.sent.t <= goal.accepted_at and goal.sent.t <= other.accepted_at
     ]
 
 
-def _rivals(goal: Goal) -> list[Goal]:
-    """Return the other goals that were accepted; none, if this one was not."""
-    return [other for other in others(goal) if accepted(other)] if accepted(goal) else []
+def rivals(goal: Goal) -> list[Goal]:
+    """Return the other goals, where goals name arms for the same arm, that were accepted; none, if this one was not."""
+    arm = getattr(goal.request, "arm", None)
+    same = [other for other in others(goal) if getattr(other.request, "arm", None) == arm]
+    return [other for other in same if accepted(other)] if accepted(goal) else []
 
 
 def requests_to_cancel(goal: Goal) -> list[Cancel]:
@@ -120,18 +124,6 @@ def went_down(goal: Goal) -> ev.RobotTruth | None:
     return next((robot for robot in robots if robot.mode in (RobotState.OFF, RobotState.FALLEN)), None)
 
 
-def was_put_down(goal: Goal) -> bool:
-    """Return whether the scenario pushed the robot or cut its power while the goal was active."""
-    commands = [each for each in goal.run.all(ev.RobotCommanded) if goal.sent.t <= each.t <= ended_at(goal)]
-    return any(each.command.get("do") in ("push", "motor_power") for each in commands)
-
-
-def fallen_between(goal: Goal, start: float, end: float) -> ev.RobotTruth | None:
-    """Return the robot when it had fallen between two moments (s)."""
-    robots = goal.run.robot_between(start, max(start, end))
-    return next((robot for robot in robots if robot.mode == RobotState.FALLEN), None)
-
-
 def interrupted(goal: Goal) -> bool:
     """Return whether Ctrl-C was pressed while the goal was active."""
     signalled = goal.run.first(ev.NodeSignalled)
@@ -140,8 +132,12 @@ def interrupted(goal: Goal) -> bool:
 
 def is_undisturbed(goal: Goal) -> bool:
     """Return whether nothing happened in its life but its walk: no cancel that was granted, no goal, fall or Ctrl-C."""
-    disturbed = granted(goal) or successors(goal) or went_down(goal) or interrupted(goal)
-    return accepted(goal) and not disturbed and not together_with(goal)
+    return accepted(goal) and not was_disturbed(goal) and not together_with(goal)
+
+
+def was_disturbed(goal: Goal) -> bool:
+    """Return whether a cancel that was granted, a goal that came later, a fall or Ctrl-C ended it."""
+    return bool(granted(goal) or successors(goal) or went_down(goal) or interrupted(goal))
 
 
 def next_sent(goal: Goal, after: float) -> float:
@@ -165,14 +161,6 @@ def phase(goal: Goal) -> str:
     if ended_at(last) > goal.sent.t:
         return "while another is active"
     return f"after {name_of(GoalStatus, last.status or GoalStatus.UNKNOWN)}"
-
-
-# -- the robot, and the scenario --------------------------------------------------------------------------------------
-
-
-def is_walking(goal: Goal, t: float) -> bool:
-    """Return whether the robot walked just before a moment (s)."""
-    return any(robot.mode == RobotState.WALKING for robot in goal.run.robot_between(t - 0.3, t))
 
 
 def left_alone(goal: Goal) -> bool:

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any
 
 from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
 from autograder.authoring.goal import Goal
+from autograder.authoring.obligation import Obligation, goals, obligation
 from autograder.authoring.robot_topic import DELIVERY
 from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.life import others, overlaps, phase, run_of
-from autograder.authoring.walking.planar import stamped_target
+from autograder.authoring.walking.planar import numbers_of, stamped_target, target
 from autograder.authoring.walking.truth import require_accepted
 
 UNIT = 0.01  # by which the length of a quaternion that was rounded may differ from 1
@@ -24,14 +26,15 @@ class Objection:
     """A reason to reject a goal.
 
     Attributes:
-        because: of a goal, in words.
+        because: of a goal, why, in words; "": it is not so; None: nobody can tell, or the statement leaves it open.
         help: what to do if it was accepted.
-        holds: whether the reason is there; None: nobody can tell, or the statement leaves it open.
+        name, sentence: of the obligation to reject such a goal.
     """
 
-    because: Callable[[Goal], str]
-    help: str
-    holds: Callable[[Goal], bool | None]
+    because: Callable[[Goal], str | None]
+    help: str = ""
+    name: str = ""
+    sentence: str = ""
 
 
 def accepting(*objections: Objection) -> Callable[[Goal], str | None]:
@@ -39,7 +42,7 @@ def accepting(*objections: Objection) -> Callable[[Goal], str | None]:
 
     def accepts_what_can_be_walked_to(goal: Goal) -> str | None:
         """It accepts a pose in frame odom when nothing speaks against it, whatever came before."""
-        if any(objection.holds(goal) is not False for objection in objections):
+        if any(objection.because(goal) != "" for objection in objections):
             return None
         _require_heard(run_of(goal))
         require_accepted(goal)
@@ -48,13 +51,19 @@ def accepting(*objections: Objection) -> Callable[[Goal], str | None]:
     return accepts_what_can_be_walked_to
 
 
+def rejects(clause: int, objection: Objection) -> Obligation:
+    """Make the obligation that a goal with this objection is rejected."""
+    return obligation(clause, of=goals)(rejecting(objection.name, objection, objection.sentence))
+
+
 def rejecting(name: str, objection: Objection, sentence: str) -> Callable[[Goal], str | None]:
     """Make what an obligation requires: a goal with this objection is rejected; `name` and `sentence` say so."""
 
     def rejects(goal: Goal) -> str | None:
-        if not objection.holds(goal):
+        because = objection.because(goal)
+        if not because:
             return None
-        goal.require_rejected(because=objection.because(goal), help=objection.help)
+        goal.require_rejected(because=because, help=objection.help)
         return phase(goal)
 
     rejects.__name__, rejects.__doc__ = name, sentence
@@ -64,62 +73,59 @@ def rejecting(name: str, objection: Objection, sentence: str) -> Callable[[Goal]
 # -- what the request holds -------------------------------------------------------------------------------------------
 
 
-def _frame(goal: Goal) -> str:
-    return stamped_target(goal).header.frame_id
+def _of_another_frame(goal: Goal) -> str:
+    frame = stamped_target(goal).header.frame_id
+    return "" if frame == "odom" else f"frame {frame!r} is not 'odom'"
 
 
-def _pose(goal: Goal) -> Sequence[float]:
-    position, turned = stamped_target(goal).pose.position, stamped_target(goal).pose.orientation
-    return (position.x, position.y, position.z, turned.x, turned.y, turned.z, turned.w)
-
-
-def _is_no_rotation(goal: Goal) -> bool | None:
-    length = math.hypot(*_pose(goal)[3:])
-    if length == 0.0:
-        return True
-    return False if abs(length - 1.0) <= UNIT or not math.isfinite(length) else None
-
-
-def _has_senseless_velocity(goal: Goal) -> bool:
-    return not (math.isfinite(goal.request.max_velocity) and goal.request.max_velocity >= 0.0)
-
-
-def _what_is_not_finite(goal: Goal) -> str:
-    names = ("position.x", "position.y", "position.z", *(f"orientation.{axis}" for axis in "xyzw"))
+def _is_not_finite(goal: Goal) -> str:
     bad = [
-        f"{name} is {value:g}"
-        for name, value in zip(names, _pose(goal), strict=True)
-        if not math.isfinite(value)
+        f"{name} is {number:g}" for name, number in numbers_of(target(goal)).items() if not isfinite(number)
     ]
-    return ", ".join(bad) or "a number is not finite"
+    return ", ".join(bad)
+
+
+def _is_no_rotation(goal: Goal) -> str | None:
+    turned = target(goal).orientation
+    length = math.hypot(turned.x, turned.y, turned.z, turned.w)
+    if length == 0.0:
+        return "x, y, z and w are all 0, which is no rotation"
+    return "" if abs(length - 1.0) <= UNIT or not isfinite(length) else None
+
+
+def _has_senseless_velocity(goal: Goal) -> str:
+    velocity = goal.request.max_velocity
+    return "" if isfinite(velocity) and velocity >= 0.0 else f"max_velocity is {velocity:g}"
 
 
 FRAME = Objection(
-    lambda goal: f"frame {_frame(goal)!r} is not 'odom'",
+    _of_another_frame,
     "Compare request.target_pose.header.frame_id with 'odom', the one frame that you know, and return "
     "GoalResponse.REJECT for every other, instead of rejecting those that you have thought of.",
-    lambda goal: _frame(goal) != "odom",
+    "rejects_frames",
+    "It rejects a pose in any other frame than odom",
 )
 NOT_FINITE = Objection(
-    _what_is_not_finite,
+    _is_not_finite,
     "Test every number of position and orientation with math.isfinite() in goal_callback: NaN compares false with "
     "everything.",
-    lambda goal: not all(map(math.isfinite, _pose(goal))),
+    "rejects_nan",
+    "It rejects a pose that holds NaN or infinity",
 )
 NO_ROTATION = Objection(
-    lambda goal: "x, y, z and w are all 0, which is no rotation",
-    "Four zeros are no rotation, and no heading to turn to: reject it when x² + y² + z² + w² is not about 1.",
     _is_no_rotation,
+    "Four zeros are no rotation, and no heading to turn to: reject it when x² + y² + z² + w² is not about 1.",
+    "rejects_no_rotation",
+    "It rejects an orientation of four zeros",
 )
 VELOCITY = Objection(
-    lambda goal: f"max_velocity is {goal.request.max_velocity:g}",
-    "Accept max_velocity only if math.isfinite(v) and v >= 0.0: NaN < 0.0 is false, too.",
     _has_senseless_velocity,
+    "Accept max_velocity only if math.isfinite(v) and v >= 0.0: NaN < 0.0 is false, too.",
+    "rejects_velocities",
+    "It rejects a max_velocity that is negative, NaN or infinite",
 )
-UNSAID_VELOCITY = Objection(
-    lambda goal: "", "", lambda goal: None if _has_senseless_velocity(goal) else False
-)
-UNSAID_ROTATION = Objection(lambda goal: "", "", lambda goal: None if _is_no_rotation(goal) else False)
+UNSAID_VELOCITY = Objection(lambda goal: None if _has_senseless_velocity(goal) else "")
+UNSAID_ROTATION = Objection(lambda goal: None if _is_no_rotation(goal) else "")
 
 
 # -- how robot and server are -----------------------------------------------------------------------------------------
@@ -133,54 +139,58 @@ def _last_known(goal: Goal, topic: str) -> list[Any] | None:
     published = run_of(goal).all(ev.MessagePublished)
     if not published:
         return None
-    answered = goal.answer.t if goal.answer else goal.sent.t
-    sent = [each for each in published if each.topic == topic and each.t <= answered]
+    sent = [each for each in published if each.topic == topic and each.t <= _answered(goal)]
     arrived = [index for index, each in enumerate(sent) if each.t <= goal.sent.t - DELIVERY]
     if sent and not arrived:
         return [None, *(each.message for each in sent)]
     return [each.message for each in sent[arrived[-1] :]] if sent else []
 
 
-def _has_no_odom(goal: Goal) -> bool | None:
+def _answered(goal: Goal) -> float:
+    return goal.answer.t if goal.answer else goal.sent.t
+
+
+def _has_no_odom(goal: Goal) -> str | None:
     known = _last_known(goal, "odom")
-    if known is None:
-        return False
-    return True if not known else None if None in known else False
+    if known == []:
+        return "no odom has come, so nobody knows where the robot is"
+    return None if known and None in known else ""
 
 
-def _has_no_power(goal: Goal) -> bool | None:
+def _has_no_power(goal: Goal) -> str | None:
     known = _last_known(goal, "robot_state")
-    if known is not None:
-        powered = {message.motors_enabled for message in known if message is not None}
-        return None if len(powered) != 1 or None in known else not powered.pop()
-    answered = goal.answer.t if goal.answer else goal.sent.t
-    robots = goal.run.robot_between(goal.sent.t - DELIVERY, answered)
-    states = {robot.motors_enabled for robot in robots}
-    return None if len(states) != 1 else not states.pop()
+    robots = goal.run.robot_between(goal.sent.t - DELIVERY, _answered(goal)) if known is None else known
+    powered = {robot and robot.motors_enabled for robot in robots}
+    if powered == {False}:
+        return "robot_state.motors_enabled is false"
+    return "" if powered == {True} else None
+
+
+def _is_busy(goal: Goal) -> str | None:
+    active = [overlaps(other, goal) for other in others(goal)]
+    if True in active:
+        return "another goal is under way, and the robot has one pair of legs"
+    return None if None in active else ""
 
 
 NO_ODOM = Objection(
-    lambda goal: "no odom has come, so nobody knows where the robot is",
-    "Keep None until the first odom arrives, and reject while it is None.",
     _has_no_odom,
+    "Keep None until the first odom arrives, and reject while it is None.",
+    "rejects_before_odom",
+    "It rejects goals before the first odom, and accepts them after it",
 )
 NO_POWER = Objection(
-    lambda goal: "robot_state.motors_enabled is false",
-    "Keep the last robot_state, and reject in goal_callback while its motors_enabled is false.",
     _has_no_power,
+    "Keep the last robot_state, and reject in goal_callback while its motors_enabled is false.",
+    "rejects_without_power",
+    "It rejects a goal while the motors are off",
 )
-
-
-def _is_busy(goal: Goal) -> bool | None:
-    active = [overlaps(other, goal) for other in others(goal)]
-    return True if True in active else None if None in active else False
-
-
 BUSY = Objection(
-    lambda goal: "another goal is under way, and the robot has one pair of legs",
+    _is_busy,
     "Remember in goal_callback that a goal was accepted, forget it when execute ends, and reject meanwhile. Callback "
     "groups do not do that: each accepted goal gets a thread of its own.",
-    _is_busy,
+    "rejects_while_busy",
+    "It rejects a goal while another runs",
 )
 
 

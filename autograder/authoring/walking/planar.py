@@ -32,6 +32,12 @@ def target(goal: Goal) -> Pose:
     return stamped_target(goal).pose
 
 
+def numbers_of(pose: Pose) -> dict[str, float]:
+    """Return the numbers of a pose by the names of its fields, such as "position.x"."""
+    place = {f"position.{axis}": getattr(pose.position, axis) for axis in "xyz"}
+    return place | {f"orientation.{axis}": getattr(pose.orientation, axis) for axis in "xyzw"}
+
+
 def tolerance(goal: Goal) -> float:
     """Return how far (m) from the pose the robot may stand at success: NavigateToPose's tolerance, or 0.10 m."""
     return getattr(goal.request, "tolerance", 0.0) or POSITION_TOLERANCE

@@ -66,13 +66,10 @@ def require_true_result(goal: Goal) -> None:
     assert end, "ask for its result first"
     _require_true_steps(goal, end.result.total_steps, "result.total_steps", end.t)
     stamped, recent = end.result.final_pose, _recent(goal, end.t, DELIVERY)
-    help = why_rclpy_aborted(goal)
     position, aim = stamped.pose.position, target(goal).position
-    if (position.x, position.y) == (aim.x, aim.y):
-        help = (
-            help
-            or "This is the pose that the goal asked for: fill in where the robot really stands, from odom."
-        )
+    help = why_rclpy_aborted(goal)
+    if not help and (position.x, position.y) == (aim.x, aim.y):
+        help = "This is the pose that the goal asked for: fill in where the robot really stands, from odom."
     lying = any(robot.mode == RobotState.FALLEN for robot in recent)
     require_true_pose(
         *(stamped, recent, "result.final_pose", end.t, help),
@@ -81,18 +78,15 @@ def require_true_result(goal: Goal) -> None:
     )
 
 
-def require_error_code(goal: Goal, name: str, *, because: str) -> None:
-    """Require that the result names the reason."""
+def require_error_code(goal: Goal, name: str, *, because: str, help: str = "") -> None:
+    """Require that the result names the reason; `help` is what to do if it names another one."""
     assert goal.result, "ask for its result first"
     result = type(goal.result.result)
     constant = f"{result.__name__.replace('_', '.')}.{name}"  # such as WalkTo.Result.FELL
-    goal.expect(
-        "error_code",
-        getattr(result, name),
-        because=f"{because}: {name}",
-        help=why_rclpy_aborted(goal)
-        or f"Set result.error_code = {constant} before the terminal call, and return that same result.",
-    )
+    if not help or goal.result.result.error_code == 0:
+        help = f"Set result.error_code = {constant} before the terminal call, and return that same result."
+    help = why_rclpy_aborted(goal) or help
+    goal.expect("error_code", getattr(result, name), because=f"{because}: {name}", help=help)
 
 
 def require_true_pose(
@@ -139,9 +133,8 @@ def _require_true_steps(goal: Goal, claimed: int, what: str, at: float) -> None:
     """Require the steps since the goal began: what robot_state said a moment ago, less what it said then."""
     before, now = goal.run.robot_at(goal.sent.t), _recent(goal, at, DELIVERY)
     # A robot that stands takes no step until the goal moves it; one that walks may take some before the goal begins.
-    latest = (
-        before if before.mode != RobotState.WALKING else goal.run.robot_at(goal.accepted_at + TAKING_OVER)
-    )
+    was_walking = before.mode == RobotState.WALKING
+    latest = goal.run.robot_at(goal.accepted_at + TAKING_OVER) if was_walking else before
     earliest = goal.run.robot_at(goal.sent.t - DELIVERY)
     least, most = max(0, now[0].steps - latest.steps), now[-1].steps - earliest.steps
     since_reset = claimed == now[-1].steps and before.steps > 0

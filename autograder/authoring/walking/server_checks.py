@@ -3,10 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from functools import partial
 from types import ModuleType
+from typing import Any
 
 from autograder.authoring.checks import RESTING, Check, Scenario
 from autograder.authoring.obligation import check_of
+
+
+def in_order(*steps: Sequence[Any], **options: Any) -> Scenario:
+    """Return the scenario of these steps; `options` are its other fields."""
+    return Scenario("in_order", {"steps": list(steps)}, **options)
+
 
 WRONG_POSES = [
     ["ask", "wrong frame", "header.frame_id", "map"],
@@ -14,10 +23,8 @@ WRONG_POSES = [
     ["ask", "NaN height", "pose.position.z", math.nan],
     ["ask", "NaN orientation", "pose.orientation.z", math.nan],
 ]
-INTERRUPT = Scenario("in_order", {"steps": [["interrupt"]]}, robot=RESTING)
-OTHER_NAMESPACE = Scenario(
-    "in_order", {"steps": [["go", "walk", 0.3, 0.0, 0.0], ["arrive", "walk"]]}, namespace="/lab_7/robot"
-)
+INTERRUPT = in_order(["interrupt"], robot=RESTING)
+OTHER_NAMESPACE = in_order(["go", "walk", 0.3, 0.0, 0.0], ["arrive", "walk"], namespace="/lab_7/robot")
 
 
 def two_walks(first: float = 0.0, second: float = 0.0) -> Scenario:
@@ -27,32 +34,16 @@ def two_walks(first: float = 0.0, second: float = 0.0) -> Scenario:
     speed shows. Its heading lies beyond pi, so its quaternion has a negative w.
     """
     walks = [["go", "walk", 0.55, 0.2, 2.8, first], ["go", "again", 0.15, 0.34, 3.3, second]]
-    return Scenario(
-        "in_order", {"steps": [step for go in walks for step in (go, ["arrive", go[1]], ["wait", 1.5])]}
-    )
+    return in_order(*(step for go in walks for step in (go, ["arrive", go[1]], ["wait", 1.5])))
 
 
 def rejections(model: ModuleType, *, on: Scenario, needs: Check, see: str) -> tuple[Check, Check]:
     """Return the checks rejects_a_wrong_frame and rejects_nan, of an exercise's model."""
-    wrong_frame = check_of(
-        "rejects_a_wrong_frame",
-        model.rejects_frames,
-        title="It rejects a pose in frame map",
-        points=1,
-        on=on,
-        needs=needs,
-        see=see,
+    rejecting = partial(check_of, on=on, needs=needs, see=see)
+    return (
+        rejecting("rejects_a_wrong_frame", model.rejects_frames, title="It rejects a pose in frame map"),
+        rejecting("rejects_nan", model.rejects_nan, title="It rejects a pose that holds NaN"),
     )
-    nan = check_of(
-        "rejects_nan",
-        model.rejects_nan,
-        title="It rejects a pose that holds NaN",
-        points=1,
-        on=on,
-        needs=needs,
-        see=see,
-    )
-    return wrong_frame, nan
 
 
 def reports(
@@ -67,36 +58,24 @@ def reports(
         arrives: the check without which there is no result to be judged.
         see: the lesson of each.
     """
-    result = check_of(
+    of_both = partial(check_of, on=on)
+    result = of_both(
         "fills_the_result",
-        model.accepts,
-        model.reports_where_it_ended,
+        *(model.accepts, model.reports_where_it_ended),
         title="Each result, also of a second goal, holds where the robot ended, the steps for this goal, and NONE",
-        points=1,
-        on=on,
         needs=arrives,
         see=see[0],
     )
-    rate = check_of(
-        "feedback_keeps_its_rate", model.feedback_at_5_hz, points=1, on=on, needs=under_way, see=see[1]
-    )
-    truth = check_of(
+    rate = of_both("feedback_keeps_its_rate", model.feedback_at_5_hz, needs=under_way, see=see[1])
+    truth = of_both(
         "feedback_is_true",
-        model.feedback_is_true,
-        model.estimates_the_time,
+        *(model.feedback_is_true, model.estimates_the_time),
         title="Pose, distance and steps in the feedback are the robot's, and the estimate of the time left is one",
-        points=1,
-        on=on,
         needs=rate,
         see=see[2],
     )
-    end = check_of(
-        "feedback_ends_with_the_goal",
-        model.feedback_ends_with_the_goal,
-        points=1,
-        on=on,
-        needs=[arrives, rate],
-        see=see[3],
+    end = of_both(
+        "feedback_ends_with_the_goal", model.feedback_ends_with_the_goal, needs=[arrives, rate], see=see[3]
     )
     return result, rate, truth, end
 
@@ -105,10 +84,8 @@ def fall_is_reported(model: ModuleType, *, on: Scenario, needs: Check, see: str)
     """Return the check aborts_when_the_robot_falls, of an exercise's model."""
     return check_of(
         "aborts_when_the_robot_falls",
-        model.tells_a_fall,
-        model.says_why_it_aborted,
+        *(model.tells_a_fall, model.says_why_it_aborted),
         title="When the robot falls the goal is ABORTED with FELL, and says so",
-        points=1,
         on=on,
         needs=needs,
         see=see,

@@ -25,19 +25,14 @@ SHORTLY = 0.6  # s
 STOP_TIME = 2.0  # s
 STOP_SPEED = 0.05  # m/s
 WATCHED = 3.5  # s after the cancel
+STOP = "Publish a zero Twist on cmd_vel before the terminal call, and nothing else on it afterwards."
 
 
-def require_accepted(goal: Goal, help: str = "") -> Goal:
-    """Require that the server accepted the goal; `help` is what to do if it got the robot's topics and rejected it."""
+def require_accepted(goal: Goal) -> Goal:
+    """Require that the server accepted the goal."""
     deaf = (why_nothing_is_heard(goal.run, topic) for topic in ("odom", "robot_state"))
-    return goal.require_accepted(
-        next(filter(None, deaf), help or (_FREE_AGAIN if _is_later(goal) else _ACCEPT))
-    )
-
-
-def _is_later(goal: Goal) -> bool:
-    """Return whether a goal had ended when this one was sent."""
-    return any(result.t < goal.sent.t for result in goal.run.all(ev.ResultReceived))
+    is_later = any(result.t < goal.sent.t for result in goal.run.all(ev.ResultReceived))
+    return goal.require_accepted(next(filter(None, deaf), _FREE_AGAIN if is_later else _ACCEPT))
 
 
 def require_arrival(goal: Goal) -> None:
@@ -90,20 +85,21 @@ def require_stopped(
 ) -> None:
     """Require that the robot stands still and upright from 2 s after an event at `since` (s), at most until `until`."""
     watched = run.robot_between(since + STOP_TIME, min(since + WATCHED, until))
+    require_standing(watched, f"within {STOP_TIME:.0f} s of {event}, and still", since, event, STOP)
+
+
+def require_standing(
+    watched: Sequence[ev.RobotTruth], when: str, since: float, event: str, help: str
+) -> None:
+    """Require that the robot stands still and upright, `when` something has come at `since` (s); `event` names it."""
     fastest = max(watched, key=lambda robot: robot.speed)
     expect(
         fastest.speed < STOP_SPEED,
-        expected=f"the robot slower than {STOP_SPEED:.2f} m/s within {STOP_TIME:.0f} s of {event}, and still "
-        "from then on",
+        expected=f"the robot slower than {STOP_SPEED:.2f} m/s {when} from then on",
         observed=f"{fastest.speed:.2f} m/s {fastest.t - since:.1f} s after {event}",
-        help="Publish a zero Twist on cmd_vel before the terminal call, and nothing else on it afterwards.",
+        help=help,
         at=fastest.t,
     )
-    require_upright(watched)
-
-
-def require_upright(watched: Sequence[ev.RobotTruth]) -> None:
-    """Require that the robot did not fall."""
     fallen = next((robot for robot in watched if robot.mode == RobotState.FALLEN or robot.up < 0.6), None)
     expect(
         fallen is None,

@@ -1,33 +1,17 @@
-"""What a request to cancel a goal brings about, or does not.
-
-Each function is what an obligation of an exercise's model requires:
-
-refuses_cancels = obligation(9, of=goals)(cancels.refuses_cancels)
-"""
+"""What a request to cancel a goal brings about, or does not."""
 
 from __future__ import annotations
 
+from autograder.authoring import events as ev
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED, Goal
 from autograder.authoring.goal_endings import why_rclpy_aborted
-from autograder.authoring.walking.life import (
-    ended_at,
-    granted,
-    is_walking,
-    left_alone,
-    near_arrival,
-    next_sent,
-    requests_to_cancel,
-    run_of,
-    successors,
-    was_put_down,
-    went_down,
-)
+from autograder.authoring.walking import life
 from autograder.authoring.walking.truth import STOP_TIME, require_stopped, require_walking
+from humanoid_interfaces.msg import RobotState
 
 GETTING_GOING = 1.0  # s
 OVERTAKING = 0.3  # s
-AT_LEAST = 0.5  # s of watching that prove that the robot stands
 
 
 def refuses_cancels(goal: Goal) -> str | None:
@@ -37,7 +21,7 @@ def refuses_cancels(goal: Goal) -> str | None:
     for cancel in goal.cancels:
         result = goal.result
         ended = result and result.t <= cancel.sent.t and result.status == ABORTED
-        if result and ended and not went_down(goal) and not successors(goal):
+        if result and ended and not life.went_down(goal) and not life.successors(goal):
             raise Failure(
                 expected="a goal that is still active when the request to cancel comes",
                 observed=f"it had ended at {result.t:.1f} s",
@@ -61,20 +45,22 @@ def refuses_cancels(goal: Goal) -> str | None:
 
 def grants_cancels(goal: Goal) -> str | None:
     """A cancel while the goal is active is agreed to, and the goal ends CANCELED."""
-    asked = requests_to_cancel(goal)
+    asked = life.requests_to_cancel(goal)
     if not asked:
         return None
     accepted_at, result = goal.accepted_at, goal.result
-    early = [cancel for cancel in granted(goal) if cancel.sent.t < accepted_at]
+    early = [cancel for cancel in life.granted(goal) if cancel.sent.t < accepted_at]
     first = next((cancel for cancel in asked if cancel.sent.t >= accepted_at), None)
     if early or first is None:
         return _ends_canceled(goal, early[0].sent.t) if early else None
-    down = went_down(goal)
-    if any(other.sent.t < first.sent.t for other in successors(goal)) or (down and down.t < first.sent.t):
+    down = life.went_down(goal)
+    if any(other.sent.t < first.sent.t for other in life.successors(goal)) or (
+        down and down.t < first.sent.t
+    ):
         return None
-    if result and result.t <= first.sent.t and goal.status == SUCCEEDED and near_arrival(goal, result.t):
+    if result and result.t <= first.sent.t and goal.status == SUCCEEDED and life.near_arrival(goal, result.t):
         return None  # the cancel came after the end
-    if goal.status == SUCCEEDED and near_arrival(goal, first.sent.t):
+    if goal.status == SUCCEEDED and life.near_arrival(goal, first.sent.t):
         return "just before arrival"
     first.require_agreed(goal)
     return _ends_canceled(goal, first.sent.t)
@@ -82,10 +68,14 @@ def grants_cancels(goal: Goal) -> str | None:
 
 def walks_until_canceled(goal: Goal) -> str | None:
     """The robot walks when the cancel comes."""
-    asked = requests_to_cancel(goal)
-    if not asked or asked[0].sent.t < goal.accepted_at + GETTING_GOING or near_arrival(goal, asked[0].sent.t):
+    asked = life.requests_to_cancel(goal)
+    if (
+        not asked
+        or asked[0].sent.t < goal.accepted_at + GETTING_GOING
+        or life.near_arrival(goal, asked[0].sent.t)
+    ):
         return None
-    require_walking(run_of(goal), asked[0].sent.t)
+    require_walking(life.run_of(goal), asked[0].sent.t)
     return "in mid-stride"
 
 
@@ -113,13 +103,15 @@ def answers_every_cancel(goal: Goal) -> str | None:
 
 def stops_when_canceled(goal: Goal) -> str | None:
     """Within 2 s of the cancel the robot stands still and upright, and stays so."""
-    active = [cancel for cancel in requests_to_cancel(goal) if cancel.sent.t < ended_at(goal)]
-    obeyed = active if goal.status == SUCCEEDED else [cancel for cancel in active if cancel in granted(goal)]
-    if not obeyed or successors(goal):
+    active = [cancel for cancel in life.requests_to_cancel(goal) if cancel.sent.t < life.ended_at(goal)]
+    obeyed = (
+        active if goal.status == SUCCEEDED else [cancel for cancel in active if cancel in life.granted(goal)]
+    )
+    if not obeyed or life.successors(goal):
         return None
     asked = obeyed[0].sent.t
-    end = min(next_sent(goal, asked), run_of(goal).end)
-    if end < asked + STOP_TIME + AT_LEAST:
+    end = min(life.next_sent(goal, asked), life.run_of(goal).end)
+    if end < asked + STOP_TIME + life.AT_LEAST:
         return None
     require_stopped(goal.run, asked, until=end)
     return _when(goal, asked)
@@ -129,9 +121,10 @@ def _when(goal: Goal, t: float) -> str:
     """Return, for the table of clauses, at which moment of a goal's life something came at `t` s."""
     if goal.answer is None or t < goal.answer.t:
         return "before acceptance"
-    if t > ended_at(goal):
+    if t > life.ended_at(goal):
         return "after the end"
-    return "in mid-stride" if is_walking(goal, t) else "before the first step"
+    is_walking = any(robot.mode == RobotState.WALKING for robot in goal.run.robot_between(t - 0.3, t))
+    return "in mid-stride" if is_walking else "before the first step"
 
 
 def _ends_canceled(goal: Goal, asked: float) -> str | None:
@@ -139,11 +132,15 @@ def _ends_canceled(goal: Goal, asked: float) -> str | None:
 
     A goal that comes after the cancel changes nothing about that, but what comes at once may overtake it.
     """
-    if left_alone(goal) or (went_down(goal) and was_put_down(goal)):
+    commands = [
+        each for each in goal.run.all(ev.RobotCommanded) if goal.sent.t <= each.t <= life.ended_at(goal)
+    ]
+    was_put_down = any(each.command.get("do") in ("push", "motor_power") for each in commands)
+    if life.left_alone(goal) or (life.went_down(goal) and was_put_down):
         return None
-    if any(other.sent.t < asked + OVERTAKING for other in successors(goal)):
+    if any(other.sent.t < asked + OVERTAKING for other in life.successors(goal)):
         return None
-    if goal.status == SUCCEEDED and near_arrival(goal, asked):
+    if goal.status == SUCCEEDED and life.near_arrival(goal, asked):
         return "just before arrival"
     goal.require_result(CANCELED)
-    return "and another came" if successors(goal) else _when(goal, asked)
+    return "and another came" if life.successors(goal) else _when(goal, asked)

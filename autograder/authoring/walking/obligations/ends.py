@@ -1,38 +1,16 @@
-"""How a goal ends: it is reached, another takes its place, or the robot falls.
-
-Each function is what an obligation of an exercise's model requires:
-
-comes_near = obligation(9, of=goals)(ends.comes_near)
-"""
+"""How a goal ends: it is reached, another takes its place, or the robot falls."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 
 from autograder.authoring.failure import expect
+from autograder.authoring.falls import fall_after
 from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.goal_endings import why_rclpy_aborted
 from autograder.authoring.missing import unseen
-from autograder.authoring.walking import reports
-from autograder.authoring.walking.life import (
-    AT_IT,
-    BIG_TURN,
-    TERMINAL,
-    accepted,
-    cancels_on_the_way,
-    ended_at,
-    fallen_between,
-    granted,
-    interrupted,
-    is_undisturbed,
-    left_alone,
-    near_arrival,
-    others,
-    phase,
-    successors,
-    together_with,
-    went_down,
-)
+from autograder.authoring.walking import life, reports
 from autograder.authoring.walking.motion import require_reached
 from autograder.authoring.walking.planar import error
 from autograder.authoring.walking.truth import require_arrival
@@ -41,40 +19,38 @@ from ros_runtime.message_constants import GoalStatus, name_of
 
 FALLING = 1.0  # s before the simulator calls it a fall, in which a server may already see one
 GIVING_WAY = 5.0  # s
+_WENT_ON = (
+    "The old goal went on after the new one was accepted. How does its loop learn that it is no longer the newest? "
+    "(handle_accepted_callback)"
+)
 
 
 def comes_near(goal: Goal) -> str | None:
     """It walks: the robot comes within 0.10 m and 0.15 rad of the goal."""
-    if not is_undisturbed(goal) or left_alone(goal):
-        return None
-    require_reached(goal)
-    return _whereto(goal)
+    return _arrives(goal, require_reached)
 
 
 def succeeds(goal: Goal) -> str | None:
     """It SUCCEEDS, and the robot is then within 0.10 m and 0.15 rad of the goal."""
-    if not is_undisturbed(goal) or left_alone(goal):
-        return None
-    require_arrival(goal)
-    return _whereto(goal)
+    return _arrives(goal, require_arrival)
 
 
 def goes_on(goal: Goal) -> str | None:
     """A goal goes on, whatever is asked meanwhile and refused."""
-    if not accepted(goal) or goal.answer is None:
+    if not life.accepted(goal) or goal.answer is None:
         return None
     rejected = any(
-        other.answer and not other.answer.accepted and goal.answer.t < other.sent.t < ended_at(goal)
-        for other in others(goal)
+        other.answer and not other.answer.accepted and goal.answer.t < other.sent.t < life.ended_at(goal)
+        for other in life.others(goal)
     )
-    refused = any(cancel.answer and not cancel.answer.canceling for cancel in cancels_on_the_way(goal))
+    refused = any(cancel.answer and not cancel.answer.canceling for cancel in life.cancels_on_the_way(goal))
     if not rejected and not refused:
         return None
     what, result = "another was rejected" if rejected else "the cancel was refused", goal.result
-    if result is None or successors(goal) or granted(goal) or went_down(goal) or interrupted(goal):
+    if result is None or life.was_disturbed(goal):
         return what
     expect(
-        result.status == SUCCEEDED and near_arrival(goal, result.t),
+        result.status == SUCCEEDED and life.near_arrival(goal, result.t),
         expected=f"the first goal to go on after {what}",
         observed=f"it ended {name_of(GoalStatus, result.status)} at {result.t:.1f} s",
         help=why_rclpy_aborted(goal) or f"Leave the goal that runs alone when {what}.",
@@ -85,36 +61,37 @@ def goes_on(goal: Goal) -> str | None:
 
 def gives_way(goal: Goal) -> str | None:
     """A goal that was accepted later aborts the one that is active, with PREEMPTED."""
-    newer = successors(goal)
+    newer = life.successors(goal)
     if not newer:
         _require_no_preemption(goal)
         return None
     came = newer[0].sent.t
-    canceled = any(cancel.sent.t <= came for cancel in granted(goal))
-    if canceled or went_down(goal) or (goal.status == SUCCEEDED and near_arrival(goal, came)):
+    canceled = any(cancel.sent.t <= came for cancel in life.granted(goal))
+    if canceled or life.went_down(goal) or (goal.status == SUCCEEDED and life.near_arrival(goal, came)):
         return None
-    end = goal.require_result(
-        ABORTED,
-        help="The old goal went on after the new one was accepted. How does its loop learn that it is no longer the "
-        "newest? (handle_accepted_callback)",
-    )
-    reports.require_error_code(goal, "PREEMPTED", because="a new goal has taken its place")
+    require_preempted(goal, came, _WENT_ON)
+    return f"by {len(newer)} newer"
+
+
+def require_preempted(goal: Goal, came: float, help: str) -> None:
+    """Require that a goal gave way to one that came at a time (s); `help`: if it went on, or gave up by itself."""
+    end = goal.require_result(ABORTED, help=help)
+    reports.require_error_code(goal, "PREEMPTED", because="a new goal has taken its place", help=help)
     expect(
         end.t <= came + GIVING_WAY,
         expected=f"the old goal to end within {GIVING_WAY:g} s of the new one",
         observed=f"it ended {end.t - came:.1f} s after it",
-        help="Look in every round of the old goal's loop whether it is still the newest.",
+        help=help,
         at=end.t,
     )
-    return f"by {len(newer)} newer"
 
 
 def only_one_is_newest(goal: Goal) -> str | None:
     """Of goals that are accepted in the same moment all but one give way."""
-    together = [goal, *together_with(goal)]
-    if len(together) == 1 or goal.result is None or successors(goal):
+    together = [goal, *life.together_with(goal)]
+    if len(together) == 1 or goal.result is None or life.successors(goal):
         return None
-    if any(went_down(each) or granted(each) for each in together):
+    if any(life.went_down(each) or life.granted(each) for each in together):
         return None
     kept = [each for each in together if each.result is None or not _was_preempted(each)]
     expect(
@@ -130,15 +107,15 @@ def only_one_is_newest(goal: Goal) -> str | None:
 
 def tells_a_fall(goal: Goal) -> str | None:
     """When the robot falls, pushed or without power, the goal is ABORTED with FELL."""
-    down = went_down(goal)
-    if down is None or any(cancel.sent.t < down.t for cancel in granted(goal)):
+    down = life.went_down(goal)
+    if down is None or any(cancel.sent.t < down.t for cancel in life.granted(goal)):
         return None
-    if any(other.sent.t < down.t for other in successors(goal)) or together_with(goal):
+    if any(other.sent.t < down.t for other in life.successors(goal)) or life.together_with(goal):
         return None
-    fallen = fallen_between(goal, down.t, goal.run.end)
+    fallen = fall_after(goal.run, down.t)
     if fallen is None:
         raise unseen(goal.run, "the robot did not fall")
-    if goal.result is None and left_alone(goal):
+    if goal.result is None and life.left_alone(goal):
         return None
     if goal.result and goal.status == SUCCEEDED and goal.result.t <= fallen.t:
         return "as it arrived"
@@ -161,18 +138,18 @@ def tells_a_fall(goal: Goal) -> str | None:
 def status_in_order(goal: Goal) -> str | None:
     """A goal's status goes forward: accepted, executing, at most canceling, and then its one end."""
     seen = [each.status for each in goal.statuses]
-    if not seen or not accepted(goal):
+    if not seen or not life.accepted(goal):
         return None
     for earlier, later in pairwise(seen):
         expect(
-            later > earlier and earlier not in TERMINAL,
+            later > earlier and earlier not in life.TERMINAL,
             expected=f"no other status after {name_of(GoalStatus, earlier)}",
             observed=name_of(GoalStatus, later),
             help="Make one terminal call for a goal, and none after it.",
             at=goal.statuses[-1].t,
         )
     if goal.result:
-        final = [status for status in seen if status in TERMINAL]
+        final = [status for status in seen if status in life.TERMINAL]
         expect(
             not final or final == [goal.result.status],
             expected=f"the status {name_of(GoalStatus, goal.result.status)} that came with the result",
@@ -183,18 +160,20 @@ def status_in_order(goal: Goal) -> str | None:
     return name_of(GoalStatus, seen[-1])
 
 
-def _whereto(goal: Goal) -> str:
+def _arrives(goal: Goal, require: Callable[[Goal], object]) -> str | None:
+    if not life.is_undisturbed(goal) or life.left_alone(goal):
+        return None
+    require(goal)
     distance, turn = error(goal.run.robot_at(goal.sent.t), goal)
-    way = "here" if distance < AT_IT else "a walk"
-    return (
-        f"{way}, {'turning back' if turn > 2.0 else 'turning' if turn > BIG_TURN else 'ahead'}; {phase(goal)}"
-    )
+    way = "here" if distance < life.AT_IT else "a walk"
+    turned = "turning back" if turn > 2.0 else "turning" if turn > life.BIG_TURN else "ahead"
+    return f"{way}, {turned}; {life.phase(goal)}"
 
 
 def _require_no_preemption(goal: Goal) -> None:
     """Require that a goal did not give way to one that was rejected, or that never was."""
     expect(
-        not _was_preempted(goal) or bool(together_with(goal)),
+        not _was_preempted(goal) or bool(life.together_with(goal)),
         expected="a goal that goes on: no other was accepted while it was active",
         observed="it ended ABORTED with PREEMPTED",
         help="Let the old goal give way in handle_accepted_callback: goal_callback may still reject the new one.",

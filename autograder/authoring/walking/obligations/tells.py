@@ -1,9 +1,4 @@
-"""What a server says of a goal, in feedback and result.
-
-Each function is what an obligation of an exercise's model requires:
-
-feedback_at_5_hz = obligation(9, of=goals)(tells.feedback_at_5_hz)
-"""
+"""What a server says of a goal, in feedback and result."""
 
 from __future__ import annotations
 
@@ -13,33 +8,19 @@ from autograder.authoring.failure import expect
 from autograder.authoring.feedback import require_good_feedback_rate
 from autograder.authoring.goal import ABORTED, LISTENED, SUCCEEDED, Goal
 from autograder.authoring.goal_endings import why_rclpy_aborted
-from autograder.authoring.walking import reports
-from autograder.authoring.walking.life import (
-    TERMINAL,
-    accepted,
-    ended_at,
-    interrupted,
-    is_undisturbed,
-    left_alone,
-    near_arrival,
-    way_to,
-)
+from autograder.authoring.walking import life, reports
 from ros_runtime.message_constants import GoalStatus, name_of
 
 LONG = 3.0  # s; a goal of less tells little about a rate
 ENOUGH = 8  # feedback messages
 CLEARLY, LEAST = 0.5, 1.0  # m, s; the robot needs more than so long for so much
-FASTEST = 0.4  # m/s that the robot can walk
 
 
 def feedback_at_5_hz(goal: Goal) -> str | None:
     """Feedback comes at 5 Hz without a gap over 1 s."""
-    if (
-        not accepted(goal)
-        or left_alone(goal)
-        or interrupted(goal)
-        or goal.accepted_at + LONG > ended_at(goal)
-    ):
+    if not life.accepted(goal) or life.left_alone(goal) or life.interrupted(goal):
+        return None
+    if goal.accepted_at + LONG > life.ended_at(goal):
         return None
     require_good_feedback_rate(goal)
     return "all the way"
@@ -47,7 +28,7 @@ def feedback_at_5_hz(goal: Goal) -> str | None:
 
 def feedback_is_true(goal: Goal) -> str | None:
     """Pose, distance and steps in the feedback are the robot's, for this goal; the estimate is one."""
-    if not accepted(goal) or not goal.feedback:
+    if not life.accepted(goal) or not goal.feedback:
         return None
     reports.require_true_feedback(goal)
     return "the first goal" if goal.run.robot_at(goal.sent.t).steps == 0 else "a later goal"
@@ -55,11 +36,12 @@ def feedback_is_true(goal: Goal) -> str | None:
 
 def estimates_the_time(goal: Goal) -> str | None:
     """The estimate of the time left is not negative, positive while much is left, and smaller near the end."""
-    if not accepted(goal) or not goal.feedback:
+    if not life.accepted(goal) or not goal.feedback:
         return None
-    estimates = [_seconds(each.feedback.estimated_time_remaining) for each in goal.feedback]
+    estimates = [seconds(each.feedback.estimated_time_remaining) for each in goal.feedback]
+    is_slow = goal.request.max_velocity <= life.FASTEST
     for each, estimate in zip(goal.feedback, estimates, strict=True):
-        much = each.feedback.distance_remaining > CLEARLY and goal.request.max_velocity <= FASTEST
+        much = is_slow and each.feedback.distance_remaining > CLEARLY
         least = LEAST if much else 0.0
         expect(
             estimate >= least,
@@ -71,13 +53,9 @@ def estimates_the_time(goal: Goal) -> str | None:
             at=each.t,
         )
     result = goal.result
-    arrived = goal.status == SUCCEEDED and result is not None and near_arrival(goal, result.t)
-    is_slow = goal.request.max_velocity <= FASTEST
-    if (
-        not (is_undisturbed(goal) and arrived and is_slow)
-        or way_to(goal) < CLEARLY
-        or len(estimates) < ENOUGH
-    ):
+    arrived = goal.status == SUCCEEDED and result is not None and life.near_arrival(goal, result.t)
+    walked = life.is_undisturbed(goal) and arrived and is_slow and life.way_to(goal) >= CLEARLY
+    if not walked or len(estimates) < ENOUGH:
         return "on the way"
     quarter = len(estimates) // 4
     first, last = max(estimates[: 2 * quarter]), min(estimates[-quarter:])
@@ -93,7 +71,7 @@ def estimates_the_time(goal: Goal) -> str | None:
 
 def feedback_ends_with_the_goal(goal: Goal) -> str | None:
     """After the result no more feedback comes."""
-    if not accepted(goal) or goal.result is None or goal.run.end < goal.result.t + LISTENED:
+    if not life.accepted(goal) or goal.result is None or goal.run.end < goal.result.t + LISTENED:
         return None
     if not goal.feedback:
         return None
@@ -103,7 +81,12 @@ def feedback_ends_with_the_goal(goal: Goal) -> str | None:
 
 def names_no_error(goal: Goal) -> str | None:
     """The error_code of a goal that is not ABORTED is NONE."""
-    if not accepted(goal) or goal.result is None or goal.status not in TERMINAL or interrupted(goal):
+    if (
+        not life.accepted(goal)
+        or goal.result is None
+        or goal.status not in life.TERMINAL
+        or life.interrupted(goal)
+    ):
         return None
     status = name_of(GoalStatus, goal.result.status)
     if goal.status != ABORTED:
@@ -121,7 +104,7 @@ def reports_where_it_ended(goal: Goal) -> str | None:
 
 def says_why_it_aborted(goal: Goal) -> str | None:
     """A goal that is ABORTED says why, in error_msg."""
-    if goal.status != ABORTED or not accepted(goal) or interrupted(goal):
+    if goal.status != ABORTED or not life.accepted(goal) or life.interrupted(goal):
         return None
     assert goal.result
     expect(
@@ -135,5 +118,6 @@ def says_why_it_aborted(goal: Goal) -> str | None:
     return "aborted"
 
 
-def _seconds(duration: Duration) -> float:
+def seconds(duration: Duration) -> float:
+    """Return a duration in s."""
     return float(duration.sec + duration.nanosec * 1e-9)

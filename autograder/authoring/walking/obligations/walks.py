@@ -1,9 +1,4 @@
-"""How the robot goes to a goal, and that it stands when none is active.
-
-Each function is what an obligation of an exercise's model requires:
-
-obeys_max_velocity = obligation(9, of=goals)(walks.obeys_max_velocity)
-"""
+"""How the robot goes to a goal, and that it stands when none is active."""
 
 from __future__ import annotations
 
@@ -13,40 +8,23 @@ from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import SUCCEEDED, Goal
 from autograder.authoring.robot_topic import DELIVERY
 from autograder.authoring.transcript import Transcript
-from autograder.authoring.walking import halt
-from autograder.authoring.walking.life import (
-    AT_IT,
-    BIG_TURN,
-    accepted,
-    began_at_rest,
-    ended_at,
-    granted,
-    is_undisturbed,
-    left_alone,
-    next_sent,
-    run_of,
-    successors,
-    way_to,
-    went_down,
-)
+from autograder.authoring.walking import halt, life
 from autograder.authoring.walking.motion import require_limited_velocity, require_short_turn
 from autograder.authoring.walking.planar import heading, target
-from autograder.authoring.walking.truth import STOP_SPEED, STOP_TIME
+from autograder.authoring.walking.truth import STOP, STOP_SPEED, STOP_TIME
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.angles import wrap
 
 FAR = 0.25  # m; a shorter way tells little about a speed
-FASTEST = 0.4  # m/s that the robot can walk
-AT_LEAST = 0.5  # s of watching that prove that the robot stands
 BEGINNING = 3.0  # s in which a goal makes the robot walk
 
 
 def obeys_max_velocity(goal: Goal) -> str | None:
     """From the start to the arrival the robot's mean speed is at most max_velocity."""
     limit = goal.request.max_velocity
-    if not accepted(goal) or not limit or limit > FASTEST or not began_at_rest(goal):
+    if not life.accepted(goal) or not limit or limit > life.FASTEST or not life.began_at_rest(goal):
         return None
-    if not is_undisturbed(goal) or left_alone(goal) or way_to(goal) < FAR:
+    if not life.is_undisturbed(goal) or life.left_alone(goal) or life.way_to(goal) < FAR:
         return None
     require_limited_velocity(goal)
     return "slow" if limit < 0.1 else "fast"
@@ -54,14 +32,14 @@ def obeys_max_velocity(goal: Goal) -> str | None:
 
 def walks_at_its_own_velocity(goal: Goal) -> str | None:
     """With max_velocity 0 it walks at a velocity of its own."""
-    if not accepted(goal) or goal.request.max_velocity != 0.0 or way_to(goal) < FAR:
+    if not life.accepted(goal) or goal.request.max_velocity != 0.0 or life.way_to(goal) < FAR:
         return None
     assert goal.answer
     enough = goal.answer.t + BEGINNING
-    end = max(goal.answer.t, min(enough, ended_at(goal), goal.run.end))
+    end = max(goal.answer.t, min(enough, life.ended_at(goal), goal.run.end))
     if any(robot.mode == RobotState.WALKING for robot in goal.run.robot_between(goal.answer.t, end)):
         return "max_velocity 0"
-    if end < enough or went_down(goal) or granted(goal) or successors(goal):
+    if end < enough or life.went_down(goal) or life.granted(goal) or life.successors(goal):
         return None
     raise Failure(
         expected="the robot walking to its goal by then",
@@ -75,11 +53,11 @@ def walks_at_its_own_velocity(goal: Goal) -> str | None:
 
 def turns_the_short_way(goal: Goal) -> str | None:
     """It turns the shorter way round, also where the heading jumps from pi to -pi."""
-    if not is_undisturbed(goal) or goal.result is None or not began_at_rest(goal):
+    if not life.is_undisturbed(goal) or goal.result is None or not life.began_at_rest(goal):
         return None
     start = goal.run.robot_at(goal.sent.t).yaw
     aim = heading(target(goal).orientation)
-    if abs(wrap(aim - start)) < BIG_TURN and abs(aim) < math.pi - BIG_TURN:
+    if abs(wrap(aim - start)) < life.BIG_TURN and abs(aim) < math.pi - life.BIG_TURN:
         return None
     require_short_turn(goal)
     return "across pi" if abs(aim - start) > math.pi else "elsewhere"
@@ -87,26 +65,29 @@ def turns_the_short_way(goal: Goal) -> str | None:
 
 def stands_at_success(goal: Goal) -> str | None:
     """When it SUCCEEDS the robot stands still, and stays so."""
-    if goal.status != SUCCEEDED or successors(goal) or went_down(goal):
+    if goal.status != SUCCEEDED or life.successors(goal) or life.went_down(goal):
         return None
     assert goal.result
-    end = next_sent(goal, goal.result.t)
-    if end - goal.result.t < AT_LEAST:
+    end = life.next_sent(goal, goal.result.t)
+    if end - goal.result.t < life.AT_LEAST:
         return None
     halt.require_standing_at_success(goal, end)
-    return "a goal where it stands" if way_to(goal) < AT_IT else "a walk"
+    return "a goal where it stands" if life.way_to(goal) < life.AT_IT else "a walk"
 
 
 def ends_with_a_zero_twist(goal: Goal) -> str | None:
     """The last Twist before it SUCCEEDS is zero."""
-    if goal.status != SUCCEEDED or successors(goal):
+    if goal.status != SUCCEEDED or life.successors(goal):
         return None
     assert goal.result
-    run, end = run_of(goal), next_sent(goal, goal.result.t)
-    if not any(goal.sent.t <= each.t < end for each in run.heard("cmd_vel")) and way_to(goal) < AT_IT:
+    run, end = life.run_of(goal), life.next_sent(goal, goal.result.t)
+    if (
+        not any(goal.sent.t <= each.t < end for each in run.heard("cmd_vel"))
+        and life.way_to(goal) < life.AT_IT
+    ):
         return "nothing published where it stands"
     halt.require_final_zero(run, goal, until=end)
-    return "walked" if way_to(goal) >= AT_IT else "stood there"
+    return "walked" if life.way_to(goal) >= life.AT_IT else "stood there"
 
 
 def does_not_steer_without_a_goal(run: Transcript) -> str | None:
@@ -137,7 +118,7 @@ def stands_without_a_goal(run: Transcript) -> str | None:
             robot.speed < STOP_SPEED,
             expected=f"the robot slower than {STOP_SPEED:.2f} m/s while no goal is active",
             observed=f"{robot.speed:.2f} m/s",
-            help="Publish a zero Twist on cmd_vel before the terminal call, and nothing else on it afterwards.",
+            help=STOP,
             at=robot.t,
         )
     return "all the time"
@@ -146,6 +127,6 @@ def stands_without_a_goal(run: Transcript) -> str | None:
 def _has_goal(run: Transcript, t: float, afterwards: float = DELIVERY / 2) -> bool:
     """Return whether a goal was active at a time (s), or had been so shortly before."""
     return any(
-        goal.sent.t <= t <= (ended_at(goal) + afterwards if accepted(goal) else goal.sent.t)
+        goal.sent.t <= t <= (life.ended_at(goal) + afterwards if life.accepted(goal) else goal.sent.t)
         for goal in run.goals
     )
