@@ -7,6 +7,7 @@ from typing import Any
 
 from autograder.authoring.checks import program
 from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.client_obligations import follows
 from autograder.authoring.walking.client_scenarios import (
     ABORTED,
     ABORTING,
@@ -58,7 +59,7 @@ SILENT_ON_THE_WAY = program("in_order", lambda random: silence_on_the_way(random
 walks_anywhere = check_of(
     "walks_anywhere",
     model.sends_one_goal,
-    model.follows_its_goal(1),
+    follows(1),
     title="Another namespace, another pose with negative numbers",
     on=ANY_WALK,
     needs=checks.walks,
@@ -75,7 +76,7 @@ refuses_wrong_arguments = check_of(
 
 tells_an_abort = check_of(
     "tells_an_abort",
-    model.follows_its_goal(1),
+    follows(1),
     title="An aborted goal ends it with status 3, and error_msg stands on stderr",
     on=ABORTING,
     needs=checks.walks,
@@ -84,7 +85,7 @@ tells_an_abort = check_of(
 
 a_rejected_goal_needs_no_cancel = check_of(
     "a_rejected_goal_needs_no_cancel",
-    model.follows_its_goal(1, 4),
+    follows(1, 4),
     title="A goal that is rejected after a q ends it with status 2",
     on=REJECTED_EARLY,
     needs=checks.remembers_an_early_q,
@@ -93,7 +94,7 @@ a_rejected_goal_needs_no_cancel = check_of(
 
 tells_an_abort_after_q = check_of(
     "tells_an_abort_after_q",
-    model.follows_its_goal(3),
+    follows(3),
     title="A goal that is ABORTED after the server had agreed to cancel it ends it with status 3",
     on=ABORTED_ANYWAY,
     needs=[checks.believes_the_end, tells_an_abort],
@@ -102,7 +103,7 @@ tells_an_abort_after_q = check_of(
 
 reports_a_late_cancel = check_of(
     "reports_a_late_cancel",
-    model.follows_its_goal(3, 7),
+    follows(3, 7),
     model.says_what_was_refused,
     title="A cancel that comes when the goal has ended (code 3) is reported, and the goal's end decides",
     points=2,
@@ -113,7 +114,7 @@ reports_a_late_cancel = check_of(
 
 does_not_wait_for_the_answer = check_of(
     "does_not_wait_for_the_answer",
-    model.follows_its_goal(3, 8),
+    follows(3, 8),
     title="A cancel that gets no answer holds up nothing; after a q, too, Ctrl-C ends it with status 4 in any case",
     points=2,
     on=[DEAF, CTRL_C_AFTER_Q, NEVER_CANCELED],
@@ -123,7 +124,7 @@ does_not_wait_for_the_answer = check_of(
 
 cancels_once = check_of(
     "cancels_once",
-    model.follows_its_goal(2),
+    follows(2),
     title="However early and often q is typed, and whatever the answer, the goal is cancelled once",
     on=OFTEN,
     needs=checks.q_cancels_the_goal,
@@ -132,7 +133,7 @@ cancels_once = check_of(
 
 other_lines_cancel_nothing = check_of(
     "other_lines_cancel_nothing",
-    model.follows_its_goal(5),
+    follows(5),
     title="Only q cancels, also after an empty line or another word, such as quit",
     on=OTHER_LINES,
     needs=checks.q_cancels_the_goal,
@@ -141,7 +142,7 @@ other_lines_cancel_nothing = check_of(
 
 walks_without_an_input = check_of(
     "walks_without_an_input",
-    model.follows_its_goal(5),
+    follows(5),
     title="Started where there is no input, it walks all the same",
     on=NO_INPUT,
     needs=checks.goes_on_at_the_end_of_input,
@@ -150,7 +151,7 @@ walks_without_an_input = check_of(
 
 gives_up_without_an_answer = check_of(
     "gives_up_without_an_answer",
-    model.follows_its_goal(1),
+    follows(1),
     title="A goal that is never answered ends it with status 1 after 5 s",
     on=UNANSWERED,
     needs=[checks.walks, checks.gives_up_without_a_server],
@@ -169,7 +170,7 @@ notices_silence_on_the_way = check_of(
 
 survives_early_feedback = check_of(
     "survives_early_feedback",
-    model.follows_its_goal(1),
+    follows(1),
     title="Feedback that comes before the goal is accepted disturbs nothing",
     on=EARLY_FEEDBACK,
     needs=[checks.walks, checks.prints_feedback_at_once],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.client_obligations import follows
 from autograder.authoring.walking.client_scenarios import (
     ABORTING,
     GOOD,
@@ -33,7 +34,7 @@ prints_the_feedback = check_of(
 
 says_how_it_succeeded = check_of(
     "says_how_it_succeeded",
-    model.follows_its_goal(3, 4),
+    follows(3, 4),
     title="When the goal SUCCEEDED it prints so with the final pose, and ends with status 0",
     points=2,
     on=GOOD,
@@ -51,7 +52,7 @@ refuses_wrong_arguments = check_of(
 
 gives_up_without_a_server = check_of(
     "gives_up_without_a_server",
-    model.follows_its_goal(6, 9),
+    follows(6, 9),
     title="Without a server it ends with status 1 after 5 s, and says so on stderr",
     on=NOBODY,
     see="03_clients_that_survive#fix-why",
@@ -59,7 +60,7 @@ gives_up_without_a_server = check_of(
 
 tells_a_rejection = check_of(
     "tells_a_rejection",
-    model.follows_its_goal(5, 9),
+    follows(5, 9),
     title="A rejected goal ends it with status 2",
     on=REJECTING,
     needs=says_how_it_succeeded,
@@ -68,7 +69,7 @@ tells_a_rejection = check_of(
 
 tells_an_abort = check_of(
     "tells_an_abort",
-    model.follows_its_goal(3, 9),
+    follows(3, 9),
     title="An aborted goal ends it with status 3, and error_msg stands on stderr",
     points=2,
     on=ABORTING,
@@ -78,7 +79,7 @@ tells_an_abort = check_of(
 
 gives_up_in_silence = check_of(
     "gives_up_in_silence",
-    model.follows_its_goal(7, 9),
+    follows(7, 9),
     title="After 5 s without feedback or result it cancels the goal and ends with status 1",
     points=2,
     on=SILENT,
@@ -88,7 +89,7 @@ gives_up_in_silence = check_of(
 
 ctrl_c_cancels_the_goal = check_of(
     "ctrl_c_cancels_the_goal",
-    model.follows_its_goal(10),
+    follows(10),
     title="Ctrl-C cancels the goal; it waits for its end and ends with status 4",
     points=2,
     on=INTERRUPTED,

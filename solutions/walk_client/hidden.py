@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from autograder.authoring.checks import program
 from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.client_obligations import follows
 from autograder.authoring.walking.client_scenarios import (
     ABORTED,
     CANCELED,
@@ -61,7 +62,7 @@ walks_anywhere = check_of(
 works_in_any_namespace = check_of(
     "works_in_any_namespace",
     model.sends_one_goal,
-    model.follows_its_goal(12),
+    follows(12),
     title="Started in another namespace, it sends the goal to the robot there",
     on=OTHER_NAMESPACE,
     needs=checks.says_how_it_succeeded,
@@ -70,7 +71,7 @@ works_in_any_namespace = check_of(
 
 gives_up_without_an_answer = check_of(
     "gives_up_without_an_answer",
-    model.follows_its_goal(6, 9),
+    follows(6, 9),
     title="A goal that is never answered ends it with status 1 after 5 s",
     on=UNANSWERED,
     needs=[checks.sends_the_goal, checks.gives_up_without_a_server],
@@ -80,7 +81,7 @@ gives_up_without_an_answer = check_of(
 walks_as_long_as_it_takes = check_of(
     "walks_as_long_as_it_takes",
     model.sends_one_goal,
-    model.follows_its_goal(8),
+    follows(8),
     title="A late server, a late answer, and a walk of 12 s with feedback at most 4.5 s apart are waited for",
     points=2,
     on=SLOW,
@@ -90,7 +91,7 @@ walks_as_long_as_it_takes = check_of(
 
 notices_silence_on_the_way = check_of(
     "notices_silence_on_the_way",
-    model.follows_its_goal(7, 9),
+    follows(7, 9),
     title="A server that falls silent or dies on the way ends it with status 1, 5 s after the last feedback",
     on=SILENT_ON_THE_WAY,
     needs=walks_as_long_as_it_takes,
@@ -99,7 +100,7 @@ notices_silence_on_the_way = check_of(
 
 survives_early_feedback = check_of(
     "survives_early_feedback",
-    model.follows_its_goal(12),
+    follows(12),
     title="Feedback that comes before the goal is accepted disturbs nothing",
     on=EARLY_FEEDBACK,
     needs=[checks.prints_the_feedback, checks.says_how_it_succeeded],
@@ -108,7 +109,7 @@ survives_early_feedback = check_of(
 
 tells_a_cancel_by_another = check_of(
     "tells_a_cancel_by_another",
-    model.follows_its_goal(3, 4),
+    follows(3, 4),
     title="A goal that somebody else cancels ends it with status 4, and a line on stdout says CANCELED",
     on=BY_ANOTHER,
     needs=checks.tells_an_abort,
@@ -117,7 +118,7 @@ tells_a_cancel_by_another = check_of(
 
 believes_the_status = check_of(
     "believes_the_status",
-    model.follows_its_goal(3, 9),
+    follows(3, 9),
     title="The status decides: ABORTED is 3 with any error_code, SUCCEEDED with an error_msg is 0",
     points=2,
     on=[NO_CODE, PREEMPTED, WITH_WORDS],
@@ -128,7 +129,7 @@ believes_the_status = check_of(
 asks_for_the_result_in_time = check_of(
     "asks_for_the_result_in_time",
     model.asks_for_its_result,
-    model.follows_its_goal(12),
+    follows(12),
     title="A server that keeps a result for 1 s is asked for it before",
     on=FORGETFUL,
     needs=checks.says_how_it_succeeded,
@@ -137,7 +138,7 @@ asks_for_the_result_in_time = check_of(
 
 ctrl_c_ends_it_in_any_case = check_of(
     "ctrl_c_ends_it_in_any_case",
-    model.follows_its_goal(10),
+    follows(10),
     title="After Ctrl-C it ends with status 4, also when the goal ended otherwise all the same or has not ended in 5 s",
     on=[NEVER_CANCELED, ARRIVES],
     needs=checks.ctrl_c_cancels_the_goal,
