@@ -28,25 +28,30 @@ _NO_INPUT = (
 )
 
 
-def require_end(run: Transcript, within: float) -> ev.NodeExited:
-    """Require that the program ended by itself within so many seconds of its node's appearance."""
-    require_within_limits(run)
+def started_at(run: Transcript) -> float:
+    """Return when the program's node appeared (s)."""
     started = run.first(ev.NodeReady) or run.first(ev.NodeStarted)
     if started is None:
         raise unseen(run, "the program was never started")
-    exited = run.first(ev.NodeExited)
+    return started.t
+
+
+def require_end(run: Transcript, within: float) -> ev.NodeExited:
+    """Require that the program ended by itself within so many seconds of its node's appearance."""
+    require_within_limits(run)
+    started, exited = started_at(run), run.first(ev.NodeExited)
     if exited is None:
         raise Failure(
             expected=f"the program to end by itself within {within:.3g} s",
-            observed=f"it still ran after {run.end - started.t:.0f} s",
+            observed=f"it still ran after {run.end - started:.0f} s",
             help=_where_it_hung(run),
             at=run.end,
             see="03_clients_that_survive#kill-why",
         )
     expect(
-        exited.t - started.t <= within + SLACK,
+        exited.t - started <= within + SLACK,
         expected=f"the program to end within {within:.3g} s",
-        observed=f"it took {exited.t - started.t:.1f} s",
+        observed=f"it took {exited.t - started:.1f} s",
         help="Keep one deadline for the whole run, and wait for nothing longer than what is left until then.",
         at=exited.t,
     )
@@ -134,8 +139,8 @@ def _at_which_request(run: Transcript) -> str:
         )
     if unasked := [service for service, of in requests.items() if not of]:
         return (
-            f"It hung after {service} had answered, and never asked {unasked[0]}: spin the node while you wait for a "
-            "future, and do not wait in a callback, which keeps the node from spinning."
+            f"It hung after {service} had answered, and never asked {unasked[0]}: give wait_for_service a timeout_sec, "
+            "and spin the node while you wait for a future, not in a callback, which keeps the node from spinning."
         )
     return (
         f"It went on after the last answer, at {last.reply.t:.1f} s: do not spin after it, end every thread of your "

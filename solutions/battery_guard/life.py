@@ -42,10 +42,6 @@ LIMIT = 0.20
 AT_ONCE = 1.0  # s
 KNOWN = 1.0  # s after which a client surely knows what was published
 GRACE = 1.0  # s beyond a clause's limit for a request, on a busy machine
-WAIT_FOR_STANDING = (
-    "The result tells how the goal ended; what the legs do, robot_state tells. Spin until its last mode "
-    "is RobotState.STANDING, at most 5 s. That it stood before the walk does not count."
-)
 IS_LATCHED = (
     f"{BATTERY} was published once, before your program began. A subscription gets that message only with "
     "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)."
@@ -260,7 +256,8 @@ class GuardLife(ClientLife):
         return Failure(
             expected="the end only when the goal is CANCELED and the robot stands",
             observed=f"it ended {exited.t - self.result:.1f} s after CANCELED, and robot_state did not say STANDING",
-            help=WAIT_FOR_STANDING,
+            help="The result tells how the goal ended; what the legs do, robot_state tells. Spin until its last mode "
+            "is RobotState.STANDING, at most 5 s. That it stood before the walk does not count.",
             at=exited.t,
         )
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable, Iterator
+from functools import partial
 
 from autograder.authoring import events as ev
 from autograder.authoring.client_checks import how_to_give_up
@@ -14,19 +16,6 @@ from autograder.authoring.walking import client_obligations as owed
 from autograder.authoring.walking.client_life import CANCELED, SUCCEEDED, Cause, End
 
 from .life import BATTERY, KNOWN, LIMIT, GuardLife, about_level, guards, is_percentage
-
-LOOKS_AWAY = (
-    "Look at the battery while you wait for the result: spin in short pieces, and after each compare the last "
-    "percentage with 0.20."
-)
-EARLY = (
-    "Without a goal handle nothing can be cancelled, so remember that the battery is low, and look at it "
-    "when you have the handle. No new message need come."
-)
-NO_SUBSCRIPTION = (
-    f'create_subscription(BatteryState, "{BATTERY}", …): a relative name, and keep it until the end.'
-)
-
 
 # -- what it sends ----------------------------------------------------------------------------------------------------
 
@@ -75,17 +64,17 @@ def _needless(life: GuardLife, t: float) -> Failure:
     """Return the failure for a request to cancel that came when nothing asked for it."""
     said = [event.message.percentage for event in life.run.published(BATTERY) if event.t < t]
     last = said[-1] if said else math.inf
-    is_strange = not LIMIT + 0.01 < last <= 1.0
+    help, see = "Cancel only for a percentage below 0.20, for Ctrl-C, or when nothing was heard for 5 s.", ""
+    if not is_percentage(last):
+        help, see = about_level(last), "08_navigation#guard-traps-why"
+    elif last <= LIMIT + 0.01:
+        help, see = about_level(last), "08_navigation#float-why"
     return Failure(
         expected="no request to cancel: no percentage was below 0.20",
         observed=f"one came when the percentage was {f'{last:.4f}' if is_percentage(last) else shown(last)}",
-        help=about_level(last)
-        if is_strange
-        else "Cancel only for a percentage below 0.20, for Ctrl-C, or when nothing was heard for 5 s.",
+        help=help,
         at=t,
-        see=("08_navigation#float-why" if is_percentage(last) else "08_navigation#guard-traps-why")
-        if is_strange
-        else "",
+        see=see,
     )
 
 
@@ -97,37 +86,46 @@ def _how_to_cancel(life: GuardLife, cause: Cause) -> str:
     if cause.name == "silence" or low is None:
         return how_to_give_up(life.run)
     if low.subscriptions == 0:
-        return NO_SUBSCRIPTION
+        return (
+            f'create_subscription(BatteryState, "{BATTERY}", …): a relative name, and keep it until the end.'
+        )
     if low.since < life.accepted:
-        return EARLY
-    return about_level(low.level) if low.level == 0.0 or low.level > 0.19 else LOOKS_AWAY
+        return (
+            "Without a goal handle nothing can be cancelled, so remember that the battery is low, and look at it "
+            "when you have the handle. No new message need come."
+        )
+    if low.level == 0.0 or low.level > 0.19:
+        return about_level(low.level)
+    return (
+        "Look at the battery while you wait for the result: spin in short pieces, and after each compare the last "
+        "percentage with 0.20."
+    )
 
 
-def _cancels(clause: int, sentence: str) -> Obligation:
-    """Make the obligation that it cancels when it has to, once, and never otherwise, as a clause says it of a cause."""
-
-    def asks_to_cancel(life: GuardLife) -> str | None:
-        if life.goal is None:
-            return None
-        found = [
-            situation for cause in _require_cancels(life) for situation in [_situation(life, cause, clause)]
-        ]
-        return ", ".join(filter(None, found)) or None
-
-    asks_to_cancel.__doc__ = sentence
-    return obligation(clause, of=guards)(asks_to_cancel)
+def asks_to_cancel(life: GuardLife) -> Iterator[tuple[int, str]]:
+    """Judge that it cancels when it has to, once, and never otherwise; yield the clauses that ask for it, and why."""
+    for cause in _require_cancels(life) if life.goal else []:
+        early = cause.name == "battery" and cause.since == life.accepted
+        if cause.is_owed:
+            yield {"silence": 14, "Ctrl-C": 16}.get(cause.name, 6 if early else 5), cause.because
 
 
-def _situation(life: GuardLife, cause: Cause, clause: int) -> str:
-    """Return the situation in which a cause was judged, if it is the clause's."""
-    early = cause.name == "battery" and cause.since == life.accepted
-    of = {"silence": 14, "Ctrl-C": 16}.get(cause.name, 6 if early else 5)
-    return cause.because if of == clause and cause.is_owed else ""
+def _obligation(
+    judge: Callable[[GuardLife], Iterator[tuple[int, str]]], sentence: str, *clauses: int
+) -> Obligation:
+    """Make an obligation of a judgement, for the situations of these clauses."""
+
+    def require(life: GuardLife) -> str | None:
+        situations = [situation for clause, situation in judge(life) if clause in clauses]
+        return situations[0] if situations else None
+
+    return Obligation(judge.__name__, sentence, clauses, guards, require)
 
 
-cancels_when_low = _cancels(5, "A percentage below 0.20 cancels the goal within 1 s, once")
-cancels_when_accepted = _cancels(6, "A battery that is low at the acceptance cancels the goal right after it")
-cancels_at_ctrl_c = _cancels(16, "Ctrl-C cancels the goal")
+_cancels = partial(_obligation, asks_to_cancel)
+cancels_when_low = _cancels("A percentage below 0.20 cancels the goal within 1 s, once", 5)
+cancels_when_accepted = _cancels("A battery that is low at the acceptance cancels the goal right after it", 6)
+cancels_at_ctrl_c = _cancels("Ctrl-C cancels the goal", 16)
 
 
 @obligation(7, of=guards)
@@ -140,8 +138,9 @@ def compares_exactly(life: GuardLife) -> str | None:
     if not life.goal.cancels:
         owed.require_patience(life, life.ends())  # a goal that it left does not show that it goes on
     levels = [event.message.percentage for event in life.levels if event.t < life.exited]
-    said = [f"goes on at {min(each):.4g}" for each in [[x for x in levels if x >= LIMIT]] if each]
-    said += [f"cancelled at {max(each):.4g}" for each in [[x for x in levels if x < LIMIT]] if each]
+    high, low = [level for level in levels if level >= LIMIT], [level for level in levels if level < LIMIT]
+    said = [f"goes on at {min(high):.4g}"] if high else []
+    said += [f"cancelled at {max(low):.4g}"] if low else []
     return ", ".join(said)
 
 
@@ -186,18 +185,13 @@ BEFORE = {  # the clause that an end is about, whatever came before
 }
 
 
-def _ends(sentence: str, *clauses: int) -> Obligation:
-    """Make the obligation that it ends as it went, in time and with the right line, as clauses say it of an end."""
-
-    def ends_as_it_went(life: GuardLife) -> str | None:
-        ends, _ = _require_ending(life)
-        if SILENCE in clauses and life.accepted < math.inf:
-            _require_cancels(life)
-        found = [situation for end in ends for of, situation in [_which(life, end)] if of in clauses]
-        return found[0] if found else None
-
-    ends_as_it_went.__doc__ = sentence
-    return obligation(*clauses, of=guards)(ends_as_it_went)
+def ends_as_it_went(life: GuardLife) -> Iterator[tuple[int, str]]:
+    """Judge that it ends as it went, in time and with the right line; yield the clauses that say so, and how."""
+    ends, _ = _require_ending(life)
+    if any(end.name == "silence" for end in ends):
+        _require_cancels(life)
+    for end in ends:
+        yield _which(life, end)
 
 
 def _which(life: GuardLife, end: End) -> tuple[int, str]:
@@ -232,6 +226,7 @@ def _require_ending(life: GuardLife) -> tuple[list[End], ev.NodeExited]:
     return right, exited
 
 
+_ends = partial(_obligation, ends_as_it_went)
 gives_up_without_a_percentage = _ends("Without a percentage within 5 s it ends with status 1", 1)
 gives_up_on_a_missing_server = _ends("Without a server within 5 s it ends with status 1", 2)
 says_that_the_battery_is_low = _ends("A battery that is low before the goal ends it with status 4", 3)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from autograder.authoring.obligation import check_of
+from autograder.authoring.walking import every_client
 from autograder.authoring.walking.client_obligations import follows
-from autograder.authoring.walking.client_scenarios import GOOD, INTERRUPTED, NOBODY, SILENT, typed, walk, way
+from autograder.authoring.walking.client_scenarios import GOOD, typed, walk, way
 
 from . import model
 
@@ -86,28 +87,8 @@ goes_on_at_the_end_of_input = check_of(
     see="07_cancel_and_preempt#button-code",
 )
 
-gives_up_without_a_server = check_of(
-    "gives_up_without_a_server",
-    follows(1),
-    title="Without a server it ends with status 1 after 5 s, and says so on stderr",
-    on=NOBODY,
-    see="03_clients_that_survive#fix-why",
-)
+gives_up_without_a_server = every_client.check("gives_up_without_a_server", 1)
 
-gives_up_in_silence = check_of(
-    "gives_up_in_silence",
-    follows(1),
-    title="After 5 s without feedback or result it cancels the goal and ends with status 1",
-    on=SILENT,
-    needs=walks,
-    see="03_clients_that_survive#fix-why",
-)
+gives_up_in_silence = every_client.check("gives_up_in_silence", 1, needs=walks)
 
-ctrl_c_cancels_the_goal = check_of(
-    "ctrl_c_cancels_the_goal",
-    follows(1),
-    title="Ctrl-C cancels the goal; it waits for its end and ends with status 4",
-    on=INTERRUPTED,
-    needs=walks,
-    see="06_walk_to_a_pose#field-why",
-)
+ctrl_c_cancels_the_goal = every_client.check("ctrl_c_cancels_the_goal", 1, needs=walks)

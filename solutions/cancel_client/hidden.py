@@ -7,22 +7,9 @@ from typing import Any
 
 from autograder.authoring.checks import program
 from autograder.authoring.obligation import check_of
+from autograder.authoring.walking import client_scenarios as scene
+from autograder.authoring.walking import every_client
 from autograder.authoring.walking.client_obligations import follows
-from autograder.authoring.walking.client_scenarios import (
-    ABORTED,
-    ABORTING,
-    EARLY_FEEDBACK,
-    ON_AND_ON,
-    UNANSWERED,
-    WRONG_ARGUMENTS,
-    any_course,
-    any_walk,
-    ctrl_c,
-    silence_on_the_way,
-    typed,
-    walk,
-    way,
-)
 
 from . import checks, model
 from .checks import AGREED_AND_OVER, ARRIVES
@@ -30,31 +17,37 @@ from .checks import AGREED_AND_OVER, ARRIVES
 
 def _ctrl_c_after_q(random: Random) -> dict[str, Any]:
     """Ctrl-C comes after a refused q; its cancel is refused, too, and the goal SUCCEEDS."""
-    return ctrl_c(random, {"ends_after": 4.2, "cancel": {"agreed": False}}, "q")
+    return scene.ctrl_c(random, {"ends_after": 4.2, "cancel": {"agreed": False}}, "q")
 
 
-ANY_WALK = program("in_order", any_walk, namespace="/lab_7/robot")
-ANY_COURSE = program("in_order", lambda random: any_course(random, types=True))
+ANY_WALK = program("in_order", scene.any_walk, namespace="/lab_7/robot")
+ANY_COURSE = program("in_order", lambda random: scene.any_course(random, types=True))
 WRONG = program(
     "in_order",
-    lambda random: {"arguments": random.choice(WRONG_ARGUMENTS), "server": {}, "steps": []},
+    lambda random: {"arguments": random.choice(scene.WRONG_ARGUMENTS), "server": {}, "steps": []},
 )
-REJECTED_EARLY = walk({"accepted": False, "after": 2.0}, ["await_goal"], ["type", "q"])
-ABORTED_ANYWAY = walk(
-    {**AGREED_AND_OVER, "status": ABORTED, "error_msg": "it fell while it stopped"}, *typed("q")
+REJECTED_EARLY = scene.walk({"accepted": False, "after": 2.0}, ["await_goal"], ["type", "q"])
+ABORTED_ANYWAY = scene.walk(
+    {**AGREED_AND_OVER, "status": scene.ABORTED, "error_msg": "it fell while it stopped"}, *scene.typed("q")
 )
-TOO_LATE = walk({"distances": way(3), "ends_after": 1.0, "result_after": 2.5}, *typed("q", after=1.3))
-DEAF = walk({"distances": way(60), "ends_after": 8.0, "cancel": {"agreed": None}}, *typed("q"))
+TOO_LATE = scene.walk(
+    {"distances": scene.way(3), "ends_after": 1.0, "result_after": 2.5}, *scene.typed("q", after=1.3)
+)
+DEAF = scene.walk(
+    {"distances": scene.way(60), "ends_after": 8.0, "cancel": {"agreed": None}}, *scene.typed("q")
+)
 CTRL_C_AFTER_Q = program("in_order", _ctrl_c_after_q)
-OFTEN = walk(
+OFTEN = scene.walk(
     {**ARRIVES, "after": 3.2, "ends_after": 6.0, "cancel": {"agreed": False}},
     *(["type", "w\nq"], ["wait", 3.0], ["offer"]),  # two lines that are pasted; server and answer are late
-    *typed("q", "q", after=3.0),
+    *scene.typed("q", "q", after=3.0),
 )
-NEVER_CANCELED = walk({**ON_AND_ON, "cancel": {"ends_after": None}}, *typed("q"), ["press_ctrl_c"])
-OTHER_LINES = walk(ON_AND_ON, *typed("", "quit", "stop", "q"))
-NO_INPUT = walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, ["end_input"])
-SILENT_ON_THE_WAY = program("in_order", lambda random: silence_on_the_way(random, types=True))
+NEVER_CANCELED = scene.walk(
+    {**scene.ON_AND_ON, "cancel": {"ends_after": None}}, *scene.typed("q"), ["press_ctrl_c"]
+)
+OTHER_LINES = scene.walk(scene.ON_AND_ON, *scene.typed("", "quit", "stop", "q"))
+NO_INPUT = scene.walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, ["end_input"])
+SILENT_ON_THE_WAY = program("in_order", lambda random: scene.silence_on_the_way(random, types=True))
 
 walks_anywhere = check_of(
     "walks_anywhere",
@@ -74,14 +67,7 @@ refuses_wrong_arguments = check_of(
     see="03_clients_that_survive#fix-frame",
 )
 
-tells_an_abort = check_of(
-    "tells_an_abort",
-    follows(1),
-    title="An aborted goal ends it with status 3, and error_msg stands on stderr",
-    on=ABORTING,
-    needs=checks.walks,
-    see="06_walk_to_a_pose#hopeful-why",
-)
+tells_an_abort = every_client.check("tells_an_abort", 1, needs=checks.walks)
 
 a_rejected_goal_needs_no_cancel = check_of(
     "a_rejected_goal_needs_no_cancel",
@@ -149,13 +135,8 @@ walks_without_an_input = check_of(
     see="07_cancel_and_preempt#button-code",
 )
 
-gives_up_without_an_answer = check_of(
-    "gives_up_without_an_answer",
-    follows(1),
-    title="A goal that is never answered ends it with status 1 after 5 s",
-    on=UNANSWERED,
-    needs=[checks.walks, checks.gives_up_without_a_server],
-    see="03_clients_that_survive#fix-why",
+gives_up_without_an_answer = every_client.check(
+    "gives_up_without_an_answer", 1, needs=[checks.walks, checks.gives_up_without_a_server]
 )
 
 notices_silence_on_the_way = check_of(
@@ -168,11 +149,6 @@ notices_silence_on_the_way = check_of(
     see="03_clients_that_survive#kill-why",
 )
 
-survives_early_feedback = check_of(
-    "survives_early_feedback",
-    follows(1),
-    title="Feedback that comes before the goal is accepted disturbs nothing",
-    on=EARLY_FEEDBACK,
-    needs=[checks.walks, checks.prints_feedback_at_once],
-    see="06_walk_to_a_pose#slow-end-why",
+survives_early_feedback = every_client.check(
+    "survives_early_feedback", 1, needs=[checks.walks, checks.prints_feedback_at_once]
 )

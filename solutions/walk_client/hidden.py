@@ -4,46 +4,34 @@ from __future__ import annotations
 
 from autograder.authoring.checks import program
 from autograder.authoring.obligation import check_of
+from autograder.authoring.walking import client_scenarios as scene
+from autograder.authoring.walking import every_client
 from autograder.authoring.walking.client_obligations import follows
-from autograder.authoring.walking.client_scenarios import (
-    ABORTED,
-    CANCELED,
-    EARLY_FEEDBACK,
-    ON_AND_ON,
-    ON_THE_WAY,
-    SUCCEEDED,
-    UNANSWERED,
-    any_course,
-    any_walk,
-    ctrl_c,
-    silence_on_the_way,
-    slow_walk,
-    typed,
-    walk,
-)
 
 from . import checks, model
 
-WITHOUT_YAW = program("in_order", lambda random: any_walk(random, arguments=2))
-ANY_COURSE = program("in_order", any_course)
-OTHER_NAMESPACE = program("in_order", any_walk, namespace="/lab_7/robot")
-SLOW = program("in_order", slow_walk)
-SILENT_ON_THE_WAY = program("in_order", silence_on_the_way)
-BY_ANOTHER = walk({**ON_THE_WAY, "status": CANCELED})
-NO_CODE = walk({"ends_after": 1.0, "status": ABORTED})
-PREEMPTED = walk(
-    {"ends_after": 1.0, "status": ABORTED, "error_code": 2, "error_msg": "a later goal took the robot"}
+WITHOUT_YAW = program("in_order", lambda random: scene.any_walk(random, arguments=2))
+ANY_COURSE = program("in_order", scene.any_course)
+OTHER_NAMESPACE = program("in_order", scene.any_walk, namespace="/lab_7/robot")
+SLOW = program("in_order", scene.slow_walk)
+SILENT_ON_THE_WAY = program("in_order", scene.silence_on_the_way)
+BY_ANOTHER = scene.walk({**scene.ON_THE_WAY, "status": scene.CANCELED})
+NO_CODE = scene.walk({"ends_after": 1.0, "status": scene.ABORTED})
+PREEMPTED = scene.walk(
+    {"ends_after": 1.0, "status": scene.ABORTED, "error_code": 2, "error_msg": "a later goal took the robot"}
 )
-WITH_WORDS = walk({**ON_THE_WAY, "error_msg": "the floor is slippery"})
-FORGETFUL = walk({**ON_THE_WAY, "kept_for": 1.0})
-NEVER_CANCELED = walk({**ON_AND_ON, "cancel": {"ends_after": None}}, *typed(), ["press_ctrl_c"])
+WITH_WORDS = scene.walk({**scene.ON_THE_WAY, "error_msg": "the floor is slippery"})
+FORGETFUL = scene.walk({**scene.ON_THE_WAY, "kept_for": 1.0})
+NEVER_CANCELED = scene.walk(
+    {**scene.ON_AND_ON, "cancel": {"ends_after": None}}, *scene.typed(), ["press_ctrl_c"]
+)
 ARRIVES = program(
     "in_order",
-    lambda random: ctrl_c(
+    lambda random: scene.ctrl_c(
         random,
         {
             "ends_after": 4.2,
-            "status": random.choice([SUCCEEDED, ABORTED]),
+            "status": random.choice([scene.SUCCEEDED, scene.ABORTED]),
             "cancel": {"agreed": False},
         },
     ),
@@ -69,13 +57,8 @@ works_in_any_namespace = check_of(
     see="01_robot_and_graph#names-why",
 )
 
-gives_up_without_an_answer = check_of(
-    "gives_up_without_an_answer",
-    follows(6, 9),
-    title="A goal that is never answered ends it with status 1 after 5 s",
-    on=UNANSWERED,
-    needs=[checks.sends_the_goal, checks.gives_up_without_a_server],
-    see="03_clients_that_survive#fix-why",
+gives_up_without_an_answer = every_client.check(
+    "gives_up_without_an_answer", 6, 9, needs=[checks.sends_the_goal, checks.gives_up_without_a_server]
 )
 
 walks_as_long_as_it_takes = check_of(
@@ -98,13 +81,8 @@ notices_silence_on_the_way = check_of(
     see="03_clients_that_survive#kill-why",
 )
 
-survives_early_feedback = check_of(
-    "survives_early_feedback",
-    follows(12),
-    title="Feedback that comes before the goal is accepted disturbs nothing",
-    on=EARLY_FEEDBACK,
-    needs=[checks.prints_the_feedback, checks.says_how_it_succeeded],
-    see="06_walk_to_a_pose#slow-end-why",
+survives_early_feedback = every_client.check(
+    "survives_early_feedback", 12, needs=[checks.prints_the_feedback, checks.says_how_it_succeeded]
 )
 
 tells_a_cancel_by_another = check_of(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from math import inf
@@ -53,23 +53,15 @@ _WAIT_NO_LONGER = (
 
 @dataclass(frozen=True)
 class End:
-    """A way in which the program may end.
+    """A way in which the program may end."""
 
-    Attributes:
-        status: its exit status.
-        name, because: the reason, in a word or two and as a clause.
-        at: when the program can know the reason (s).
-        earliest, latest: of its end (s).
-        help: what to do about another exit status.
-    """
-
-    status: int
-    name: str
-    because: str
-    at: float
-    earliest: float
+    status: int  # its exit status
+    name: str  # the reason in a word or two
+    because: str  # the reason as a clause
+    at: float  # s, when the program can know the reason
+    earliest: float  # s, of its end
     latest: float
-    help: str = field(repr=False)
+    help: str  # what to do about another exit status
 
 
 @dataclass(frozen=True)

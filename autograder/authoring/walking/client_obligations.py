@@ -58,20 +58,9 @@ BECAME = {
     None: r"\b(not|never|still|yet|without|unknown|unfinished|goes on|going on|gave up|no (end|result))\b|n't",
 }
 ROTATION = 0.0005  # rad, and of a quaternion's length, by which a goal may differ from the arguments
-_ON_Q = (
-    "Read stdin in a thread that sets an event; where you wait for the result, look at the event and call "
-    "goal_handle.cancel_goal_async()."
-)
-_ON_AN_EARLY_Q = (
-    "There is no goal handle yet to cancel with: remember the q, and look for it right after the acceptance."
-)
 ON_CTRL_C = (
     "rclpy shuts down at Ctrl-C, and then nothing can be sent: rclpy.init(signal_handler_options="
     "SignalHandlerOptions.NO), catch the signal yourself, and call cancel_goal_async()."
-)
-_PARSE = (
-    "Let argparse read rclpy.utilities.remove_ros_args(sys.argv)[1:] with type=float: it ends the program with status "
-    "2 itself."
 )
 
 
@@ -177,9 +166,16 @@ def _needless(life: ClientLife, t: float) -> Failure:
 
 
 def _how_to_cancel(life: ClientLife, cause: Cause) -> str:
-    early = life.asked and life.asked[0] < life.accepted
-    helps = {"q": _ON_AN_EARLY_Q if early else _ON_Q, "Ctrl-C": ON_CTRL_C}
-    return helps.get(cause.name) or how_to_give_up(life.run)
+    if cause.name == "Ctrl-C":
+        return ON_CTRL_C
+    if cause.name == "silence":
+        return how_to_give_up(life.run)
+    if life.asked[0] < life.accepted:
+        return "There is no goal handle yet to cancel with: remember the q, and look for it right after the acceptance."
+    return (
+        "Read stdin in a thread that sets an event; where you wait for the result, look at the event and call "
+        "goal_handle.cancel_goal_async()."
+    )
 
 
 def asks_for_its_result(life: ClientLife) -> str | None:
@@ -492,7 +488,11 @@ def refuses_what_is_no_pose(run: Transcript) -> str:
     """Wrong arguments end it with status 2 and the usage on stderr, before a node is started."""
     exited = client_checks.require_end(run, ENDS_AT_ONCE)
     arguments = " ".join(run.params["arguments"])
-    observed, help = why_not_this_status(run, exited, _PARSE)
+    help = (
+        "Let argparse read rclpy.utilities.remove_ros_args(sys.argv)[1:] with type=float: it ends the program with "
+        "status 2 itself."
+    )
+    observed, help = why_not_this_status(run, exited, help)
     expect(
         exited.returncode == USAGE,
         expected=f"exit status {USAGE}: it was started with {arguments}",
