@@ -8,25 +8,29 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from math import inf
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from autograder.authoring import events as ev
-from autograder.authoring.action_client_checks import require_one_goal
+from autograder.authoring.client_checks import require_one_goal
 from autograder.authoring.failure import Failure
 from autograder.authoring.missing import unseen
 from autograder.authoring.scripted_goal import ScriptedGoal
 from autograder.authoring.sequence import steps_until
 from autograder.authoring.transcript import Transcript
-from autograder.authoring.walking.client import CANCELED, FINDING, NO_SERVER, PATIENCE, STATUS_HELP
 from autograder.authoring.walking.client_life import (
-    EXIT_STATUS,
+    CANCELED,
+    FINDING,
+    LEAVES_SOON,
     LEAVING,
     MARGIN,
-    NAMES,
+    NO_SERVER,
+    PATIENCE,
+    STATUS_HELP,
     SURELY_WAITED,
     Cause,
     ClientLife,
     End,
+    by_status,
 )
 from autograder.authoring.walking.client_record import require_record
 from humanoid_interfaces.msg import RobotState
@@ -37,13 +41,7 @@ ROBOT = "robot_state"
 LIMIT = 0.20
 AT_ONCE = 1.0  # s
 KNOWN = 1.0  # s after which a client surely knows what was published
-# s beyond a clause's limit, on a busy machine: for a request, and for the end of a program.
-GRACE = 1.0
-LEAVES_SOON = 3.0
-WAIT_FOR_STANDING = (
-    "The result tells how the goal ended; what the legs do, robot_state tells. Spin until its last mode "
-    "is RobotState.STANDING, at most 5 s. That it stood before the walk does not count."
-)
+GRACE = 1.0  # s beyond a clause's limit for a request, on a busy machine
 IS_LATCHED = (
     f"{BATTERY} was published once, before your program began. A subscription gets that message only with "
     "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)."
@@ -53,7 +51,6 @@ _WAIT_FOR_BATTERY = (
     "percentage from 0 to 1, at most 5 s, then print a line on stderr and return 1."
 )
 _WAIT_FOR_SERVER = "Look at server_is_ready() for at most 5 s, then print a line on stderr and return 1."
-_LISTEN = "Give the waiting for the result a limit on silence, and return 1 when it is over."
 _WAIT_NO_LONGER = (
     "Wait for the result at most 5 s after the cancel, then print a line and return 4: feedback may go on."
 )
@@ -76,6 +73,18 @@ def is_percentage(level: float) -> bool:
 @dataclass(frozen=True)
 class GuardLife(ClientLife):
     """One run of a guard, with what the battery and the robot said meanwhile."""
+
+    action: ClassVar[str] = NAVIGATE
+    pose_field: ClassVar[str] = "pose"
+    end_in_time: ClassVar[str] = (
+        "Keep the last message of robot_state, with durability transient local, and look at it again after each "
+        "spin. Give each wait after the cancel a limit of 5 s, counted from its beginning: feedback may go on."
+    )
+
+    @cached_property
+    def goal(self) -> ScriptedGoal | None:
+        """The goal that it sent; None: none came."""
+        return require_one_goal(self.run, NAVIGATE) if self.run.scripted_goals(NAVIGATE) else None
 
     @cached_property
     def levels(self) -> list[ev.MessagePublished]:
@@ -118,12 +127,6 @@ class GuardLife(ClientLife):
         before = [event for event in published if started and event.t <= started.t]
         return published[max(len(before) - 1, 0) :]
 
-    @property
-    def offered(self) -> float:
-        """When the server appeared."""
-        offered = self.run.first(ev.ActionOffered)
-        return offered.t if offered else inf
-
     @cached_property
     def called_off(self) -> float:
         """When it first asked to cancel its goal because of the battery or Ctrl-C."""
@@ -138,22 +141,9 @@ class GuardLife(ClientLife):
 
     # -- what it owes -------------------------------------------------------------------------------------------------
 
-    def ends(self) -> list[End]:
-        """Return how it may end: more than one way only where two moments are too close to have an order."""
-        return super().ends() if self.goal else self._without_a_goal()
-
     def causes(self) -> list[Cause]:
-        """Return what asks it to cancel its goal."""
-        if self.accepted == inf:
-            return []
-        silent = f"nothing was heard of it for {PATIENCE:g} s"
-        return [
-            *self.reasons(),
-            *(
-                self._cause("silence", silent, t - MARGIN, latest, sure)
-                for t, latest, sure in self.silences()
-            ),
-        ]
+        """Return what asks it to cancel its goal, each for one request."""
+        return [replace(cause, once=True) for cause in super().causes()]
 
     def reasons(self) -> Iterator[Cause]:
         """Yield what asks it to cancel its goal, but for silence; of several, only the first needs a request."""
@@ -182,9 +172,6 @@ class GuardLife(ClientLife):
         said = f" {early:.1f} s before the goal was accepted" if early > 0.0 else ""
         return f"the battery fell to {low.level:.4g}{said}"
 
-    def _without_an_answer(self, goal: ScriptedGoal) -> End:
-        return replace(super()._without_an_answer(goal), latest=goal.received.t + PATIENCE + LEAVES_SOON)
-
     def _without_a_goal(self) -> list[End]:
         found = [*self._missing_something(), *self._low_before()]
         exited = self.run.first(ev.NodeExited)
@@ -202,7 +189,7 @@ class GuardLife(ClientLife):
 
     def _missing_something(self) -> Iterator[End]:
         """Yield the ends of a program that may have found no percentage, or no server, in its time."""
-        started, offered = self.started, self.offered
+        started, offered = self.started, self.when(ev.ActionOffered)
         known = max(self.levels[0].t, started) if self.levels else inf
         for name, because, t, since, help in (
             ("no percentage", f"no percentage came on {BATTERY}", known, started, _WAIT_FOR_BATTERY),
@@ -219,7 +206,7 @@ class GuardLife(ClientLife):
         started = self.run.first(ev.NodeStarted)
         for low in self.lows:
             since = max(low.since, started.t if started else low.since)
-            found = min(max(self.offered, since), since + 2 * PATIENCE)
+            found = min(max(self.when(ev.ActionOffered), since), since + 2 * PATIENCE)
             help = IS_LATCHED if len(self._heard_on(BATTERY)) == 1 else STATUS_HELP
             because = f"the battery was at {low.level:.4g} before the goal was sent"
             yield End(CANCELED, "low before", because, since, since, found + FINDING + LEAVING, help)
@@ -228,10 +215,8 @@ class GuardLife(ClientLife):
         """Yield each end of an accepted goal's guard, if nothing else came first, and whether it is certain."""
         assert self.goal is not None
         called_off, finished, result = self.called_off, self.goal.finished, self.result
-        for since, latest, is_certain in self.silences():
-            latest += PATIENCE + LEAVES_SOON
-            silent = End(NO_SERVER, "silence", "the server is silent", since, since - MARGIN, latest, _LISTEN)
-            yield silent, is_certain and since < called_off
+        for end, is_certain in self._in_silence():
+            yield end, is_certain and end.at < called_off
         waits_until = inf  # when it surely waits for nothing any more
         if called_off < inf:
             by_keyboard = not self.for_the_battery
@@ -253,18 +238,28 @@ class GuardLife(ClientLife):
     def _by_its_result(self, status: int, is_called_off: bool) -> End:
         """Return the end of a program that got the result; after a cancel it waits for STANDING, too."""
         t = self.result
-        exit_status = EXIT_STATUS[status]
-        name = NAMES[exit_status]
-        because = "the goal SUCCEEDED" if name == "SUCCEEDED" else f"the goal was {name}"
-        if exit_status != CANCELED:
-            return End(exit_status, name, because, t, t, t + LEAVING, STATUS_HELP)
+        end = by_status(status, t)
+        if end.status != CANCELED:
+            return end
         stands = self.stands_from(t)
-        is_owed = is_called_off and self.for_the_battery
-        stood = min(stands, t + PATIENCE) if is_owed else t + PATIENCE  # for which it may wait in any case
-        earliest = min(stands, t + PATIENCE - MARGIN) if is_owed else t
-        if is_called_off and stands > t + PATIENCE:
-            name = "no STANDING"
-        return End(CANCELED, name, because, t, earliest, stood + LEAVES_SOON, STATUS_HELP)
+        name = "no STANDING" if is_called_off and stands > t + PATIENCE else end.name
+        latest = t + PATIENCE + LEAVES_SOON  # so long it may wait for STANDING in any case
+        if is_called_off and self.for_the_battery:
+            earliest, latest = min(stands, t + PATIENCE - MARGIN), min(stands + LEAVES_SOON, latest)
+            return replace(end, name=name, earliest=earliest, latest=latest)
+        return replace(end, name=name, latest=latest)
+
+    def left_early(self, end: End, exited: ev.NodeExited) -> Failure:
+        """Return the failure of a program that ended before it could know that it may end like this."""
+        if self.result > exited.t or end.status != CANCELED:
+            return super().left_early(end, exited)
+        return Failure(
+            expected="the end only when the goal is CANCELED and the robot stands",
+            observed=f"it ended {exited.t - self.result:.1f} s after CANCELED, and robot_state did not say STANDING",
+            help="The result tells how the goal ended; what the legs do, robot_state tells. Spin until its last mode "
+            "is RobotState.STANDING, at most 5 s. That it stood before the walk does not count.",
+            at=exited.t,
+        )
 
     @property
     def _is_refused(self) -> bool:
@@ -280,7 +275,7 @@ def guards(run: Transcript) -> list[GuardLife]:
         done = sum(step[0] == verb for step in steps_until(run, run.end))
         if len(run.published(topic)) < before[topic] + done:
             raise unseen(run, f"the record lacks what was published on {topic}")
-    return [GuardLife(run, require_one_goal(run, NAVIGATE) if run.scripted_goals(NAVIGATE) else None, ())]
+    return [GuardLife(run)]
 
 
 def about_level(level: float) -> str:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from autograder.authoring.obligation import check_of
-from autograder.authoring.walking.client_scenarios import GOOD, INTERRUPTED, NOBODY, SILENT, typed, walk, way
+from autograder.authoring.walking import every_client
+from autograder.authoring.walking.client_obligations import follows
+from autograder.authoring.walking.client_scenarios import GOOD, typed, walk, way
 
 from . import model
 
@@ -19,7 +21,7 @@ INPUT_ENDS = walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, *typed(), ["end_
 walks = check_of(
     "walks",
     model.sends_one_goal,
-    model.follows_its_goal(1),
+    follows(1),
     title="It sends one goal, and says SUCCEEDED with the final pose and status 0",
     on=GOOD,
     see="06_walk_to_a_pose#follow-task",
@@ -37,7 +39,7 @@ prints_feedback_at_once = check_of(
 
 q_cancels_the_goal = check_of(
     "q_cancels_the_goal",
-    model.follows_its_goal(2, 3),
+    follows(2, 3),
     title="A q and Enter cancel the goal; it waits for its end and ends with status 4",
     points=3,
     on=CANCELED_BY_Q,
@@ -47,7 +49,7 @@ q_cancels_the_goal = check_of(
 
 believes_the_end = check_of(
     "believes_the_end",
-    model.follows_its_goal(3),
+    follows(3),
     title="A goal that SUCCEEDED, although the server had agreed to cancel it, ends it with status 0",
     points=2,
     on=OVERTAKEN,
@@ -57,7 +59,7 @@ believes_the_end = check_of(
 
 remembers_an_early_q = check_of(
     "remembers_an_early_q",
-    model.follows_its_goal(4),
+    follows(4),
     title="A q that is typed before the goal is accepted cancels it when it is",
     points=2,
     on=EARLY,
@@ -67,7 +69,7 @@ remembers_an_early_q = check_of(
 
 reports_a_refusal = check_of(
     "reports_a_refusal",
-    model.follows_its_goal(6),
+    follows(6),
     model.says_what_was_refused,
     title="A refused cancel (code 0, empty goals_canceling) is reported, and the goal goes on to its own end",
     points=2,
@@ -78,35 +80,15 @@ reports_a_refusal = check_of(
 
 goes_on_at_the_end_of_input = check_of(
     "goes_on_at_the_end_of_input",
-    model.follows_its_goal(5),
+    follows(5),
     title="The end of the input (Ctrl-D) cancels nothing",
     on=INPUT_ENDS,
     needs=walks,
     see="07_cancel_and_preempt#button-code",
 )
 
-gives_up_without_a_server = check_of(
-    "gives_up_without_a_server",
-    model.follows_its_goal(1),
-    title="Without a server it ends with status 1 after 5 s, and says so on stderr",
-    on=NOBODY,
-    see="03_clients_that_survive#fix-why",
-)
+gives_up_without_a_server = every_client.check("gives_up_without_a_server", 1)
 
-gives_up_in_silence = check_of(
-    "gives_up_in_silence",
-    model.follows_its_goal(1),
-    title="After 5 s without feedback or result it cancels the goal and ends with status 1",
-    on=SILENT,
-    needs=walks,
-    see="03_clients_that_survive#fix-why",
-)
+gives_up_in_silence = every_client.check("gives_up_in_silence", 1, needs=walks)
 
-ctrl_c_cancels_the_goal = check_of(
-    "ctrl_c_cancels_the_goal",
-    model.follows_its_goal(1),
-    title="Ctrl-C cancels the goal; it waits for its end and ends with status 4",
-    on=INTERRUPTED,
-    needs=walks,
-    see="06_walk_to_a_pose#field-why",
-)
+ctrl_c_cancels_the_goal = every_client.check("ctrl_c_cancels_the_goal", 1, needs=walks)

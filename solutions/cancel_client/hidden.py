@@ -7,21 +7,9 @@ from typing import Any
 
 from autograder.authoring.checks import program
 from autograder.authoring.obligation import check_of
-from autograder.authoring.walking.client_scenarios import (
-    ABORTED,
-    ABORTING,
-    EARLY_FEEDBACK,
-    ON_AND_ON,
-    UNANSWERED,
-    WRONG_ARGUMENTS,
-    any_course,
-    any_walk,
-    ctrl_c,
-    silence_on_the_way,
-    typed,
-    walk,
-    way,
-)
+from autograder.authoring.walking import client_scenarios as scene
+from autograder.authoring.walking import every_client
+from autograder.authoring.walking.client_obligations import follows
 
 from . import checks, model
 from .checks import AGREED_AND_OVER, ARRIVES
@@ -29,36 +17,42 @@ from .checks import AGREED_AND_OVER, ARRIVES
 
 def _ctrl_c_after_q(random: Random) -> dict[str, Any]:
     """Ctrl-C comes after a refused q; its cancel is refused, too, and the goal SUCCEEDS."""
-    return ctrl_c(random, {"ends_after": 4.2, "cancel": {"agreed": False}}, "q")
+    return scene.ctrl_c(random, {"ends_after": 4.2, "cancel": {"agreed": False}}, "q")
 
 
-ANY_WALK = program("in_order", any_walk, namespace="/lab_7/robot")
-ANY_COURSE = program("in_order", lambda random: any_course(random, types=True))
+ANY_WALK = program("in_order", scene.any_walk, namespace="/lab_7/robot")
+ANY_COURSE = program("in_order", lambda random: scene.any_course(random, types=True))
 WRONG = program(
     "in_order",
-    lambda random: {"arguments": random.choice(WRONG_ARGUMENTS), "server": {}, "steps": []},
+    lambda random: {"arguments": random.choice(scene.WRONG_ARGUMENTS), "server": {}, "steps": []},
 )
-REJECTED_EARLY = walk({"accepted": False, "after": 2.0}, ["await_goal"], ["type", "q"])
-ABORTED_ANYWAY = walk(
-    {**AGREED_AND_OVER, "status": ABORTED, "error_msg": "it fell while it stopped"}, *typed("q")
+REJECTED_EARLY = scene.walk({"accepted": False, "after": 2.0}, ["await_goal"], ["type", "q"])
+ABORTED_ANYWAY = scene.walk(
+    {**AGREED_AND_OVER, "status": scene.ABORTED, "error_msg": "it fell while it stopped"}, *scene.typed("q")
 )
-TOO_LATE = walk({"distances": way(3), "ends_after": 1.0, "result_after": 2.5}, *typed("q", after=1.3))
-DEAF = walk({"distances": way(60), "ends_after": 8.0, "cancel": {"agreed": None}}, *typed("q"))
+TOO_LATE = scene.walk(
+    {"distances": scene.way(3), "ends_after": 1.0, "result_after": 2.5}, *scene.typed("q", after=1.3)
+)
+DEAF = scene.walk(
+    {"distances": scene.way(60), "ends_after": 8.0, "cancel": {"agreed": None}}, *scene.typed("q")
+)
 CTRL_C_AFTER_Q = program("in_order", _ctrl_c_after_q)
-OFTEN = walk(
+OFTEN = scene.walk(
     {**ARRIVES, "after": 3.2, "ends_after": 6.0, "cancel": {"agreed": False}},
     *(["type", "w\nq"], ["wait", 3.0], ["offer"]),  # two lines that are pasted; server and answer are late
-    *typed("q", "q", after=3.0),
+    *scene.typed("q", "q", after=3.0),
 )
-NEVER_CANCELED = walk({**ON_AND_ON, "cancel": {"ends_after": None}}, *typed("q"), ["press_ctrl_c"])
-OTHER_LINES = walk(ON_AND_ON, *typed("", "quit", "stop", "q"))
-NO_INPUT = walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, ["end_input"])
-SILENT_ON_THE_WAY = program("in_order", lambda random: silence_on_the_way(random, types=True))
+NEVER_CANCELED = scene.walk(
+    {**scene.ON_AND_ON, "cancel": {"ends_after": None}}, *scene.typed("q"), ["press_ctrl_c"]
+)
+OTHER_LINES = scene.walk(scene.ON_AND_ON, *scene.typed("", "quit", "stop", "q"))
+NO_INPUT = scene.walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, ["end_input"])
+SILENT_ON_THE_WAY = program("in_order", lambda random: scene.silence_on_the_way(random, types=True))
 
 walks_anywhere = check_of(
     "walks_anywhere",
     model.sends_one_goal,
-    model.follows_its_goal(1),
+    follows(1),
     title="Another namespace, another pose with negative numbers",
     on=ANY_WALK,
     needs=checks.walks,
@@ -73,18 +67,11 @@ refuses_wrong_arguments = check_of(
     see="03_clients_that_survive#fix-frame",
 )
 
-tells_an_abort = check_of(
-    "tells_an_abort",
-    model.follows_its_goal(1),
-    title="An aborted goal ends it with status 3, and error_msg stands on stderr",
-    on=ABORTING,
-    needs=checks.walks,
-    see="06_walk_to_a_pose#hopeful-why",
-)
+tells_an_abort = every_client.check("tells_an_abort", 1, needs=checks.walks)
 
 a_rejected_goal_needs_no_cancel = check_of(
     "a_rejected_goal_needs_no_cancel",
-    model.follows_its_goal(1, 4),
+    follows(1, 4),
     title="A goal that is rejected after a q ends it with status 2",
     on=REJECTED_EARLY,
     needs=checks.remembers_an_early_q,
@@ -93,7 +80,7 @@ a_rejected_goal_needs_no_cancel = check_of(
 
 tells_an_abort_after_q = check_of(
     "tells_an_abort_after_q",
-    model.follows_its_goal(3),
+    follows(3),
     title="A goal that is ABORTED after the server had agreed to cancel it ends it with status 3",
     on=ABORTED_ANYWAY,
     needs=[checks.believes_the_end, tells_an_abort],
@@ -102,7 +89,7 @@ tells_an_abort_after_q = check_of(
 
 reports_a_late_cancel = check_of(
     "reports_a_late_cancel",
-    model.follows_its_goal(3, 7),
+    follows(3, 7),
     model.says_what_was_refused,
     title="A cancel that comes when the goal has ended (code 3) is reported, and the goal's end decides",
     points=2,
@@ -113,7 +100,7 @@ reports_a_late_cancel = check_of(
 
 does_not_wait_for_the_answer = check_of(
     "does_not_wait_for_the_answer",
-    model.follows_its_goal(3, 8),
+    follows(3, 8),
     title="A cancel that gets no answer holds up nothing; after a q, too, Ctrl-C ends it with status 4 in any case",
     points=2,
     on=[DEAF, CTRL_C_AFTER_Q, NEVER_CANCELED],
@@ -123,7 +110,7 @@ does_not_wait_for_the_answer = check_of(
 
 cancels_once = check_of(
     "cancels_once",
-    model.follows_its_goal(2),
+    follows(2),
     title="However early and often q is typed, and whatever the answer, the goal is cancelled once",
     on=OFTEN,
     needs=checks.q_cancels_the_goal,
@@ -132,7 +119,7 @@ cancels_once = check_of(
 
 other_lines_cancel_nothing = check_of(
     "other_lines_cancel_nothing",
-    model.follows_its_goal(5),
+    follows(5),
     title="Only q cancels, also after an empty line or another word, such as quit",
     on=OTHER_LINES,
     needs=checks.q_cancels_the_goal,
@@ -141,20 +128,15 @@ other_lines_cancel_nothing = check_of(
 
 walks_without_an_input = check_of(
     "walks_without_an_input",
-    model.follows_its_goal(5),
+    follows(5),
     title="Started where there is no input, it walks all the same",
     on=NO_INPUT,
     needs=checks.goes_on_at_the_end_of_input,
     see="07_cancel_and_preempt#button-code",
 )
 
-gives_up_without_an_answer = check_of(
-    "gives_up_without_an_answer",
-    model.follows_its_goal(1),
-    title="A goal that is never answered ends it with status 1 after 5 s",
-    on=UNANSWERED,
-    needs=[checks.walks, checks.gives_up_without_a_server],
-    see="03_clients_that_survive#fix-why",
+gives_up_without_an_answer = every_client.check(
+    "gives_up_without_an_answer", 1, needs=[checks.walks, checks.gives_up_without_a_server]
 )
 
 notices_silence_on_the_way = check_of(
@@ -167,11 +149,6 @@ notices_silence_on_the_way = check_of(
     see="03_clients_that_survive#kill-why",
 )
 
-survives_early_feedback = check_of(
-    "survives_early_feedback",
-    model.follows_its_goal(1),
-    title="Feedback that comes before the goal is accepted disturbs nothing",
-    on=EARLY_FEEDBACK,
-    needs=[checks.walks, checks.prints_feedback_at_once],
-    see="06_walk_to_a_pose#slow-end-why",
+survives_early_feedback = every_client.check(
+    "survives_early_feedback", 1, needs=[checks.walks, checks.prints_feedback_at_once]
 )

@@ -1,9 +1,9 @@
-"""Reads from the record where a client hung or why it failed, and chooses one thing to do about it."""
+"""Reads from the record why a client failed, and chooses one thing to do about it."""
 
 from __future__ import annotations
 
 from autograder.authoring import events as ev
-from autograder.authoring.call import Request
+from autograder.authoring.client_checks import why_not_this_status
 from autograder.authoring.fields import shown_fields
 from autograder.authoring.transcript import Transcript
 
@@ -12,37 +12,6 @@ from .truth import ENABLE, STATUS, offered
 SOONEST = 1.5  # s between a request and its repetition, or for a search; 2 s are asked for
 TRACEBACK = "Traceback (most recent call last)"
 Advice = tuple[str, str]  # what the record knows of a fault, and what to do
-
-
-def why_it_hung(run: Transcript) -> Advice:
-    """Say of a program that has not ended by itself what it waits for."""
-    requests = [*run.requests(ENABLE), *run.requests(STATUS)]
-    last = max(requests, key=lambda request: request.received.t, default=None)
-    if last is None:
-        return ("It hung before any request was sent (wait_for_service).", _LIMIT_THE_FINDING)
-    service, number = last.received.service, len(run.requests(last.received.service))
-    if number > 2:
-        return (
-            f"It sent {number} requests to {service} and went on asking.",
-            "Ask once more, then give up: `for _ in range(2)` ends, `while` need not.",
-        )
-    if last.reply is None:
-        return _waiting_for_an_answer(run, last, number)
-    if service == STATUS:
-        return (
-            "It went on after get_status had answered.",
-            "Return from main() when the status is printed: spin no longer, and end every thread of your own.",
-        )
-    if not offered(run, STATUS):
-        return (
-            "It hung after enable_motors had answered, while nobody offered get_status (wait_for_service).",
-            _LIMIT_THE_FINDING,
-        )
-    return (
-        "It hung after enable_motors had answered, and never asked get_status.",
-        "The answer came and your node did not take it: spin the node while you wait for a future, and do not wait "
-        "in a callback, which keeps the node from spinning.",
-    )
 
 
 def why_it_failed(run: Transcript, exited: ev.NodeExited) -> Advice:
@@ -71,46 +40,17 @@ def why_it_failed(run: Transcript, exited: ev.NodeExited) -> Advice:
 
 def why_not_one(run: Transcript, exited: ev.NodeExited) -> Advice:
     """Say of a program that had to give up with exit status 1 why it ended with another one."""
-    status = exited.returncode
     refused = any(each.reply and not each.reply.response.success for each in run.requests(ENABLE))
-    if status == 0 and refused and run.requests(STATUS):
+    if exited.returncode == 0 and refused and run.requests(STATUS):
         return (
             "You asked get_status although enable_motors answered success: false.",
             "Look at response.success and return 1.",
         )
-    if status == 0:
-        return (
-            f"Status 0, which says that all went well; the last line on stderr: {run.last_words or 'none'}",
-            "Return 1 from main() and end the file with sys.exit(main()): without that line Python ends with 0.",
-        )
-    if status < 0:
-        return (f"Signal {-status} ended it.", "Read the end of the log: it says what happened last.")
-    return (
-        f"Status {status}; the last line on stderr: {run.last_words or 'none'}",
-        "Return 1 where a service is missing, refuses or is silent. 2 to 4 are for goals of actions.",
+    help = (
+        "Return 1 from main() where a service is missing, refuses or is silent (2 to 4 are for goals of actions), and "
+        "end the file with sys.exit(main())."
     )
-
-
-_LIMIT_THE_FINDING = (
-    "Call wait_for_service(timeout_sec=2.0) and look at what it returns: False means that nobody is there."
-)
-_LIMIT_THE_ANSWER = (
-    "Call spin_until_future_complete(node, future, timeout_sec=2.0) and look at future.done() after it: when the time "
-    "is over it returns without an answer."
-)
-
-
-def _waiting_for_an_answer(run: Transcript, last: Request, number: int) -> Advice:
-    service = last.received.service
-    if any(gone.server == last.received.server for gone in run.all(ev.ServiceWithdrawn)):
-        return (
-            f"It hung after request {number} to {service} was sent, when the server had died.",
-            "Give every wait a limit, the one for the answer and the one for the server to come back: it may never.",
-        )
-    return (
-        f"It hung after request {number} to {service} was sent (waiting for its answer).",
-        _LIMIT_THE_ANSWER,
-    )
+    return why_not_this_status(run, exited, help)
 
 
 def _never_asked(run: Transcript, service: str, status: int) -> Advice:
@@ -146,7 +86,7 @@ def _gave_up_early(run: Transcript, service: str, exited: ev.NodeExited) -> Advi
         return (
             f"It gave up {gave_up - last.received.t:.1f} s after request {len(requests)} to {service}, before the "
             "answer came.",
-            _TWO_SECONDS,
+            "An answer may take 2 s, each time: wait with timeout_sec=2.0.",
         )
     if len(requests) > 1:
         return (
@@ -154,9 +94,6 @@ def _gave_up_early(run: Transcript, service: str, exited: ev.NodeExited) -> Advi
             "An answer to the second request counts like one to the first: look at future.done() after each.",
         )
     return None
-
-
-_TWO_SECONDS = "An answer may take 2 s, each time: wait with timeout_sec=2.0."
 
 
 def gave_up_at(run: Transcript, exited: ev.NodeExited) -> float:

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from autograder.authoring import client_checks
-from autograder.authoring import events as ev
+from autograder.authoring.client_checks import require_end, require_failure, started_at
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.obligation import obligation, whole_run
-from autograder.authoring.readiness import require_within_limits
 from autograder.authoring.transcript import Transcript
 
-from .advice import SOONEST, gave_up_at, how_to_print_one, why_it_failed, why_it_hung, why_not_one
+from .advice import SOONEST, gave_up_at, how_to_print_one, why_it_failed, why_not_one
 from .truth import (
     ENABLE,
     MARGIN,
@@ -26,7 +24,6 @@ from .truth import (
     is_gone,
     is_missing,
     offered,
-    started_at,
 )
 
 DEADLINE_SLACK = 0.8  # s for the line that says so; ending takes longer, for which `client_checks` allows
@@ -40,24 +37,10 @@ REFUSING = "03b_clients_in_bad_company#success-why"  # the lesson
 # -- how it ends ------------------------------------------------------------------------------------------------------
 
 
-def require_end(run: Transcript) -> ev.NodeExited:
-    """Require that the program ended by itself, in time; if it hung, say where."""
-    require_within_limits(run)
-    if run.first(ev.NodeExited) is None and run.first(ev.NodeStarted) is not None:
-        observed, help = why_it_hung(run)
-        raise Failure(
-            expected=f"the program to end by itself within {WITHIN:g} s",
-            observed=observed,
-            help=help,
-            at=run.end,
-        )
-    return client_checks.require_end(run, WITHIN)
-
-
 @obligation(3, 4, 6, 8, 9, 12, of=whole_run)
 def ends_as_it_went(run: Transcript) -> str:
     """It ends with status 0 if both services answered, and with 1 if one was missing, silent or refused"""
-    exited, ends = require_end(run), expected_ends(run)
+    exited, ends = require_end(run, WITHIN), expected_ends(run)
     allowed = [0] * ends.may_succeed + [1] * ends.may_fail
     if exited.returncode not in allowed:
         for service in (ENABLE, STATUS):
@@ -80,10 +63,10 @@ def ends_as_it_went(run: Transcript) -> str:
 @obligation(10, of=whole_run)
 def says_why_it_fails(run: Transcript) -> str | None:
     """Before it ends with status 1 it says why on stderr, without a traceback, and prints no status"""
-    exited, ends = require_end(run), expected_ends(run)
+    exited, ends = require_end(run, WITHIN), expected_ends(run)
     if not ends.may_fail or (exited.returncode == 0 and ends.may_succeed):
         return None
-    client_checks.require_failure(run, WITHIN, (1,), ends.why)
+    require_failure(run, WITHIN, (1,), ends.why)
     printed = _status_lines(run)
     expect(
         not printed,
@@ -98,7 +81,7 @@ def says_why_it_fails(run: Transcript) -> str | None:
 @obligation(11, of=whole_run)
 def keeps_one_deadline(run: Transcript) -> str | None:
     """It gives up within 10 s in all, counted from the start of its node"""
-    exited = require_end(run)
+    exited = require_end(run, WITHIN)
     if exited.returncode == 0:
         return "it succeeds"
     took = gave_up_at(run, exited) - started_at(run)
@@ -116,7 +99,7 @@ def keeps_one_deadline(run: Transcript) -> str | None:
 @obligation(4, of=whole_run)
 def looks_for_two_seconds(run: Transcript) -> str | None:
     """A server that is not there is looked for for 2 s, from the start on or when it is needed"""
-    exited = require_end(run)
+    exited = require_end(run, WITHIN)
     missing = [service for service in (ENABLE, STATUS) if not offered(run, service)]
     if not missing or exited.returncode == 0:
         return None
@@ -181,7 +164,7 @@ def _never_asked(run: Transcript, service: str) -> str | None:
         late = any(is_missing(run, each) is None for each in (ENABLE, STATUS))
         return "a server came late, and was not asked" if late else None
     after = " after enable_motors was answered" if service == STATUS else ""
-    exited = require_end(run)
+    exited = require_end(run, WITHIN)
     observed, help = why_it_failed(run, exited)
     raise Failure(expected=f"a request to {service}{after}", observed=observed, help=help, at=exited.t)
 
@@ -231,7 +214,7 @@ def _require_no_second(run: Transcript, service: str, first: Asked, expected: st
     """Judge a service that was asked once: it answered, or died, or the time was over."""
     if first.is_answered:
         return "answered at once"
-    exited = require_end(run)
+    exited = require_end(run, WITHIN)
     late = first.replies and (exited.returncode == 0 or first.replies[0].t <= first.t + PATIENCE + MARGIN)
     if late or is_gone(run, service, first.t + PATIENCE - MARGIN):
         return "its server died, or answered late"
@@ -258,7 +241,7 @@ def _require_no_second(run: Transcript, service: str, first: Asked, expected: st
 
 def _require_patience(run: Transcript, service: str, last: Asked) -> None:
     """Require that the second request got its 2 s, or what was left of the 10 s."""
-    exited = require_end(run)
+    exited = require_end(run, WITHIN)
     if exited.returncode == 0 or is_gone(run, service, exited.t):
         return  # a late answer to the first was used, or nobody was left
     waited = gave_up_at(run, exited) - last.t
@@ -310,7 +293,7 @@ def _status_lines(run: Transcript) -> list[str]:
 
 def _require_one(run: Transcript, told: Sequence[str], expected: str) -> str | None:
     """Require that one status was told where one has to be, and that it is the message of get_status."""
-    exited, ends = require_end(run), expected_ends(run)
+    exited, ends = require_end(run, WITHIN), expected_ends(run)
     if not ends.may_succeed or (exited.returncode != 0 and ends.may_fail):
         return None
     expect(
@@ -339,7 +322,7 @@ def _require_one(run: Transcript, told: Sequence[str], expected: str) -> str | N
 @obligation(13, of=whole_run)
 def asks_here(run: Transcript) -> str:
     """It asks the robot in whose namespace it is started"""
-    require_end(run)
+    require_end(run, WITHIN)
     expect(
         bool(run.requests(ENABLE)),
         expected=f"a request to {ENABLE} in the namespace in which the program was started",

@@ -7,7 +7,7 @@ from typing import Any
 
 from autograder.authoring import events as ev
 from autograder.authoring.call import Request
-from autograder.authoring.missing import unseen
+from autograder.authoring.client_checks import started_at
 from autograder.authoring.transcript import Transcript
 
 ENABLE, STATUS = "enable_motors", "get_status"
@@ -45,26 +45,12 @@ class Asked:
 
 @dataclass(frozen=True)
 class Ends:
-    """How a run may end: whether with success, with failure, or either way.
+    """How a run may end: whether with success, with failure, or either way."""
 
-    Attributes:
-        may_succeed, may_fail: with exit status 0, and with 1.
-        why: it fails, in words.
-        messages: of get_status, any of which may be printed.
-    """
-
-    may_succeed: bool
-    may_fail: bool
-    why: str
-    messages: tuple[str, ...] = ()
-
-
-def started_at(run: Transcript) -> float:
-    """Return when the program's node appeared (s)."""
-    started = run.first(ev.NodeReady) or run.first(ev.NodeStarted)
-    if started is None:
-        raise unseen(run, "the program was never started")
-    return started.t
+    may_succeed: bool  # with exit status 0
+    may_fail: bool  # with exit status 1
+    why: str  # it fails, in words
+    messages: tuple[str, ...] = ()  # of get_status, any of which may be printed
 
 
 def asked(run: Transcript, service: str) -> list[Asked]:

@@ -3,15 +3,9 @@
 from __future__ import annotations
 
 from autograder.authoring.obligation import check_of
-from autograder.authoring.walking.client_scenarios import (
-    ABORTING,
-    GOOD,
-    INTERRUPTED,
-    NOBODY,
-    SILENT,
-    WRONG_ARGUMENTS,
-    walk,
-)
+from autograder.authoring.walking import every_client
+from autograder.authoring.walking.client_obligations import follows
+from autograder.authoring.walking.client_scenarios import GOOD, WRONG_ARGUMENTS, walk
 
 from . import model
 
@@ -33,7 +27,7 @@ prints_the_feedback = check_of(
 
 says_how_it_succeeded = check_of(
     "says_how_it_succeeded",
-    model.follows_its_goal(3, 4),
+    follows(3, 4),
     title="When the goal SUCCEEDED it prints so with the final pose, and ends with status 0",
     points=2,
     on=GOOD,
@@ -49,49 +43,21 @@ refuses_wrong_arguments = check_of(
     see="03_clients_that_survive#fix-frame",
 )
 
-gives_up_without_a_server = check_of(
-    "gives_up_without_a_server",
-    model.follows_its_goal(6, 9),
-    title="Without a server it ends with status 1 after 5 s, and says so on stderr",
-    on=NOBODY,
-    see="03_clients_that_survive#fix-why",
-)
+gives_up_without_a_server = every_client.check("gives_up_without_a_server", 6, 9)
 
 tells_a_rejection = check_of(
     "tells_a_rejection",
-    model.follows_its_goal(5, 9),
+    follows(5, 9),
     title="A rejected goal ends it with status 2",
     on=REJECTING,
     needs=says_how_it_succeeded,
     see="06_walk_to_a_pose#client-intro",
 )
 
-tells_an_abort = check_of(
-    "tells_an_abort",
-    model.follows_its_goal(3, 9),
-    title="An aborted goal ends it with status 3, and error_msg stands on stderr",
-    points=2,
-    on=ABORTING,
-    needs=says_how_it_succeeded,
-    see="06_walk_to_a_pose#hopeful-why",
-)
+tells_an_abort = every_client.check("tells_an_abort", 3, 9, points=2, needs=says_how_it_succeeded)
 
-gives_up_in_silence = check_of(
-    "gives_up_in_silence",
-    model.follows_its_goal(7, 9),
-    title="After 5 s without feedback or result it cancels the goal and ends with status 1",
-    points=2,
-    on=SILENT,
-    needs=says_how_it_succeeded,
-    see="03_clients_that_survive#fix-why",
-)
+gives_up_in_silence = every_client.check("gives_up_in_silence", 7, 9, points=2, needs=says_how_it_succeeded)
 
-ctrl_c_cancels_the_goal = check_of(
-    "ctrl_c_cancels_the_goal",
-    model.follows_its_goal(10),
-    title="Ctrl-C cancels the goal; it waits for its end and ends with status 4",
-    points=2,
-    on=INTERRUPTED,
-    needs=says_how_it_succeeded,
-    see="06_walk_to_a_pose#field-why",
+ctrl_c_cancels_the_goal = every_client.check(
+    "ctrl_c_cancels_the_goal", 10, points=2, needs=says_how_it_succeeded
 )

@@ -4,45 +4,34 @@ from __future__ import annotations
 
 from autograder.authoring.checks import program
 from autograder.authoring.obligation import check_of
-from autograder.authoring.walking.client_scenarios import (
-    ABORTED,
-    CANCELED,
-    EARLY_FEEDBACK,
-    ON_AND_ON,
-    ON_THE_WAY,
-    SUCCEEDED,
-    UNANSWERED,
-    any_course,
-    any_walk,
-    ctrl_c,
-    silence_on_the_way,
-    slow_walk,
-    typed,
-    walk,
-)
+from autograder.authoring.walking import client_scenarios as scene
+from autograder.authoring.walking import every_client
+from autograder.authoring.walking.client_obligations import follows
 
 from . import checks, model
 
-WITHOUT_YAW = program("in_order", lambda random: any_walk(random, arguments=2))
-ANY_COURSE = program("in_order", any_course)
-OTHER_NAMESPACE = program("in_order", any_walk, namespace="/lab_7/robot")
-SLOW = program("in_order", slow_walk)
-SILENT_ON_THE_WAY = program("in_order", silence_on_the_way)
-BY_ANOTHER = walk({**ON_THE_WAY, "status": CANCELED})
-NO_CODE = walk({"ends_after": 1.0, "status": ABORTED})
-PREEMPTED = walk(
-    {"ends_after": 1.0, "status": ABORTED, "error_code": 2, "error_msg": "a later goal took the robot"}
+WITHOUT_YAW = program("in_order", lambda random: scene.any_walk(random, arguments=2))
+ANY_COURSE = program("in_order", scene.any_course)
+OTHER_NAMESPACE = program("in_order", scene.any_walk, namespace="/lab_7/robot")
+SLOW = program("in_order", scene.slow_walk)
+SILENT_ON_THE_WAY = program("in_order", scene.silence_on_the_way)
+BY_ANOTHER = scene.walk({**scene.ON_THE_WAY, "status": scene.CANCELED})
+NO_CODE = scene.walk({"ends_after": 1.0, "status": scene.ABORTED})
+PREEMPTED = scene.walk(
+    {"ends_after": 1.0, "status": scene.ABORTED, "error_code": 2, "error_msg": "a later goal took the robot"}
 )
-WITH_WORDS = walk({**ON_THE_WAY, "error_msg": "the floor is slippery"})
-FORGETFUL = walk({**ON_THE_WAY, "kept_for": 1.0})
-NEVER_CANCELED = walk({**ON_AND_ON, "cancel": {"ends_after": None}}, *typed(), ["press_ctrl_c"])
+WITH_WORDS = scene.walk({**scene.ON_THE_WAY, "error_msg": "the floor is slippery"})
+FORGETFUL = scene.walk({**scene.ON_THE_WAY, "kept_for": 1.0})
+NEVER_CANCELED = scene.walk(
+    {**scene.ON_AND_ON, "cancel": {"ends_after": None}}, *scene.typed(), ["press_ctrl_c"]
+)
 ARRIVES = program(
     "in_order",
-    lambda random: ctrl_c(
+    lambda random: scene.ctrl_c(
         random,
         {
             "ends_after": 4.2,
-            "status": random.choice([SUCCEEDED, ABORTED]),
+            "status": random.choice([scene.SUCCEEDED, scene.ABORTED]),
             "cancel": {"agreed": False},
         },
     ),
@@ -61,26 +50,21 @@ walks_anywhere = check_of(
 works_in_any_namespace = check_of(
     "works_in_any_namespace",
     model.sends_one_goal,
-    model.follows_its_goal(12),
+    follows(12),
     title="Started in another namespace, it sends the goal to the robot there",
     on=OTHER_NAMESPACE,
     needs=checks.says_how_it_succeeded,
     see="01_robot_and_graph#names-why",
 )
 
-gives_up_without_an_answer = check_of(
-    "gives_up_without_an_answer",
-    model.follows_its_goal(6, 9),
-    title="A goal that is never answered ends it with status 1 after 5 s",
-    on=UNANSWERED,
-    needs=[checks.sends_the_goal, checks.gives_up_without_a_server],
-    see="03_clients_that_survive#fix-why",
+gives_up_without_an_answer = every_client.check(
+    "gives_up_without_an_answer", 6, 9, needs=[checks.sends_the_goal, checks.gives_up_without_a_server]
 )
 
 walks_as_long_as_it_takes = check_of(
     "walks_as_long_as_it_takes",
     model.sends_one_goal,
-    model.follows_its_goal(8),
+    follows(8),
     title="A late server, a late answer, and a walk of 12 s with feedback at most 4.5 s apart are waited for",
     points=2,
     on=SLOW,
@@ -90,25 +74,20 @@ walks_as_long_as_it_takes = check_of(
 
 notices_silence_on_the_way = check_of(
     "notices_silence_on_the_way",
-    model.follows_its_goal(7, 9),
+    follows(7, 9),
     title="A server that falls silent or dies on the way ends it with status 1, 5 s after the last feedback",
     on=SILENT_ON_THE_WAY,
     needs=walks_as_long_as_it_takes,
     see="03_clients_that_survive#kill-why",
 )
 
-survives_early_feedback = check_of(
-    "survives_early_feedback",
-    model.follows_its_goal(12),
-    title="Feedback that comes before the goal is accepted disturbs nothing",
-    on=EARLY_FEEDBACK,
-    needs=[checks.prints_the_feedback, checks.says_how_it_succeeded],
-    see="06_walk_to_a_pose#slow-end-why",
+survives_early_feedback = every_client.check(
+    "survives_early_feedback", 12, needs=[checks.prints_the_feedback, checks.says_how_it_succeeded]
 )
 
 tells_a_cancel_by_another = check_of(
     "tells_a_cancel_by_another",
-    model.follows_its_goal(3, 4),
+    follows(3, 4),
     title="A goal that somebody else cancels ends it with status 4, and a line on stdout says CANCELED",
     on=BY_ANOTHER,
     needs=checks.tells_an_abort,
@@ -117,7 +96,7 @@ tells_a_cancel_by_another = check_of(
 
 believes_the_status = check_of(
     "believes_the_status",
-    model.follows_its_goal(3, 9),
+    follows(3, 9),
     title="The status decides: ABORTED is 3 with any error_code, SUCCEEDED with an error_msg is 0",
     points=2,
     on=[NO_CODE, PREEMPTED, WITH_WORDS],
@@ -128,7 +107,7 @@ believes_the_status = check_of(
 asks_for_the_result_in_time = check_of(
     "asks_for_the_result_in_time",
     model.asks_for_its_result,
-    model.follows_its_goal(12),
+    follows(12),
     title="A server that keeps a result for 1 s is asked for it before",
     on=FORGETFUL,
     needs=checks.says_how_it_succeeded,
@@ -137,7 +116,7 @@ asks_for_the_result_in_time = check_of(
 
 ctrl_c_ends_it_in_any_case = check_of(
     "ctrl_c_ends_it_in_any_case",
-    model.follows_its_goal(10),
+    follows(10),
     title="After Ctrl-C it ends with status 4, also when the goal ended otherwise all the same or has not ended in 5 s",
     on=[NEVER_CANCELED, ARRIVES],
     needs=checks.ctrl_c_cancels_the_goal,

@@ -1,16 +1,13 @@
-"""Action servers for a walk client to deal with, as the checks write them down. This runs in the arena."""
+"""Action servers, and what a person does, as the checks write them down. This runs in the arena."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from typing import Any
 
 from autograder.arena import scripted_walk
 from autograder.arena.client_stage import ClientStage
-from autograder.arena.sequence import Steps
 
 
-def in_order(
-    stage: ClientStage, arguments: Sequence[str], server: scripted_walk.Server | None, steps: Steps
-) -> None:
-    """Offer `walk_to` by the script (None: nobody does), run the program, and carry out the steps."""
-    scripted_walk.in_order(stage, arguments, server, steps)
+def in_order(stage: ClientStage, **script: Any) -> None:
+    """Carry out a script: `scripted_walk` says of what it consists."""
+    scripted_walk.in_order(stage, **script)

@@ -1,53 +1,50 @@
-"""What a client of `walk_to` owes, by what happened to it: how it may end, when, and what it has to cancel."""
+"""What a client of a walking action owes, by what happened to it: how it may end, when, and what it has to cancel."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from math import inf
+from typing import ClassVar
 
 from action_msgs.msg import GoalStatus
 
 from autograder.authoring import events as ev
-from autograder.authoring.action_client_checks import require_one_goal
-from autograder.authoring.client_checks import SLACK
+from autograder.authoring.client_checks import SLACK, require_one_goal, why_it_left
+from autograder.authoring.failure import Failure
 from autograder.authoring.missing import unseen
 from autograder.authoring.scripted_goal import ScriptedGoal
 from autograder.authoring.transcript import Transcript
-from autograder.authoring.walking.client import (
-    ABORTED,
-    CANCELED,
-    FINDING,
-    NO_SERVER,
-    PATIENCE,
-    REJECTED,
-    STATUS_HELP,
-    SUCCEEDED,
-    WALK,
-)
 from autograder.authoring.walking.client_record import require_record
 
+SUCCEEDED, NO_SERVER, REJECTED, ABORTED, CANCELED = range(5)  # exit statuses
 EXIT_STATUS = {
     GoalStatus.STATUS_SUCCEEDED: SUCCEEDED,
     GoalStatus.STATUS_ABORTED: ABORTED,
     GoalStatus.STATUS_CANCELED: CANCELED,
 }
 NAMES = {SUCCEEDED: "SUCCEEDED", ABORTED: "ABORTED", CANCELED: "CANCELED"}
+PATIENCE = 5.0  # s
 # s on the arena's clock:
+FINDING = 2.0  # from the node's appearance until the grader has seen it
 MARGIN = 0.5  # between two moments that a client surely sees in their order
 NEARLY = 0.25  # less than PATIENCE, in which a busy client may already think that it is over
+LEAVES_SOON = 3.0  # beyond a clause's limit, on a busy machine
 LEAVING = 8.0  # for what no clause limits: to print a line, and to end every thread and the node
 SURELY_WAITED = 4.0  # of the 5 after Ctrl-C
+STATUS_HELP = (
+    "Look at response.status first: 4 is SUCCEEDED, 5 CANCELED, 6 ABORTED (action_msgs/GoalStatus). "
+    "Return the exit status from main() and end the file with sys.exit(main())."
+)
 _FIND = "wait_for_server(timeout_sec=5.0) returns False when there is none: print a line and return 1."
 _AWAIT_AN_ANSWER = (
     "spin_until_future_complete(node, future, timeout_sec=5.0) returns with no result: look at future.done()."
 )
 _LOOK_AT_ACCEPTED = "Look at goal_handle.accepted before you ask for the result: a rejected goal has none."
-_LISTEN = (
-    "Give the waiting for the result a limit on silence, and return 1 when it is over.",
-    "A server that has died answers nothing, no cancel either: give each wait a time limit.",
-)
+_LISTEN = "Give the waiting for the result a limit on silence, and return 1 when it is over."
+_EXPECT_DEATH = "A server that has died answers nothing, no cancel either: give each wait a time limit."
 _WAIT_NO_LONGER = (
     "Wait for the result at most 5 s after the cancel, then print a line and return 4, whatever the status of the "
     "goal: you interrupted the program."
@@ -56,23 +53,15 @@ _WAIT_NO_LONGER = (
 
 @dataclass(frozen=True)
 class End:
-    """A way in which the program may end.
+    """A way in which the program may end."""
 
-    Attributes:
-        status: its exit status.
-        name, because: the reason, in a word or two and as a clause.
-        at: when the program can know the reason (s).
-        earliest, latest: of its end (s).
-        help: what to do about another exit status.
-    """
-
-    status: int
-    name: str
-    because: str
-    at: float
-    earliest: float
+    status: int  # its exit status
+    name: str  # the reason in a word or two
+    because: str  # the reason as a clause
+    at: float  # s, when the program can know the reason
+    earliest: float  # s, of its end
     latest: float
-    help: str = field(repr=False)
+    help: str  # what to do about another exit status
 
 
 @dataclass(frozen=True)
@@ -89,17 +78,37 @@ class Cause:
 
 @dataclass(frozen=True)
 class ClientLife:
-    """One run of a client, with the moments (s) that decide what it owes; a moment that never came is `inf`.
-
-    Attributes:
-        run: its record.
-        goal: that it sent; None: nobody offered the action.
-        asked: when somebody asked it to cancel, by a line q.
-    """
+    """One run of a client, with the moments (s) that decide what it owes; a moment that never came is `inf`."""
 
     run: Transcript
-    goal: ScriptedGoal | None
-    asked: Sequence[float]
+    action: ClassVar[str] = "walk_to"
+    pose_field: ClassVar[str] = "target_pose"  # of its goal
+    end_in_time: ClassVar[str] = (
+        "Give each wait a limit, counted from its beginning: for the result at most 5 s after Ctrl-C, and for the "
+        "answer to a cancel, too."
+    )
+
+    @cached_property
+    def goal(self) -> ScriptedGoal | None:
+        """The goal that it sent; None: nobody offered the action."""
+        offered = any(event.action == self.action for event in self.run.all(ev.ActionOffered))
+        return require_one_goal(self.run, self.action) if offered else None
+
+    @cached_property
+    def asked(self) -> list[float]:
+        """When somebody asked it to cancel, by a line q."""
+        return [
+            event.t
+            for event in self.run.all(ev.NodeTyped)
+            if any(line.strip() == "q" for line in (event.line or "").splitlines())
+        ]
+
+    def when(
+        self, kind: type[ev.NodeExited | ev.NodeSignalled | ev.ActionOffered | ev.ActionWithdrawn]
+    ) -> float:
+        """Return when the first event of a kind came."""
+        first = self.run.first(kind)
+        return first.t if first else inf
 
     @property
     def started(self) -> float:
@@ -117,8 +126,7 @@ class ClientLife:
     @property
     def interrupted(self) -> float:
         """When Ctrl-C was pressed."""
-        signalled = self.run.first(ev.NodeSignalled)
-        return signalled.t if signalled else inf
+        return self.when(ev.NodeSignalled)
 
     @property
     def result(self) -> float:
@@ -131,16 +139,9 @@ class ClientLife:
         return inf
 
     @property
-    def died(self) -> float:
-        """When its server was gone."""
-        withdrawn = self.run.first(ev.ActionWithdrawn)
-        return withdrawn.t if withdrawn else inf
-
-    @property
     def exited(self) -> float:
         """When it ended."""
-        exited = self.run.first(ev.NodeExited)
-        return exited.t if exited else inf
+        return self.when(ev.NodeExited)
 
     @property
     def heard(self) -> list[float]:
@@ -163,80 +164,105 @@ class ClientLife:
 
     # -- what it owes -------------------------------------------------------------------------------------------------
 
-    def ends(self) -> list[End]:
-        """Return how it may end: more than one way only where two moments are too close to have an order."""
-        if self.goal is None:
-            return [self._without_a_server()]
-        if self.goal.reply is None:
-            return [self._without_an_answer(self.goal)]
-        if not self.goal.is_accepted:
-            return [self._after_a_rejection(self.goal.reply.t)]
-        found = [(end, is_certain) for end, is_certain in self._after_the_acceptance() if end.at < inf]
-        found.sort(key=lambda each: each[0].at)
-        last = next((end.at for end, is_certain in found if is_certain), inf) + MARGIN
-        return [end for end, _ in found if end.at <= last]
-
     def causes(self) -> list[Cause]:
         """Return what asks it to cancel its goal."""
         if self.accepted == inf:
             return []
-        found: list[Cause] = []
+        because = f"nothing was heard of it for {PATIENCE:g} s"
+        return [
+            *self.reasons(),
+            *(
+                self._cause("silence", because, since - MARGIN, due, is_certain)
+                for since, due, is_certain in self.silences()
+            ),
+        ]
+
+    def reasons(self) -> Iterable[Cause]:
+        """Yield what asks it to cancel its goal, but for silence."""
         if self.asked:
             due = max(self.asked[0], self.accepted)
-            found.append(self._cause("q", "you typed q", due, due, once=True))
+            yield self._cause("q", "you typed q", due, due, once=True)
         if self.interrupted < inf:
-            due = self.interrupted
-            found.append(self._cause("Ctrl-C", "you pressed Ctrl-C", due, due))
-        for since, latest, is_certain in self.silences():
-            because = f"nothing was heard of it for {PATIENCE:g} s"
-            found.append(self._cause("silence", because, since - MARGIN, latest, is_certain))
-        return found
+            yield self._cause("Ctrl-C", "you pressed Ctrl-C", self.interrupted, self.interrupted)
 
     def _cause(
         self, name: str, because: str, since: float, due: float, is_certain: bool = True, once: bool = False
     ) -> Cause:
         """Return a cause; nothing is owed to a server that is gone, nor where another end comes first."""
-        over = min([self.died, *(end.at for end in self.ends() if end.name != name)])
-        return Cause(name, because, since, due + SLACK, is_certain and over > due + SLACK, once)
+        others = [end.at for end in self.ends() if end.name != name]
+        over = min([self.when(ev.ActionWithdrawn), *others])
+        is_owed = is_certain and over > due + SLACK and since <= self.exited
+        return Cause(name, because, since, due + SLACK, is_owed, once)
 
-    def _without_a_server(self) -> End:
-        due, because = self.started + PATIENCE, f"nobody offers {WALK}"
-        return End(NO_SERVER, "no server", because, due, due - FINDING, due + SLACK + 3.0, _FIND)
+    def ends(self) -> list[End]:
+        """Return how it may end: more than one way only where two moments are too close to have an order."""
+        if self.goal is None:
+            return self._without_a_goal()
+        if self.goal.reply is None:
+            due, because = self.goal.received.t + PATIENCE, "the goal was never answered"
+            latest = due + LEAVES_SOON
+            return [End(NO_SERVER, "no answer", because, due, due - MARGIN, latest, _AWAIT_AN_ANSWER)]
+        if not self.goal.is_accepted:
+            t, because = self.goal.reply.t, "the goal was rejected"
+            return [End(REJECTED, "rejected", because, t, t, t + LEAVING, _LOOK_AT_ACCEPTED)]
+        found = [(end, is_certain) for end, is_certain in self._after_the_acceptance() if end.at < inf]
+        found.sort(key=lambda each: each[0].at)
+        last = next((end.at for end, is_certain in found if is_certain), inf) + MARGIN
+        return [end for end, _ in found if end.at <= last]
 
-    def _without_an_answer(self, goal: ScriptedGoal) -> End:
-        due, because = goal.received.t + PATIENCE, "the goal was never answered"
-        return End(NO_SERVER, "no answer", because, due, due - MARGIN, due + SLACK, _AWAIT_AN_ANSWER)
-
-    def _after_a_rejection(self, t: float) -> End:
-        return End(REJECTED, "rejected", "the goal was rejected", t, t, t + LEAVING, _LOOK_AT_ACCEPTED)
+    def _without_a_goal(self) -> list[End]:
+        due, because = self.started + PATIENCE, f"nobody offers {self.action}"
+        return [End(NO_SERVER, "no server", because, due, due - FINDING, due + SLACK + 3.0, _FIND)]
 
     def _after_the_acceptance(self) -> Iterator[tuple[End, bool]]:
         """Yield each end of an accepted goal's client, if nothing else came first, and whether it is certain."""
         assert self.goal is not None
         result, pressed, silent = self.result, self.interrupted, inf
         if self.goal.finished and result < inf:
-            status = EXIT_STATUS[self.goal.finished.status]
-            because = f"the goal {'' if status == SUCCEEDED else 'was '}{NAMES[status]}"
-            yield End(status, NAMES[status], because, result, result, result + LEAVING, STATUS_HELP), True
-        for since, latest, is_certain in self.silences():
-            silent = min(silent, since)
-            gone = self.died < since
-            because, help = f"the server {'has died' if gone else 'is silent'}", _LISTEN[gone]
-            latest += PATIENCE + SLACK + 1.0
-            yield End(NO_SERVER, "silence", because, since, since - MARGIN, latest, help), is_certain
+            yield by_status(self.goal.finished.status, result), True
+        for end, is_certain in self._in_silence():
+            silent = min(silent, end.at)
+            yield end, is_certain
         earliest = max(pressed, min(result, pressed + SURELY_WAITED, silent - MARGIN))
         latest = pressed + PATIENCE + SLACK
         yield End(CANCELED, "Ctrl-C", "Ctrl-C was pressed", pressed, earliest, latest, _WAIT_NO_LONGER), True
 
+    def _in_silence(self) -> Iterator[tuple[End, bool]]:
+        for since, latest, is_certain in self.silences():
+            is_dead = self.when(ev.ActionWithdrawn) < since
+            because, help = (
+                ("the server has died", _EXPECT_DEATH) if is_dead else ("the server is silent", _LISTEN)
+            )
+            latest += PATIENCE + LEAVES_SOON
+            yield End(NO_SERVER, "silence", because, since, since - MARGIN, latest, help), is_certain
 
-def life_of(run: Transcript) -> ClientLife:
-    """Return the life of the client, whose server and person did what the scenario says."""
-    require_record(run, WALK)
-    offered = any(event.action == WALK for event in run.all(ev.ActionOffered))
-    goal = require_one_goal(run, WALK) if offered else None
-    asked = [
-        event.t
-        for event in run.all(ev.NodeTyped)
-        if any(line.strip() == "q" for line in (event.line or "").splitlines())
-    ]
-    return ClientLife(run, goal, asked)
+    def left_early(self, end: End, exited: ev.NodeExited) -> Failure:
+        """Return the failure of a program that ended before it could know that it may end like this."""
+        if self.accepted < inf:
+            assert self.goal is not None
+            return Failure(
+                expected="a client that follows the goal to its end",
+                observed=f"it ended with status {exited.returncode} at {exited.t:.1f} s, while the goal was under way",
+                help=why_it_left(self.goal, exited),
+                at=exited.t,
+            )
+        since = self.goal.received.t if self.goal else self.started
+        return Failure(
+            expected=f"{PATIENCE:g} s of waiting: {end.because}",
+            observed=f"it gave up after {exited.t - since:.1f} s",
+            help=end.help,
+            at=exited.t,
+        )
+
+
+def by_status(status: int, t: float) -> End:
+    """Return the end of a program that got its goal's result, with this status, at a time (s)."""
+    name = NAMES[EXIT_STATUS[status]]
+    because = f"the goal {'' if name == 'SUCCEEDED' else 'was '}{name}"
+    return End(EXIT_STATUS[status], name, because, t, t, t + LEAVING, STATUS_HELP)
+
+
+def clients(run: Transcript) -> list[ClientLife]:
+    """Return the one life of the client, whose server and person did what the scenario says."""
+    require_record(run, ClientLife.action)
+    return [ClientLife(run)]

@@ -1,8 +1,8 @@
-"""What must hold of every run of a client of `walk_to`, whatever its server does and whoever types.
+"""What must hold of every run of a client of a walking action, whatever its server does and whoever types.
 
-Each function is what an obligation of an exercise's model requires:
+The functions that get a life are what an obligation of an exercise's model requires:
 
-ends_as_it_went = obligation(3, 5, of=whole_run)(client_obligations.ends_as_it_went)
+sends_one_goal = obligation(1, 12, of=clients)(client_obligations.sends_one_goal)
 """
 
 from __future__ import annotations
@@ -10,42 +10,41 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
+from collections.abc import Callable
 from itertools import pairwise
+from typing import TypeVar
 
 from action_msgs.msg import GoalStatus
 
 from autograder.authoring import client_checks
 from autograder.authoring import events as ev
-from autograder.authoring.action_client_checks import (
-    NUMBER,
-    has_number,
-    how_to_give_up,
-    why_it_left,
-    why_not_this_status,
-)
+from autograder.authoring.client_checks import NUMBER, has_number, how_to_give_up, why_not_this_status
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.fields import expect_field
 from autograder.authoring.missing import Missing
-from autograder.authoring.scripted_goal import ScriptedGoal
+from autograder.authoring.obligation import Obligation, obligation, whole_run
 from autograder.authoring.transcript import Transcript
-from autograder.authoring.walking.client import (
+from autograder.authoring.walking.client_life import (
     ABORTED,
     CANCELED,
+    MARGIN,
     PATIENCE,
     SUCCEEDED,
-    require_ending_line,
-    require_reason,
-    require_usage,
+    SURELY_WAITED,
+    Cause,
+    ClientLife,
+    End,
+    clients,
 )
-from autograder.authoring.walking.client_life import MARGIN, SURELY_WAITED, Cause, ClientLife, End, life_of
 
+L = TypeVar("L", bound=ClientLife)
 PROMPT = 0.5  # s from a feedback message to its line
 PROMPT_SLACK = 0.5  # s on the arena's clock: 0.1 s of real time at scale 5, on a busy machine
 ON_ITS_WAY = 0.3  # s that feedback may be overtaken by the result
 ENDS_AT_ONCE = 10.0  # s
+USAGE = 2  # the exit status of argparse
 SOON = 1.0  # s in which a line about the answer to a cancel is printed
 LONGEST = 60.0  # s; no scenario lasts so long
-NO_CAUSE = "no reason to cancel"
 TRACEBACK = "Traceback (most recent call last)"
 REFUSED = re.compile(
     r"refus|reject|declin|den(?:y|ied)|(?:not|n't|cannot) (?:be )?cancel|fail|terminated|already|too late",
@@ -59,13 +58,6 @@ BECAME = {
     None: r"\b(not|never|still|yet|without|unknown|unfinished|goes on|going on|gave up|no (end|result))\b|n't",
 }
 ROTATION = 0.0005  # rad, and of a quaternion's length, by which a goal may differ from the arguments
-_ON_Q = (
-    "Read stdin in a thread that sets an event; where you wait for the result, look at the event and call "
-    "goal_handle.cancel_goal_async()."
-)
-_ON_AN_EARLY_Q = (
-    "There is no goal handle yet to cancel with: remember the q, and look for it right after the acceptance."
-)
 ON_CTRL_C = (
     "rclpy shuts down at Ctrl-C, and then nothing can be sent: rclpy.init(signal_handler_options="
     "SignalHandlerOptions.NO), catch the signal yourself, and call cancel_goal_async()."
@@ -75,15 +67,12 @@ ON_CTRL_C = (
 # -- what it sends ----------------------------------------------------------------------------------------------------
 
 
-def sends_one_goal(run: Transcript) -> str | None:
+def sends_one_goal(life: ClientLife) -> str | None:
     """It sends one goal, at x, y and yaw of its arguments, in frame odom."""
-    goal = life_of(run).goal
-    return require_pose(run, goal, "target_pose") if goal else None
-
-
-def require_pose(run: Transcript, goal: ScriptedGoal, field: str) -> str:
-    """Require that the pose in a field of the goal is that of the program's arguments; return which YAW they have."""
-    arguments = run.params["arguments"]
+    goal, field, arguments = life.goal, life.pose_field, life.run.params["arguments"]
+    if goal is None:
+        life.ends()  # says so if the goal had to be sent
+        return None
     x, y, yaw = (*map(float, arguments), 0.0)[:3]
     because = f"the program was started with {' '.join(arguments)}"
     message, at = goal.message, goal.received.t
@@ -106,18 +95,24 @@ def require_pose(run: Transcript, goal: ScriptedGoal, field: str) -> str:
     return "without YAW" if len(arguments) == 2 else "YAW < 0" if yaw < 0 else "YAW ≥ 0"
 
 
-def asks_to_cancel_in_time(run: Transcript) -> str | None:
-    """It asks to cancel its goal when it has to, and never otherwise: at a q once, at Ctrl-C, after 5 s of silence."""
-    life = life_of(run)
-    if life.goal is None:
-        return None
+def asks_to_cancel_in_time(
+    life: L, needless: Callable[[L, float], Failure], how_to_cancel: Callable[[L, Cause], str]
+) -> list[Cause]:
+    """Require a request to cancel for what asks for one, and none otherwise; return what asked.
+
+    Args:
+        life: of a client whose goal came.
+        needless: the failure for a request at a time (s) at which nothing asked for it.
+        how_to_cancel: what to do about a request that did not come for a cause.
+    """
+    assert life.goal is not None
     causes = life.causes()
-    asked_for_q = 0
+    asked = [cancel.received.t for cancel in life.goal.cancels]
     for number, cancel in enumerate(life.goal.cancels, start=1):
         t = cancel.received.t
         due = [cause for cause in causes if cause.since <= t]
         if not due:
-            raise _needless(life, t, causes)
+            raise needless(life, t)
         expect(
             cancel.received.goal == life.goal.name,
             expected="a request to cancel this goal",
@@ -125,68 +120,67 @@ def asks_to_cancel_in_time(run: Transcript) -> str | None:
             help="Call cancel_goal_async() of the goal handle that you were given.",
             at=t,
         )
-        asked_for_q += all(cause.once for cause in due)
         expect(
-            asked_for_q <= 1,
+            number <= len({cause.name for cause in due}) or not all(cause.once for cause in due),
             expected="one request to cancel the goal",
-            observed=f"{number}",
+            observed=f"{number}, the last {t - asked[0]:.1f} s after the first",
             help="Remember that you have asked: the server works on the first request already.",
             at=t,
         )
-    asked = [cancel.received.t for cancel in life.goal.cancels]
     for cause in causes:
-        if cause.is_owed and cause.since <= life.exited and not any(t <= cause.latest for t in asked):
-            raise _owed(life, cause, asked)
-    return " and ".join(cause.name for cause in causes) or NO_CAUSE
+        if cause.is_owed and not any(t <= cause.latest for t in asked):
+            raise Failure(
+                expected=f"a request to cancel the goal, because {cause.because}",
+                observed=f"the first {asked[0] - cause.since:.1f} s after it"
+                if asked
+                else "none: the robot walks on, and nobody watches it",
+                help=how_to_cancel(life, cause),
+                at=asked[0] if asked else life.run.end,
+            )
+    return causes
 
 
-def _needless(life: ClientLife, t: float, causes: list[Cause]) -> Failure:
+def _needless(life: ClientLife, t: float) -> Failure:
     """Return the failure for a request to cancel that came when nothing asked for it."""
     assert life.goal is not None
-    heard = max([life.goal.received.t, *(each for each in [*life.heard] if each <= t)])
+    causes = life.causes()
+    heard = max([life.goal.received.t, *(each for each in life.heard if each <= t)])
     typed = [event.line for event in life.run.all(ev.NodeTyped) if event.t <= t]
+    help = "Cancel only when a line is q, when Ctrl-C is pressed, or when nothing has been heard for 5 s."
     if typed and "q" not in typed:
+        expected = "no request to cancel: nobody has typed q"
         line = "the end of the input" if typed[-1] is None else f"the line “{typed[-1]}”"
-        return Failure(
-            expected="no request to cancel: nobody has typed q",
-            observed=f"one came after {line}",
-            help="Cancel when a line, without its newline, is q and nothing else; at the end of the input do nothing.",
-            at=t,
+        observed = f"one came after {line}"
+        help = "Cancel when a line, without its newline, is q and nothing else; at the end of the input do nothing."
+    elif not causes or causes[0].name == "silence":
+        expected = f"no request to cancel, but {PATIENCE:g} s after it last heard of the server"
+        observed = f"one came {t - heard:.1f} s after it"
+        help = (
+            "Cancel only when you are asked to, or in silence: a goal may take its time, and the last sign of life "
+            f"came at {heard:.1f} s."
         )
-    if not causes or causes[0].name == "silence":
-        return Failure(
-            expected=f"no request to cancel, but {PATIENCE:g} s after it last heard of the server",
-            observed=f"one came {t - heard:.1f} s after it",
-            help="Cancel only when you are asked to, or in silence: a goal may take its time, and the last sign of "
-            f"life came at {heard:.1f} s.",
-            at=t,
-        )
-    return Failure(
-        expected=f"the goal to go on until you {'type q' if causes[0].name == 'q' else 'press Ctrl-C'}",
-        observed=f"a request to cancel {causes[0].since - t:.1f} s before",
-        help="Cancel only when a line is q, when Ctrl-C is pressed, or when nothing has been heard for 5 s.",
-        at=t,
+    else:
+        expected = f"the goal to go on until you {'type q' if causes[0].name == 'q' else 'press Ctrl-C'}"
+        observed = f"a request to cancel {causes[0].since - t:.1f} s before"
+    return Failure(expected=expected, observed=observed, help=help, at=t)
+
+
+def _how_to_cancel(life: ClientLife, cause: Cause) -> str:
+    if cause.name == "Ctrl-C":
+        return ON_CTRL_C
+    if cause.name == "silence":
+        return how_to_give_up(life.run)
+    if life.asked[0] < life.accepted:
+        return "There is no goal handle yet to cancel with: remember the q, and look for it right after the acceptance."
+    return (
+        "Read stdin in a thread that sets an event; where you wait for the result, look at the event and call "
+        "goal_handle.cancel_goal_async()."
     )
 
 
-def _owed(life: ClientLife, cause: Cause, asked: list[float]) -> Failure:
-    """Return the failure for a request to cancel that did not come, or late."""
-    early = life.asked and life.asked[0] < life.accepted
-    helps = {"q": _ON_AN_EARLY_Q if early else _ON_Q, "Ctrl-C": ON_CTRL_C}
-    return Failure(
-        expected=f"a request to cancel the goal, because {cause.because}",
-        observed=f"the first {asked[0] - cause.since:.1f} s after it"
-        if asked
-        else "none: the robot walks on, and nobody watches it",
-        help=helps.get(cause.name) or how_to_give_up(life.run),
-        at=asked[0] if asked else life.run.end,
-    )
-
-
-def asks_for_its_result(run: Transcript) -> str | None:
+def asks_for_its_result(life: ClientLife) -> str | None:
     """It asks for the result before the server, which keeps it for a while, has forgotten it."""
-    life = life_of(run)
-    kept_for = (run.params.get("server") or {}).get("kept_for")
+    kept_for = (life.run.params.get("server") or {}).get("kept_for")
     if kept_for is None or life.goal is None or life.goal.finished is None:
         return None
     asked, forgotten = life.goal.result_requested, life.goal.finished.t + kept_for
@@ -203,14 +197,22 @@ def asks_for_its_result(run: Transcript) -> str | None:
 # -- how it ends ------------------------------------------------------------------------------------------------------
 
 
-def ends_as_it_went(run: Transcript) -> str:
-    """Its exit status says how the goal ended, or what came instead, and it ends neither early nor late."""
-    life = life_of(run)
-    ends = life.ends()
-    exited = _require_end(life)
+def require_ending(life: ClientLife) -> tuple[list[End], ev.NodeExited]:
+    """Require that it ended by itself, in time and with the status of a right end; return these ends."""
+    run, ends = life.run, life.ends()
+    exited = client_checks.require_end(run, LONGEST)
+    if TRACEBACK in run.output("stderr"):
+        if exited.t < min(end.earliest for end in ends):
+            expected = "a client that follows the goal to its end"
+            raise Missing(run, expected=expected, never=f"at {exited.t:.1f} s it was gone already")
+        raise Failure(
+            expected="one line that says how it ended",
+            observed=f"a traceback: {run.last_words}",
+            help="An expected end is no crash: catch the exception, print one line, return the status.",
+            at=exited.t,
+        )
     told = [end for end in ends if end.status == exited.returncode]
-    if exited.returncode >= 0 and exited.t < min(end.earliest for end in told or ends):
-        raise _left_early(life, ends[0], exited)
+    require_patience(life, told or ends)
     if not told:
         observed, help = why_not_this_status(run, exited, ends[-1].help)
         expected = f"exit status {ends[-1].status}: {ends[-1].because}"
@@ -218,73 +220,47 @@ def ends_as_it_went(run: Transcript) -> str:
     latest = max(end.latest for end in told)
     expect(
         exited.t <= latest,
-        expected=f"the end soon after {told[0].because}, at {latest:.1f} s at the latest",
+        expected=f"the end soon after this: {told[-1].because}; at {latest:.1f} s at the latest",
         observed=f"it ended at {exited.t:.1f} s",
-        help="Give each wait a limit, counted from its beginning: for the result at most 5 s after Ctrl-C, and for the "
-        "answer to a cancel, too.",
+        help=life.end_in_time,
         at=exited.t,
     )
-    return told[0].name
+    return told, exited
 
 
-def _require_end(life: ClientLife) -> ev.NodeExited:
-    """Require that the program ended by itself, and not with a traceback."""
-    run = life.run
-    exited = client_checks.require_end(run, LONGEST)
-    if TRACEBACK not in run.output("stderr"):
-        return exited
-    if exited.t < min(end.earliest for end in life.ends()):
-        raise Missing(
-            run,
-            expected="a client that follows the goal to its end",
-            never=f"at {exited.t:.1f} s it was gone already",
-        )
-    raise Failure(
-        expected="one line that says how it ended",
-        observed=f"a traceback: {run.last_words}",
-        help="An expected end is no crash: catch the exception, print one line, return the status.",
-        at=exited.t,
-    )
+def require_patience(life: ClientLife, ends: list[End]) -> None:
+    """Require that it did not end by itself before it could know that it may end in one of these ways."""
+    exited = life.run.first(ev.NodeExited)
+    if exited and exited.returncode >= 0 and exited.t < min(end.earliest for end in ends):
+        raise life.left_early(ends[0], exited)
 
 
-def _left_early(life: ClientLife, end: End, exited: ev.NodeExited) -> Failure:
-    """Return the failure for a program that ended before it could know how."""
-    if life.goal and life.goal.is_accepted:
-        return Failure(
-            expected="a client that follows the goal to its end",
-            observed=f"it ended with status {exited.returncode} at {exited.t:.1f} s, while the goal was under way",
-            help=why_it_left(life.goal, exited),
-            at=exited.t,
-        )
-    since = life.goal.received.t if life.goal else life.started
-    return Failure(
-        expected=f"{PATIENCE:g} s of waiting: {end.because}",
-        observed=f"it gave up after {exited.t - since:.1f} s",
-        help=end.help if life.goal else "Call wait_for_server(timeout_sec=5.0) before you send the goal.",
-        at=exited.t,
-    )
-
-
-def says_how_it_ended(run: Transcript) -> str | None:
-    """One line says how it ended: with status 0 and 4 on stdout, else on stderr; error_msg is in no other line."""
-    life = life_of(run)
-    exited = client_checks.require_end(run, LONGEST)
-    told = [end for end in life.ends() if end.status == exited.returncode]
-    if not told:
-        return None  # its exit status is wrong, which is another obligation's
+def _require_its_line(life: ClientLife, told: list[End], exited: ev.NodeExited) -> None:
+    """Require one line that says how it ended: with status 0 and 4 on stdout, else on stderr."""
     finished = life.goal.finished if life.goal else None
     if any(end.name == "Ctrl-C" for end in told):
         _require_what_became(life, exited)
     elif exited.returncode == SUCCEEDED and finished:
-        _require_final_pose(run, finished, require_ending_line(run, "SUCCEEDED", exited.t))
+        _require_final_pose(finished, require_ending_line(life.run, "SUCCEEDED", exited.t), exited.t)
     elif exited.returncode == CANCELED and finished:
-        require_ending_line(run, "CANCELED", exited.t, since=_said_of_the_end(life, finished))
+        require_ending_line(life.run, "CANCELED", exited.t, since=_said_of_the_end(life, finished))
     else:
-        _require_reason_on_stderr(run, min(end.earliest for end in told), exited)
-        if exited.returncode == ABORTED and finished and finished.result.error_msg:
-            require_reason(run, finished)
+        require_reason(life, told, exited)
     _require_no_other_ending(life, exited)
-    return told[0].name
+
+
+def require_ending_line(run: Transcript, word: str, at: float, since: float = 0.0) -> str:
+    """Require exactly one line on stdout from a time (s) on that holds this status, and return it."""
+    said = [event.text for event in run.all(ev.NodeOutput) if event.stream == "stdout" and event.t >= since]
+    lines = [line for line in said if re.search(rf"\b{word}\b", line, re.IGNORECASE)]
+    expect(
+        len(lines) == 1,
+        expected=f"one line on stdout with the word {word}",
+        observed=f"{len(lines)}" + (": " + " | ".join(lines[:3]) if lines else ""),
+        help=f"print({word!r}, …) once, when the result has come.",
+        at=at,
+    )
+    return lines[0]
 
 
 def _said_of_the_end(life: ClientLife, finished: ev.GoalFinished) -> float:
@@ -316,7 +292,7 @@ def _require_no_other_ending(life: ClientLife, exited: ev.NodeExited) -> None:
     )
 
 
-def _require_final_pose(run: Transcript, finished: ev.GoalFinished, line: str) -> None:
+def _require_final_pose(finished: ev.GoalFinished, line: str, at: float) -> None:
     position = finished.result.final_pose.pose.position
     for name, value in (("x", position.x), ("y", position.y)):
         expect(
@@ -324,24 +300,41 @@ def _require_final_pose(run: Transcript, finished: ev.GoalFinished, line: str) -
             expected=f"the final {name}, {value:.2f} m, in the line that says how it ended",
             observed=f"“{line}”",
             help="Print response.result.final_pose.pose.position, not what you asked for: the robot says where it is.",
-            at=run.end,
+            at=at,
         )
 
 
-def _require_reason_on_stderr(run: Transcript, since: float, exited: ev.NodeExited) -> None:
-    lines = [
-        event.text
-        for event in run.all(ev.NodeOutput)
-        if event.stream == "stderr" and event.t >= since - MARGIN and event.text.strip()
-    ]
+def require_reason(life: ClientLife, told: list[End], exited: ev.NodeExited) -> None:
+    """Require a line on stderr that says why it ended, and exactly one with the server's reason after ABORTED."""
+    run, since = life.run, min(end.earliest for end in told) - MARGIN
     expect(
-        bool(lines),
-        expected="one line on stderr that says how it ended",
-        observed=f"the last line on stderr came before: {run.last_words}"
-        if run.last_words
-        else "nothing on stderr",
+        any(
+            event.stream == "stderr" and event.t >= since and event.text.strip()
+            for event in run.all(ev.NodeOutput)
+        ),
+        expected="one line on stderr that says why it ended",
+        observed=f"the last before the end: {run.last_words or 'none'}",
         help="print(..., file=sys.stderr) before the program ends.",
         at=exited.t,
+    )
+    finished = life.goal.finished if life.goal else None
+    if exited.returncode != ABORTED or finished is None or not finished.result.error_msg:
+        return
+    reason = finished.result.error_msg
+    expect(
+        reason in run.output("stderr"),
+        expected=f"the server's reason on stderr: {reason}",
+        observed=f"“{run.last_words}”",
+        help="Print response.result.error_msg with file=sys.stderr.",
+        at=finished.t,
+    )
+    lines = [line for line in run.output().splitlines() if reason in line]
+    expect(
+        len(lines) == 1,
+        expected="one line, on stderr, with the server's reason",
+        observed=f"{len(lines)}: " + " | ".join(lines[:3]),
+        help="Say once how it ended: print error_msg in one place, or log it, not both.",
+        at=finished.t,
     )
 
 
@@ -374,27 +367,32 @@ def _require_what_became(life: ClientLife, exited: ev.NodeExited) -> None:
     )
 
 
-def follows_its_goal(run: Transcript) -> str:
+def follows_its_goal(life: ClientLife) -> str:
     """It cancels its goal when it must, and ends in time with the status and the line that say how it went."""
-    canceled = asks_to_cancel_in_time(run)
-    ended = ends_as_it_went(run)
-    says_how_it_ended(run)
-    return ended if canceled in (None, ended, NO_CAUSE) else f"{ended}, {canceled}"
+    causes = asks_to_cancel_in_time(life, _needless, _how_to_cancel) if life.goal else []
+    told, exited = require_ending(life)
+    _require_its_line(life, told, exited)
+    ended, canceled = told[0].name, " and ".join(cause.name for cause in causes)
+    return ended if canceled in ("", ended) else f"{ended}, {canceled}"
+
+
+def follows(*clauses: int) -> Obligation:
+    """Return the obligation that it cancels, ends and says so as its goal went, for these clauses."""
+    return obligation(*clauses, of=clients)(follows_its_goal)
 
 
 # -- what it prints on the way ----------------------------------------------------------------------------------------
 
 
-def prints_each_feedback(run: Transcript, within: float = math.inf) -> str | None:
+def prints_each_feedback(life: ClientLife, within: float = math.inf) -> str | None:
     """For each feedback it prints one line on stdout with distance_remaining, and no such line for anything else."""
-    life = life_of(run)
     if life.goal is None:
         return None
     finished = life.goal.finished.t if life.goal.finished else math.inf
     due = min([finished, *(end.earliest for end in life.ends())])  # from when on the program may end
     over = min(life.exited, due - ON_ITS_WAY)
     sent = [each for each in life.goal.feedback if life.accepted <= each.t < over]
-    lines = [event for event in run.all(ev.NodeOutput) if event.stream == "stdout"]
+    lines = [event for event in life.run.all(ev.NodeOutput) if event.stream == "stdout"]
     rest = iter(lines)
     forms: Counter[str] = Counter()
     for each in sent:
@@ -447,14 +445,13 @@ def _how_it_came(life: ClientLife, times: list[float]) -> str:
     return f"{came}, also after a q" if life.asked and life.asked[0] < times[-1] else came
 
 
-def prints_feedback_in_time(run: Transcript) -> str | None:
+def prints_feedback_in_time(life: ClientLife) -> str | None:
     """Each feedback is printed within 0.5 s, whether somebody types or not."""
-    return prints_each_feedback(run, PROMPT)
+    return prints_each_feedback(life, PROMPT)
 
 
-def says_what_was_refused(run: Transcript) -> str | None:
+def says_what_was_refused(life: ClientLife) -> str | None:
     """A line says that a cancel was refused, whatever the return_code: goals_canceling is empty."""
-    life = life_of(run)
     cancels = life.goal.cancels if life.goal and life.asked else []
     found = [
         cancel.reply
@@ -467,8 +464,8 @@ def says_what_was_refused(run: Transcript) -> str | None:
     for reply in found:
         lines = [
             event.text
-            for event in run.all(ev.NodeOutput)
-            if reply.t - 0.05 <= event.t <= min(life.exited, run.end)
+            for event in life.run.all(ev.NodeOutput)
+            if reply.t - 0.05 <= event.t <= min(life.exited, life.run.end)
         ]
         others = [line for line in lines if not NUMBER.search(line)]
         expect(
@@ -489,5 +486,48 @@ def says_what_was_refused(run: Transcript) -> str | None:
 
 def refuses_what_is_no_pose(run: Transcript) -> str:
     """Wrong arguments end it with status 2 and the usage on stderr, before a node is started."""
-    require_usage(run, ENDS_AT_ONCE)
-    return " ".join(run.params["arguments"])
+    exited = client_checks.require_end(run, ENDS_AT_ONCE)
+    arguments = " ".join(run.params["arguments"])
+    help = (
+        "Let argparse read rclpy.utilities.remove_ros_args(sys.argv)[1:] with type=float: it ends the program with "
+        "status 2 itself."
+    )
+    observed, help = why_not_this_status(run, exited, help)
+    expect(
+        exited.returncode == USAGE,
+        expected=f"exit status {USAGE}: it was started with {arguments}",
+        observed=observed,
+        help=help,
+        at=exited.t,
+    )
+    said = run.output("stderr")
+    expect(
+        "usage" in said.lower() and TRACEBACK not in said,
+        expected="the usage on stderr",
+        observed=f"“{run.last_words}”",
+        help="argparse prints it: use parser.parse_args() or parser.error().",
+        at=exited.t,
+    )
+    expect(
+        run.first(ev.NodeReady) is None,
+        expected="no node: there is nothing to do",
+        observed="a node was started",
+        help="Read the arguments before rclpy.init().",
+        at=exited.t,
+    )
+    return arguments
+
+
+# -- all of it --------------------------------------------------------------------------------------------------------
+
+
+def all_of(*each: Obligation) -> Obligation:
+    """Return the obligation that all of these hold in any run; it was judged in the situation of the last one."""
+
+    @obligation(*sorted({clause for one in each for clause in one.clauses}), of=whole_run)
+    def holds_whatever_happens(run: Transcript) -> str:
+        """Whatever its server and a person at its keyboard do, it sends, prints, cancels and ends as clauses say."""
+        situations = [one.judge(run) for one in each]
+        return ", ".join(situations[-1])
+
+    return holds_whatever_happens

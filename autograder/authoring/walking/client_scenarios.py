@@ -52,13 +52,6 @@ def typed(*lines: str, after: float = 0.6, apart: float = 0.5) -> Steps:
 # -- what every such client meets --------------------------------------------------------------------------------------
 
 GOOD = walk({"distances": [1.12, 0.93, 0.71, 0.5, 0.28, 0.07], "ends_after": 1.4})
-NOBODY = walk(None)
-UNANSWERED = walk({"accepted": None})
-SILENT = walk({"ends_after": None})
-EARLY_FEEDBACK = walk({**ON_THE_WAY, "early": [6.43], "after": 1.0})
-FALLEN: Script = {"status": ABORTED, "error_code": 1, "error_msg": "the robot fell at x 0.42 m"}
-ABORTING = walk({**ON_THE_WAY, **FALLEN})
-INTERRUPTED = walk({**ON_AND_ON, "cancel": {"ends_after": 1.5}}, *typed(), ["press_ctrl_c"])
 WRONG_ARGUMENTS = (["1.0"], ["one", "0.5"], ["1.0", "0.5", "0.3", "0.2"])
 
 

@@ -9,7 +9,7 @@ from records import PEERS, SPINNING, asked, failure_of, given_up, run_of, stack
 from std_srvs.srv import Trigger
 
 from autograder.authoring import events as ev
-from autograder.authoring.client_checks import require_end, require_requests
+from autograder.authoring.client_checks import require_end
 from autograder.authoring.readiness import require_ready
 
 
@@ -68,20 +68,6 @@ def reply(number: int, t: float = 2.2) -> Any:
 def test_a_client_that_never_ends_is_told_at_which_of_three_places(events: list[Any], next_step: str) -> None:
     failure = failure_of(require_end, run_of(offered("get_status"), *events), 10.0)
     assert failure.help.startswith(next_step)
-
-
-@pytest.mark.parametrize(
-    ("sent", "wanted", "next_step"),
-    [
-        (0, 2, "Your program never asked get_status"),
-        (1, 2, "Only one request, then it gave up. Where is the second try?"),
-        (7, 2, "7 requests: one retry is allowed."),
-        (2, 1, "2 requests: 1 would do."),
-    ],
-)
-def test_the_number_of_requests_says_whether_a_try_is_missing(sent: int, wanted: int, next_step: str) -> None:
-    run = run_of(offered("get_status"), *(request(number, t=number) for number in range(1, sent + 1)))
-    assert failure_of(require_requests, run, "get_status", wanted).help.startswith(next_step)
 
 
 @pytest.mark.parametrize(

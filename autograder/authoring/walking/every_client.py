@@ -1,0 +1,52 @@
+"""The checks that every client of `walk_to` gets, each for the clauses and the points of its exercise."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from autograder.authoring.checks import Check
+from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.client_obligations import follows
+from autograder.authoring.walking.client_scenarios import ABORTED, ON_AND_ON, ON_THE_WAY, typed, walk
+
+# id: scenario, title, lesson
+CHECKS = {
+    "gives_up_without_a_server": (
+        walk(None),
+        "Without a server it ends with status 1 after 5 s, and says so on stderr",
+        "03_clients_that_survive#fix-why",
+    ),
+    "gives_up_without_an_answer": (
+        walk({"accepted": None}),
+        "A goal that is never answered ends it with status 1 after 5 s",
+        "03_clients_that_survive#fix-why",
+    ),
+    "gives_up_in_silence": (
+        walk({"ends_after": None}),
+        "After 5 s without feedback or result it cancels the goal and ends with status 1",
+        "03_clients_that_survive#fix-why",
+    ),
+    "tells_an_abort": (
+        walk(
+            {**ON_THE_WAY, "status": ABORTED, "error_code": 1, "error_msg": "the robot fell at x 0.42 m"},
+        ),
+        "An aborted goal ends it with status 3, and error_msg stands on stderr",
+        "06_walk_to_a_pose#hopeful-why",
+    ),
+    "ctrl_c_cancels_the_goal": (
+        walk({**ON_AND_ON, "cancel": {"ends_after": 1.5}}, *typed(), ["press_ctrl_c"]),
+        "Ctrl-C cancels the goal; it waits for its end and ends with status 4",
+        "06_walk_to_a_pose#field-why",
+    ),
+    "survives_early_feedback": (
+        walk({**ON_THE_WAY, "early": [6.43], "after": 1.0}),
+        "Feedback that comes before the goal is accepted disturbs nothing",
+        "06_walk_to_a_pose#slow-end-why",
+    ),
+}
+
+
+def check(id: str, *clauses: int, points: int = 1, needs: Check | Sequence[Check] = ()) -> Check:
+    """Return the check of this name."""
+    on, title, see = CHECKS[id]
+    return check_of(id, follows(*clauses), title=title, points=points, on=on, needs=needs, see=see)
