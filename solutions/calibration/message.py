@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import combinations
 
 TOLERANCE = 0.001  # rad/s
@@ -38,7 +38,7 @@ def whole_numbers(text: str) -> list[int]:
 
 
 def is_near(
-    found: Sequence[float | str], others: Sequence[float | str], tolerance: float = TOLERANCE
+    found: Iterable[float | str], others: Iterable[float | str], tolerance: float = TOLERANCE
 ) -> bool:
     """Return whether each component, a number or as it is written, is within the tolerance (rad/s)."""
     return all(abs(float(one) - float(other)) <= tolerance for one, other in zip(found, others, strict=True))

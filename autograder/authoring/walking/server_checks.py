@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from functools import partial
 from types import ModuleType
 from typing import Any
 
+from autograder.authoring import checks
 from autograder.authoring.checks import RESTING, Check, Scenario
 from autograder.authoring.obligation import check_of
 
+in_order = partial(checks.in_order, robot=())  # the robot stands
 
-def in_order(*steps: Sequence[Any], **options: Any) -> Scenario:
-    """Return the scenario of these steps; `options` are its other fields."""
-    return Scenario("in_order", {"steps": list(steps)}, **options)
-
-
-WRONG_POSES = [
+WRONG_POSES: list[list[Any]] = [
     ["ask", "wrong frame", "header.frame_id", "map"],
     ["ask", "NaN position", "pose.position.x", math.nan],
     ["ask", "NaN height", "pose.position.z", math.nan],
