@@ -10,14 +10,13 @@ from action_msgs.msg import GoalStatus
 
 from autograder.authoring.checks import Scenario, program
 from autograder.authoring.obligation import check_of
-from autograder.authoring.walking.client_scenarios import way
+from autograder.authoring.walking.client_scenarios import ARGUMENTS, way
 from humanoid_interfaces.msg import RobotState
 
 from . import model
 
 Server = dict[str, Any]
 Steps = list[list[Any]]
-ARGUMENTS = ("1.5", "-0.5", "0.4")  # x m, y m, yaw rad
 FULL = 0.8
 UNDER_WAY: Steps = [["await_answer"], ["wait", 0.5]]
 WALKING = ["robot", RobotState.WALKING]

@@ -129,7 +129,7 @@ TOO_LATE = _dropping(ends_after=0.8, result_after=2.5, status=GoalStatus.STATUS_
 REFUSED = _dropping(ends_after=4.2, cancel={"agreed": False})
 CTRL_C_IN_VAIN = program("in_order", _ctrl_c_in_vain)
 LATE_SERVER = program("in_order", _late_server)
-NEVER_A_PERCENTAGE = guard({}, *levels(20.0, math.nan), battery=1.001)
+NEVER_A_PERCENTAGE = guard({}, *levels(1.001, 20.0, math.nan), battery=1.001, again=False)
 ANY_STORY = program("in_order", _any_story)
 NEVER_ANSWERED = guard(
     {**ON_AND_ON, "cancel": {"agreed": None}}, *WALKS, ["battery", 0.1], *called_off(stands_after=0.5)
