@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from autograder.authoring.client_checks import require_end, require_failure, started_at
 from autograder.authoring.failure import Failure, expect
+from autograder.authoring.missing import Missing
 from autograder.authoring.obligation import obligation, whole_run
 from autograder.authoring.transcript import Transcript
 
@@ -323,14 +324,9 @@ def _require_one(run: Transcript, told: Sequence[str], expected: str) -> str | N
 def asks_here(run: Transcript) -> str:
     """It asks the robot in whose namespace it is started"""
     require_end(run, WITHIN)
-    expect(
-        bool(run.requests(ENABLE)),
-        expected=f"a request to {ENABLE} in the namespace in which the program was started",
-        observed=f"none there; the last line on stderr: {run.last_words or 'none'}",
-        help=f"Use relative names, “{ENABLE}” without a slash in front: the namespace belongs to whoever starts the "
-        "node.",
-        at=run.end,
-    )
+    if not run.requests(ENABLE):
+        expected = f"a request to {ENABLE} in the namespace in which the program was started"
+        raise Missing(run, expected=expected, never="none came")
     return "another namespace"
 
 

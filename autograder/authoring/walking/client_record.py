@@ -50,10 +50,9 @@ def _lacking(run: Transcript, goal: ScriptedGoal, script: Mapping[str, Any]) -> 
         yield "the answer that the script says", -inf
     if not goal.is_accepted:
         return
-    if goal.finished is None and goal.result_sent:
-        yield "the goal's end", -inf
-    if goal.finished is None and (ends_after := script.get("ends_after", 0.0)) is not None:
-        yield "the goal's end", goal.reply.t + ends_after
+    ends_after = script.get("ends_after", 0.0)
+    if goal.finished is None and (goal.result_sent or ends_after is not None):
+        yield "the goal's end", -inf if goal.result_sent else goal.reply.t + ends_after
     yield from _lacking_feedback(goal, script)
     yield from _lacking_result(run, goal, script)
     yield from _lacking_replies(goal, {"agreed": True, "ends_after": 0.5, **script.get("cancel", {})})
