@@ -89,6 +89,6 @@ def how_to_print_one(run: Transcript, lines: int, prefix: str) -> str:
         return "A callback left on a request you gave up on prints as well: remove that request."
     if lines:
         return "Print once: when get_status has answered, and nothing before."
-    if prefix.rstrip() in run.output("stderr"):
+    if prefix in run.output("stderr"):
         return "It stands on stderr, where a logger writes: use print(f'Robot status: {response.message}')."
     return "print(f'Robot status: {response.message}') when get_status has answered."
