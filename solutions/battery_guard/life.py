@@ -223,7 +223,8 @@ class GuardLife(ClientLife):
             over = called_off + PATIENCE
             waits_until = max(over, min(self.stands_from(called_off), over + PATIENCE))
             earliest = called_off + (SURELY_WAITED if by_keyboard else PATIENCE - MARGIN)
-            may_go_on = not by_keyboard and self._is_refused
+            is_refused = any(cancel.reply and not cancel.reply.canceling for cancel in self.goal.cancels)
+            may_go_on = is_refused and not by_keyboard
             because = f"the goal had not ended {PATIENCE:g} s after the request to cancel it"
             latest = waits_until + LEAVES_SOON
             yield (
@@ -260,11 +261,6 @@ class GuardLife(ClientLife):
             "is RobotState.STANDING, at most 5 s. That it stood before the walk does not count.",
             at=exited.t,
         )
-
-    @property
-    def _is_refused(self) -> bool:
-        assert self.goal is not None
-        return any(cancel.reply and not cancel.reply.canceling for cancel in self.goal.cancels)
 
 
 def guards(run: Transcript) -> list[GuardLife]:

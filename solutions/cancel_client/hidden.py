@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from random import Random
-from typing import Any
-
 from autograder.authoring.checks import program
 from autograder.authoring.obligation import check_of
 from autograder.authoring.walking import client_scenarios as scene
@@ -13,12 +10,6 @@ from autograder.authoring.walking.client_obligations import follows
 
 from . import checks, model
 from .checks import AGREED_AND_OVER, ARRIVES
-
-
-def _ctrl_c_after_q(random: Random) -> dict[str, Any]:
-    """Ctrl-C comes after a refused q; its cancel is refused, too, and the goal SUCCEEDS."""
-    return scene.ctrl_c(random, {"ends_after": 4.2, "cancel": {"agreed": False}}, "q")
-
 
 ANY_WALK = program("in_order", scene.any_walk, namespace="/lab_7/robot")
 ANY_COURSE = program("in_order", lambda random: scene.any_course(random, types=True))
@@ -36,7 +27,9 @@ TOO_LATE = scene.walk(
 DEAF = scene.walk(
     {"distances": scene.way(60), "ends_after": 8.0, "cancel": {"agreed": None}}, *scene.typed("q")
 )
-CTRL_C_AFTER_Q = program("in_order", _ctrl_c_after_q)
+CTRL_C_AFTER_Q = program(
+    "in_order", lambda random: scene.ctrl_c(random, {"ends_after": 4.2, "cancel": {"agreed": False}}, "q")
+)
 OFTEN = scene.walk(
     {**ARRIVES, "after": 3.2, "ends_after": 6.0, "cancel": {"agreed": False}},
     *(["type", "w\nq"], ["wait", 3.0], ["offer"]),  # two lines that are pasted; server and answer are late

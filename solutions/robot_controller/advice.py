@@ -5,9 +5,10 @@ from __future__ import annotations
 from autograder.authoring import events as ev
 from autograder.authoring.client_checks import why_not_this_status
 from autograder.authoring.fields import shown_fields
+from autograder.authoring.root_cause import why_it_went_no_further
 from autograder.authoring.transcript import Transcript
 
-from .truth import ENABLE, STATUS, offered
+from .truth import ENABLE, STATUS
 
 SOONEST = 1.5  # s between a request and its repetition, or for a search; 2 s are asked for
 TRACEBACK = "Traceback (most recent call last)"
@@ -16,24 +17,21 @@ Advice = tuple[str, str]  # what the record knows of a fault, and what to do
 
 def why_it_failed(run: Transcript, exited: ev.NodeExited) -> Advice:
     """Say of a program whose servers were there why its exit status is not 0."""
-    status = exited.returncode
-    if TRACEBACK in run.output("stderr"):
-        return (
-            f"An exception ended it with status {status}: {run.last_words}",
-            "Nobody catches that exception: the end of the log names the line of your file that raised it.",
-        )
-    if not run.requests(ENABLE):
-        return _never_asked(run, ENABLE, status)
-    if not run.requests(STATUS):
-        return _gave_up_early(run, ENABLE, exited) or _never_asked(run, STATUS, status)
+    is_asked = bool(run.requests(STATUS))
+    early = _gave_up_early(run, STATUS if is_asked else ENABLE, exited)
+    went_no_further = not run.requests(ENABLE) or not (is_asked or early)
+    if went_no_further or TRACEBACK in run.output("stderr"):
+        cause = why_it_went_no_further(run)
+        assert cause is not None  # it has ended
+        return cause.words, cause.help
     if answer := _odd_answer(run, gave_up_at(run, exited)):
         return (
-            f"Status {status}, although get_status has answered {answer}.",
+            f"Status {exited.returncode}, although get_status has answered {answer}.",
             "An answer is an answer, also where its message is empty or its success false: print it, and return 0. "
             "Only enable_motors can refuse.",
         )
-    return _gave_up_early(run, STATUS, exited) or (
-        f"Status {status}, although both services have answered.",
+    return early or (
+        f"Status {exited.returncode}, although both services have answered.",
         "Return 0 from main() when the answers have come, and end the file with sys.exit(main()).",
     )
 
@@ -53,23 +51,6 @@ def why_not_one(run: Transcript, exited: ev.NodeExited) -> Advice:
     return why_not_this_status(run, exited, help)
 
 
-def _never_asked(run: Transcript, service: str, status: int) -> Advice:
-    if (servers := len({each.server for each in offered(run, service)})) > 1:
-        return (
-            f"Status {status}, and {service} was never asked, although {servers} servers offer it.",
-            "Any server of that name will do: send the request, and take the first answer.",
-        )
-    if status == 0:
-        return (
-            f"Status 0, and {service} was never asked.",
-            "Send the request, and wait for the answer before you return 0.",
-        )
-    return (
-        f"Status {status}, and {service} was never asked; the last line on stderr: {run.last_words or 'none'}",
-        "Compare the client's name and type with the task, letter by letter: wait_for_service finds no other.",
-    )
-
-
 def _odd_answer(run: Transcript, by: float) -> str:
     """Return an answer of get_status (by a time, s) that is empty or not a success, in words; "" if none is."""
     replies = [each.reply for each in run.requests(STATUS) if each.reply and each.reply.t <= by]
@@ -79,9 +60,10 @@ def _odd_answer(run: Transcript, by: float) -> str:
 
 def _gave_up_early(run: Transcript, service: str, exited: ev.NodeExited) -> Advice | None:
     """Say why the answer of a service was not waited for or not used; None if nothing speaks for that."""
-    requests, status = run.requests(service), exited.returncode
+    requests, gave_up = run.requests(service), gave_up_at(run, exited)
+    if not requests:
+        return None
     last = requests[-1]
-    gave_up = gave_up_at(run, exited)
     if last.reply is None or last.reply.t > gave_up:
         return (
             f"It gave up {gave_up - last.received.t:.1f} s after request {len(requests)} to {service}, before the "
@@ -90,7 +72,7 @@ def _gave_up_early(run: Transcript, service: str, exited: ev.NodeExited) -> Advi
         )
     if len(requests) > 1:
         return (
-            f"Status {status}, although request {len(requests)} to {service} was answered.",
+            f"Status {exited.returncode}, although request {len(requests)} to {service} was answered.",
             "An answer to the second request counts like one to the first: look at future.done() after each.",
         )
     return None
@@ -107,6 +89,6 @@ def how_to_print_one(run: Transcript, lines: int, prefix: str) -> str:
         return "A callback left on a request you gave up on prints as well: remove that request."
     if lines:
         return "Print once: when get_status has answered, and nothing before."
-    if prefix.rstrip() in run.output("stderr"):
+    if prefix in run.output("stderr"):
         return "It stands on stderr, where a logger writes: use print(f'Robot status: {response.message}')."
     return "print(f'Robot status: {response.message}') when get_status has answered."

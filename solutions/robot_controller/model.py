@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from autograder.authoring.client_checks import require_end, require_failure, started_at
 from autograder.authoring.failure import Failure, expect
+from autograder.authoring.missing import Missing
 from autograder.authoring.obligation import obligation, whole_run
 from autograder.authoring.transcript import Transcript
 
@@ -29,7 +30,7 @@ from .truth import (
 DEADLINE_SLACK = 0.8  # s for the line that says so; ending takes longer, for which `client_checks` allows
 LATEST = 3.5  # s between a request and its repetition; 2 s are asked for
 SEARCH_SLACK = 1.5  # s, for the end of the search for a server, and the line that says so
-PREFIX = "Robot status: "
+PREFIX = "Robot status:"
 PRINTING = "03_clients_that_survive#fix-file"  # the lesson
 REFUSING = "03b_clients_in_bad_company#success-why"  # the lesson
 
@@ -273,22 +274,22 @@ def repeats_status_once(run: Transcript) -> str | None:
 @obligation(2, of=whole_run)
 def prints_the_status(run: Transcript) -> str | None:
     """On stdout comes one line, “Robot status: ” with the message of get_status unchanged"""
-    return _require_one(run, _status_lines(run), f"one line on stdout that begins with “{PREFIX.rstrip()}”")
+    return _require_one(run, _status_lines(run), f"one line on stdout that begins with “{PREFIX}”")
 
 
 @obligation(2, 12, of=whole_run)
 def tells_one_status(run: Transcript) -> str | None:
     """It says one status, the message of get_status, wherever it writes it"""
-    logged = [line for line in run.output("stderr").splitlines() if PREFIX.rstrip() in line]
+    logged = [line for line in run.output("stderr").splitlines() if PREFIX in line]
     return _require_one(
         run,
-        _status_lines(run) or [line[line.index(PREFIX.rstrip()) :].rstrip() for line in logged],
+        _status_lines(run) or [line[line.index(PREFIX) :].rstrip() for line in logged],
         "one status",
     )
 
 
 def _status_lines(run: Transcript) -> list[str]:
-    return [line.rstrip() for line in run.output("stdout").splitlines() if line.startswith(PREFIX.rstrip())]
+    return [line.rstrip() for line in run.output("stdout").splitlines() if line.startswith(PREFIX)]
 
 
 def _require_one(run: Transcript, told: Sequence[str], expected: str) -> str | None:
@@ -305,8 +306,8 @@ def _require_one(run: Transcript, told: Sequence[str], expected: str) -> str | N
         see=PRINTING,
     )
     expect(
-        told[0] in [(PREFIX + message).rstrip() for message in ends.messages],
-        expected=" or ".join(f"“{PREFIX}{message}”" for message in ends.messages)
+        told[0] in [f"{PREFIX} {message}".rstrip() for message in ends.messages],
+        expected=" or ".join(f"“{PREFIX} {message}”" for message in ends.messages)
         or "get_status to be asked first",
         observed=f"“{told[0]}”",
         help="Print the message of the response to get_status, all of it: print(f'Robot status: {response.message}').",
@@ -323,14 +324,9 @@ def _require_one(run: Transcript, told: Sequence[str], expected: str) -> str | N
 def asks_here(run: Transcript) -> str:
     """It asks the robot in whose namespace it is started"""
     require_end(run, WITHIN)
-    expect(
-        bool(run.requests(ENABLE)),
-        expected=f"a request to {ENABLE} in the namespace in which the program was started",
-        observed=f"none there; the last line on stderr: {run.last_words or 'none'}",
-        help=f"Use relative names, “{ENABLE}” without a slash in front: the namespace belongs to whoever starts the "
-        "node.",
-        at=run.end,
-    )
+    if not run.requests(ENABLE):
+        expected = f"a request to {ENABLE} in the namespace in which the program was started"
+        raise Missing(run, expected=expected, never="none came")
     return "another namespace"
 
 

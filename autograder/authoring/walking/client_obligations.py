@@ -100,10 +100,8 @@ def asks_to_cancel_in_time(
 ) -> list[Cause]:
     """Require a request to cancel for what asks for one, and none otherwise; return what asked.
 
-    Args:
-        life: of a client whose goal came.
-        needless: the failure for a request at a time (s) at which nothing asked for it.
-        how_to_cancel: what to do about a request that did not come for a cause.
+    `needless` makes the failure of a request for which nothing asked by its time (s), `how_to_cancel` says what to do
+    about one that did not come.
     """
     assert life.goal is not None
     causes = life.causes()
@@ -143,26 +141,18 @@ def asks_to_cancel_in_time(
 def _needless(life: ClientLife, t: float) -> Failure:
     """Return the failure for a request to cancel that came when nothing asked for it."""
     assert life.goal is not None
-    causes = life.causes()
     heard = max([life.goal.received.t, *(each for each in life.heard if each <= t)])
     typed = [event.line for event in life.run.all(ev.NodeTyped) if event.t <= t]
-    help = "Cancel only when a line is q, when Ctrl-C is pressed, or when nothing has been heard for 5 s."
-    if typed and "q" not in typed:
-        expected = "no request to cancel: nobody has typed q"
-        line = "the end of the input" if typed[-1] is None else f"the line “{typed[-1]}”"
-        observed = f"one came after {line}"
-        help = "Cancel when a line, without its newline, is q and nothing else; at the end of the input do nothing."
-    elif not causes or causes[0].name == "silence":
-        expected = f"no request to cancel, but {PATIENCE:g} s after it last heard of the server"
-        observed = f"one came {t - heard:.1f} s after it"
-        help = (
-            "Cancel only when you are asked to, or in silence: a goal may take its time, and the last sign of life "
-            f"came at {heard:.1f} s."
-        )
-    else:
-        expected = f"the goal to go on until you {'type q' if causes[0].name == 'q' else 'press Ctrl-C'}"
-        observed = f"a request to cancel {causes[0].since - t:.1f} s before"
-    return Failure(expected=expected, observed=observed, help=help, at=t)
+    after = ""
+    if typed:
+        after = ", after the end of the input" if typed[-1] is None else f", after the line “{typed[-1]}”"
+    return Failure(
+        expected=f"no request to cancel before a line q, Ctrl-C or {PATIENCE:g} s of silence",
+        observed=f"one came {t - heard:.1f} s after it last heard of the server{after}",
+        help="Cancel only when a line, without its newline, is q and nothing else, at Ctrl-C, or in silence: a goal "
+        f"may take its time, and the last sign of life came at {heard:.1f} s.",
+        at=t,
+    )
 
 
 def _how_to_cancel(life: ClientLife, cause: Cause) -> str:
@@ -401,7 +391,13 @@ def prints_each_feedback(life: ClientLife, within: float = math.inf) -> str | No
             (line for line in rest if line.t > each.t - 0.1 and has_number(line.text, distance)), None
         )
         if line is None:
-            raise _not_printed(distance, each.t, lines)
+            raise Failure(
+                expected=f"a line for each feedback with distance_remaining: a line with {distance:.2f}",
+                observed=" | ".join(line.text for line in lines[:6]) or "nothing on stdout",
+                help="Give send_goal_async a feedback_callback; the action's message is in message.feedback, so print "
+                "message.feedback.distance_remaining.",
+                at=each.t,
+            )
         forms[_form(line.text)] += 1
         expect(
             line.t - each.t <= within + PROMPT_SLACK,
@@ -420,16 +416,6 @@ def prints_each_feedback(life: ClientLife, within: float = math.inf) -> str | No
         at=alike[-1].t if alike else None,
     )
     return _how_it_came(life, [each.t for each in sent]) if sent else None
-
-
-def _not_printed(distance: float, at: float, lines: list[ev.NodeOutput]) -> Failure:
-    return Failure(
-        expected=f"a line for each feedback with distance_remaining: a line with {distance:.2f}",
-        observed=" | ".join(line.text for line in lines[:6]) or "nothing on stdout",
-        help="Give send_goal_async a feedback_callback; the action's message is in message.feedback, so print "
-        "message.feedback.distance_remaining.",
-        at=at,
-    )
 
 
 def _form(line: str) -> str:
@@ -452,33 +438,24 @@ def prints_feedback_in_time(life: ClientLife) -> str | None:
 
 def says_what_was_refused(life: ClientLife) -> str | None:
     """A line says that a cancel was refused, whatever the return_code: goals_canceling is empty."""
-    cancels = life.goal.cancels if life.goal and life.asked else []
-    found = [
-        cancel.reply
-        for cancel in cancels[:1]
-        if cancel.reply
-        and not cancel.reply.canceling
-        and cancel.received.t < life.interrupted
-        and cancel.reply.t < min(life.result - ON_ITS_WAY, life.exited)
-    ]
-    for reply in found:
-        lines = [
-            event.text
-            for event in life.run.all(ev.NodeOutput)
-            if reply.t - 0.05 <= event.t <= min(life.exited, life.run.end)
-        ]
-        others = [line for line in lines if not NUMBER.search(line)]
-        expect(
-            any(REFUSED.search(line) for line in lines),
-            expected="a line with the word refused, because goals_canceling is empty "
-            f"(return_code {reply.return_code})",
-            observed=" | ".join((others or lines)[:4]) or "nothing was printed meanwhile",
-            help="Look into the answer of cancel_goal_async(): return_code 0 says only that the request was "
-            "understood. The goal is being cancelled if it is in goals_canceling; every other answer is a refusal, "
-            "whatever its return_code.",
-            at=reply.t,
-        )
-    return ", ".join(f"refused with code {reply.return_code}" for reply in found) or None
+    cancel = life.goal.cancels[0] if life.goal and life.goal.cancels and life.asked else None
+    if cancel is None or cancel.reply is None or cancel.reply.canceling:
+        return None
+    reply = cancel.reply
+    if cancel.received.t >= life.interrupted or reply.t >= min(life.result - ON_ITS_WAY, life.exited):
+        return None
+    said = [event.text for event in life.run.all(ev.NodeOutput) if reply.t - 0.05 <= event.t <= life.exited]
+    others = [line for line in said if not NUMBER.search(line)]
+    expect(
+        any(REFUSED.search(line) for line in said),
+        expected=f"a line with the word refused, because goals_canceling is empty (return_code {reply.return_code})",
+        observed=" | ".join((others or said)[:4]) or "nothing was printed meanwhile",
+        help="Look into the answer of cancel_goal_async(): return_code 0 says only that the request was understood. "
+        "The goal is being cancelled if it is in goals_canceling; every other answer is a refusal, whatever its "
+        "return_code.",
+        at=reply.t,
+    )
+    return f"refused with code {reply.return_code}"
 
 
 # -- before it starts -------------------------------------------------------------------------------------------------

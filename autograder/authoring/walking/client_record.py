@@ -14,11 +14,6 @@ from autograder.authoring.sequence import STEPS
 from autograder.authoring.transcript import Transcript
 
 LATE = 1.0  # s that an event may come after its time
-ACTS: dict[str, type[ev.NodeTyped | ev.NodeSignalled]] = {
-    "type": ev.NodeTyped,
-    "end_input": ev.NodeTyped,
-    "press_ctrl_c": ev.NodeSignalled,
-}
 
 
 def require_record(run: Transcript, action: str) -> None:
@@ -50,10 +45,9 @@ def _lacking(run: Transcript, goal: ScriptedGoal, script: Mapping[str, Any]) -> 
         yield "the answer that the script says", -inf
     if not goal.is_accepted:
         return
-    if goal.finished is None and goal.result_sent:
-        yield "the goal's end", -inf
-    if goal.finished is None and (ends_after := script.get("ends_after", 0.0)) is not None:
-        yield "the goal's end", goal.reply.t + ends_after
+    ends_after = script.get("ends_after", 0.0)
+    if goal.finished is None and (goal.result_sent or ends_after is not None):
+        yield "the goal's end", -inf if goal.result_sent else goal.reply.t + ends_after
     yield from _lacking_feedback(goal, script)
     yield from _lacking_result(run, goal, script)
     yield from _lacking_replies(goal, {"agreed": True, "ends_after": 0.5, **script.get("cancel", {})})
@@ -93,13 +87,10 @@ def _lacking_replies(goal: ScriptedGoal, script: Mapping[str, Any]) -> Iterator[
 def _require_acts(run: Transcript) -> None:
     """Require that all was typed and pressed that the steps say, up to the program's end."""
     exited = run.first(ev.NodeExited)
-    marks = {mark.name: mark.t for mark in run.all(ev.Mark)}
-    for kind in set(ACTS.values()):
-        times = [
-            marks.get(f"step {number}", inf)
-            for number, (verb, *_) in enumerate(run.params.get(STEPS, ()), start=1)
-            if ACTS.get(verb) is kind
-        ]
-        due = [t for t in times if t < (exited.t if exited else run.end)]
-        if len(run.all(kind)) < len(due):
-            raise unseen(run, "the record lacks what was typed or pressed")
+    over = exited.t if exited else run.end
+    done = {mark.name for mark in run.all(ev.Mark) if mark.t < over}
+    steps = enumerate(run.params.get(STEPS, ()), start=1)
+    verbs = [verb for number, (verb, *_) in steps if f"step {number}" in done]
+    typed, pressed = verbs.count("type") + verbs.count("end_input"), verbs.count("press_ctrl_c")
+    if len(run.all(ev.NodeTyped)) < typed or len(run.all(ev.NodeSignalled)) < pressed:
+        raise unseen(run, "the record lacks what was typed or pressed")

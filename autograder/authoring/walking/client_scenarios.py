@@ -16,7 +16,6 @@ ARGUMENTS = ("1.025", "0.475", "0.335")  # x m, y m, yaw rad
 SUCCEEDED, CANCELED, ABORTED = range(4, 7)  # of action_msgs/GoalStatus
 LONGEST_GAP = 4.5  # s between two signs of life: 5 are silence
 LONGEST_WALK = 12.0  # s of feedback
-REASONS = ("the robot fell at x 0.42 m", "the way is blocked: 3 obstacles", "no way", "")
 OTHER_LINES = ("", "w", "quit", "stop", "please q", "qq")
 
 Script = dict[str, Any]
@@ -152,10 +151,11 @@ def _any_way(random: Random) -> Script:
 
 def _any_end(random: Random, at_least: float) -> Script:
     status = random.choice([SUCCEEDED, CANCELED, ABORTED])
+    reasons = ("the robot fell at x 0.42 m", "the way is blocked: 3 obstacles", "no way", "")
     code = random.choice([0, 1, 2])  # the status decides, whatever it is
     kept = {"kept_for": 1.0} if random.random() < 0.5 else {}
     end = {"ends_after": round(at_least, 2), "status": status, "error_code": code}
-    return {**end, "error_msg": random.choice(REASONS), "final": [-0.42, 1.37, 0.2], **kept}
+    return {**end, "error_msg": random.choice(reasons), "final": [-0.42, 1.37, 0.2], **kept}
 
 
 def _any_cancel(random: Random, ends_after: float) -> Script:

@@ -27,9 +27,7 @@ CHECKS = {
         "03_clients_that_survive#fix-why",
     ),
     "tells_an_abort": (
-        walk(
-            {**ON_THE_WAY, "status": ABORTED, "error_code": 1, "error_msg": "the robot fell at x 0.42 m"},
-        ),
+        walk({**ON_THE_WAY, "status": ABORTED, "error_code": 1, "error_msg": "the robot fell at x 0.42 m"}),
         "An aborted goal ends it with status 3, and error_msg stands on stderr",
         "06_walk_to_a_pose#hopeful-why",
     ),
