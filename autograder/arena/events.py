@@ -188,9 +188,9 @@ class WokenLate(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class Starved(Event):
-    """How long (s) the student's program waited for a processor, in the worst second on the arena's clock.
+    """How long (s) the student's program waited for a processor that other programs had.
 
-    `altogether` (s of real time) is the waiting since its start.
+    `seconds` is the most in a second on the arena's clock, `altogether` the sum since its start, in real time.
     """
 
     seconds: float

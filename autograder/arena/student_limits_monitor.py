@@ -8,6 +8,7 @@ import time
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.fastest_growth import FastestGrowth
+from autograder.arena.lost_time import LostTime
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.open_sockets import too_many_sockets
 from autograder.isolation.process_tree import cpu_seconds, resident_mib, seconds_without_a_processor
@@ -43,9 +44,10 @@ class StudentLimitsMonitor:
         self._cpu = 0.0
         self._peak = 0.0
         self._starved: dict[int, float] = {}
+        self._lost = LostTime()
         self._cpu_before = 0.0
         self._in_time_since = time.monotonic()
-        self._busy, self._waiting = FastestGrowth(), FastestGrowth()
+        self._busy, self._losing = FastestGrowth(), FastestGrowth()
         self._looking = threading.Lock()
         threading.Thread(target=self._watch, name="student limits", daemon=True).start()
 
@@ -54,7 +56,7 @@ class StudentLimitsMonitor:
         self._look()
         with self._looking:
             self._cpu_before, self._in_time_since = self._cpu, time.monotonic()
-            self._busy, self._waiting = FastestGrowth(), FastestGrowth()
+            self._busy, self._losing = FastestGrowth(), FastestGrowth()
             self._look_at_growth()
 
     def report(self) -> None:
@@ -71,9 +73,9 @@ class StudentLimitsMonitor:
         self._log.append(usage)
 
     def record_waiting(self) -> None:
-        """Record how long the processes waited for a processor so far."""
+        """Record how long the processes waited so far for a processor that other programs had."""
         self._look()
-        self._log.append(ev.Starved(seconds=self._waiting.rate, altogether=sum(self._starved.values())))
+        self._log.append(ev.Starved(seconds=self._losing.rate, altogether=self._lost.total))
 
     def _watch(self) -> None:
         while self._student.returncode is None:
@@ -100,8 +102,9 @@ class StudentLimitsMonitor:
 
     def _look_at_growth(self) -> None:
         now = real_monotonic_ns() / 1e9
+        self._lost.look(now, self._cpu, sum(self._starved.values()))
         self._busy.look(now, self._cpu, BURST)
-        self._waiting.look(now, sum(self._starved.values()), WAIT / self._clock.scale)
+        self._losing.look(now, self._lost.total, WAIT / self._clock.scale)
 
     def _excess(self, processes: list[int], memory: float) -> str:
         limits = self._limits

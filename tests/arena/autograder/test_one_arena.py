@@ -202,6 +202,17 @@ def test_what_the_kernel_has_no_limit_for_is_limited(code, reason):
     assert re.search(reason, killed.reason)
 
 
+def test_the_waiting_of_processes_for_each_other_is_not_summed_up():
+    busy = (
+        "import os, time\nfor _ in range(4): os.fork()\n"
+        "until = time.monotonic() + 5.0\nwhile time.monotonic() < until: pass"
+    )
+    with SubmissionArenas(QUIZ.scenario_file) as arenas:
+        recorded = run(busy, arenas)
+    usage, starved = recorded.first(ev.NodeUsage), recorded.first(ev.Starved)
+    assert starved.altogether < usage.wall  # sixteen processes wait for many times as long
+
+
 def test_a_warm_program_is_ended_above_its_memory():
     with SubmissionArenas(QUIZ.scenario_file) as arenas:
         run("", arenas)
