@@ -50,12 +50,15 @@ REFUSED = re.compile(
     r"refus|reject|declin|den(?:y|ied)|(?:not|n't|cannot) (?:be )?cancel|fail|terminated|already|too late",
     re.IGNORECASE,
 )
-# What became of a goal, in the last line after Ctrl-C, by its final status; None: it has not ended.
+# What became of a goal, in words and in the last line after Ctrl-C, by its final status; None: it has not ended.
 BECAME = {
-    GoalStatus.STATUS_SUCCEEDED: r"succe|arriv|reached|\bstatus\W+4\b",
-    GoalStatus.STATUS_CANCELED: r"cancel|\bstatus\W+5\b",
-    GoalStatus.STATUS_ABORTED: r"abort|\bstatus\W+6\b",
-    None: r"\b(not|never|still|yet|without|unknown|unfinished|goes on|going on|gave up|no (end|result))\b|n't",
+    GoalStatus.STATUS_SUCCEEDED: ("it SUCCEEDED all the same", r"succe|arriv|reached|\bstatus\W+4\b"),
+    GoalStatus.STATUS_CANCELED: ("it was CANCELED", r"cancel|\bstatus\W+5\b"),
+    GoalStatus.STATUS_ABORTED: ("it was ABORTED all the same", r"abort|\bstatus\W+6\b"),
+    None: (
+        "it has not ended yet",
+        r"\b(not|never|still|yet|without|unknown|unfinished|goes on|going on|gave up|no (end|result))\b|n't",
+    ),
 }
 ROTATION = 0.0005  # rad, and of a quaternion's length, by which a goal may differ from the arguments
 ON_CTRL_C = (
@@ -339,17 +342,11 @@ def _require_what_became(life: ClientLife, exited: ev.NodeExited) -> None:
         if event.stream == "stdout" and event.text.strip() and event.t >= life.interrupted - 0.1
     ]
     said = [line.text for line in lines if line.t >= since or line is lines[-1]]
-    late = status and life.result > life.interrupted + SURELY_WAITED
-    ways = [BECAME[status], BECAME[None]] if late else [BECAME[status]]
-    name = {
-        GoalStatus.STATUS_SUCCEEDED: "it SUCCEEDED all the same",
-        GoalStatus.STATUS_ABORTED: "it was ABORTED all the same",
-        GoalStatus.STATUS_CANCELED: "it was CANCELED",
-        None: "it has not ended yet",
-    }[status]
+    is_late = status and life.result > life.interrupted + SURELY_WAITED
+    ways = [BECAME[each][1] for each in ((status, None) if is_late else (status,))]
     expect(
         any(re.search(way, line, re.IGNORECASE) for way in ways for line in said),
-        expected=f"a line on stdout at the end that says what became of the goal: {name}",
+        expected=f"a line on stdout at the end that says what became of the goal: {BECAME[status][0]}",
         observed=f"the last line on stdout after Ctrl-C: {lines[-1].text if lines else 'none'}",
         help="After Ctrl-C, too, print a line when the goal has ended, by its status, or when you have waited long "
         "enough.",
