@@ -22,13 +22,9 @@ Script = dict[str, Any]
 Steps = list[list[Any]]
 
 
-def walk(
-    server: Script | None, *steps: list[Any], arguments: Sequence[str] = ARGUMENTS, **options: Any
-) -> Scenario:
-    """Return a scenario with this server (None: nobody), and what a person does; `options` are a Scenario's."""
-    return program(
-        "in_order", {"arguments": list(arguments), "server": server, "steps": list(steps)}, **options
-    )
+def walk(server: Script | None, *steps: list[Any], arguments: Sequence[str] = ARGUMENTS) -> Scenario:
+    """Return a scenario with this server (None: nobody), and what a person does."""
+    return program("in_order", {"arguments": list(arguments), "server": server, "steps": list(steps)})
 
 
 def way(messages: int) -> list[float]:
