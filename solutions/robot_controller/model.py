@@ -44,13 +44,15 @@ def ends_as_it_went(run: Transcript) -> str:
     exited, ends = require_end(run, WITHIN), expected_ends(run)
     allowed = [0] * ends.may_succeed + [1] * ends.may_fail
     if exited.returncode not in allowed:
-        for service in (ENABLE, STATUS):
-            if allowed == [0] and asked(run, service):
-                _repeats(service, run)
-        observed, help = why_it_failed(run, exited) if allowed == [0] else why_not_one(run, exited)
-        because = (
-            ", because both services were there" if allowed == [0] else f": {ends.why}" * (allowed == [1])
-        )
+        if allowed == [0]:
+            for service in (ENABLE, STATUS):
+                if asked(run, service):
+                    _repeats(service, run)
+            observed, help = why_it_failed(run, exited)
+            because = ", because both services were there"
+        else:
+            observed, help = why_not_one(run, exited)
+            because = f": {ends.why}" if allowed == [1] else ""
         raise Failure(
             expected=f"exit status {' or '.join(map(str, allowed))}{because}",
             observed=observed,

@@ -20,12 +20,11 @@ from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.client_record import require_record
 
 SUCCEEDED, NO_SERVER, REJECTED, ABORTED, CANCELED = range(5)  # exit statuses
-EXIT_STATUS = {
-    GoalStatus.STATUS_SUCCEEDED: SUCCEEDED,
-    GoalStatus.STATUS_ABORTED: ABORTED,
-    GoalStatus.STATUS_CANCELED: CANCELED,
+BY_STATUS = {
+    GoalStatus.STATUS_SUCCEEDED: (SUCCEEDED, "SUCCEEDED", "the goal SUCCEEDED"),
+    GoalStatus.STATUS_ABORTED: (ABORTED, "ABORTED", "the goal was ABORTED"),
+    GoalStatus.STATUS_CANCELED: (CANCELED, "CANCELED", "the goal was CANCELED"),
 }
-NAMES = {SUCCEEDED: "SUCCEEDED", ABORTED: "ABORTED", CANCELED: "CANCELED"}
 PATIENCE = 5.0  # s
 # s on the arena's clock:
 FINDING = 2.0  # from the node's appearance until the grader has seen it
@@ -257,9 +256,7 @@ class ClientLife:
 
 def by_status(status: int, t: float) -> End:
     """Return the end of a program that got its goal's result, with this status, at a time (s)."""
-    name = NAMES[EXIT_STATUS[status]]
-    because = f"the goal {'' if name == 'SUCCEEDED' else 'was '}{name}"
-    return End(EXIT_STATUS[status], name, because, t, t, t + LEAVING, STATUS_HELP)
+    return End(*BY_STATUS[status], t, t, t + LEAVING, STATUS_HELP)
 
 
 def clients(run: Transcript) -> list[ClientLife]:

@@ -50,12 +50,15 @@ REFUSED = re.compile(
     r"refus|reject|declin|den(?:y|ied)|(?:not|n't|cannot) (?:be )?cancel|fail|terminated|already|too late",
     re.IGNORECASE,
 )
-# What became of a goal, in the last line after Ctrl-C, by its final status; None: it has not ended.
+# What became of a goal, in words and in the last line after Ctrl-C, by its final status; None: it has not ended.
 BECAME = {
-    GoalStatus.STATUS_SUCCEEDED: r"succe|arriv|reached|\bstatus\W+4\b",
-    GoalStatus.STATUS_CANCELED: r"cancel|\bstatus\W+5\b",
-    GoalStatus.STATUS_ABORTED: r"abort|\bstatus\W+6\b",
-    None: r"\b(not|never|still|yet|without|unknown|unfinished|goes on|going on|gave up|no (end|result))\b|n't",
+    GoalStatus.STATUS_SUCCEEDED: ("it SUCCEEDED all the same", r"succe|arriv|reached|\bstatus\W+4\b"),
+    GoalStatus.STATUS_CANCELED: ("it was CANCELED", r"cancel|\bstatus\W+5\b"),
+    GoalStatus.STATUS_ABORTED: ("it was ABORTED all the same", r"abort|\bstatus\W+6\b"),
+    None: (
+        "it has not ended yet",
+        r"\b(not|never|still|yet|without|unknown|unfinished|goes on|going on|gave up|no (end|result))\b|n't",
+    ),
 }
 ROTATION = 0.0005  # rad, and of a quaternion's length, by which a goal may differ from the arguments
 ON_CTRL_C = (
@@ -239,10 +242,19 @@ def _require_its_line(life: ClientLife, told: list[End], exited: ev.NodeExited) 
     _require_no_other_ending(life, exited)
 
 
+def _printed(run: Transcript, stream: str, since: float = 0.0) -> list[ev.NodeOutput]:
+    """Return the lines on a stream from a time (s) on that are not blank."""
+    said = run.all(ev.NodeOutput)
+    return [line for line in said if line.stream == stream and line.t >= since and line.text.strip()]
+
+
 def require_ending_line(run: Transcript, word: str, at: float, since: float = 0.0) -> str:
     """Require exactly one line on stdout from a time (s) on that holds this status, and return it."""
-    said = [event.text for event in run.all(ev.NodeOutput) if event.stream == "stdout" and event.t >= since]
-    lines = [line for line in said if re.search(rf"\b{word}\b", line, re.IGNORECASE)]
+    lines = [
+        line.text
+        for line in _printed(run, "stdout", since)
+        if re.search(rf"\b{word}\b", line.text, re.IGNORECASE)
+    ]
     expect(
         len(lines) == 1,
         expected=f"one line on stdout with the word {word}",
@@ -298,10 +310,7 @@ def require_reason(life: ClientLife, told: list[End], exited: ev.NodeExited) -> 
     """Require a line on stderr that says why it ended, and exactly one with the server's reason after ABORTED."""
     run, since = life.run, min(end.earliest for end in told) - MARGIN
     expect(
-        any(
-            event.stream == "stderr" and event.t >= since and event.text.strip()
-            for event in run.all(ev.NodeOutput)
-        ),
+        bool(_printed(run, "stderr", since)),
         expected="one line on stderr that says why it ended",
         observed=f"the last before the end: {run.last_words or 'none'}",
         help="print(..., file=sys.stderr) before the program ends.",
@@ -333,23 +342,13 @@ def _require_what_became(life: ClientLife, exited: ev.NodeExited) -> None:
     finished = life.goal.finished if life.goal else None
     status = finished.status if finished and life.result <= exited.t else None
     since = life.result - 0.1 if status else life.interrupted
-    lines = [
-        event
-        for event in life.run.all(ev.NodeOutput)
-        if event.stream == "stdout" and event.text.strip() and event.t >= life.interrupted - 0.1
-    ]
+    lines = _printed(life.run, "stdout", life.interrupted - 0.1)
     said = [line.text for line in lines if line.t >= since or line is lines[-1]]
-    late = status and life.result > life.interrupted + SURELY_WAITED
-    ways = [BECAME[status], BECAME[None]] if late else [BECAME[status]]
-    name = {
-        GoalStatus.STATUS_SUCCEEDED: "it SUCCEEDED all the same",
-        GoalStatus.STATUS_ABORTED: "it was ABORTED all the same",
-        GoalStatus.STATUS_CANCELED: "it was CANCELED",
-        None: "it has not ended yet",
-    }[status]
+    is_late = status and life.result > life.interrupted + SURELY_WAITED
+    ways = [BECAME[each][1] for each in ((status, None) if is_late else (status,))]
     expect(
         any(re.search(way, line, re.IGNORECASE) for way in ways for line in said),
-        expected=f"a line on stdout at the end that says what became of the goal: {name}",
+        expected=f"a line on stdout at the end that says what became of the goal: {BECAME[status][0]}",
         observed=f"the last line on stdout after Ctrl-C: {lines[-1].text if lines else 'none'}",
         help="After Ctrl-C, too, print a line when the goal has ended, by its status, or when you have waited long "
         "enough.",
@@ -382,7 +381,7 @@ def prints_each_feedback(life: ClientLife, within: float = math.inf) -> str | No
     due = min([finished, *(end.earliest for end in life.ends())])  # from when on the program may end
     over = min(life.exited, due - ON_ITS_WAY)
     sent = [each for each in life.goal.feedback if life.accepted <= each.t < over]
-    lines = [event for event in life.run.all(ev.NodeOutput) if event.stream == "stdout"]
+    lines = _printed(life.run, "stdout")
     rest = iter(lines)
     forms: Counter[str] = Counter()
     for each in sent:

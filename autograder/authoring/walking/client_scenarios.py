@@ -22,13 +22,9 @@ Script = dict[str, Any]
 Steps = list[list[Any]]
 
 
-def walk(
-    server: Script | None, *steps: list[Any], arguments: Sequence[str] = ARGUMENTS, **options: Any
-) -> Scenario:
-    """Return a scenario with this server (None: nobody), and what a person does; `options` are a Scenario's."""
-    return program(
-        "in_order", {"arguments": list(arguments), "server": server, "steps": list(steps)}, **options
-    )
+def walk(server: Script | None, *steps: list[Any], arguments: Sequence[str] = ARGUMENTS) -> Scenario:
+    """Return a scenario with this server (None: nobody), and what a person does."""
+    return program("in_order", {"arguments": list(arguments), "server": server, "steps": list(steps)})
 
 
 def way(messages: int) -> list[float]:
@@ -118,23 +114,16 @@ def any_course(random: Random, *, types: bool = False) -> Script:
         return ctrl_c(random, _any_end(random, at_least=4.5) | {"cancel": _any_cancel(random, 3.0)}, *lines)
     if course == "rejects":
         after = round(random.uniform(1.5, 4.0), 2)
-        steps = [["await_goal"], *(["type", line] for line in lines)]
-        return {
-            "arguments": any_pose(random),
-            "server": {"accepted": False, "after": after},
-            "steps": steps if types else [],
-        }
+        steps = [["await_goal"], *(["type", line] for line in lines)] if types else []
+        return {"arguments": any_pose(random), "server": {"accepted": False, "after": after}, "steps": steps}
     server = _any_way(random)
     early = types and random.random() < 0.4
     server["after"] = round(random.uniform(1.0 if early else 0.0, 4.0), 2)
     steps = [["await_goal"], *(["type", line] for line in lines)] if early else typed(*lines) if types else []
     if types and random.random() < 0.3:
         steps.append(["end_input"])
-    return {
-        "arguments": any_pose(random),
-        "server": server | {"cancel": _any_cancel(random, 1.0)},
-        "steps": steps,
-    }
+    arguments, cancel = any_pose(random), _any_cancel(random, 1.0)
+    return {"arguments": arguments, "server": server | {"cancel": cancel}, "steps": steps}
 
 
 def _any_way(random: Random) -> Script:
