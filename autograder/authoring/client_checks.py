@@ -5,7 +5,7 @@ from __future__ import annotations
 from autograder.authoring import events as ev
 from autograder.authoring.call import Request
 from autograder.authoring.checks import Failure, expect
-from autograder.authoring.missing import Missing, ordinal, unseen
+from autograder.authoring.missing import unseen
 from autograder.authoring.readiness import require_within_limits
 from autograder.authoring.scripted_goal import ScriptedGoal
 from autograder.authoring.standing import where_it_stood
@@ -92,41 +92,6 @@ def require_requests(run: Transcript, service: str, number: int) -> list[Request
         at=requests[-1].received.t if requests else run.end,
     )
     return requests
-
-
-def require_offered(run: Transcript, service: str, servers: int = 1, service_type: str = "") -> None:
-    """Require that the grader offered a service, with so many servers in all and of one type."""
-    offered = [
-        event
-        for event in run.all(ev.ServiceOffered)
-        if event.service == service and service_type in ("", event.type)
-    ]
-    if len({event.server for event in offered}) != servers:
-        raise unseen(run, f"{service} was offered by {len(offered)} servers instead of {servers}")
-
-
-def require_withdrawn(run: Transcript, service: str) -> ev.ServiceWithdrawn:
-    """Require that the grader's server died while it worked on the client's request."""
-    requests = run.requests(service)
-    if not requests:
-        raise Missing(run, expected=f"a request to {service}", never=f"{service} was never asked")
-    first = requests[0].received
-    for withdrawn in run.all(ev.ServiceWithdrawn):
-        if withdrawn.server == first.server and withdrawn.t >= first.t:
-            return withdrawn
-    raise unseen(run, f"the server of {service} did not die")
-
-
-def require_reply(run: Transcript, service: str, number: int = 1) -> ev.ReplySent:
-    """Return the first (`number` 1), second, … reply of a scripted service that the client was there to get."""
-    replies = [request.reply for request in run.requests(service) if request.reply]
-    if len(replies) < number:
-        raise Missing(
-            run,
-            expected=f"a client that asks {service} and waits for its answer",
-            never=f"{service} never gave it a{'' if number == 1 else ' ' + ordinal(number)} reply",
-        )
-    return replies[number - 1]
 
 
 def _ending(run: Transcript, exited: ev.NodeExited) -> str:

@@ -13,17 +13,11 @@ from humanoid_interfaces.msg import RobotState
 REACTION = 1.0  # s before the simulator calls it a fall, in which a server may already see one
 
 
-def fall_after(run: RobotRecord, since: float) -> ev.RobotTruth | None:
-    """Return the robot when it had fallen after a moment (s), or nothing if it did not."""
-    return next(
-        (robot for robot in run.robot_between(since, run.end) if robot.mode == RobotState.FALLEN), None
-    )
-
-
 def require_knocked_over(run: RobotRecord) -> ev.RobotTruth:
     """Return the robot when it had fallen after the scenario's push; if it did not, nothing can be judged."""
-    if fallen := fall_after(run, run.told("push").t):
-        return fallen
+    for robot in run.robot_between(run.told("push").t, run.end):
+        if robot.mode == RobotState.FALLEN:
+            return robot
     raise unseen(run, "the robot did not fall")
 
 
