@@ -27,141 +27,98 @@ class Remedy:
 
 
 # What the student's traceback says, from the most particular sign to the most general one.
-_SIGNS: tuple[tuple[str, Remedy], ...] = (
-    (
-        r"in send_response\n(?s:.*)^TypeError$",
-        Remedy(
-            "Your service callback{of} returned nothing, or something else than the response. Its last line must be "
-            "`return response`, in every branch.",
-            "02_services#first-intro",
-        ),
+_SIGNS: dict[str, Remedy] = {
+    r"in send_response\n(?s:.*)^TypeError$": Remedy(
+        "Your service callback{of} returned nothing, or something else than the response. Its last line must be "
+        "`return response`, in every branch.",
+        "02_services#first-intro",
     ),
-    (
-        r"^AssertionError: The 'result' field must be a sub message",
-        Remedy(
-            "Your execute callback returned nothing, or something else than a Result: end every branch with "
-            "`return result`. A lambda that calls an async function returns a coroutine: give ActionServer the async "
-            "function itself.",
-            "06_walk_to_a_pose#settle-intro",
-        ),
+    r"^AssertionError: The 'result' field must be a sub message": Remedy(
+        "Your execute callback returned nothing, or something else than a Result: end every branch with "
+        "`return result`. A lambda that calls an async function returns a coroutine: give ActionServer the async "
+        "function itself.",
+        "06_walk_to_a_pose#settle-intro",
     ),
-    (
-        r"invalid transition from state EXECUTING with event CANCELED",
-        Remedy(
-            "goal_handle.canceled() was called while the goal was EXECUTING. A cancel_callback only returns "
-            "CancelResponse.ACCEPT; execute calls canceled() when it sees is_cancel_requested.",
-            "07_cancel_and_preempt#m12-why",
-        ),
+    r"invalid transition from state EXECUTING with event CANCELED": Remedy(
+        "goal_handle.canceled() was called while the goal was EXECUTING. A cancel_callback only returns "
+        "CancelResponse.ACCEPT; execute calls canceled() when it sees is_cancel_requested.",
+        "07_cancel_and_preempt#m12-why",
     ),
-    (
-        r"^AssertionError: The '\w+' field must be a set or sequence",
-        Remedy("That field is a list: give it a list with values of its type, such as [1.0].", WRONG_TYPE),
+    r"^AssertionError: The '\w+' field must be a set or sequence": Remedy(
+        "That field is a list: give it a list with values of its type, such as [1.0].", WRONG_TYPE
     ),
-    (
-        r"^AssertionError: The '\w+' field must be",
-        Remedy(
-            "A field got a value of the wrong type: give it the type that the interface names, such as 1.0 for a "
-            "float and True for a bool.",
-            WRONG_TYPE,
-        ),
+    r"^AssertionError: The '\w+' field must be": Remedy(
+        "A field got a value of the wrong type: give it the type that the interface names, such as 1.0 for a "
+        "float and True for a bool.",
+        WRONG_TYPE,
     ),
-    (
-        r"^AttributeError: '\w+_FeedbackMessage' object has no attribute",
-        Remedy(
-            "A feedback callback gets the goal's id and the Feedback in one message: read message.feedback.field.",
-            "06_walk_to_a_pose#field-why",
-        ),
+    r"^AttributeError: '\w+_FeedbackMessage' object has no attribute": Remedy(
+        "A feedback callback gets the goal's id and the Feedback in one message: read message.feedback.field.",
+        "06_walk_to_a_pose#field-why",
     ),
-    (
-        r"error: (the following arguments are required|unrecognized arguments|argument \w+: )",
-        Remedy(
-            "argparse refused what the task allows: an argument that may be left out has nargs='?' and a default."
-        ),
+    r"error: (the following arguments are required|unrecognized arguments|argument \w+: )": Remedy(
+        "argparse refused what the task allows: an argument that may be left out has nargs='?' and a default."
     ),
-    (
-        r"^AttributeError: '\w+_(Request|Response|Goal|Result|Feedback)' object has no attribute",
-        Remedy("The interface has no field of that name: compare it with `ros2 interface show`.", CRASHES),
+    r"^AttributeError: '\w+_(Request|Response|Goal|Result|Feedback)' object has no attribute": Remedy(
+        "The interface has no field of that name: compare it with `ros2 interface show`.", CRASHES
     ),
-    (
-        r"^AttributeError: module 'rclpy' has no attribute",
-        Remedy(
-            "`import rclpy` does not import its parts: import what you use, as in `from rclpy.node import Node`.",
-            "02_services#first-file",
-        ),
+    r"^AttributeError: module 'rclpy' has no attribute": Remedy(
+        "`import rclpy` does not import its parts: import what you use, as in `from rclpy.node import Node`.",
+        "02_services#first-file",
     ),
-    (
-        r"'NoneType' object has no attribute|'NoneType' object is not",
-        Remedy(
-            "A variable is still None, because no message has arrived yet: test `is None` before you use it.",
-            CRASHES,
-        ),
+    r"'NoneType' object has no attribute|'NoneType' object is not": Remedy(
+        "A variable is still None, because no message has arrived yet: test `is None` before you use it.",
+        CRASHES,
     ),
-    (
-        r"^RuntimeError: no running event loop",
-        Remedy(
-            "rclpy's executor is no asyncio event loop, so asyncio.sleep() fails in a callback. Await a future of "
-            "rclpy, or do not wait.",
-            "05_executors#m3-why",
-        ),
+    r"^RuntimeError: no running event loop": Remedy(
+        "rclpy's executor is no asyncio event loop, so asyncio.sleep() fails in a callback. Await a future of "
+        "rclpy, or do not wait.",
+        "05_executors#m3-why",
     ),
-    (
-        r"No space left on device|File too large",
-        Remedy("It wrote too much to disk: do not write files in a callback or in a loop."),
+    r"No space left on device|File too large": Remedy(
+        "It wrote too much to disk: do not write files in a callback or in a loop."
     ),
-    (
-        r"can't start new thread|Resource temporarily unavailable",
-        Remedy("It started too many threads or processes: start none in a callback or in a loop."),
+    r"can't start new thread|Resource temporarily unavailable": Remedy(
+        "It started too many threads or processes: start none in a callback or in a loop."
     ),
-    (
-        r"^OSError: .*Too many open files",
-        Remedy("It opened too many files or nodes: make each once, and close it when you are done."),
+    r"^OSError: .*Too many open files": Remedy(
+        "It opened too many files or nodes: make each once, and close it when you are done."
     ),
-    (
-        r"^(MemoryError|std::bad_alloc)|Cannot allocate memory",
-        Remedy(f"It used too much memory. {GROWS}", LEAKS),
+    r"^(MemoryError|std::bad_alloc)|Cannot allocate memory": Remedy(
+        f"It used too much memory. {GROWS}", LEAKS
     ),
-    (
-        r"^(ImportError|ModuleNotFoundError|IndentationError|SyntaxError|TabError)\b",
-        Remedy(
-            "Python could not load the file: mend the line that the log names, and run its cell again.",
-            "02_services#first-file",
-        ),
+    r"^(ImportError|ModuleNotFoundError|IndentationError|SyntaxError|TabError)\b": Remedy(
+        "Python could not load the file: mend the line that the log names, and run its cell again.",
+        "02_services#first-file",
     ),
-    (
-        r"^EOFError: EOF when reading a line",
-        Remedy(
-            "input() found no keyboard: nobody types where a node runs. Leave it out, and take settings from "
-            "parameters.",
-            "02_services#first-file",
-        ),
+    r"^EOFError: EOF when reading a line": Remedy(
+        "input() found no keyboard: nobody types where a node runs. Leave it out, and take settings from "
+        "parameters.",
+        "02_services#first-file",
     ),
-)
+}
 
 
-_LIMITS: tuple[tuple[str, Remedy], ...] = (  # by what the reason of a NodeKilled names
-    (
-        r" files\b",
-        Remedy("Look for files that are made in a callback or in a loop: make none, or one at the start."),
+_LIMITS: dict[str, Remedy] = {  # by what the reason of a NodeKilled names
+    r" files\b": Remedy(
+        "Look for files that are made in a callback or in a loop: make none, or one at the start."
     ),
-    (
-        r" sockets\b",
-        Remedy(
-            "Look for nodes, clients or connections that are made in a callback or in a loop: make each one once."
-        ),
+    r" sockets\b": Remedy(
+        "Look for nodes, clients or connections that are made in a callback or in a loop: make each one once."
     ),
-    (r"", Remedy(GROWS, LEAKS)),
-)
+    r"": Remedy(GROWS, LEAKS),
+}
 
 
 def remedy_for_a_limit(killed: ev.NodeKilled) -> Remedy:
     """Return what to do about a program that was ended above a limit."""
-    return next(remedy for words, remedy in _LIMITS if re.search(words, killed.reason))
+    return next(remedy for words, remedy in _LIMITS.items() if re.search(words, killed.reason))
 
 
 def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
     """Return what to do about a program that ended by itself, or by an exception."""
     traceback = _last_traceback(run)
-    for sign, remedy in _SIGNS:
+    for sign, remedy in _SIGNS.items():
         if exited.returncode and re.search(sign, traceback, re.MULTILINE):
             return _with_place(remedy, run)
     if -exited.returncode in _CRASHED:

@@ -55,11 +55,6 @@ def why_the_robot_was_held_up(run: Record) -> Cause | None:
     return _refused(run) or _overfull(run) or _busy(run)
 
 
-def keeps_processors_busy(run: Record) -> bool:
-    """Return whether the submission itself kept the processors busy; such a run is judged as it is."""
-    return bool(_load_in_words(run))
-
-
 def _killed(run: Record) -> Cause | None:
     killed = run.first(ev.NodeKilled)
     if killed is None:

@@ -29,10 +29,7 @@ REFUSALS = {
         "A floating_point_range includes both of its ends: refuse the limit itself in the on-set callback.",
     ),
 }
-KEEP_NO_COPY = (
-    "Read all five parameters in the post-set callback, and keep no copy in the on-set callback: a set that is refused "
-    "must leave nothing behind."
-)
+KEEP_NO_COPY = "Read all five parameters in the post-set callback: a refused set must leave nothing behind."
 _TWINS = {"kp_pitch": "kp_roll", "kp_roll": "kp_pitch", "kd_pitch": "kd_roll", "kd_roll": "kd_pitch"}
 
 

@@ -298,8 +298,7 @@ def refuses_to_start(run: Transcript) -> str:
             observed=f"it still runs; the last line on stderr: {run.last_words or 'none'}",
             help="It knows of the bad value and goes on: return 1 from main() instead."
             if name in run.output("stderr")
-            else "Declaring sets the values from the start: refuse it in the on-set callback, and register that before "
-            "you declare.",
+            else "Declaring sets the values from the start: register the on-set callback before you declare.",
             at=run.end,
         )
     require_failure(run, GIVING_UP, (1,), f"it was started with {name}:={value}")

@@ -79,16 +79,12 @@ def advice_on_failing(call: Call, story: Story, published: int) -> str:
         after = story.since - call.sent.t
         return f"get_status answered after {after:.1f} s, you after {waited:.1f} s ({said}): wait {ASKING:g} s for it."
     if ASKING - EARLY <= waited < COLLECTING:
-        return (
-            f"get_status had answered, but not to you ({said}): its answer could not be handled while the callback "
-            "waited. Give client and service a ReentrantCallbackGroup, or groups of their own and a second thread."
-        )
+        return f"get_status had answered, but not to you ({said}): give client and service a ReentrantCallbackGroup."
     if any(FEWEST_SAMPLES <= count <= published for count in whole_numbers(call.response.message)):
         return f"{FEWEST_SAMPLES} samples are enough, and you had more ({said}): some messages of a sensor are lost."
     if published >= FEWEST_SAMPLES and waited >= COLLECTING:
         return (
-            f"{published} samples came while the callback waited, but they were not counted ({said}): on_imu gets no "
-            "turn while the callback holds its thread or its group, or they are dropped where you count."
+            f"{published} samples came, but they were not counted ({said}): does on_imu get a turn meanwhile?"
         )
     return f"Your answer was {said}: refuse only for a reason that the task names."
 
@@ -129,4 +125,4 @@ def _is_mixed(found: Sequence[float], means: Sequence[float], other: Sequence[fl
     if not any(way):
         return False
     share = part @ way / (way @ way)
-    return 0.0 <= share <= 1.0 and is_near(part, share * way)
+    return 0.0 <= share <= 1.0 and is_near(list(part), list(share * way))

@@ -89,7 +89,4 @@ def _advice_on_the_gap(run: Transcript, during: bool) -> str:
         return "The timer of the heartbeat must go on as long as the node runs: make it in the constructor."
     if place := where_it_stood(run):
         return f"The timer got no turn: a callback stood in {place}, and held its thread or its group. Await there."
-    return (
-        "The timer gets no turn while the callback of calibrate_imu waits. Either await in it (async def, and futures "
-        "that an answer or a timer completes), or give the timer a callback group and a thread of its own."
-    )
+    return "The timer gets no turn while the callback of calibrate_imu waits: await in it (async def, and futures)."

@@ -39,10 +39,8 @@ def advice_for(
         return "Both angles are 0, as in a new response: set response.shoulder and response.elbow."
     direction = math.atan2(target[1], target[0])
     if abs(math.remainder(shoulder - direction, math.tau)) <= SAME and _is_bent_right(elbow, target, arm):
-        return (
-            f"The shoulder equals the direction to the target, {direction:.4f}: subtract the angle that the bent elbow "
-            "adds."
-        )
+        equal = f"The shoulder equals the direction to the target, {direction:.4f}"
+        return f"{equal}: subtract the angle that the bent elbow adds."
     for reading, advice in _MISREADINGS:
         if arm.misses(*reading(shoulder, elbow), target) <= TOLERANCE:
             return advice
@@ -59,10 +57,7 @@ def advice_for(
         return (
             "The distance is right, the direction is not: take atan2(y, x), which knows all four quadrants."
         )
-    return (
-        "Put the angles back in: x = l1 cos(shoulder) + l2 cos(shoulder + elbow), y the same with sin. Begin with the "
-        "elbow: cos(elbow) = (x² + y² - l1² - l2²) / (2 l1 l2)."
-    )
+    return "Put the angles back in: x = l1 cos(shoulder) + l2 cos(shoulder + elbow), y the same with sin."
 
 
 def advice_on_the_side(elbow_up: bool, twin_is_above: bool | None) -> str:

@@ -125,12 +125,12 @@ def refuses_other_frames(call: Call) -> str:
             help="Compare request.target.header.frame_id with 'shoulder'.",
         )
         return "in shoulder"
+    either = "" if reply.frame else " either"
     _require_code(
         reply,
         Response.FRAME_TRANSFORM_FAILURE,
         because="only 'shoulder' is the frame of the arm",
-        help=f"{reply.frame!r} is not 'shoulder'{'' if reply.frame else ' either'}: refuse everything else, before "
-        "computing.",
+        help=f"{reply.frame!r} is not 'shoulder'{either}: refuse everything else, before computing.",
     )
     return "in another frame" if reply.frame else "in an empty frame"
 
@@ -197,8 +197,7 @@ def moves_the_real_hand(run: Transcript) -> str | None:
         expect(
             away <= ARM_TOLERANCE,
             expected=f"the robot's hand within {ARM_TOLERANCE * 1000:.0f} mm of {reply.question}",
-            observed=f"{reply.angles}: the hand came to {arm.hand[0]:.3f} m forward, {arm.hand[2]:.3f} m up, "
-            f"{away * 1000:.0f} mm off",
+            observed=f"{reply.angles}: the hand came {away * 1000:.0f} mm off, to {arm.hand[0]:.3f}, {arm.hand[2]:.3f}",
             help="The robot's elbow bends one way only, as yours does: with elbow_up false its angle is positive.",
             at=arm.t,
         )

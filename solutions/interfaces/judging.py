@@ -75,8 +75,7 @@ def require_fields(run: Transcript, part: str, wanted: Mapping[str, str]) -> Non
         not others,
         expected=f"nothing in the {part} but {_listed(wanted) if wanted else 'an empty part'}",
         observed=f"also {_cut(', '.join(others))}",
-        help=f"Remove `{_cut(others[0]) if others else ''}`: everybody who uses the interface would have to fill and "
-        "read it.",
+        help=f"Remove `{_cut(others[0]) if others else ''}`: everybody would have to fill and read it.",
     )
 
 
@@ -167,8 +166,7 @@ def _require_time_for_it(run: Transcript) -> None:
         raise Failure(
             expected=f"{run.params['file']} to build within some seconds",
             observed=f"its build was ended after {usage.cpu:.0f} s of a processor",
-            help="Leave out what the task does not ask for: every field, and every element of an array of fixed "
-            "size, is code that is generated and compiled.",
+            help="Leave out what the task does not ask for, such as arrays of a fixed size: all of it is compiled.",
         )
 
 

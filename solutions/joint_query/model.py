@@ -116,8 +116,8 @@ def positions_are_the_last(call: Call) -> str | None:
         expected=f"a position for each of {asked(call)}, and as many positions as names",
         observed=f"{len(names)} names and {len(positions)} positions"
         + (f", none for {listed(missing)}" if missing else ""),
-        help="Fill joint_state.name and joint_state.position together, for every name of the request: position[i] "
-        "belongs to name[i]." + advice.about_repeats(call),
+        help="Fill joint_state.name and joint_state.position together, a pair for every name of the request."
+        + advice.about_repeats(call),
     )
     tables = [truth.positions_by_name(message) for message in known_messages(call, JOINTS) or ()]
     off = min(

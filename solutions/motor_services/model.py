@@ -208,8 +208,7 @@ def commands_only_what_was_granted(run: Transcript) -> str:
         raise Failure(
             expected="no command to the motors but what was granted",
             observed=f"motor_power: {shown(command.on)} {when}" + (", which was refused" if causes else ""),
-            help="Return before anything is published when a request is refused, and do not keep it for later; where "
-            "it is granted, publish what data says, at once.",
+            help="Publish what data says, at once, when a request is granted; when it is refused, publish nothing.",
             at=command.t,
         )
     return "commands" if run.all(ev.MotorPowerReceived) else "no command"
