@@ -46,10 +46,7 @@ accepts_a_goal = check_of(
 )
 arrives = check_of(
     "arrives",
-    model.succeeds,
-    model.stands_at_success,
-    model.turns_the_short_way,
-    model.walks_at_its_own_velocity,
+    *(model.succeeds, model.stands_at_success, model.turns_the_short_way, model.walks_at_its_own_velocity),
     title="It SUCCEEDS, the robot stands within 0.10 m and 0.15 rad of the goal, and it has turned the shorter way",
     points=2,
     on=WALK,
@@ -99,10 +96,7 @@ stops_when_canceled = of_a_cancel(
 )
 walks_again_after_a_cancel = of_a_cancel(
     "walks_again_after_a_cancel",
-    model.accepts,
-    model.grants_cancels,
-    model.succeeds,
-    model.reports_where_it_ended,
+    *(model.accepts, model.grants_cancels, model.succeeds, model.reports_where_it_ended),
     title="A new goal after a cancel, also an early or a hasty one, is walked to, and results hold what was measured",
     needs=[cancels_in_mid_stride, arrives],
     see="07_cancel_and_preempt#fix-intro",

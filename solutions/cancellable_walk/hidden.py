@@ -68,13 +68,8 @@ def _phases(random: Random) -> dict[str, Any]:
     for k in range(3):
         delay = round(0.5 + 0.15 * k + random.uniform(0.0, 0.13), 3)
         name = f"after {delay:g} s"
-        steps += [
-            ["go_on", name, *FAR],
-            ["walk_for", delay],
-            ["cancel", name],
-            ["end", name],
-            ["wait", STANDING],
-        ]
+        steps += [["go_on", name, *FAR], ["walk_for", delay], ["cancel", name], ["end", name]]
+        steps += [["wait", STANDING]]
     return {"steps": steps}
 
 
@@ -104,12 +99,8 @@ def _cancels(random: Random) -> dict[str, Any]:
             *(["cancel", "near"], ["end", "near"], ["wait", STANDING]),
         ],
         [
-            *(
-                ["go_on", "settled", 0.25, 0.0, 0.0],
-                ["settle", "settled"],
-                ["cancel", "settled"],
-                ["end", "settled"],
-            ),
+            *(["go_on", "settled", 0.25, 0.0, 0.0], ["settle", "settled"], ["cancel", "settled"]),
+            ["end", "settled"],
             *(["wait", AFTERWARDS], ["go_on", "after that", 0.25, 0.0, 0.0], ["arrive", "after that"]),
             ["wait", AFTERWARDS],
         ],
@@ -121,13 +112,8 @@ def _cancels(random: Random) -> dict[str, Any]:
     ]
     random.shuffle(blocks)
     down: Steps = [
-        *(
-            ["go_on", "down", 0.25, 0.0, 0.0],
-            ["settle", "down"],
-            ["cut_power"],
-            ["end", "down"],
-            ["wait", AFTERWARDS],
-        )
+        *(["go_on", "down", 0.25, 0.0, 0.0], ["settle", "down"], ["cut_power"], ["end", "down"]),
+        ["wait", AFTERWARDS],
     ]
     return {"steps": rounded([*(step for block in blocks for step in block), *down])}
 
@@ -159,9 +145,7 @@ cancels_at_the_start = of_cancels(
 )
 stops_in_any_phase_of_the_gait = check_of(
     "stops_in_any_phase_of_the_gait",
-    model.grants_cancels,
-    model.stops_when_canceled,
-    model.stands_without_a_goal,
+    *(model.grants_cancels, model.stops_when_canceled, model.stands_without_a_goal),
     title="Wherever its feet are when the cancel comes, the robot stops upright",
     points=2,
     on=SEVERAL_PHASES,

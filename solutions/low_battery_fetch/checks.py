@@ -77,33 +77,31 @@ passes_feedback_on = on_good(
     needs=takes_the_object,
     see="06_walk_to_a_pose#slow-why",
 )
-rejects_what_is_knowably_wrong = check_of(
+once_it_sets_out = partial(check_of, needs=goes_to_the_table)
+rejects_what_is_knowably_wrong = once_it_sets_out(
     "rejects_what_is_knowably_wrong",
     model.rejects_the_impossible,
     title="It rejects a place in frame map, NaN, and a force that is not above 0",
     on=INTERRUPT,
-    needs=goes_to_the_table,
     see=REJECTS,
 )
-does_not_set_out_on_a_low_battery = check_of(
+does_not_set_out_on_a_low_battery = once_it_sets_out(
     "does_not_set_out_on_a_low_battery",
     model.does_nothing_when_low,
     title="With the battery at 0.12 it sends no goal to anybody, and ends ABORTED naming the battery",
     on=LOW_BEFORE,
-    needs=goes_to_the_table,
     see=BATTERY_LESSON,
 )
-says_why_a_child_failed = check_of(
+says_why_a_child_failed = once_it_sets_out(
     "says_why_a_child_failed",
     model.says_who_failed,
     title="A child that is rejected or aborts ends fetch ABORTED; error_msg names the action and holds the child's "
     "reason",
     points=2,
     on=FAILING,
-    needs=goes_to_the_table,
     see=ORPHANS,
 )
-cancels_a_silent_child = check_of(
+cancels_a_silent_child = once_it_sets_out(
     "cancels_a_silent_child",
     *model.always,
     model.cancels_the_silent,
@@ -111,25 +109,22 @@ cancels_a_silent_child = check_of(
     title="A child that is silent for 5 s is canceled; when it has ended, fetch ends ABORTED naming the action",
     points=2,
     on=SILENT,
-    needs=goes_to_the_table,
     see=SILENCE_LESSON,
 )
-cancel_goes_down = check_of(
+cancel_goes_down = once_it_sets_out(
     "cancel_goes_down",
     *model.obeys_a_cancel,
     title="A cancel goes down to the child at work, and fetch is CANCELED when the child has ended",
     points=3,
     on=CANCELED_WALK,
-    needs=goes_to_the_table,
     see=GOES_DOWN,
 )
-gives_up_before_the_grasp = check_of(
+gives_up_before_the_grasp = once_it_sets_out(
     "gives_up_before_the_grasp",
     *model.stops_in_time,
     title="When the battery drops before the grasp, it cancels the child, waits for its end, goes home, and is ABORTED",
     points=3,
     on=TO_THE_TABLE,
-    needs=goes_to_the_table,
     see=GIVES_UP,
 )
 finishes_placing_first = check_of(

@@ -118,7 +118,7 @@ ANYTHING = Scenario("in_order", _anything, robot=None)
 NO_PERCENTAGE = scenario(
     fetch("fetch", *levels(math.nan, 0.5, 20.0, 0.2, -0.3, 0.2001), children=[{}, {}, {"takes": 8.0}, {}])
 )
-OTHER_NAMESPACE = Scenario("in_order", in_order(fetch("fetch")), robot=None, namespace="/lab_7/robot")
+OTHER_NAMESPACE = scenario(fetch("fetch"), namespace="/lab_7/robot")
 CHARGING = Part([["battery", 0.9], ["wait", 1.0]])
 LOW_THEN_CHARGED = scenario(fetch("low", children=()), CHARGING, fetch("charged"), battery=0.195)
 NO_BATTERY = scenario(

@@ -125,17 +125,16 @@ def one_child_at_a_time(run: Transcript) -> str | None:
     sent = [child for _, child in children(run)]
     for before, after in pairwise(sent):
         turns.require_over(before, after)
-    for fetch in fetches(run):
+    for fetch, child in children(run):
         if result := fetch.goal.result:
-            for child in fetch.children:
-                expect(
-                    child.t <= result.t,
-                    expected="no goal of a fetch that has ended",
-                    observed=f"a goal to {child.action}",
-                    help="Make the terminal call when nothing is left to send, and return.",
-                    at=child.t,
-                )
-                turns.require_over(child, result)
+            expect(
+                child.t <= result.t,
+                expected="no goal of a fetch that has ended",
+                observed=f"a goal to {child.action}",
+                help="Make the terminal call when nothing is left to send, and return.",
+                at=child.t,
+            )
+            turns.require_over(child, result)
     return f"{len(sent)} children" if sent else None
 
 
@@ -203,13 +202,13 @@ def cancels_the_late(sent: Sent) -> str | None:
 def cancels_for_a_reason(sent: Sent) -> str | None:
     """It cancels its own child alone, and only for a cancel, a newer goal, a low battery, or 5 s of silence"""
     fetch, child = sent
-    reasons = [fetch.stopped_at, child.began if child.is_late and child.began else math.inf]
+    given_up = child.began if child.is_late and child.began else math.inf
     for number, each in enumerate(child.cancels()):
         t = each.received.t
         low = fetch.low_at is not None and _is_for_the_battery(child, fetch.low_at, t)
         heard = max((last for last in child.heard if last < t), default=child.t)
         expect(
-            number > 0 or low or min(reasons) <= t or t - heard >= SILENCE - SLACK,
+            number > 0 or low or min(fetch.stopped_at, given_up) <= t or t - heard >= SILENCE - SLACK,
             expected=f"{child.action} to come to its own end: nobody canceled fetch, no newer goal came, and the "
             "battery was not low before the grasp",
             observed=f"a request to cancel it, {t - heard:.1f} s after the last that was heard of it",

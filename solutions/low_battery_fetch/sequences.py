@@ -28,13 +28,9 @@ class Part:
 def fetch(
     name: str, *events: list[Any], cup: Sequence[Any] = (), children: Sequence[Script] = ({}, {}, {}, {})
 ) -> Part:
-    """Return a fetch during which events happen, which are steps of the vocabulary.
+    """Return a fetch during which events happen: steps that are carried out when it is accepted.
 
-    Args:
-        name: of its goal.
-        events: carried out when it is accepted.
-        cup: what the goal says: object_id, x, y, z, force, yaw; by default the scenario's.
-        children: the scripts of its walks and picks, in turn.
+    `cup` is what its goal says (object_id, x, y, z, force, yaw), `children` are the scripts of its walks and picks.
     """
     steps = [["go", name, *cup], *events, ["end", name], ["wait", AFTERWARDS]]
     return Part(steps, children[::2], children[1::2])
@@ -76,9 +72,9 @@ def in_order(*parts: Part, battery: float | None = CHARGED) -> dict[str, Any]:
     return {"battery": battery, "walks": walks or [{}], "picks": picks or [{}], "steps": steps}
 
 
-def scenario(*parts: Part, battery: float | None = CHARGED) -> Scenario:
-    """Return the scenario made of these parts."""
-    return Scenario("in_order", in_order(*parts, battery=battery), robot=None)
+def scenario(*parts: Part, battery: float | None = CHARGED, **options: Any) -> Scenario:
+    """Return the scenario made of these parts; `options` are its other fields."""
+    return Scenario("in_order", in_order(*parts, battery=battery), robot=None, **options)
 
 
 def _children(last: int, at: str, script: Script) -> list[Script]:

@@ -169,9 +169,7 @@ holds_by_an_empty_trajectory = of_a_cancel(
 )
 new_goal_preempts_the_old = check_of(
     "new_goal_preempts_the_old",
-    model.accepts,
-    model.gives_way,
-    model.succeeds,
+    *(model.accepts, model.gives_way, model.succeeds),
     title="A new goal for the same arm aborts the old one with PREEMPTED and is carried out",
     points=2,
     on=PREEMPT,

@@ -36,13 +36,13 @@ class ErrorCode(IntEnum):
     PREEMPTED = MoveArm.Result.PREEMPTED
 
 
-def require_not_given_up(goal: Goal, help: str = "") -> None:
-    """Require that the server did not abort a goal that can be carried out.
+def tolerance_of(goal: Goal) -> float:
+    """Return how near (rad) each joint has to come to its last point."""
+    return goal.request.goal_tolerance or GOAL_TOLERANCE
 
-    Args:
-        goal: which was accepted.
-        help: what to do if it did, and nothing in the record says more.
-    """
+
+def require_not_given_up(goal: Goal, help: str = "") -> None:
+    """Require that the server did not abort a sound goal; `help`: if it did, and nothing in the record says more."""
     if goal.status != ABORTED:
         return
     assert goal.result
@@ -87,7 +87,7 @@ def _why_missed(goal: Goal, help: str) -> str:
     """Return what to do about a goal that its server aborted because of the goal's tolerance."""
     assert goal.result
     plan = plan_of(goal)
-    tolerance = goal.request.goal_tolerance or GOAL_TOLERANCE
+    tolerance = tolerance_of(goal)
     joint, off = largest(errors(joints_at(goal.run, goal.result.t).positions, plan.final()))
     if off <= tolerance:
         meant = "0 rad, which means 0.05" if goal.request.goal_tolerance == 0 else f"{tolerance:g} rad"

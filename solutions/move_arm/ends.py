@@ -10,7 +10,7 @@ from autograder.authoring.walking.obligations.ends import require_preempted
 from autograder.authoring.walking.reports import require_error_code
 
 from . import life
-from .endings import PATIENCE, ErrorCode, require_not_given_up
+from .endings import PATIENCE, ErrorCode, require_not_given_up, tolerance_of
 from .motion import require_moving
 from .plan import errors, largest
 from .truth import joints_at, joints_between, plan_of
@@ -44,7 +44,7 @@ def succeeds(goal: Goal) -> str | None:
     if not _ends_by(goal, life.Fate.ARRIVES):
         return None
     require_not_given_up(goal, _why_given_up(goal))
-    result, plan, tolerance = goal.require_result(SUCCEEDED), plan_of(goal), life.tolerance_of(goal)
+    result, plan, tolerance = goal.require_result(SUCCEEDED), plan_of(goal), tolerance_of(goal)
     expect(
         result.t >= plan.end - EARLY,
         expected="the goal to go on until its last point is due",

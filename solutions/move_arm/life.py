@@ -19,7 +19,7 @@ from autograder.authoring.walking.life import (
     successors,
 )
 
-from .endings import GOAL_TOLERANCE, PATIENCE
+from .endings import PATIENCE, tolerance_of
 from .objections import is_sound
 from .plan import errors, largest
 from .truth import joints_at, plan_of
@@ -118,11 +118,6 @@ def fate_of(goal: Goal) -> Fate | None:
     if short <= tolerance - MEASURED or hold.until <= plan.end + IN_TIME:
         return Fate.ARRIVES
     return Fate.MISSES if was_held_to_its_end and short > tolerance + MEASURED else None
-
-
-def tolerance_of(goal: Goal) -> float:
-    """Return how near (rad) each joint has to come to its last point."""
-    return goal.request.goal_tolerance or GOAL_TOLERANCE
 
 
 def first_off(goal: Goal, hold: Hold, off: float = PATH_TOLERANCE) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
@@ -38,10 +38,6 @@ class Plan:
         """When (s) its last point is due."""
         return self.begin + self.times[-1]
 
-    def due(self, point: int) -> float:
-        """Return when (s) a point is due, counted from 0 as feedback does."""
-        return self.begin + self.times[point + 1]
-
     def at(self, t: float) -> dict[str, float]:
         """Return where the joints should be (rad) at a time (s)."""
         after = min(max(bisect_right(self.times, t - self.begin), 1), len(self.times) - 1)
@@ -73,8 +69,3 @@ def errors(places: Mapping[str, float], wanted: Mapping[str, float]) -> dict[str
 def seconds_of(point: JointTrajectoryPoint) -> float:
     """Return the time_from_start of a point in s."""
     return point.time_from_start.sec + 1e-9 * point.time_from_start.nanosec
-
-
-def speeds(velocities: Sequence[float]) -> float:
-    """Return the highest of some speeds (rad/s)."""
-    return max(map(abs, velocities), default=0.0)

@@ -60,9 +60,7 @@ server_appears = standard.server_appears(
 accepts_a_goal = GOING("accepts_a_goal", model.accepts, needs=server_appears, see=REJECT)
 arrives = GOING(
     "arrives",
-    model.succeeds,
-    model.stands_at_success,
-    model.names_no_error,
+    *(model.succeeds, model.stands_at_success, model.names_no_error),
     title="It SUCCEEDS, and the robot then stands within 0.10 m and 0.15 rad of the goal (tolerance 0)",
     points=2,
     needs=accepts_a_goal,
@@ -196,10 +194,7 @@ measures_what_was_walked = HOLDING(
 )
 cancels_in_mid_stride = check_of(
     "cancels_in_mid_stride",
-    model.grants_cancels,
-    model.walks_until_canceled,
-    model.stops_when_canceled,
-    model.names_no_error,
+    *(model.grants_cancels, model.walks_until_canceled, model.stops_when_canceled, model.names_no_error),
     title="A cancel while the robot walks ends CANCELED, and within 2 s the robot stands still and upright",
     points=2,
     on=MID_STRIDE,
@@ -208,10 +203,7 @@ cancels_in_mid_stride = check_of(
 )
 new_goal_preempts_the_old = check_of(
     "new_goal_preempts_the_old",
-    model.accepts,
-    model.gives_way,
-    model.says_why_it_aborted,
-    model.succeeds,
+    *(model.accepts, model.gives_way, model.says_why_it_aborted, model.succeeds),
     title="A new goal aborts the old one with PREEMPTED and is walked to",
     points=2,
     on=PREEMPT,

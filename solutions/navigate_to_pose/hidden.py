@@ -92,9 +92,7 @@ arrives_within_the_tolerance = in_any_order(
 )
 tells_each_goal_its_own_story = in_any_order(
     "tells_each_goal_its_own_story",
-    model.measures_its_path,
-    model.counts_no_recovery,
-    model.progress_rises,
+    *(model.measures_its_path, model.counts_no_recovery, model.progress_rises),
     title="Path, recoveries and progress begin at 0 with each goal",
     needs=[arrives_within_the_tolerance, checks.measures_its_path, checks.counts_no_detour_without_one],
     see="08_navigation#odometer-why",

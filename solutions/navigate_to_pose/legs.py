@@ -11,14 +11,7 @@ from autograder.authoring.feedback import require_feedback
 from autograder.authoring.goal import SUCCEEDED, Goal
 from autograder.authoring.missing import unseen
 from autograder.authoring.sequence import STEPS
-from autograder.authoring.walking.life import (
-    accepted,
-    interrupted,
-    is_undisturbed,
-    left_alone,
-    run_of,
-    way_to,
-)
+from autograder.authoring.walking import life
 from autograder.authoring.walking.planar import error, target
 from ros_runtime.angles import wrap
 
@@ -31,7 +24,6 @@ OFF_ITS_WAY = 0.6  # rad between heading and goal: more than the task's 0.5, so 
 class Leg:
     """A long way that nothing disturbed, with the moment when half of its distance was left."""
 
-    goal: Goal
     start: float  # s
     half: float  # s
     end: float  # s
@@ -39,21 +31,26 @@ class Leg:
     @staticmethod
     def of(goal: Goal) -> Leg | None:
         """Return the way to a goal, which must have succeeded; None if it was disturbed, or short."""
-        if not is_undisturbed(goal) or left_alone(goal) or operated(goal) or way_to(goal) < LONG:
+        if (
+            not life.is_undisturbed(goal)
+            or life.left_alone(goal)
+            or operated(goal)
+            or life.way_to(goal) < LONG
+        ):
             return None
         end = goal.require_result(SUCCEEDED).t
         start = goal.accepted_at
         whole, _turn = error(goal.run.robot_at(start), goal)
         for robot in goal.run.robot_between(start, end):
             if error(robot, goal)[0] <= whole / 2:
-                return Leg(goal, start, robot.t, end)
+                return Leg(start, robot.t, end)
         raise unseen(goal.run, f"the robot was never half way to “{goal.name}”")
 
 
 def operated(goal: Goal, *how: str) -> bool:
     """Return whether the scenario takes the robot over on its way: leads it astray or holds it, or one of these."""
     newest = None
-    for verb, *arguments in run_of(goal).params[STEPS]:
+    for verb, *arguments in life.run_of(goal).params[STEPS]:
         if verb in (how or ("lead_astray", "hold")) and newest == goal.name:
             return True
         newest = arguments[0] if verb in ("go", "go_on") else newest
@@ -62,7 +59,7 @@ def operated(goal: Goal, *how: str) -> bool:
 
 def led_astray(goal: Goal) -> tuple[float, float] | None:
     """Return when (s) the robot was taken over and given back; it must then have been off its way by over 0.5 rad."""
-    if not accepted(goal) or interrupted(goal) or not operated(goal, "lead_astray"):
+    if not life.accepted(goal) or life.interrupted(goal) or not operated(goal, "lead_astray"):
         return None
     run = goal.run
     taken, given = run.told("take_over", velocity=[-0.2, 0.0, 0.0]), run.told("take_over", velocity=None)

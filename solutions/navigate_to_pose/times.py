@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from autograder.authoring.failure import expect
 from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
-from autograder.authoring.walking.life import (
-    accepted,
-    began_at_rest,
-    interrupted,
-    is_undisturbed,
-    left_alone,
-    phase,
-)
+from autograder.authoring.walking import life
 from autograder.authoring.walking.obligations.tells import seconds
 from autograder.authoring.walking.planar import error
 from autograder.authoring.walking.reports import require_error_code
@@ -29,7 +22,7 @@ STAYED = 0.10  # m the pelvis may move while the robot only stands
 
 def tells_its_time(goal: Goal) -> str | None:
     """navigation_time is the time since this goal was accepted."""
-    if not accepted(goal) or interrupted(goal):
+    if not life.accepted(goal) or life.interrupted(goal):
         return None
     start, reports = goal.accepted_at, told(goal)
     if not reports or reports[-1].t - start < 2 * TIME_SLACK:
@@ -45,7 +38,7 @@ def tells_its_time(goal: Goal) -> str | None:
             else "Fill feedback.navigation_time from the time since the goal was accepted.",
             at=feedback.t,
         )
-    return phase(goal)
+    return life.phase(goal)
 
 
 def estimates_the_time(goal: Goal) -> str | None:
@@ -69,18 +62,16 @@ def estimates_the_time(goal: Goal) -> str | None:
         expected=f"estimated_time_remaining from {left / FACTOR:.1f} to {left * FACTOR:.1f} s half way, as it took "
         f"{left:.1f} s more",
         observed=f"{estimate:.1f} s",
-        help="Divide what is left by the speed that the robot really has, and add the time of the last turn and of "
-        "standing still."
-        if estimate < left
-        else "Divide what is left by the speed that the robot really has while it walks.",
+        help="Divide what is left by the speed that the robot really has while it walks, and add the time of the last "
+        "turn and of standing still.",
         at=leg.half,
     )
-    return phase(goal)
+    return life.phase(goal)
 
 
 def gives_up_in_time(goal: Goal) -> str | None:
     """A goal that is not reached 30 s and 15 s per metre after its acceptance ends ABORTED with TIMEOUT, not before."""
-    if not accepted(goal) or interrupted(goal):
+    if not life.accepted(goal) or life.interrupted(goal):
         return None
     start, result = goal.accepted_at, goal.result
     limit = 30.0 + 15.0 * error(goal.run.robot_at(start), goal)[0]
@@ -114,8 +105,8 @@ def stands_after_the_limit(goal: Goal) -> str | None:
 def succeeds_where_it_stands(goal: Goal) -> str | None:
     """A goal equal to the present pose SUCCEEDS within 4 s, and the robot does not walk."""
     distance, turn = error(goal.run.robot_at(goal.sent.t), goal)
-    is_there = distance <= HERE and turn <= HERE and began_at_rest(goal)
-    if not is_there or not is_undisturbed(goal) or left_alone(goal):
+    is_there = distance <= HERE and turn <= HERE and life.began_at_rest(goal)
+    if not is_there or not life.is_undisturbed(goal) or life.left_alone(goal):
         return None
     require_arrival(goal)
     end = goal.require_result(SUCCEEDED)
@@ -143,7 +134,7 @@ def succeeds_where_it_stands(goal: Goal) -> str | None:
         help="Begin the path of each goal at 0, where the robot is when it is accepted.",
         at=end.t,
     )
-    return phase(goal)
+    return life.phase(goal)
 
 
 def _timed_out(goal: Goal) -> bool:

@@ -79,7 +79,7 @@ def together_with(goal: Goal) -> list[Goal]:
 
 
 def rivals(goal: Goal) -> list[Goal]:
-    """Return the other goals, where goals name arms for the same arm, that were accepted; none, if this one was not."""
+    """Return the other accepted goals, of the same arm where goals name one; none, if this one was not accepted."""
     arm = getattr(goal.request, "arm", None)
     same = [other for other in others(goal) if getattr(other.request, "arm", None) == arm]
     return [other for other in same if accepted(other)] if accepted(goal) else []

@@ -71,11 +71,8 @@ def require_limited_velocity(goal: Goal) -> None:
         speed <= SPEED_SLACK * limit,
         expected=f"at most {limit:.2f} m/s on the way, as max_velocity of the goal asks (10 % more are forgiven)",
         observed=f"{speed:.2f} m/s on average from the start to the arrival",
-        help="Scale linear.x and linear.y together, so that math.hypot(x, y) is at most max_velocity: limited one by "
-        "one, they add up to 1.4 times as much on a diagonal."
-        if speed <= 1.5 * limit
-        else "Read goal_handle.request.max_velocity, and scale linear.x and linear.y together so that "
-        "math.hypot(x, y) is at most that.",
+        help="Read goal_handle.request.max_velocity, and scale linear.x and linear.y together so that math.hypot(x, y) "
+        "is at most that: limited one by one, they add up to 1.4 times as much on a diagonal.",
         at=arrival.t,
     )
 

@@ -47,12 +47,8 @@ def reports(
 ) -> tuple[Check, Check, Check, Check]:
     """Return the checks fills_the_result, feedback_keeps_its_rate, feedback_is_true and feedback_ends_with_the_goal.
 
-    Args:
-        model: of the exercise.
-        on: a scenario with two goals.
-        under_way: the check without which there is no feedback to be judged.
-        arrives: the check without which there is no result to be judged.
-        see: the lesson of each.
+    `on` has two goals; without `under_way` there is no feedback to be judged, without `arrives` no result; `see` has
+    the lesson of each.
     """
     of_both = partial(check_of, on=on)
     result = of_both(
