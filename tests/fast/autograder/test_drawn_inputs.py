@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 from collections import Counter
 from collections.abc import Iterator
 from typing import Any
@@ -22,6 +23,7 @@ from ros_runtime.recorded_client.conversation import Conversation
 
 SEEDS = int(os.environ.get("DRAWN_SEEDS", "25"))
 APART = 0.08  # m between where a cup stands and where it shall stand, so that a place can be told
+NUMBER = re.compile(r"-?\d+(\.\d+)?")  # an argument of a program
 CHARGES, SECONDS = (0.0, 1.0), (0.0, 20.0)
 BOUNDS = {
     "set_battery": CHARGES,
@@ -100,7 +102,9 @@ def parts(inputs: dict[str, Any], values: list[tuple[str, float]]) -> set[tuple[
             return f"[{','.join(map(words, value))}]"
         if isinstance(value, dict):
             return words([[name, each] for name, each in value.items()])
-        return value if isinstance(value, str) else str(often[value] > 1)
+        if isinstance(value, str):
+            return "a number" if NUMBER.fullmatch(value) else value
+        return str(often[value] > 1)
 
     each = ([name, one] for name, of in inputs.items() for one in (of if isinstance(of, list) else [of]))
     return set(Counter(map(words, each)).items())

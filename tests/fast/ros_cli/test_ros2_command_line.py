@@ -90,8 +90,8 @@ JAZZY = {
     "service type": "",
     "topic bw": "",
     "topic delay": "",
-    "topic echo": f"{ALL} {QOS} --csv --field --full-length -f --truncate-length -l --no-arr --no-str --flow-style --raw "
-    "--no-lost-messages --filter --once --timeout --include-message-info -i",
+    "topic echo": f"{ALL} {QOS} --csv --field --full-length -f --truncate-length -l --no-arr --no-str --flow-style "
+    "--raw --no-lost-messages --filter --once --timeout --include-message-info -i",
     "topic find": "",
     "topic hz": "--spin-time -s --use-sim-time --window -w --filter --wall-time",
     "topic info": f"{ALL} --verbose -v",
