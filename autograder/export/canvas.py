@@ -28,7 +28,9 @@ _BEFORE_ASSIGNMENTS = (
 _KEYS = ("SIS Login ID", "SIS User ID", "ID", "Student")
 _POINTS = "Points Possible"
 _ASSIGNMENT = re.compile(r"(?P<title>.+) \((?P<id>\d+)\)")
-_ANONYMOUS = re.compile(r"anon_\w+")  # as `course collect` calls a student of an anonymous download
+_ANONYMOUS = re.compile(
+    r"anon_[A-Za-z0-9]{5}"
+)  # as `course collect` calls a student of an anonymous download
 
 
 @dataclass(frozen=True)
@@ -51,7 +53,7 @@ class Gradebook:
             for exercise in new
         ]
         found += [
-            f"how many points {title} has in Canvas is not known here: a score is one of as many as the file says"
+            f"no roster says how many points {title} has in Canvas: see that it has as many as the file"
             for exercise, title in self.assignments.items()
             if exercise not in new and exercise not in self.points
         ]

@@ -154,7 +154,10 @@ def test_canvas_may_split_names_and_show_no_points(tmp_path: Path) -> None:
     made = export("canvas", [ANNA], replace(OPTIONS, roster=saved(tmp_path, text)))
     assert rows(made.files["battery_service.csv"])[2] == ["Lee, Anna", "101", "anna", "A", "5"]
     unseen = replace(CANVAS_OPTIONS, roster=saved(tmp_path, text.replace("4711", "9")))
-    assert "how many points battery_service (4711) has" in export("canvas", [ANNA], unseen).notes[0]
+    assert (
+        "no roster says how many points battery_service (4711) has"
+        in export("canvas", [ANNA], unseen).notes[0]
+    )
 
 
 def test_anonymous_students_are_in_no_gradebook(tmp_path: Path) -> None:
