@@ -11,6 +11,7 @@ from queue import SimpleQueue
 from typing import Any, NamedTuple
 
 import rclpy
+from builtin_interfaces.msg import Time
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
@@ -108,6 +109,10 @@ class CommandNode:
     def services(self, *, hidden: bool = True) -> dict[str, list[str]]:
         """Return the types of each service by its name."""
         return shown(self.node.get_service_names_and_types(), hidden)
+
+    def now(self) -> Time:
+        """Return the time."""
+        return self.node.get_clock().now().to_msg()
 
     def wait_until_answering(self, server: str, timeout: float) -> bool:
         """Wait until a node answers requests, which is later than it is seen (see `ros_runtime.reachability`)."""

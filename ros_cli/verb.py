@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Callable
 from typing import Any
@@ -34,6 +35,24 @@ def add_graph_verb(verbs: Verbs, name: str, run: Run, summary: str) -> ArgumentP
     return parser
 
 
+def add_values(parser: ArgumentParser, metavar: str, summary: str) -> None:
+    """Add the argument for a message's fields in YAML, or --stdin in its place; `given_values` returns them."""
+    group = parser.add_mutually_exclusive_group()
+    group.add_argument(
+        "values",
+        metavar=metavar,
+        nargs="?",
+        default="{}",
+        help=f"{summary}; 'header: auto' and a time's 'now' stand for the time of sending",
+    )
+    group.add_argument("--stdin", action="store_true", help="Read values from standard input")
+
+
+def given_values(options: Namespace) -> str:
+    """Return the YAML that was typed, or that comes from standard input."""
+    return sys.stdin.read() if options.stdin else str(options.values)
+
+
 def positive_float(text: str) -> float:
     """Return a positive number for argparse."""
     try:
@@ -50,3 +69,10 @@ def natural_number(text: str) -> int:
     if not text.isdecimal():
         raise ArgumentTypeError(f"{text!r} is not a number of 0, 1, 2, …")
     return int(text)
+
+
+def positive_int(text: str) -> int:
+    """Return a number of 1, 2, … for argparse."""
+    if (number := natural_number(text)) == 0:
+        raise ArgumentTypeError("0 is not positive")
+    return number

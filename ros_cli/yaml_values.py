@@ -20,14 +20,14 @@ _ELEMENTS = re.compile(r"sequence<(.+?)(?:, \d+)?>|(.+)\[\d+\]")
 def message_from_yaml(message_type: Any, text: str, *, now: Time | None = None) -> Any:
     """Return a message with the fields that are typed, such as '{linear: {x: 0.2}}'; others keep their defaults.
 
-    With `now`, the word "auto" stands for a header of this time, and "now" for the time itself.
+    The word "auto" stands for a header of the time `now`, and "now" for that time; without `now` it is 0.
 
     Raises:
         CommandError: it is no YAML, there is no such field, or a value does not fit.
     """
     message = message_type()
     try:
-        _fill(message, _mapping(text), now)
+        _fill(message, _mapping(text), now or Time())
     except (AttributeError, AssertionError, TypeError, ValueError, OverflowError) as error:
         raise CommandError(f"Failed to populate field: {error}") from error
     return message
@@ -66,7 +66,7 @@ def _mapping(text: str) -> dict[str, Any]:
     return values
 
 
-def _fill(message: Any, values: dict[str, Any], now: Time | None) -> None:
+def _fill(message: Any, values: dict[str, Any], now: Time) -> None:
     message._check_fields = True  # otherwise rosidl sends a value of the wrong type as garbage
     declared = message.get_fields_and_field_types()
     for name, value in values.items():
@@ -81,7 +81,7 @@ def _no_such_field(message: Any, name: str) -> str:
     return f"{type_name(message)} has no field {name!r}; it has {fields}{advice}"
 
 
-def _converted(name: str, value: Any, declared: str, now: Time | None) -> Any:
+def _converted(name: str, value: Any, declared: str, now: Time) -> Any:
     """Return a value of YAML as the field's type wants it: 1 for a float is 1.0, 5 for a string is '5'."""
     elements = _ELEMENTS.fullmatch(declared)
     if elements and isinstance(value, list):
@@ -105,12 +105,12 @@ def _number(name: str, value: Any) -> float:
         raise ValueError(f"{name} is a number, got {value!r}") from None
 
 
-def _nested(name: str, value: Any, declared: str, now: Time | None) -> Any:
+def _nested(name: str, value: Any, declared: str, now: Time) -> Any:
     package, message_name = declared.split("/")
     message = getattr(import_module(f"{package}.msg"), message_name)()
-    if now is not None and (declared, value) == ("builtin_interfaces/Time", "now"):
+    if (declared, value) == ("builtin_interfaces/Time", "now"):
         return now
-    if now is not None and (declared, value) == ("std_msgs/Header", "auto"):
+    if (declared, value) == ("std_msgs/Header", "auto"):
         message.stamp = now
         return message
     if not isinstance(value, dict):

@@ -1,6 +1,8 @@
 """Classroom 50's `gh teacher download`: a clone for each student, <classroom>-<assignment>-<user>/.
 
-Each part may have hyphens of its own; what stands between is found because it is the exercise's name, or given.
+Format: cli/gh-teacher/internal/download/download.go of https://github.com/foundation50/classroom50; it also writes
+scores.csv beside the folders, and result.json and results.json into them. Each part of a name may have hyphens of its
+own; what stands between is found because it is the exercise's name, or given.
 """
 
 from __future__ import annotations

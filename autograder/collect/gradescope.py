@@ -1,6 +1,8 @@
 """Gradescope's “Export Submissions”: folders submission_NUMBER, and submission_metadata.yml, which says whose they are.
 
-A student's folder is called by their student id, else by their e-mail address. Work of a group goes to each of it.
+Format: https://help.gradescope.com, “Export submissions”; the metadata is YAML as Ruby writes it, in one form for all
+languages. A student's folder is called by their student id, else by their e-mail address. Work of a group goes to each
+of it.
 """
 
 from __future__ import annotations

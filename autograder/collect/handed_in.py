@@ -54,12 +54,12 @@ class Assignment:
 
 
 def student_name(*words: str) -> str:
-    """Return a name for a student's folder: the words joined by "-", without what a folder's name cannot have.
+    """Return a name for a student's folder: the words, if not empty, joined by "-", without what it cannot have.
 
     Raises:
         Refused: nothing usable is left.
     """
-    joined = unicodedata.normalize("NFC", "-".join(word.strip() for word in words))
+    joined = unicodedata.normalize("NFC", "-".join(word.strip() for word in words if word.strip()))
     name = re.sub(r"[^\w@+.,' -]", "_", joined).strip()
     if not STUDENT.fullmatch(name) or len(name) > LONGEST_NAME:
         raise Refused(f"{joined[:LONGEST_NAME]!r} cannot be the name of a student's folder")

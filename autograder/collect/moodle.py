@@ -1,6 +1,9 @@
-"""Moodle's “Download all submissions”: Name_NUMBER_assignsubmission_file_/file, or without the folder.
+"""Moodle's “Download all submissions”: Name_NUMBER_assignsubmission_file/file, or without the folder.
 
-The number is the participant's in this assignment, the same as in its grading worksheet.
+Format: mod/assign/classes/downloader.php of https://github.com/moodle/moodle; before Moodle 4.1 the folder's name ended
+with one more underscore. The number is the participant's in this assignment, the same as in its grading worksheet; the
+name is the word for a participant where the assignment is anonymous. Where groups hand in, name and number are the
+group's, and those who are in no group have no number.
 """
 
 from __future__ import annotations
@@ -10,9 +13,9 @@ import re
 from autograder.collect.download import Download, Refused
 from autograder.collect.handed_in import Assignment, HandedIn, Reading, student_name, without_wrapper
 
-EXPECTED = "folders such as Anna Lee_12345_assignsubmission_file_, or files whose names begin so"
-_MARK = "_assignsubmission_file_"
-_NAME = re.compile(rf"(?P<name>.+?)_(?P<user>\d+){_MARK}(?P<file>.*)")
+EXPECTED = "folders such as Anna Lee_12345_assignsubmission_file, or files whose names begin so"
+_MARK = "_assignsubmission_file"
+_NAME = re.compile(rf"(?P<name>.+?)(?:_(?P<user>\d+))?{_MARK}(?:_(?P<file>.*))?")
 
 
 def read(download: Download, assignment: Assignment) -> Reading:
@@ -28,7 +31,7 @@ def read(download: Download, assignment: Assignment) -> Reading:
             reading.refused.append(f"{file.path} names two students: who handed it in cannot be told")
             continue
         try:
-            reading.files.append(HandedIn(student_name(match["name"], match["user"]), name, file))
+            reading.files.append(HandedIn(student_name(match["name"], match["user"] or ""), name, file))
         except Refused as error:
             reading.refused.append(str(error))
     return reading

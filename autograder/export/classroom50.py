@@ -1,6 +1,6 @@
 """Classroom 50's result.json for one submission: whole points, and no file for what has no score.
 
-Format: https://github.com/foundation50/classroom50/wiki, schema classroom50/result/v1. In a job of Classroom 50 its
+Format: schemas/result-v1.schema.json of https://github.com/foundation50/classroom50. In a job of Classroom 50 its
 variables say which submission this is; outside, the tag says that a person entered the grade.
 """
 

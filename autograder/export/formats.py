@@ -10,16 +10,7 @@ from typing import Any
 
 from autograder.atomic_file import write_atomically
 from autograder.engine.verdict import Grade
-from autograder.export import (
-    canvas,
-    check50,
-    classroom50,
-    grades_csv,
-    gradescope,
-    junit,
-    moodle,
-    prairielearn,
-)
+from autograder.export import canvas, classroom50, grades_csv, gradescope, junit, moodle
 from autograder.export.options import Options
 from autograder.export.published import (
     CannotSay,
@@ -32,12 +23,10 @@ from autograder.export.published import (
 PER_SUBMISSION: Mapping[str, Any] = {
     "gradescope": gradescope,
     "classroom50": classroom50,
-    "check50": check50,
-    "prairielearn": prairielearn,
     "junit": junit,
 }
 _Tables = tuple[dict[str, str], list["LeftOut"], list[str]]  # files, what is not in them, notes
-FORMATS = ("gradescope", "canvas", "moodle", "classroom50", "check50", "prairielearn", "junit", "csv")
+FORMATS = ("gradescope", "canvas", "moodle", "classroom50", "junit", "csv")
 
 
 @dataclass(frozen=True)
@@ -126,7 +115,7 @@ def _canvas_tables(scored: Sequence[Published], options: Options) -> _Tables:
         left_out += unknown
         if rows:
             files[_table_file(exercise)] = canvas.table_text(gradebook, exercise, group[0].max_score, rows)
-    return files, left_out, gradebook.notes()
+    return files, left_out, gradebook.notes(options)
 
 
 def _moodle_tables(scored: Sequence[Published], options: Options) -> _Tables:
@@ -138,7 +127,7 @@ def _moodle_tables(scored: Sequence[Published], options: Options) -> _Tables:
         left_out += unknown
         if rows:
             files[_table_file(exercise)] = moodle.table_text(class_list, exercise, rows)
-    return files, left_out, []
+    return files, left_out, class_list.notes(options)
 
 
 def _rows(

@@ -1,51 +1,74 @@
 """Moodle's gradebook import, or its grading worksheet where that is the roster; one file an exercise.
 
-Formats: https://docs.moodle.org, "Grade import" (mapped by useremail or useridnumber) and "Assignment settings",
-offline grading worksheet. Moodle shows feedback as HTML, so ours is escaped.
+Formats: https://docs.moodle.org, "Grade import" (mapped by useremail or useridnumber), and for the offline grading
+worksheet mod/assign/gradingtable.php and mod/assign/feedback/offline/importgradeslib.php of
+https://github.com/moodle/moodle. The worksheet's headings are in its user's language, and Moodle takes them back in no
+other; the order of the columns is the same in all. Moodle shows feedback as HTML, so ours is escaped.
 """
 
 from __future__ import annotations
 
 import html
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from autograder.export.options import Options
 from autograder.export.published import Published, UnusableBatch, printable
-from autograder.export.tables import (
-    Table,
-    csv_text,
-    is_number,
-    key_cell,
-    read_table,
-    text_cell,
-)
+from autograder.export.tables import Table, csv_text, key_cell, read_number, read_table, text_cell
 from autograder.report.verdict_text import verdict_text
 
 EMAIL, ID_NUMBER = ("useremail", "email address", "email"), ("useridnumber", "id number", "idnumber")
-_IDENTIFIER, _NUMBER = "Identifier", "number of the participant"  # "Participant 123456", and its number alone
-_GRADE, _COMMENTS, _MOST = "Grade", "Feedback comments", "Maximum grade"
+_PARTICIPANT = re.compile(r"(?P<word>.*\D)(?P<number>\d+)\s*")  # "Participant 123456", in any language
+_TIME = re.compile(r"-|.*\d\d?[:.hH]\d\d.*", re.DOTALL)  # "-" is a grade that was never changed
 _LONGEST_FEEDBACK = 1000  # characters of one check
 
 
 @dataclass(frozen=True)
+class Worksheet:
+    """Where the columns of an assignment's worksheet are; the one after `grade` has the most points there are.
+
+    `feedback` is None where Moodle asks for no feedback comments.
+    """
+
+    grade: int
+    feedback: int | None
+
+
+@dataclass(frozen=True)
 class ClassList:
-    """How Moodle finds a student: `key` is the column of its import."""
+    """How Moodle finds a student: `key` is the column of its import; a worksheet is handed back filled in."""
 
     key: str
     roster: Table | None = None
-
-    @property
-    def is_worksheet(self) -> bool:
-        """Whether the roster is an assignment's worksheet, which is handed back filled in."""
-        return self.roster is not None and self.roster.index(_IDENTIFIER) is not None
+    worksheet: Worksheet | None = None
 
     def row_of(self, student: str) -> Sequence[str]:
         """Return a student's row of the roster; raises `CannotSay` if there is none."""
         assert self.roster
         index = self.roster.index
-        keys = [index("student"), index(*EMAIL), index(*ID_NUMBER), index(_NUMBER), index("Full name")]
-        return self.roster.row_of(student, keys, index(_NUMBER), index("Full name"))
+        if not self.worksheet:
+            keys = [index("student"), index(*EMAIL), index(*ID_NUMBER), index("Full name")]
+            return self.roster.row_of(student, keys, None, [])
+        people = [*range(1, self.worksheet.grade), index("student")]
+        width = len(self.roster.heading)
+        people_and_numbers = [
+            [*row, match["number"], match["word"]]
+            for row in self.roster.rows
+            if (match := _PARTICIPANT.fullmatch(row[0]))
+        ]
+        numbered = Table([*self.roster.heading, "number of the participant", ""], people_and_numbers)
+        # An anonymous download calls everybody by the word before the number.
+        return numbered.row_of(student, [*people, width], width, [1, width + 1])[:width]
+
+    def notes(self, options: Options) -> list[str]:
+        """Say what Moodle may not get."""
+        found = self.roster.notes(options.roster) if self.roster else []
+        if self.worksheet and self.worksheet.feedback is None:
+            found.append(
+                f"{options.roster} has no column for feedback: Feedback comments is off in the assignment's settings"
+            )
+        return found
 
 
 def open_class(options: Options, students: Sequence[str]) -> ClassList:
@@ -56,16 +79,16 @@ def open_class(options: Options, students: Sequence[str]) -> ClassList:
     """
     if options.roster:
         roster = read_table(options.roster)
-        identifier = roster.index(_IDENTIFIER)
-        if [identifier, roster.index(*EMAIL), roster.index(*ID_NUMBER)].count(None) == 3:
+        if worksheet := _worksheet(roster):
+            return ClassList("", roster, worksheet)
+        email, id_number = roster.index(*EMAIL), roster.index(*ID_NUMBER)
+        if (email is None and id_number is None) or _has_participants(roster):
             raise UnusableBatch(
                 f"{options.roster} has the columns {', '.join(roster.heading)}; expected useremail or useridnumber "
-                "(and student, if the folders are called otherwise), or the worksheet of a Moodle assignment"
+                "(and student, if the folders are called otherwise), or the worksheet of a Moodle assignment that is "
+                "graded by points, with a column for grades and the maximum grade after it"
             )
-        if identifier is not None:
-            rows = [[*row, row[identifier].strip().rpartition(" ")[2]] for row in roster.rows]
-            roster = Table([*roster.heading, _NUMBER], rows)
-        return ClassList("useridnumber" if roster.index(*EMAIL) is None else "useremail", roster)
+        return ClassList("useridnumber" if email is None else "useremail", roster)
     with_address = sum("@" in student for student in students)
     if 0 < with_address < len(students):
         raise UnusableBatch(
@@ -74,11 +97,44 @@ def open_class(options: Options, students: Sequence[str]) -> ClassList:
     return ClassList("useremail" if with_address else "useridnumber")
 
 
+def _has_participants(roster: Table) -> bool:
+    """Whether a table begins as a worksheet does: one word and different numbers, and no heading of a map of names."""
+    words = {match["word"] if (match := _PARTICIPANT.fullmatch(cell)) else "" for cell in roster.column(0)}
+    return (
+        len(words) == 1
+        and words != {""}
+        and roster.heading[0].strip().lower() not in ("student", *EMAIL, *ID_NUMBER)
+    )
+
+
+def _worksheet(roster: Table) -> Worksheet | None:
+    """Find the columns of a worksheet by their contents; None if the table is another one, or graded on a scale."""
+    if not _has_participants(roster):
+        return None
+    grades = [
+        i for i in range(1, len(roster.heading) - 1) if _are_grades(roster.column(i), roster.column(i + 1))
+    ]
+    if not grades:
+        return None
+    times = [i for i in range(len(roster.heading)) if all(map(_TIME.fullmatch, roster.column(i)))]
+    last_change = max(times, default=len(roster.heading))
+    return Worksheet(grades[-1], last_change + 1 if last_change + 1 < len(roster.heading) else None)
+
+
+def _are_grades(grades: Sequence[str], most: Sequence[str]) -> bool:
+    """Whether a column can hold grades because the next one has the same most points in every row."""
+    points = {read_number(cell) for cell in most}
+    highest = points.pop()
+    if points or not highest:
+        return False
+    given = [read_number(cell) for cell in grades if cell]
+    return all(grade is not None and grade <= highest for grade in given)
+
+
 def heading_of(class_list: ClassList, exercise: str) -> list[str]:
     """Return the columns of an exercise's file."""
-    if class_list.roster and class_list.is_worksheet:
-        given = list(class_list.roster.heading[:-1])
-        return given + [name for name in (_GRADE, _COMMENTS) if name not in given]
+    if class_list.roster and class_list.worksheet:
+        return list(class_list.roster.heading)
     return [class_list.key, exercise, f"{exercise} feedback"]
 
 
@@ -93,12 +149,13 @@ def cells_of(class_list: ClassList, published: Published) -> list[str | float]:
     if class_list.roster is None:
         return [key_cell(published.student), published.score, words]
     row = class_list.row_of(published.student)
-    if class_list.is_worksheet:
-        given = dict(zip(class_list.roster.heading, row, strict=True))
-        _require_points(given.get(_MOST, ""), published)
-        known: dict[str, str | float] = {name: text_cell(cell) for name, cell in given.items()}
-        known |= {_GRADE: published.score, _COMMENTS: words}
-        return [known[name] for name in heading_of(class_list, published.exercise)]
+    if worksheet := class_list.worksheet:
+        _require_points(class_list.roster.heading[worksheet.grade + 1], row[worksheet.grade + 1], published)
+        filled: list[str | float] = [text_cell(cell) for cell in row]
+        filled[worksheet.grade] = published.score
+        if worksheet.feedback is not None:
+            filled[worksheet.feedback] = words
+        return filled
     column = class_list.roster.index(*(EMAIL if class_list.key == "useremail" else ID_NUMBER))
     assert column is not None
     return [key_cell(row[column].strip()), published.score, words]
@@ -122,12 +179,12 @@ def feedback(published: Published) -> str:
     return "<br><br>".join([*lines, *filter(None, [published.hidden_sum])])
 
 
-def _require_points(most: str, published: Published) -> None:
+def _require_points(heading: str, most: str, published: Published) -> None:
     """A score of 8 out of 12 would be 8 out of 100 there."""
-    if is_number(most) and float(most) != published.max_score:
+    if read_number(most) != published.max_score:
         raise UnusableBatch(
-            f"the worksheet's {_MOST} is {most} and {published.exercise} has {published.max_score} points: set the "
-            "assignment in Moodle to as many, and download the worksheet again"
+            f"the worksheet's {heading} is {most} and {published.exercise} has {published.max_score} points: set "
+            "the assignment in Moodle to as many, and download the worksheet again"
         )
 
 

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import codecs
 import csv
 import io
 import re
-from collections.abc import Iterable, Sequence
+import unicodedata
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 from pathlib import Path
 
+from charset_normalizer import from_bytes
+
 from autograder.export.published import CannotSay, UnusableBatch, number, printable
 
 MOST_BYTES = 20_000_000  # of a roster
+_SEPARATOR_LINE = re.compile(
+    r"sep=([,;\t])\r?\n", re.IGNORECASE
+)  # which Excel takes, and some programs write
 # What begins a formula, also in the wide form that some spreadsheets take for the same.
 _FORMULA = (
     *("=", "+", "-", "@"),
@@ -25,10 +32,24 @@ _FORMULA = (
 
 @dataclass(frozen=True)
 class Table:
-    """A heading and its rows, all as long as the heading."""
+    """A heading and its rows, all as long as the heading; `encoding` is "" for UTF-8 and UTF-16, else a guess."""
 
     heading: Sequence[str]
     rows: Sequence[Sequence[str]]
+    encoding: str = ""
+
+    def notes(self, path: Path | None) -> list[str]:
+        """Return a sentence on the encoding if it had to be guessed."""
+        if not self.encoding:
+            return []
+        return [
+            f"{path} is not UTF-8 and was read as {self.encoding}: if a heading or a name is wrong in the files "
+            "written, save it as “CSV UTF-8” and export again"
+        ]
+
+    def column(self, index: int) -> list[str]:
+        """Return the cells of a column, without the spaces around them."""
+        return [row[index].strip() for row in self.rows]
 
     def index(self, *names: str) -> int | None:
         """Return the first column that has one of these names, in any case; None if there is none."""
@@ -36,12 +57,12 @@ class Table:
         return next((lowered.index(name.lower()) for name in names if name.lower() in lowered), None)
 
     def row_of(
-        self, student: str, columns: Iterable[int | None], numbers: int | None, names: int | None
+        self, student: str, columns: Iterable[int | None], numbers: int | None, names: Sequence[int | None]
     ) -> Sequence[str]:
         """Return the row in which one of the columns has the student's name.
 
         `course collect` puts the platform's own number at the end of a name. It is looked for in the column `numbers`;
-        then the rest of the name has to be like that in the column `names`, since a name may end so by chance.
+        then the rest of the name has to be like that in a column of `names`, since a name may end so by chance.
 
         Raises:
             CannotSay: there is none, or more than one, or it is somebody else's.
@@ -56,8 +77,9 @@ class Table:
                 raise CannotSay(
                     f"{value} stands in {len(found)} rows of the roster, column {self.heading[column]}"
                 )
-            if found and value != student and names is not None and not _alike(name, found[0][names]):
-                raise CannotSay(f"number {value} is {found[0][names]}'s in the roster: enter it by hand")
+            called = [found[0][column] for column in names if column is not None] if found else []
+            if called and value != student and not any(_alike(name, one) for one in called):
+                raise CannotSay(f"number {value} is {called[0]}'s in the roster: enter it by hand")
             if found:
                 return found[0]
         looked_in = ", ".join(dict.fromkeys(self.heading[column] for column, _ in wanted))
@@ -75,19 +97,45 @@ def read_table(path: Path) -> Table:
             raise UnusableBatch(
                 f"{path} has more than {MOST_BYTES // 1_000_000} MB; expected a table of a class"
             )
-        text = path.read_text(encoding="utf-8-sig")
+        text, encoding = _decoded(path.read_bytes())
     except (OSError, UnicodeDecodeError) as error:
         raise UnusableBatch(f"{path} cannot be read: {error}") from error
-    first = text.partition("\n")[0]
-    delimiter = max(",;\t", key=first.count)
+    if text.startswith("PK\x03\x04"):
+        raise UnusableBatch(f"{path} is a workbook of a spreadsheet program: save it there as “CSV UTF-8”")
+    told = _SEPARATOR_LINE.match(text)
+    text = text[told.end() :] if told else text
     try:
-        lines = [line for line in csv.reader(io.StringIO(text, newline=""), delimiter=delimiter) if any(line)]
+        delimiter = told[1] if told else max(",;\t", key=lambda one: len(next(_cells(text, one), [])))
+        lines = [line for line in _cells(text, delimiter) if any(map(str.strip, line))]
     except csv.Error as error:
         raise UnusableBatch(f"{path} is not a CSV file: {error}") from error
     if not lines:
         raise UnusableBatch(f"{path} is empty; expected a heading and a row for each student")
     width = len(lines[0])
-    return Table(lines[0], [(line + [""] * width)[:width] for line in lines[1:]])
+    return Table(lines[0], [(line + [""] * width)[:width] for line in lines[1:]], encoding)
+
+
+def _cells(text: str, delimiter: str) -> Iterator[list[str]]:
+    return csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)
+
+
+def _decoded(content: bytes) -> tuple[str, str]:
+    """Return the text, and its encoding if that is none of the two which a file tells by itself.
+
+    Platforms write UTF-8, and Excel's “Unicode Text” is UTF-16; its plain CSV is in the code page of its user's
+    language. That can be told for scripts other than Latin; for Latin it is taken to be Western European.
+    """
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return content.decode("utf-16"), ""
+    if content.startswith(b"PK\x03\x04"):
+        return content[:4].decode(), ""
+    try:
+        return content.decode("utf-8-sig"), ""
+    except UnicodeDecodeError:
+        guess = from_bytes(content).best()
+    if guess and any(one.isalpha() and "LATIN" not in unicodedata.name(one, "") for one in str(guess)):
+        return str(guess), guess.encoding
+    return content.decode("cp1252", errors="replace"), "cp1252"
 
 
 def csv_text(heading: Sequence[str], rows: Iterable[Sequence[str | float]]) -> str:
@@ -118,9 +166,16 @@ def key_cell(key: str) -> str:
     return key
 
 
-def is_number(cell: str) -> bool:
-    """Whether a cell holds a number as spreadsheets write it."""
-    return re.fullmatch(r"\s*\d+(\.\d*)?\s*", cell) is not None
+def read_number(cell: str) -> float | None:
+    """Return the number in a cell, written as in any language: 1.000,50 and 1,000.50; None if there is none.
+
+    As in Canvas' import, the last comma or point stands before the decimals.
+    """
+    digits = re.sub(r"[\s'’]", "", cell).replace("٫", ",")
+    if not re.fullmatch(r"\d+([.,]\d*)*", digits):
+        return None
+    *whole, last = re.split("[.,]", digits)
+    return float(f"{''.join(whole)}.{last}" if whole else last)
 
 
 def _cell_value(cell: str) -> str:

@@ -59,7 +59,7 @@ def export(
         typer.Option(
             "--assignment",
             metavar="EXERCISE=ID",
-            help="what the platform calls an exercise: Canvas' number, Classroom 50's or check50's slug; repeat it",
+            help="what the platform calls an exercise: Canvas' number or Classroom 50's slug; repeat it",
         ),
     ] = None,
     classroom: Annotated[str, typer.Option(help="the classroom's name in Classroom 50")] = "",

@@ -11,7 +11,7 @@ from ros_cli.command_node import CommandNode, absolute
 from ros_cli.errors import unknown
 from ros_cli.interface_types import full_type_name, interface_class
 from ros_cli.servers import wait_for_service_node, wait_for_type
-from ros_cli.verb import Verbs, add_graph_verb, positive_float
+from ros_cli.verb import Verbs, add_graph_verb, add_values, given_values, positive_float
 from ros_cli.yaml_values import message_from_yaml
 
 
@@ -20,12 +20,7 @@ def add_verbs(verbs: Verbs) -> None:
     call = add_graph_verb(verbs, "call", call_service, "Call a service")
     call.add_argument("service_name", help="Name of the ROS service to call to (e.g. '/add_two_ints')")
     call.add_argument("service_type", help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')")
-    call.add_argument(
-        "values",
-        nargs="?",
-        default="{}",
-        help="Values to fill the service request with in YAML format (e.g. '{a: 1, b: 2}')",
-    )
+    add_values(call, "values", "Values to fill the service request with in YAML format (e.g. '{a: 1, b: 2}')")
     call.add_argument(
         "-r", "--rate", metavar="N", type=positive_float, help="Repeat the call at a specific rate in Hz"
     )
@@ -75,13 +70,15 @@ def call_service(options: Namespace) -> None:
         CommandError: the type or the values are wrong, or the service has another type.
     """
     service_type = interface_class(options.service_type, "srv")
-    request = message_from_yaml(service_type.Request, options.values)
+    values = given_values(options)
+    message_from_yaml(service_type.Request, values)  # a wrong value is told before anything is waited for
     name = absolute(options.service_name)
     with CommandNode(options.spin_time) as command:
         client = command.node.create_client(service_type, name)
         _wait_for_service(command, client, name, full_type_name(options.service_type, "srv"))
         while True:
             called = time.monotonic()
+            request = message_from_yaml(service_type.Request, values, now=command.now())
             print(f"requester: making request: {request!r}\n")
             print(f"response:\n{command.result(client.call_async(request))!r}\n")
             if options.rate is None:

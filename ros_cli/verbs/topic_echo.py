@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from argparse import Namespace
 from queue import Empty
 from typing import Any
@@ -66,12 +67,15 @@ def print_messages(options: Namespace) -> None:
         command.discover(lambda: topic in command.topics())
         message_type = _message_type(command, topic, options.message_type)
         select(message_type(), options.field)
-        qos = fitting_qos(command.node.get_publishers_info_by_topic(topic))
+        overridden = options.qos_reliability or options.qos_durability
+        qos = fitting_qos([] if overridden else command.node.get_publishers_info_by_topic(topic))
         _override(qos, options.qos_reliability, options.qos_durability)
         arrived = command.messages(message_type, topic, qos)
+        deadline = time.monotonic() + (options.timeout or float("inf"))
         while True:
+            left = max(0.0, deadline - time.monotonic()) if options.timeout else None
             try:
-                _, message = arrived.get(timeout=options.timeout)
+                _, message = arrived.get(timeout=left)
             except Empty:
                 return
             print(as_text(select(message, options.field), longest), end="---\n")
@@ -80,13 +84,20 @@ def print_messages(options: Namespace) -> None:
 
 
 def fitting_qos(publishers: list[TopicEndpointInfo]) -> QoSProfile:
-    """Return sensor QoS, but reliable or transient local where all publishers are."""
+    """Return sensor QoS, but reliable or transient local where all publishers are; print where only some are."""
     qos: QoSProfile = QoSPresetProfiles.get_from_short_key("sensor_data")
-    profiles = [publisher.qos_profile for publisher in publishers]
-    if profiles and all(each.reliability == ReliabilityPolicy.RELIABLE for each in profiles):
-        qos.reliability = ReliabilityPolicy.RELIABLE
-    if profiles and all(each.durability == DurabilityPolicy.TRANSIENT_LOCAL for each in profiles):
-        qos.durability = DurabilityPolicy.TRANSIENT_LOCAL
+    for policy, wanted, otherwise in (
+        ("reliability", ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT),
+        ("durability", DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE),
+    ):
+        offered = [getattr(publisher.qos_profile, policy) == wanted for publisher in publishers]
+        setattr(qos, policy, wanted if offered and all(offered) else otherwise)
+        if any(offered) and not all(offered):
+            kind = type(wanted).__name__
+            print(
+                f"Some, but not all, publishers are offering {kind}.{wanted.name}. Falling back to "
+                f"{kind}.{otherwise.name} as it will connect to all publishers"
+            )
     return qos
 
 

@@ -10,7 +10,7 @@ from rclpy.qos import qos_profile_sensor_data
 
 from ros_cli.command_node import CommandNode, absolute
 from ros_cli.interface_types import interface_class
-from ros_cli.verb import Verbs, add_graph_verb, natural_number
+from ros_cli.verb import Verbs, add_graph_verb, positive_int
 
 WINDOW = 10_000  # messages
 PRINT_PERIOD = 1_000_000_000  # ns
@@ -55,7 +55,7 @@ def add_to(verbs: Verbs) -> None:
     hz.add_argument("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')")
     hz.add_argument(
         *("-w", "--window"),
-        type=natural_number,
+        type=positive_int,
         default=WINDOW,
         help="window size, in # of messages, for calculating rate (default: %(default)s)",
     )

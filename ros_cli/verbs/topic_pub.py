@@ -6,7 +6,6 @@ import time
 from argparse import Namespace
 from collections.abc import Iterator
 from itertools import count
-from typing import Any
 
 from rclpy.duration import Duration
 from rclpy.publisher import Publisher
@@ -14,7 +13,7 @@ from rclpy.publisher import Publisher
 from ros_cli.command_node import CommandNode, absolute
 from ros_cli.errors import CommandError
 from ros_cli.interface_types import interface_class
-from ros_cli.verb import Verbs, add_graph_verb, natural_number, positive_float
+from ros_cli.verb import Verbs, add_graph_verb, add_values, given_values, natural_number, positive_float
 from ros_cli.yaml_values import message_from_yaml
 
 QUEUE = 10  # messages; reliable, volatile
@@ -27,13 +26,7 @@ def add_to(verbs: Verbs) -> None:
     pub = add_graph_verb(verbs, "pub", publish, "Publish a message to a topic")
     pub.add_argument("topic_name", help="Name of the ROS topic to publish to (e.g. '/chatter')")
     pub.add_argument("message_type", help="Type of the ROS message (e.g. 'std_msgs/msg/String')")
-    pub.add_argument(
-        "values",
-        nargs="?",
-        default="{}",
-        help="Values to fill the message with in YAML format (e.g. 'data: Hello World'); "
-        "'header: auto' and a time's 'now' stand for the time of publishing",
-    )
+    add_values(pub, "values", "Values to fill the message with in YAML format (e.g. 'data: Hello World')")
     pub.add_argument(
         *("-r", "--rate"),
         metavar="N",
@@ -63,7 +56,6 @@ def add_to(verbs: Verbs) -> None:
         "--max-wait-time-secs",
         metavar="N",
         type=positive_float,
-        default=float("inf"),
         help="The longest wait for matching subscriptions (default: endless)",
     )
 
@@ -72,19 +64,25 @@ def publish(options: Namespace) -> None:
     """Publish until Ctrl-C, or as often as asked.
 
     Raises:
-        CommandError: the type or the values are wrong, or too few subscriptions came in time.
+        CommandError: the type or the values are wrong, nothing is waited for, or too few subscriptions came in time.
     """
     message_type = interface_class(options.message_type, "msg")
-    message_from_yaml(message_type, options.values)  # a wrong value is told before anything is waited for
+    values = given_values(options)
+    message_from_yaml(message_type, values)  # a wrong value is told before anything is waited for
     topic = absolute(options.topic_name)
     times = 1 if options.once else options.times
     wanted = options.wait_matching_subscriptions
+    wanted = int(times > 0) if wanted is None else wanted
+    if not wanted and options.max_wait_time_secs:
+        raise CommandError(
+            "--max-wait-time-secs option is only effective with --wait-matching-subscriptions, --once or --times"
+        )
     with CommandNode(options.spin_time) as command:
         publisher = command.node.create_publisher(message_type, topic, QUEUE)
-        wait_for_subscriptions(command, publisher, int(times > 0) if wanted is None else wanted, options)
+        wait_for_subscriptions(command, publisher, wanted, options)
         print("publisher: beginning loop")
         for number in ticks(1 / options.rate, times):
-            message = message_from_yaml(message_type, options.values, now=_now(command))
+            message = message_from_yaml(message_type, values, now=command.now())
             if options.print and number % options.print == 0:
                 print(f"publishing #{number}: {message!r}\n")
             publisher.publish(message)
@@ -99,7 +97,7 @@ def wait_for_subscriptions(
     Raises:
         CommandError: there are too few after --max-wait-time-secs.
     """
-    deadline = time.monotonic() + options.max_wait_time_secs
+    deadline = time.monotonic() + (options.max_wait_time_secs or float("inf"))
     while publisher.get_subscription_count() < wanted:
         if time.monotonic() >= deadline:
             raise CommandError(
@@ -118,7 +116,3 @@ def ticks(period: float, times: int) -> Iterator[int]:
     for number in count(1) if times == 0 else range(1, times + 1):
         time.sleep(max(0.0, began + (number - 1) * period - time.monotonic()))
         yield number
-
-
-def _now(command: CommandNode) -> Any:
-    return command.node.get_clock().now().to_msg()

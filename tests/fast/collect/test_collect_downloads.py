@@ -35,6 +35,53 @@ def programs(submitted: Path) -> dict[str, str]:
     return {work.student: work.read().sources["battery_service.py"] for work in works}
 
 
+# What platforms write that an ordinary download does not show: who is to be collected from it.
+ODD = {
+    "moodle 4.1 and later": (
+        "moodle",
+        ["Anna Lee_9001_assignsubmission_file/{}", "Bo_9002_assignsubmission_file/w/{}"],
+        ["Anna Lee-9001", "Bo-9002"],
+    ),
+    "moodle, anonymous, in German and in Chinese": (
+        "moodle",
+        ["Teilnehmerin_9001_assignsubmission_file/{}", "参与者_9002_assignsubmission_file_{}"],
+        ["Teilnehmerin-9001", "参与者-9002"],
+    ),
+    "moodle, groups, and those who are in none": (
+        "moodle",
+        ["Team 3_77_assignsubmission_file/{}", "Default group_assignsubmission_file/{}"],
+        ["Default group", "Team 3-77"],
+    ),
+    "canvas, anonymous": (
+        "canvas",
+        ["anon_aB3cD_7701_{}", "LATE_anon_Zq9kE_7702_{}", "anon_12345_7703_{}"],
+        ["anon_12345", "anon_Zq9kE", "anon_aB3cD"],
+    ),
+    "canvas, a name without a letter, another with _, and one of digits": (
+        "canvas",
+        ["_501_7701_{}", "le_e_LATE_502_7702_{}", "7_503_7703_{}"],
+        ["501", "7-503", "le_e-502"],
+    ),
+    "classroom 50, with its own scores": (
+        "classroom50",
+        ["scores.csv", "r-battery-service-bo/results.json", "r-battery-service-bo/{}"],
+        ["bo"],
+    ),
+}
+
+
+@pytest.mark.parametrize("odd", ODD)
+def test_every_form_of_a_platforms_download_is_known(tmp_path: Path, odd: str) -> None:
+    platform, names, students = ODD[odd]
+    files = dict.fromkeys([name.format("battery_service.py") for name in names], PROGRAM)
+    download = zipped(tmp_path / "d.zip", files)
+    done = course(download, "--from", platform, "--out", tmp_path / "s")
+    assert done.exit_code == 0, done.output
+    assert sorted(programs(tmp_path / "s")) == students
+    _, _, late = said(done).partition("late, as the platform says: ")
+    assert late.startswith(("anon_Zq9kE ", "le_e-502 ")) == (platform == "canvas")
+
+
 @pytest.mark.parametrize("packed", [zipped, unpacked])
 @pytest.mark.parametrize("platform", ALL)
 def test_every_download_becomes_what_grade_reads(tmp_path: Path, platform: str, packed) -> None:

@@ -47,50 +47,6 @@ GRADESCOPE = record(
         ),
     },
 )
-IMAGES = {"type": "array", "items": record("url", label=TEXT, url=TEXT)}
-PRAIRIELEARN = record(
-    "gradable",
-    gradable={"type": "boolean"},
-    score={"type": "number", "minimum": 0, "maximum": 1},
-    message=TEXT,
-    output=TEXT,
-    images=IMAGES,
-    tests={
-        "type": "array",
-        "items": record(
-            "name",
-            name=TEXT,
-            description=TEXT,
-            points=NUMBER,
-            max_points=NUMBER,
-            message=TEXT,
-            output=TEXT,
-            images=IMAGES,
-        ),
-    },
-)
-CAUSE = record(
-    "rationale help", rationale=TEXT, help={"type": ["string", "null"]}, expected=TEXT, actual=TEXT
-)
-CHECK50 = record(
-    "slug version results",
-    slug=TEXT,
-    version={"type": "string", "pattern": r"^\d+\.\d+\.\d+$"},
-    results={
-        "type": "array",
-        "minItems": 1,
-        "items": record(
-            "name description passed log cause data dependency",
-            name=TEXT,
-            description=TEXT,
-            passed={"type": ["boolean", "null"]},
-            log={"type": "array", "items": TEXT},
-            cause={"oneOf": [{"type": "null"}, CAUSE]},
-            data={"type": "object"},
-            dependency={"type": ["string", "null"]},
-        ),
-    },
-)
 WHOLE, FILLED = {"type": "integer", "minimum": 0}, {"type": "string", "minLength": 1}
 CLASSROOM50 = record(
     "schema classroom assignment assignment_type owner submission commit release review datetime score max-score tests",
@@ -118,9 +74,4 @@ CLASSROOM50 = record(
     datetime={"type": "string", "pattern": r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$"},
     score=WHOLE,
 )
-SCHEMAS = {
-    "gradescope": GRADESCOPE,
-    "prairielearn": PRAIRIELEARN,
-    "check50": CHECK50,
-    "classroom50": CLASSROOM50,
-}
+SCHEMAS = {"gradescope": GRADESCOPE, "classroom50": CLASSROOM50}

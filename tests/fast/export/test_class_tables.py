@@ -115,6 +115,130 @@ def test_another_number_of_points_on_the_platform_is_refused(tmp_path: Path) -> 
         export("moodle", [replace(ANNA, student="Anna Lee-9001")], moodle)
 
 
+def saved(folder: Path, text: str, encoding: str = "utf-8", separator: str = ",") -> Path:
+    """Save a table as Excel does, in the code page and with the separator of its user's language."""
+    table = io.StringIO(newline="")
+    csv.writer(table, delimiter=separator).writerows(rows(text))
+    path = folder / "saved.csv"
+    path.write_bytes(table.getvalue().encode(encoding))
+    return path
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_a_gradebook_is_read_as_canvas_and_excel_write_it(
+    tmp_path: Path, encoding: str, separator: str
+) -> None:
+    text = CANVAS.replace("Lee, Anna", "Lée, Ännie").replace(",,5,10", ',,"5,00","10,00"')
+    made = export("canvas", [ANNA], replace(OPTIONS, roster=saved(tmp_path, text, encoding, separator)))
+    assert rows(made.files["battery_service.csv"])[2][:4] == ["Lée, Ännie", "101", "s1", "anna"]
+    assert of_canvas(made.files["battery_service.csv"])[1] == {"101": 5.0}
+    assert ["CSV UTF-8" in note for note in made.notes] == ([True] if encoding == "cp1252" else [])
+
+
+@pytest.mark.parametrize(
+    "points",
+    ["100.00", "100,00", "1.000,00", "1\N{NO-BREAK SPACE}000,00", "1'000.00", "٥٫٥", "", "-", "viele"],
+)
+def test_other_points_in_canvas_are_refused_however_they_are_written(tmp_path: Path, points: str) -> None:
+    text = CANVAS.replace(",,5,10", f',,"{points}",10')
+    with pytest.raises(UnusableBatch, match="export the gradebook again"):
+        export("canvas", [ANNA], replace(OPTIONS, roster=saved(tmp_path, text)))
+
+
+def test_canvas_may_split_names_and_show_no_points(tmp_path: Path) -> None:
+    text = (
+        "LastName,FirstName,ID,SIS Login ID,Section,Notes,battery_service (4711)\n,,,,,,Manual Posting\n"
+        "    Points Possible,,,,,,5.00\nLee,Anna,101,anna,A,,\n"
+    )
+    made = export("canvas", [ANNA], replace(OPTIONS, roster=saved(tmp_path, text)))
+    assert rows(made.files["battery_service.csv"])[2] == ["Lee, Anna", "101", "anna", "A", "5"]
+    unseen = replace(CANVAS_OPTIONS, roster=saved(tmp_path, text.replace("4711", "9")))
+    assert (
+        "no roster says how many points battery_service (4711) has"
+        in export("canvas", [ANNA], unseen).notes[0]
+    )
+
+
+def test_anonymous_students_are_in_no_gradebook(tmp_path: Path) -> None:
+    made = export(
+        "canvas", [replace(ANNA, student="anon_aB3cD")], replace(OPTIONS, roster=roster(tmp_path, CANVAS))
+    )
+    assert not made.files
+    assert "collect and grade a new download" in whys(made)["anon_aB3cD"]
+
+
+# Moodle's worksheet in the languages, forms and encodings in which it comes: the row of the student as it goes back.
+WORKSHEETS = {
+    "German, with commas": (
+        "utf-8", ",", "Anna Lee-4101",
+        'ID,"Vollständiger Name",E-Mail-Adresse,Status,Bewertung,Bestwertung,"Bewertung kann geändert werden",'
+        '"Zuletzt geändert (Abgabe)","Feedback als Kommentar"\n'
+        '"Teilnehmer/in 4101","Anna Lee",s10,Abgegeben,,"5,00",Ja,"Montag, 5. Oktober 2026, 09:00",\n',
+        (4, 8),
+    ),
+    "Russian, by Excel": (
+        "cp1251", ";", "Анна Ли-4101",
+        "Идентификатор,Полное имя,Состояние,Оценка,Максимальная оценка,Последнее изменение (оценка),Отзыв\n"
+        'Участник4101,Анна Ли,Ответы для оценки,,"5,00",-,\nУчастник4102,Иван,Ответы для оценки,,"5,00",-,\n',
+        (3, 6),
+    ),
+    "Japanese, anonymous, graded before": (
+        "utf-16", "\t", "参加者-4101",
+        "識別子,ステータス,評点,最大評点,最終更新日時 (評点),フィードバックコメント\n"
+        "参加者4101,提出済み,3.00,5.00,2026年 10月 5日 09:00,前の\n参加者4102,提出済み,5.00,5.00,-,\n",
+        (2, 5),
+    ),
+    "French, with numbers of students, a marker and online text, without feedback": (
+        "cp1252", ";", "2101",
+        "Identifiant,Nom complet,Numéro d'identification,Statut,Évaluateur,Note,Note maximale,Note modifiable,"
+        "Dernière modification (travail remis),Texte en ligne,Dernière modification (note)\n"
+        'Participant 4101,Anna Lee,2101,Remis,,,"5,00",Oui,"lundi 5 octobre 2026, 09:00",12,-\n',
+        (5, None),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("form", WORKSHEETS)
+def test_moodles_worksheet_is_filled_in_in_any_language(tmp_path: Path, form: str) -> None:
+    encoding, separator, student, text, (grade_column, feedback_column) = WORKSHEETS[form]
+    options = replace(OPTIONS, roster=saved(tmp_path, text, encoding, separator))
+    made = export("moodle", [replace(ANNA, student=student)], options)
+    heading, row = rows(made.files["battery_service.csv"])
+    wanted_heading, wanted, *_ = rows(text)
+    wanted[grade_column] = "5"
+    if feedback_column:
+        wanted[feedback_column] = row[feedback_column]
+        assert "1 of 1 visible checks passed." in row[feedback_column]
+    assert (heading, row) == (wanted_heading, wanted)
+    assert any("no column for feedback" in note for note in made.notes) == (feedback_column is None)
+    other = replace(
+        OPTIONS,
+        roster=saved(tmp_path, text.replace("5,00", "50,00").replace("5.00", "50.00"), encoding, separator),
+    )
+    with pytest.raises(UnusableBatch, match=f"{wanted_heading[grade_column + 1]} is 50"):
+        export("moodle", [replace(ANNA, student=student)], other)
+
+
+def test_a_worksheet_on_a_scale_is_refused(tmp_path: Path) -> None:
+    text = (
+        'Identifier,Email address,Grade,Scale,Last modified (grade)\nParticipant 1,anna@x.org,,"no\nyes",-\n'
+    )
+    with pytest.raises(UnusableBatch, match="graded by points"):
+        export(
+            "moodle", [replace(ANNA, student="anna@x.org")], replace(OPTIONS, roster=saved(tmp_path, text))
+        )
+
+
+def test_a_workbook_is_told_from_a_table_and_excels_own_first_line_is_none(tmp_path: Path) -> None:
+    (tmp_path / "book.csv").write_bytes(b"PK\x03\x04\x14\x00\xff")
+    with pytest.raises(UnusableBatch, match="workbook"):
+        export("canvas", [ANNA], replace(OPTIONS, roster=tmp_path / "book.csv"))
+    path = saved(tmp_path, CANVAS, separator=";")
+    path.write_text("sep=;\n" + path.read_text())
+    assert export("canvas", [ANNA], replace(OPTIONS, roster=path)).files
+
+
 @pytest.mark.parametrize(
     ("students", "key"), [(("anna@x.org", "Bert@x.org"), "useremail"), (("2101", "2102"), "useridnumber")]
 )

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import io
 import os
+import re
 import subprocess
 import sys
+from argparse import ArgumentParser
 from pathlib import Path
 
 import pytest
 
 from ros_cli import app, real_ros2
 from ros_cli.app import run
+from ros_cli.verb import given_values
+from ros_runtime.project import PROJECT
 
 COURSE = Path(sys.executable).with_name("course")
 
@@ -49,6 +54,88 @@ COURSE = Path(sys.executable).with_name("course")
 def test_the_words_and_flags_of_ros2cli_are_understood(words: str) -> None:
     options = app.command_line("ros2").parse_args(words.split())
     assert options.run.__module__.startswith("ros_cli.verbs.")
+
+
+# Of ros2cli 0.32.2 (Jazzy) and of what later releases for Jazzy added; `-h` and what stands for a word apart.
+ALL = "--spin-time -s --use-sim-time --no-daemon"
+QOS = (
+    "--qos-profile --qos-depth --qos-history --qos-reliability --qos-durability --qos-liveliness "
+    "--qos-liveliness-lease-duration-seconds"
+)
+ONE_NODE = f"{ALL} --include-hidden-nodes --timeout"
+JAZZY = {
+    "action info": "-t --show-types -c --count",
+    "action list": "-t --show-types -c --count-actions",
+    "action send_goal": "--stdin -f --feedback --timeout",
+    "action type": "",
+    "interface list": "-m --only-msgs -s --only-srvs -a --only-actions",
+    "interface package": "",
+    "interface packages": "",
+    "interface proto": "",
+    "interface show": "--all-comments --no-comments",
+    "node info": f"{ALL} --include-hidden",
+    "node list": f"{ALL} -a --all -c --count-nodes",
+    "param delete": "",
+    "param describe": ONE_NODE,
+    "param dump": ONE_NODE,
+    "param get": f"{ONE_NODE} --hide-type",
+    "param list": f"{ALL} --filter --include-hidden-nodes --param-prefixes --param-type",
+    "param load": f"{ONE_NODE} --no-use-wildcard",
+    "param set": ONE_NODE,
+    "service call": "--stdin -r --rate",
+    "service echo": "",
+    "service find": "",
+    "service info": "",
+    "service list": f"{ALL} -t --show-types -c --count-services --include-hidden-services",
+    "service type": "",
+    "topic bw": "",
+    "topic delay": "",
+    "topic echo": f"{ALL} {QOS} --csv --field --full-length -f --truncate-length -l --no-arr --no-str --flow-style "
+    "--raw --no-lost-messages --filter --once --timeout --include-message-info -i",
+    "topic find": "",
+    "topic hz": "--spin-time -s --use-sim-time --window -w --filter --wall-time",
+    "topic info": f"{ALL} --verbose -v",
+    "topic list": f"{ALL} -t --show-types -c --count-topics --include-hidden-topics -v --verbose",
+    "topic pub": f"--spin-time -s --use-sim-time {QOS} --stdin -r --rate -p --print -1 --once -t --times -w "
+    "--wait-matching-subscriptions --max-wait-time-secs --keep-alive -n --node-name",
+    "topic type": ALL,
+}  # fmt: skip
+
+
+def subcommands(parser: ArgumentParser) -> dict[str, ArgumentParser]:
+    return {name: each for action in parser._actions for name, each in (action.choices or {}).items()}
+
+
+@pytest.mark.parametrize("words", JAZZY)
+def test_each_verb_and_flag_of_ros2cli_is_here_or_listed_as_missing(words: str) -> None:
+    group, verb = words.split()
+    verbs = subcommands(subcommands(app.command_line("ros2"))[group])
+    page = (PROJECT / "docs/ros2_commands.md").read_text().partition("## What differs")[2]
+    if verb not in verbs:
+        assert re.search(rf"(?m)^  - verbs: .*`{words}`", page)
+        return
+    everywhere, here = (
+        {
+            flag
+            for line in re.findall(rf"(?m)^  - {of}: (.*)$", page)
+            for flag in re.findall(r"`(-[^` ]+)`", line)
+        }
+        for of in ("every verb", f"`{words}`")
+    )
+    known = set(verbs[verb]._option_string_actions)
+    assert sorted(set(JAZZY[words].split()) - known - everywhere - here) == []
+    assert sorted(known & here) == []
+
+
+def test_values_may_come_from_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.stdin", io.StringIO("{a: 1}"))
+    options = app.command_line("ros2").parse_args(["service", "call", "/add", "a/srv/B", "--stdin"])
+    assert given_values(options) == "{a: 1}"
+
+
+def test_a_longest_wait_for_nothing_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["topic", "pub", "/words", "std_msgs/msg/String", "{}", "--max-wait-time-secs", "1"]) == 1
+    assert "is only effective with --wait-matching-subscriptions" in capsys.readouterr().err
 
 
 def test_without_a_verb_the_help_is_shown(capsys: pytest.CaptureFixture[str]) -> None:

@@ -11,6 +11,7 @@ from sensor_msgs.msg import BatteryState, JointState
 from std_msgs.msg import Bool, String
 from trajectory_msgs.msg import JointTrajectory
 
+from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.srv import AddTwoInts
 from ros_cli.errors import CommandError
 from ros_cli.yaml_values import message_from_yaml, message_to_yaml
@@ -48,6 +49,14 @@ def test_auto_and_now_stand_for_the_time_of_publishing() -> None:
     now = Time(sec=7)
     assert message_from_yaml(PoseStamped, "{header: auto}", now=now).header.stamp == now
     assert message_from_yaml(PoseStamped, "{header: {stamp: now}}", now=now).header.stamp == now
+    nested = message_from_yaml(WalkTo.Goal, "{target_pose: {header: {stamp: now, frame_id: odom}}}", now=now)
+    assert (nested.target_pose.header.stamp, nested.target_pose.header.frame_id) == (now, "odom")
+    assert message_from_yaml(PoseStamped, "{header: auto}").header.stamp == Time()
+
+
+def test_no_other_word_stands_for_a_time() -> None:
+    with pytest.raises(CommandError, match="nanosec: …}, got 'auto'"):
+        message_from_yaml(PoseStamped, "{header: {stamp: auto}}", now=Time(sec=7))
 
 
 @pytest.mark.parametrize(
