@@ -73,6 +73,13 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
         ),
     ),
     (
+        r"error: unrecognized arguments: .*--ros-args",
+        Remedy(
+            "argparse refused --ros-args, with which every ROS program is started. Let it see your own arguments only: "
+            "`parser.parse_args(rclpy.utilities.remove_ros_args(sys.argv)[1:])`.",
+        ),
+    ),
+    (
         r"error: (the following arguments are required|unrecognized arguments|argument \w+: )",
         Remedy(
             "argparse refused what the task allows: an argument that may be left out has nargs='?' and a default."
