@@ -18,7 +18,12 @@ if TYPE_CHECKING:  # typing itself takes a millisecond to import
 
 
 def install() -> None:
-    """Watch for the import of the modules that are repaired."""
+    """Watch for the import of the modules that are repaired.
+
+    Another middleware, which a shell names for other ROS work, is set aside: where it is not installed, rcl ends the
+    process at the import of rclpy, and where it is, the course's nodes all use the default one.
+    """
+    os.environ.pop("RMW_IMPLEMENTATION", None)
     if os.environ.get("RCLPY_REPAIRS") == "off":
         return
     for name, repair in (
