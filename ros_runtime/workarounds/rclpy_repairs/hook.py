@@ -23,7 +23,8 @@ def install() -> None:
     Another middleware, which a shell names for other ROS work, is set aside: where it is not installed, rcl ends the
     process at the import of rclpy, and where it is, the course's nodes all use the default one.
     """
-    os.environ.pop("RMW_IMPLEMENTATION", None)
+    if os.environ.get("RMW_IMPLEMENTATION") not in (None, "rmw_fastrtps_cpp"):
+        del os.environ["RMW_IMPLEMENTATION"]
     if os.environ.get("RCLPY_REPAIRS") == "off":
         return
     for name, repair in (
