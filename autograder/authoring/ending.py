@@ -73,9 +73,9 @@ _SIGNS: tuple[tuple[str, Remedy], ...] = (
         ),
     ),
     (
-        r"error: unrecognized arguments: .*--ros-args",
+        r"(?i)(unrecognized|unknown|no such) .*ros-args|ros-args.* not recognized",  # argparse, absl, click; getopt
         Remedy(
-            "argparse refused --ros-args, with which every ROS program is started. Let it see your own arguments only: "
+            "Your program refused --ros-args, with which every ROS program is started. Parse your own arguments only: "
             "`parser.parse_args(rclpy.utilities.remove_ros_args(sys.argv)[1:])`.",
         ),
     ),
