@@ -16,6 +16,8 @@ from typing import Any
 
 import typer
 
+from course_cli.ending import FULL_DISK, is_a_full_disk
+
 HELP = "Learn ROS 2 services and actions on a humanoid that really balances."
 FORWARDING = {"ignore_unknown_options": True, "allow_extra_args": True}
 
@@ -113,7 +115,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     signal.signal(signal.SIGINT, signal.default_int_handler)
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     chosen = next((word for word in arguments if not word.startswith("-")), None)
-    app(chosen)(args=list(arguments), prog_name="course")
+    try:
+        app(chosen)(args=list(arguments), prog_name="course")
+    except Exception as error:
+        if not is_a_full_disk(error):
+            raise
+        sys.exit(FULL_DISK)
 
 
 def app(chosen: str | None) -> typer.Typer:

@@ -29,7 +29,11 @@ GROUPS = {
 def main(arguments: Sequence[str] | None = None, *, program: str = "ros2") -> int:
     """Run a command, by the real ros2 where that is on the PATH, and return the exit status."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
-    domain.join_domain()
+    try:
+        domain.join_domain()
+    except CommandError as error:
+        print(error, file=sys.stderr)
+        return 1
     if (real := real_ros2()) is not None:
         os.execv(real, [real, *arguments])
     return run(arguments, program)

@@ -14,11 +14,26 @@ from pathlib import Path
 
 # The ports of other domains lie in the range from which Linux takes ephemeral ports; 0 is what people use.
 DOMAIN_IDS = (*range(1, 102), *range(215, 233))
+LAST_DOMAIN_ID = 232  # of those that have ports
 LOOPBACK_ONLY = Path(__file__).with_name("loopback_only.xml")
 
 
 class NoDomainLeft(Exception):
     """Every ROS domain that is safe to use is taken by another process on this machine."""
+
+
+def require_usable_domain() -> None:
+    """Require that ROS_DOMAIN_ID, if it is set, names a domain that DDS has ports for.
+
+    Raises:
+        ValueError: it does not; the message says what to do.
+    """
+    given = os.environ.get("ROS_DOMAIN_ID", "")
+    if given and not (given.isascii() and given.isdigit() and int(given) <= LAST_DOMAIN_ID):
+        raise ValueError(
+            f"ROS_DOMAIN_ID is {given[:40]!r}, expected a number from 0 to {LAST_DOMAIN_ID}.\n"
+            "Next: type `unset ROS_DOMAIN_ID`, or set it to another number."
+        )
 
 
 class ReservedDomain:

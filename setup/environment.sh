@@ -8,9 +8,9 @@ readonly log=$root/build/setup.log
 make_environment() {
     local started=$SECONDS
     if ! mkdir -p "$root/build" 2>/dev/null || [ ! -w "$root/build" ]; then
-        say "cannot write to $root/build as $(id -un 2>/dev/null || id -u): the environment is made inside the clone."
+        say "cannot write to $clone/build as $(id -un 2>/dev/null || id -u): the environment is made inside the clone."
         say "Next: clone the course into a folder of your own; or, if several people share it, ask whoever installed it"
-        say "to run $root/course --help once: it has changed since the environment was made."
+        say "to run $clone/course --help once: it has changed since the environment was made."
         return 1
     fi
     exec 9>"$root/build/setup.lock"
@@ -70,9 +70,10 @@ debian_name() {
 }
 
 install_everything() {
-    local extras=dev build_tools=()
-    # The ROS build tools stay: students build interfaces of their own. apt's ROS has them already.
-    [ "$ros" = wheels ] && extras=dev,ros-wheels build_tools=(-r "$root/setup/build-requirements.txt")
+    local extras=dev build_tools=() isolation=()
+    # The ROS build tools stay, since students build interfaces of their own: the course's are built with them, too, and
+    # not below the cache of HOME or TMPDIR, whose paths CMake may not take. apt's ROS has them already.
+    [ "$ros" = wheels ] && extras=dev,ros-wheels build_tools=(-r "$root/setup/build-requirements.txt") isolation=(--no-build-isolation)
     write_constraints
     install_with_uv "$extras" || install_with_pip "$extras" || return 1
     compile_bytecode
@@ -103,7 +104,7 @@ install_with_uv() {
     say "installing packages (at first 300 MB to download: seconds to minutes, by your network)"
     with_uv -r "$root/pyproject.toml" "${extras[@]}" "${build_tools[@]}" || return 1
     say "building humanoid_interfaces (about a minute; unchanged sources are not built again)"
-    with_uv --no-deps --reinstall-package humanoid-course --editable "$root"
+    with_uv --no-deps --reinstall-package humanoid-course "${isolation[@]}" --editable "$root"
 }
 
 # A network that looks into encrypted connections has a certificate that the system knows, and uv's own list does not.
@@ -113,8 +114,10 @@ with_uv() {
 
 install_with_pip() {
     say "uv could not install, pip tries (2 to 6 minutes)"
-    PIP_CONSTRAINT=$venv/constraints.txt PIP_BUILD_CONSTRAINT=$venv/constraints.txt \
-        logged "$venv/bin/python" -m pip install --editable "$root[$1]" "${build_tools[@]}"
+    local pip=("$venv/bin/python" -m pip install) PIP_CONSTRAINT=$venv/constraints.txt
+    export PIP_CONSTRAINT PIP_BUILD_CONSTRAINT=$PIP_CONSTRAINT
+    [ "$ros" = apt ] || logged "${pip[@]}" "${build_tools[@]}" || return 1
+    logged "${pip[@]}" "${isolation[@]}" --editable "$root[$1]"
 }
 
 logged() {

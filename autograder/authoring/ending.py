@@ -56,6 +56,11 @@ _SIGNS: dict[str, Remedy] = {
         "A feedback callback gets the goal's id and the Feedback in one message: read message.feedback.field.",
         "06_walk_to_a_pose#field-why",
     ),
+    # argparse, absl and click; getopt
+    r"(?i)(unrecognized|unknown|no such) .*ros-args|ros-args.* not recognized": Remedy(
+        "Your program refused --ros-args, with which every ROS program is started. Parse your own arguments only: "
+        "`parser.parse_args(rclpy.utilities.remove_ros_args(sys.argv)[1:])`.",
+    ),
     r"error: (the following arguments are required|unrecognized arguments|argument \w+: )": Remedy(
         "argparse refused what the task allows: an argument that may be left out has nargs='?' and a default."
     ),

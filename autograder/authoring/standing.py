@@ -52,11 +52,7 @@ def why_nobody_serves(run: Record) -> str | None:
         return None
     if any(function.startswith("spin") for line in stack.lines for *_, function in _FRAME.findall(line)):
         return None
-    return (
-        f"Nothing serves the node's callbacks: it stood in {main}, and not in rclpy.spin(node). If that line spins an "
-        "EventsExecutor of rclpy.experimental: its spin() runs no callback in this rclpy; use a "
-        "SingleThreadedExecutor or a MultiThreadedExecutor."
-    )
+    return f"Nothing serves the node's callbacks: it stood in {main}, and not in rclpy.spin(node)."
 
 
 def _innermost(thread: str) -> Place | None:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from autograder.engine.exercise import file_names
+from autograder.engine.program_text import NoProgram, bytes_of, text_of
 
 MAX_BYTES = 1_000_000  # of a file a student writes
 LONGEST_QUOTE = 500  # characters of why a notebook is none, which may quote all of it
@@ -33,7 +34,7 @@ class Submission:
     @property
     def files(self) -> dict[str, bytes]:
         """The files to put beside each other when it runs."""
-        return {name: text.encode() for name, text in self.sources.items()}
+        return {name: bytes_of(name, text) for name, text in self.sources.items()}
 
 
 def place_of_work(exercise: str, folder: Path) -> Path | None:
@@ -55,11 +56,16 @@ def read_submission(path: Path, exercise: str, student: str = "you") -> Submissi
         hint = f"; run the cell that begins %%writefile {path.name}" if path.name in names else ""
         raise UnusableSubmission(f"there is no file {path}{hint}")
     if path.suffix == ".ipynb":
-        sources = sources_from_notebook(_read(path, MAX_NOTEBOOK_BYTES), names, path)
+        written = sources_from_notebook(_text(path.name, _read(path, MAX_NOTEBOOK_BYTES), path), names, path)
+        # %%writefile writes UTF-8, whatever the program declares
+        sources = {
+            name: _text(name, text.encode(errors="surrogatepass"), path) for name, text in written.items()
+        }
     elif path.is_dir():
-        sources = {name: _read(path / name, MAX_BYTES) for name in names if (path / name).exists()}
+        there = [name for name in names if (path / name).exists()]
+        sources = {name: _text(name, _read(path / name, MAX_BYTES), path / name) for name in there}
     elif len(names) == 1:
-        sources = {names[0]: _read(path, MAX_BYTES)}
+        sources = {names[0]: _text(names[0], _read(path, MAX_BYTES), path)}
     else:
         raise UnusableSubmission(
             f"{exercise} has several files, {', '.join(names)}: give the folder they lie in, or the notebook"
@@ -99,14 +105,19 @@ def written_by(cell: str, name: str) -> str | None:
     return cell[magic.end() :] if magic else None
 
 
-def _read(path: Path, limit: int) -> str:
+def _read(path: Path, limit: int) -> bytes:
     try:
         _require_at_most(limit, path.stat().st_size, str(path))
-        return path.read_text(encoding="utf-8-sig")
+        return path.read_bytes()
     except OSError as error:  # a folder of that name, or nobody may read it
         raise UnusableSubmission(f"{path} cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise UnusableSubmission(f"{path} is not UTF-8 text: {error}") from error
+
+
+def _text(name: str, content: bytes, path: Path) -> str:
+    try:
+        return text_of(name, content)
+    except NoProgram as error:
+        raise UnusableSubmission(f"{path} {error}") from error
 
 
 def _require_at_most(limit: int, size: int, what: str) -> None:

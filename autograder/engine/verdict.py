@@ -65,6 +65,13 @@ class Grade:
         return "to mark" if any(check.status == "to mark" for check in self.checks) else "graded"
 
     @property
+    def why_not_graded(self) -> str:
+        """The grader's reason in a line: for the whole, or for the first check that it could not judge."""
+        reasons = [self.reason, *(check.help for check in self.checks if check.status == "error")]
+        first = next((reason.splitlines()[0] for reason in reasons if reason), "")
+        return first.removeprefix("Not graded: ")
+
+    @property
     def score(self) -> float | None:
         """The points earned; None when not graded, or not marked yet."""
         return sum(check.points for check in self.checks) if self.status == "graded" else None

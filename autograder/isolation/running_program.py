@@ -16,6 +16,8 @@ from autograder.isolation.process_tree import descendants
 class RunningProgram:
     """Its streams, its processes and its end. Process ids are not used again once it is closed.
 
+    The program leads a session of its own, and so a process group that it cannot leave.
+
     Attributes:
         stdin, stdout, stderr: the arena's ends of its streams.
         end_fd: readable when the program itself has ended.
@@ -33,6 +35,12 @@ class RunningProgram:
         with self._lock, suppress(ProcessLookupError):
             if not self._is_closed:
                 os.kill(self._main_pid, number)
+
+    def interrupt(self) -> None:
+        """Send SIGINT to the program's process group, as a terminal does with its foreground group on Ctrl-C."""
+        with self._lock, suppress(ProcessLookupError):
+            if not self._is_closed:
+                os.killpg(self._main_pid, signal.SIGINT)
 
     def end(self) -> None:
         """End the program and everything below it. Harmless when it has ended."""

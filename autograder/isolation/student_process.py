@@ -127,8 +127,8 @@ class StudentProcess:
         return 0 if self._returncode is not None else self._running.files()
 
     def interrupt(self) -> None:
-        """Send SIGINT to the program itself, as Ctrl-C does."""
-        self._running.signal(signal.SIGINT)
+        """Send SIGINT to the program and to the processes that it started, as Ctrl-C in a terminal does."""
+        self._running.interrupt()
 
     def abort(self) -> None:
         """Send SIGABRT to the program itself: it ends, with PYTHONFAULTHANDLER after saying where its threads stand."""

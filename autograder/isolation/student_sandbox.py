@@ -75,7 +75,8 @@ def _start_in_sandbox(program: Program, stack: ExitStack) -> ChildProgram:
         nproc = (
             f"--nproc={program.limits.processes}"  # counted in this sandbox alone, as it has its own users
         )
-        command = [*_limited(program.limits), nproc, "--", sys.executable, *program.arguments]
+        limited = [*_limited(program.limits), nproc, "--", sys.executable, *program.arguments]
+        command = ["/usr/bin/setsid", "--", *limited]  # it leads no process group, so no fork is needed
         started = sandbox.start(command, prepare=stand_back)
     stack.callback(os.close, started.init_pidfd)
     return ChildProgram(started.process, started.command_pid, started.init_pid)

@@ -60,7 +60,9 @@ def read_grade(records: Path, student: str, exercise: str) -> Grade:
     if grade is None:
         raise NotGradedError(f"{path} has no grade for {exercise}; grade with `course grade` first")
     if grade.status == "not graded":
-        raise NotGradedError(f"{student}'s {exercise} was not graded: {grade.reason or 'see ' + str(path)}")
+        raise NotGradedError(
+            f"{student}'s {exercise} was not graded: {grade.why_not_graded or 'see ' + str(path)}"
+        )
     return grade
 
 

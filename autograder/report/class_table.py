@@ -21,8 +21,8 @@ def class_table(grades: Sequence[Grade]) -> RenderableType:
     table.add_column("lost at", overflow="fold")
     for grade in grades:
         if grade.status == "not graded":
-            reason = (grade.reason.splitlines() or [""])[0]
-            table.add_row(grade.student, grade.exercise, Text("not graded", "magenta"), Text(reason))
+            why = Text(grade.why_not_graded)
+            table.add_row(grade.student, grade.exercise, Text("not graded", "magenta"), why)
         elif grade.status == "to mark":
             table.add_row(
                 grade.student, grade.exercise, Text("to mark", MARKS["to mark"][1]), Text(summary(grade))

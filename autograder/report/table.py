@@ -88,7 +88,7 @@ def grade_table(grade: Grade) -> RenderableType:
 def summary(grade: Grade) -> str:
     """Return the score in one line, marked if there was no isolation or no verdict, or a person has to give one."""
     if grade.status == "not graded":
-        return f"NOT GRADED, no points either way{': ' + grade.reason if grade.reason else ''}"
+        return f"NOT GRADED, no points either way: {grade.why_not_graded}"
     if grade.status == "to mark":
         waiting = sum(verdict.status == "to mark" for verdict in grade.checks)
         return f"to be marked by hand: {waiting} of {len(grade.checks)} criteria"

@@ -91,9 +91,9 @@ class BatchProgress:
         """Say that a job could not be graded, and is done again at the end."""
         if not self._elsewhere:  # its verdicts were counted, and come again
             self._pace.expect(len(outcome.grade.checks))
-        (why, *_) = outcome.grade.reason.splitlines() or [""]
         self._console.print(
-            f"{job.student} · {job.exercise}  not graded yet, once more at the end, alone: {why}",
+            f"{job.student} · {job.exercise}  not graded yet, once more at the end, alone: "
+            f"{outcome.grade.why_not_graded}",
             style="magenta",
             markup=False,
             soft_wrap=True,

@@ -136,11 +136,17 @@ def _grade_three(console: Console, jobs: int) -> tuple[list[Grade], list[Section
 
 
 def _require_expected(grades: Sequence[Grade]) -> None:
+    for given in grades:
+        if given.status == "not graded":
+            raise DemoFailed(
+                f"“{given.student}” could not be graded: {given.why_not_graded}\n"
+                "Next: ./course demo --jobs 1, when the machine has less to do."
+            )
     right, *wrong = grades
     if not right.all_passed:
         raise DemoFailed("the reference solution did not get full marks; look at demo/grades.json")
     for faulty in wrong:
-        if faulty.status != "graded" or faulty.all_passed:
+        if faulty.all_passed:
             raise DemoFailed(f"the submission “{faulty.student}” was not found faulty")
 
 

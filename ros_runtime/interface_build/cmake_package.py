@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 import shlex
 import shutil
 import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TextIO
 
 from ros_runtime.interface_build.build_environment import PYTHON_LIB, RosBuild, ros_build, sourced_prefixes
 
 FOLDER = Path(__file__).resolve().parent
-FROM_WHEELS = FOLDER / "from_wheels.cmake"
+FROM_WHEELS = "from_wheels.cmake"
 BUILD_FILES = (FOLDER / "cmake_package.py", FOLDER / "build_environment.py", *sorted(FOLDER.glob("*.cmake")))
 LOG_TAIL_LINES = 40
+# CMake, and the generators that it runs, stumble over "&", quotes and letters beyond ASCII.
+_PLAIN_PATH = re.compile(r"[A-Za-z0-9._/+-]+")
 
 
 def built_prefix(
@@ -54,17 +58,36 @@ def build(source: Path, builds: Path, environ: Mapping[str, str], made_with: Seq
             f"{source.name} needs a C++ compiler and none was found.\nNext: sudo apt-get install -y g++"
         )
     builds.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix=f"{source.name}-", dir=builds) as scratch:
-        staged = Path(scratch) / "prefix"
-        _run_cmake(source, Path(scratch) / "cmake", staged, ros_build(environ), builds / f"{source.name}.log")
+    with tempfile.TemporaryDirectory(prefix=f"{source.name}-", dir=_plain_folder(builds)) as scratch:
+        copied = shutil.copytree(
+            source, Path(scratch, source.name), ignore=shutil.ignore_patterns("__pycache__")
+        )
+        staged = Path(scratch, "prefix")
+        _run_cmake(copied, Path(scratch, "cmake"), staged, ros_build(environ), builds / f"{source.name}.log")
         # One rename at the end: an interrupted build leaves nothing that looks finished.
-        os.replace(staged, prefix)
+        with tempfile.TemporaryDirectory(prefix=f"{source.name}-", dir=builds) as beside:
+            os.replace(shutil.move(staged, beside), prefix)
     return prefix
+
+
+def _plain_folder(builds: Path) -> Path:
+    """Return `builds` or, if CMake cannot take its path, a folder for temporary files.
+
+    Raises:
+        RuntimeError: there is none.
+    """
+    for folder in (builds.resolve(), Path(tempfile.gettempdir()), Path("/tmp"), Path("/var/tmp")):
+        if _PLAIN_PATH.fullmatch(str(folder)) and os.access(folder, os.W_OK):
+            return folder
+    raise RuntimeError(
+        f"CMake cannot build in {builds}, whose path has more than plain letters and digits, and there is no other "
+        "place: nothing can be written to /tmp.\nNext: move your folder to a path of plain letters and digits."
+    )
 
 
 def _run_cmake(source: Path, binary_dir: Path, prefix: Path, ros: RosBuild, log: Path) -> None:
     configure = [
-        *("cmake", "-S", str(source), "-B", str(binary_dir)),
+        *("-S", str(source), "-B", str(binary_dir)),
         f"-DCMAKE_INSTALL_PREFIX={prefix}",
         f"-DPYTHON_INSTALL_DIR={PYTHON_LIB}",
         f"-DPython3_EXECUTABLE={ros.python}",
@@ -74,19 +97,30 @@ def _run_cmake(source: Path, binary_dir: Path, prefix: Path, ros: RosBuild, log:
         *("-DCMAKE_BUILD_TYPE=None", "-DCMAKE_C_FLAGS=-O0 -DNDEBUG", "-DCMAKE_CXX_FLAGS=-O0 -DNDEBUG"),
     ]
     if ros.from_wheels:
-        configure += [
-            "-G",
-            "Ninja",
-            f"-DCMAKE_PROJECT_{source.name}_INCLUDE={FROM_WHEELS}",
-        ]
+        for file in FOLDER.glob("*.cmake"):
+            shutil.copy(file, binary_dir.parent)
+        included = binary_dir.with_name(FROM_WHEELS)
+        configure += ["-G", "Ninja", f"-DCMAKE_PROJECT_{source.name}_INCLUDE={included}"]
     steps = [
         configure,
-        ["cmake", "--build", str(binary_dir), "--parallel", str(os.cpu_count() or 1)],
-        ["cmake", "--install", str(binary_dir)],
+        ["--build", str(binary_dir), "--parallel", str(os.cpu_count() or 1)],
+        ["--install", str(binary_dir)],
     ]
+    cmake = _plain_cmake(binary_dir.parent) if ros.from_wheels else "cmake"
     with log.open("w", encoding="utf-8") as output:
         for step in steps:
-            _run(step, ros.environment, output, log)
+            _run([cmake, *step], ros.environment, output, log)
+
+
+def _plain_cmake(scratch: Path) -> str:
+    """Return the program, which finds its modules by its real path: of a copy, where it cannot take that path."""
+    package = find_spec("cmake")
+    if package is None or package.origin is None:
+        return "cmake"
+    installed = Path(package.origin).resolve().with_name("data")
+    if _PLAIN_PATH.fullmatch(str(installed)):
+        return "cmake"
+    return str(Path(shutil.copytree(installed, scratch / "tool"), "bin/cmake"))
 
 
 def _run(command: list[str], environment: Mapping[str, str], output: TextIO, log: Path) -> None:

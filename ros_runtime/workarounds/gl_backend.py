@@ -7,9 +7,25 @@ import os
 import sys
 from typing import Any
 
+VARIABLE = "MUJOCO_GL"
 BACKENDS = ("egl", "osmesa")  # hardware or Mesa through EGL, else Mesa's off-screen library
+_NONE = ("disable", "disabled", "off", "false", "0")  # MuJoCo's words for it
 HELP = "install libegl1, libgl1-mesa-dri and libopengl0 (EGL) or libosmesa6 (OSMesa)"
 _BOUND_TO_A_PLATFORM = ("mujoco.egl", "mujoco.egl.egl_ext", "mujoco.osmesa")
+
+
+def _set_aside() -> str:
+    """Take the variable from the environment, unless it switches OpenGL off; return it.
+
+    `import mujoco` fails with a backend that it does not know or that is not installed.
+    """
+    asked = os.environ.get(VARIABLE, "").strip().lower()
+    if asked not in _NONE:
+        os.environ.pop(VARIABLE, None)
+    return asked
+
+
+_asked_at_first = _set_aside()
 
 
 class NoOpenGLError(RuntimeError):
@@ -19,28 +35,27 @@ class NoOpenGLError(RuntimeError):
 def open_context(width: int, height: int) -> Any:
     """Open an OpenGL context for pictures of up to `width` × `height` px; free it with its `free()`.
 
-    MUJOCO_GL decides when it is set. Otherwise EGL is tried, then OSMesa, and MUJOCO_GL is set to what works.
+    MUJOCO_GL decides when it is set to one of the two. Otherwise, also where it names one that needs a screen, EGL is
+    tried, then OSMesa, and MUJOCO_GL is set to what works.
 
     Raises:
         NoOpenGLError: none works; the message has the reason for each and what to install.
     """
-    asked = os.environ.get("MUJOCO_GL", "").strip().lower()
+    asked = _set_aside() or _asked_at_first
     reasons = []
-    for backend in [asked] if asked else BACKENDS:
+    for backend in [asked] if asked in BACKENDS else BACKENDS:
         try:
             context = _context_class(backend)(width, height)
         except Exception as error:  # each backend fails in its own way, with any kind of exception
             reasons.append(f"{backend}: {error or type(error).__name__}")
             _forget_pyopengl()
         else:
-            os.environ["MUJOCO_GL"] = backend
+            os.environ[VARIABLE] = backend
             return context
     raise NoOpenGLError(f"no OpenGL without a screen ({'; '.join(reasons)}): {HELP}")
 
 
 def _context_class(backend: str) -> Any:
-    if backend not in (*BACKENDS, "glfw"):
-        raise ValueError(f"MUJOCO_GL is {backend!r}; expected egl, osmesa or glfw, or unset it")
     return importlib.import_module(f"mujoco.{backend}").GLContext
 
 

@@ -1,4 +1,4 @@
-"""Repair rclpy in every process of the environment, when it imports rclpy.executors and rclpy.action.client.
+"""Repair rclpy in every process of the environment, when it imports a module that has a fault.
 
 A .pth file calls `install` whenever Python starts. So this module imports nothing that costs time, and rclpy
 only when the program does. RCLPY_REPAIRS=off leaves rclpy as it is, to see the fault.
@@ -16,14 +16,22 @@ if TYPE_CHECKING:  # typing itself takes a millisecond to import
     from importlib.machinery import ModuleSpec
     from types import ModuleType
 
-EXECUTORS, ACTION_CLIENT = "rclpy.executors", "rclpy.action.client"
-
 
 def install() -> None:
-    """Watch for the import of the modules that are repaired."""
+    """Watch for the import of the modules that are repaired.
+
+    Another middleware, which a shell names for other ROS work, is set aside: where it is not installed, rcl ends the
+    process at the import of rclpy, and where it is, the course's nodes all use the default one.
+    """
+    if os.environ.get("RMW_IMPLEMENTATION") not in (None, "rmw_fastrtps_cpp"):
+        del os.environ["RMW_IMPLEMENTATION"]
     if os.environ.get("RCLPY_REPAIRS") == "off":
         return
-    for name, repair in ((EXECUTORS, _repair_executors), (ACTION_CLIENT, _repair_action_client)):
+    for name, repair in (
+        ("rclpy.executors", _repair_executors),
+        ("rclpy.action.client", _repair_action_client),
+        ("rclpy.experimental.events_executor", _repair_events_executor),
+    ):
         if name not in sys.modules:
             sys.meta_path.insert(0, _Finder(name, repair))
 
@@ -43,6 +51,15 @@ def _repair_action_client(module: ModuleType) -> None:
 
     if lost_answers.needs_repair(module):
         lost_answers.repair(module)
+
+
+def _repair_events_executor(module: ModuleType) -> None:
+    from pathlib import Path
+
+    from ros_runtime.workarounds.rclpy_repairs import endless_wait
+
+    if endless_wait.needs_repair(Path(module._rclpy.__file__)):
+        endless_wait.repair(module._rclpy)
 
 
 class _Finder:

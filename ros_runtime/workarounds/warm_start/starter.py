@@ -57,6 +57,7 @@ def keep(order: dict, descriptors: list[int], guard: ForkGuard) -> dict:
         status = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
         os.write(report, f"{status}\n".encode())
         os._exit(0)
+    os.setsid()
     for number, stream in enumerate(streams):
         os.dup2(stream, number)
     for descriptor in (*streams, report):

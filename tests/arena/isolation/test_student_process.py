@@ -84,20 +84,22 @@ wait()
     assert re.search(r'node\.py", line \d in wait\n', run.stderr)
 
 
-def test_an_interrupt_reaches_its_handler_and_nothing_else(kind: Kind) -> None:
+@pytest.mark.parametrize("warm", [False, True], ids=["cold", "warm"])
+def test_an_interrupt_reaches_its_process_group_as_in_a_terminal(kind: Kind, warm: bool) -> None:
     code = """
 import subprocess, sys, time
 child = subprocess.Popen(["/bin/sleep", "60"])
+elsewhere = subprocess.Popen(["/bin/sleep", "60"], start_new_session=True)
 try:
     print("ready")
     time.sleep(60)
 except KeyboardInterrupt:
-    print("interrupted, child", child.poll())
-    child.kill()
+    print("interrupted, child", child.wait(), "elsewhere", elsewhere.poll())
+    elsewhere.kill()
     sys.exit(5)
 """
-    run = run_student(Student(code, "wait_for_line('ready'); student.interrupt()"), kind)
-    assert run.stdout == "ready\ninterrupted, child None\n"
+    run = run_student(Student(code, "wait_for_line('ready'); student.interrupt()", warm=warm), kind)
+    assert run.stdout == "ready\ninterrupted, child -2 elsewhere None\n"
     assert run.returncode == 5
 
 

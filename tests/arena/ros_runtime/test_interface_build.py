@@ -17,6 +17,7 @@ from ros_runtime.interface_build.student_package import build_package
 
 SRV = "geometry_msgs/PointStamped target\n---\nint32 NO_WAY=-31\nint32 error_code\nfloat64 distance\n"
 ACTION = "float64 distance\n---\nuint16 NONE=0\nuint16 error_code\n---\nfloat64 distance_remaining\n"
+ODD_NAME = 'Téléchargements & "what\'s in" them'  # as people name folders; CMake cannot take any of it
 USE = """
 import rclpy
 from my_interfaces.action import Go
@@ -74,7 +75,7 @@ def build(source: Path, out: Path, name: str = "my_interfaces") -> subprocess.Co
 
 @pytest.fixture(scope="module")
 def source(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("definitions")
+    folder = tmp_path_factory.mktemp(ODD_NAME)
     (folder / "Ask.srv").write_text(SRV)
     (folder / "Go.action").write_text(ACTION)
     return folder
@@ -82,7 +83,7 @@ def source(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("built")
+    return tmp_path_factory.mktemp(ODD_NAME)
 
 
 @pytest.fixture(scope="module")

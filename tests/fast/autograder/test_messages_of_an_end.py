@@ -49,6 +49,11 @@ NO_RETURN = said(
             "goal_handle.canceled() was called while the goal was EXECUTING.",
         ),
         (said("RuntimeError: no running event loop"), "no asyncio event loop"),
+        (
+            said("battery.py: error: unrecognized arguments: --ros-args -r __ns:=/robot"),
+            "Your program refused --ros-args, with which every ROS program is started.",
+        ),
+        (said("getopt.GetoptError: option --ros-args not recognized"), "Your program refused --ros-args"),
         (said("OSError: [Errno 28] No space left on device"), "too much to disk"),
         (said("RuntimeError: can't start new thread"), "too many threads or processes"),
         (said("MemoryError"), "too much memory"),

@@ -95,10 +95,10 @@ def test_a_file_that_nobody_may_read_is_told(tmp_path: Path, monkeypatch: pytest
     path = tmp_path / "battery_service.py"
     path.write_text("pass")
 
-    def refuse(*_: object, **__: object) -> str:
+    def refuse(*_: object, **__: object) -> bytes:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(Path, "read_text", refuse)
+    monkeypatch.setattr(Path, "read_bytes", refuse)
     with pytest.raises(UnusableSubmission, match=r"battery_service\.py cannot be read: Permission denied"):
         Work("anna", "battery_service", path).read()
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -127,6 +128,40 @@ def test_sourcing_ros_2_jazzy_asks_for_an_environment_that_uses_it(clone: Path, 
     assert state(clone, ROS_DISTRO="jazzy", AMENT_PREFIX_PATH=f"/elsewhere:{prefix}") == "other-ros"
     assert state(clone, ROS_DISTRO="humble", AMENT_PREFIX_PATH=str(prefix)) == "ready"
     assert state(clone, ROS_DISTRO="jazzy", AMENT_PREFIX_PATH="/elsewhere") == "ready"
+
+
+def test_a_clone_in_a_path_that_some_tools_cannot_take_is_used_through_a_link(clone: Path) -> None:
+    odd = clone.rename(clone.with_name('Año 1 & "Sam\'s" $HOME'))
+    (odd / ".venv/bin/course").write_text('#!/bin/sh\necho "$0"\n')
+    link = plain_path(odd)
+    try:
+        assert re.fullmatch(r"[\w/.-]+", str(link), re.ASCII)
+        assert link.readlink() == odd
+        assert state(odd) == "moved"
+        (odd / ".venv/course.stamp").write_text(f"{dry_run(odd)[1]}\n{link}\nwheels\n")
+        assert state(odd) == "ready"
+        assert subprocess.check_output([odd / "course"], text=True) == f"{link}/.venv/bin/course\n"
+
+        link.parent.chmod(0o777)  # anybody could lead it elsewhere
+        assert plain_path(odd).parent != link.parent
+    finally:
+        for parent in ("/var/tmp", "/tmp"):
+            shutil.rmtree(Path(parent, link.parent.name), ignore_errors=True)
+
+
+def plain_path(clone: Path) -> Path:
+    """The path by which the launcher calls the clone."""
+    call = '. setup/plain_path.sh; plain_path "$PWD"'
+    return Path(subprocess.check_output(["bash", "-c", call], cwd=clone, text=True).strip())
+
+
+def test_a_colon_in_its_path_is_refused_in_a_sentence(clone: Path) -> None:
+    odd = clone.rename(clone.with_name("12:30"))
+
+    refused = subprocess.run([odd / "course"], capture_output=True, text=True)
+
+    assert refused.returncode == 1
+    assert "12:30, has a colon, which separates folders in PATH.\ncourse: Next: move it" in refused.stderr
 
 
 @pytest.mark.parametrize("home", ["", "/nonexistent"])

@@ -1,0 +1,44 @@
+"""A command that could not do its job says why, in a sentence."""
+
+from __future__ import annotations
+
+import errno
+import sqlite3
+
+import pytest
+
+from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.report.table import summary
+from course_cli import app
+from course_cli.commands.demo import DemoFailed, _require_expected
+
+NOT_JUDGED = CheckVerdict(
+    "walks", "It walks", "error", 0, 1, help="Not graded: the machine was too busy.\nMore."
+)
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        OSError(errno.ENOSPC, "No space left on device"),
+        OSError(errno.EDQUOT, "Disk quota exceeded"),
+        sqlite3.OperationalError("database or disk is full"),
+    ],
+)
+def test_a_full_disk(monkeypatch: pytest.MonkeyPatch, error: Exception) -> None:
+    def fail() -> None:
+        try:
+            raise error
+        except Exception as cause:
+            raise RuntimeError("the gradebook could not be written") from cause
+
+    monkeypatch.setattr(app.Command, "load", lambda command: fail)
+    with pytest.raises(SystemExit, match=r"^course: the disk is full\.(.|\n)*Next: make room"):
+        app.main(["bench"])
+
+
+def test_a_submission_that_was_not_graded() -> None:
+    grade = Grade("walk_to", "right", "namespaces", [NOT_JUDGED])
+    assert summary(grade) == "NOT GRADED, no points either way: the machine was too busy."
+    with pytest.raises(DemoFailed, match=r"“right” could not be graded: .* too busy\.\nNext: .*--jobs 1"):
+        _require_expected([grade])
