@@ -215,7 +215,8 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
     if len(candidates) == 1:
         return candidates[0], []
     exercise = candidates[0].exercise
-    given = [released(exercise), *(one.given for one in candidates)]
+    release = exercises_folder().parent / "exercises" / exercise / f"{exercise}.ipynb"
+    given = [released(release), *(one.given for one in candidates)]
 
     def standing(one: Candidate) -> int:
         if isinstance(one.sources, UnusableSubmission):
@@ -223,8 +224,8 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
         return 2 if any(_same(one.sources, texts) for texts in given) else 0
 
     standings = {one: standing(one) for one in candidates}
-    rest = _least(candidates, standings.__getitem__)
-    rest = _least(rest, lambda one: one.copy == ANY_NAME)
+    rest = _least(candidates, lambda one: one.copy == ANY_NAME and 2 - one.is_notebook)
+    rest = _least(rest, standings.__getitem__)
     rest = _least(rest, lambda one: -one.turn)
     rest = _least(rest, lambda one: one.depth)
     newest = max(one.changed for one in rest)
@@ -232,10 +233,10 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
     chosen = min(rest, key=lambda one: (not one.is_notebook, one.copy, str(one.path)))
 
     def why(one: Candidate) -> str:
-        if standings[one] != standings[chosen]:
-            return "is as it was given out" if standings[one] == 2 else f"cannot be read: {one.sources}"
         if one.copy == ANY_NAME != chosen.copy:
             return f"is not called as {exercise} asks, and {chosen.path} is"
+        if standings[one] != standings[chosen]:
+            return "is as it was given out" if standings[one] == 2 else f"cannot be read: {one.sources}"
         if one.turn != chosen.turn:
             return f"was handed in again as {chosen.path}"
         if one.depth != chosen.depth:
@@ -270,9 +271,8 @@ def given_in(notebook: bytes) -> dict[str, str]:
 
 
 @lru_cache
-def released(exercise: str) -> dict[str, str]:
-    """Return what students were given for an exercise, if its release lies beside the exercises."""
-    release = exercises_folder().parent / "exercises" / exercise / f"{exercise}.ipynb"
+def released(release: Path) -> dict[str, str]:
+    """Return what students were given, if a release is there."""
     return given_in(release.read_bytes()) if release.is_file() else {}
 
 
@@ -305,19 +305,18 @@ def candidates_in(
     for path in _visible_files(folder, depth, names):
         within = path.relative_to(folder)
         homes = [home for part in within.parts[:-1] if (home := names.exercise_of(part))]
-        named = names.of(path.name)
-        if not named and path.is_symlink() and (linked := names.exercise_of(path.name)):
-            named = Named(linked, f"{linked}.ipynb")
-        if not named and homes and names.exercise_of(path.parent.name) == homes[-1]:
-            named = names.any_of(homes[-1], path.name)
-        if named and (not homes or homes[-1] == named.exercise):
-            place = {named.name: OwnFile(path)}
+        own = names.of(path.name)
+        if not own and path.is_symlink() and (linked := names.exercise_of(path.name)):
+            own = Named(linked, f"{linked}.ipynb")
+        if not own and homes and names.exercise_of(path.parent.name) == homes[-1]:
+            own = names.any_of(homes[-1], path.name)
+        if own and (not homes or homes[-1] == own.exercise):
+            place = {own.name: OwnFile(path)}
             deep, changed = len(within.parts) - 1 - bool(homes), path.lstat().st_mtime
-            found.append(
-                Candidate(named.exercise, within, place, depth=deep, changed=changed, copy=named.copy)
-            )
+            found.append(Candidate(own.exercise, within, place, depth=deep, changed=changed, copy=own.copy))
     by_exercise: dict[str, list[Candidate]] = {}
-    for one in merged(found):
+    named = {one.exercise for one in found if one.copy != ANY_NAME}
+    for one in merged(one for one in found if one.copy != ANY_NAME or one.exercise not in named):
         by_exercise.setdefault(one.exercise, []).append(one)
     return by_exercise
 

@@ -70,6 +70,7 @@ def test_a_file_of_another_name_is_of_no_exercise(name: str) -> None:
 
 def test_in_the_exercises_own_folder_any_name_will_do(tmp_path: Path) -> None:
     put(tmp_path, "anna/battery_service/final version.ipynb", "bert/final version.ipynb")
+    put(tmp_path / "anna/battery_service", ("a file.py", ""), ("where_am_i.py", OTHER))
     collection = collect(tmp_path)
     (work,) = collection.works
     assert work.read().sources == {f"{NAME}.py": WORK}
@@ -100,6 +101,7 @@ CASES = {
     ),
     "the notebook": ([(FIRST, OTHER), f"{NAME}.ipynb"], f"{FIRST} is older than {NAME}.ipynb"),
     "nothing to say of the same": ([FIRST, f"{NAME}.ipynb", f"old/{FIRST}"], ""),
+    "nothing of what examples write": ([FIRST, (f"{NAME}/where_am_i.py", OTHER)], ""),
     "no installed package": ([FIRST, (f"venv/lib/site-packages/{FIRST}", OTHER)], ""),
 }
 
