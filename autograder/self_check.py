@@ -11,7 +11,8 @@ from rich.console import Console
 from autograder.authoring.checks import Check
 from autograder.engine.exercise import Exercise, file_names, load_exercise
 from autograder.engine.grading import grade
-from autograder.engine.submission import place_of_work, read_submission
+from autograder.engine.hand_in import work_in
+from autograder.engine.submission import UnusableSubmission, place_of_work, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.availability import available_isolation
@@ -54,7 +55,26 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
     """
     console = _console()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
+    if not file and (line := _graded_instead(exercise, path)):
+        console.print(line, style="yellow", markup=False)
     return SelfCheck(check_and_keep(console, path, exercise))
+
+
+def _graded_instead(exercise: str, path: Path) -> str:
+    """Return a sentence if a grader would take another file of this folder, which holds other work; "" otherwise."""
+    if not (path.exists() and (found := work_in(Path(), exercise, depth=0))):
+        return ""
+    counts = found[0]
+    try:
+        is_other = read_submission(counts, exercise).sources != read_submission(path, exercise).sources
+    except UnusableSubmission:
+        return ""
+    return (
+        f"{counts} is what a grader takes, and as it is saved it holds other work than {path}: save it, and run its "
+        "cells again"
+        if is_other
+        else ""
+    )
 
 
 def check_and_keep(

@@ -5,15 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from nbgrader.utils import parse_utc
 
 from autograder.engine.exercise import all_names, file_names
-from autograder.engine.submission import Submission, UnusableSubmission, read_submission
+from autograder.engine.hand_in import Candidate, OwnFile, candidates_in, choose_work
+from autograder.engine.submission import Submission, UnusableSubmission
 
 STUDENT = re.compile(r"[\w@+][\w@+.,' -]*")  # what nbgrader, a file system and a shell all take as a name
 _SECRET = re.compile("[0-9a-f]{128}")
+MOST_NAMED = 5  # of the files of somebody who handed in nothing
 LAYOUT = "SUBMITTED/<student>/<exercise>/<exercise>.ipynb or SUBMITTED/<student>/<exercise>.py"
 
 
@@ -23,49 +26,39 @@ class NoSubmissions(Exception):
 
 @dataclass(frozen=True)
 class Work:
-    """One student's submission for one exercise; `path` is None when their folder has no file of that name."""
+    """One student's submission for one exercise; without candidates their folder for it has no file of that name."""
 
     student: str
     exercise: str
-    path: Path | None
+    candidates: tuple[Candidate, ...] = ()
     timestamp: str = ""  # as in the timestamp.txt of nbgrader's collect
     secret: str = ""  # as in its submission_secret.txt, by which feedback finds its way back
 
     def read(self) -> Submission:
         """Read the submission; raises UnusableSubmission, which says what is wrong with it."""
-        if self.path is None:
+        if not self.candidates:
             names = " nor ".join(file_names(self.exercise))
             raise UnusableSubmission(
                 f"the folder {self.exercise} holds neither {self.exercise}.ipynb nor {names}"
             )
-        if any(path.is_symlink() or not path.is_file() for path in self.files()):
-            raise UnusableSubmission(f"{self.path.name} is not an ordinary file")
-        if self.path.parent.is_symlink():
-            raise UnusableSubmission(
-                f"the folder {self.path.parent.name} is a link; hand in the folder itself, with the files in it"
-            )
-        try:
-            submission = read_submission(self.path, self.exercise, self.student)
-        except UnusableSubmission as error:
-            # Students read this, and the instructor's folders are not their business.
-            raise UnusableSubmission(str(error).replace(str(self.path), self.path.name)) from error
-        try:
-            "".join(submission.sources.values()).encode()
-        except UnicodeEncodeError as error:
-            raise UnusableSubmission(
-                f"{self.path.name} holds characters that no text can: {error.reason}"
-            ) from error
-        return submission
+        sources = self._choice[0].sources
+        if isinstance(sources, UnusableSubmission):
+            raise sources
+        return Submission(self.exercise, self.student, sources)
+
+    @property
+    def left_aside(self) -> list[str]:
+        """A sentence for each file that is this exercise's, too, holds something else and does not count."""
+        return [f"{self.student}: {line}" for line in self._choice[1]] if self.candidates else []
+
+    @cached_property
+    def _choice(self) -> tuple[Candidate, list[str]]:
+        return choose_work(self.candidates)
 
     def files(self) -> list[Path]:
-        """Return the files that would be read."""
-        if self.path is None:
-            return []
-        names = file_names(self.exercise)
-        is_their_folder = len(names) > 1 and self.path.suffix != ".ipynb" and self.path.is_dir()
-        if self.path.is_symlink() or not is_their_folder:
-            return [self.path]
-        return [place for name in names if _is_there(place := self.path / name)]
+        """Return the files that may be read."""
+        files = (file for candidate in self.candidates for file in candidate.files.values())
+        return [file.path for file in files if isinstance(file, OwnFile)]
 
 
 @dataclass(frozen=True)
@@ -102,7 +95,10 @@ def collect(folder: Path) -> Collection:
                 refused.append(f"the folder {student.name!r} cannot be read: {error.strerror}")
                 continue
             if not found:
-                ignored.append(f"{student.name} handed in none of {', '.join(files)}")
+                there = ", ".join(path.name for path in _visible(student)[:MOST_NAMED]) or "nothing"
+                ignored.append(
+                    f"{student.name} handed in none of {', '.join(files)}; their folder holds {there}"
+                )
             works |= {(work.student, work.exercise): work for work in found}
     if not works and not refused:
         raise NoSubmissions(f"found nothing to grade in {folder}; expected {LAYOUT}")
@@ -115,28 +111,13 @@ def files_of_exercises() -> Mapping[str, tuple[str, ...]]:
 
 
 def works_of(student: Path, files: Mapping[str, tuple[str, ...]]) -> Iterator[Work]:
-    """Yield what one student's folder holds, by exercise.
-
-    A folder for the exercise comes before a file beside it, and a notebook before the file it writes when run.
-    """
-    for exercise, names in files.items():
+    """Yield what one student's folder holds, by exercise; raises OSError if it cannot be read."""
+    found = candidates_in(student, files)
+    for exercise in files:
         folder = student / exercise
-        home = folder if folder.is_dir() else student
-        path = next((place for place in _places(home, exercise, names) if _is_there(place)), None)
-        if path is not None or folder.is_dir():
-            yield Work(student.name, exercise, path, _timestamp(folder), _secret(folder))
-
-
-def _places(folder: Path, exercise: str, names: tuple[str, ...]) -> list[Path]:
-    """Where a submission may be: the notebook, then the program, or the folder of an exercise with several files."""
-    written = [folder / name for name in names]
-    if len(names) > 1:
-        written = [folder] if any(map(_is_there, written)) else []
-    return [folder / f"{exercise}.ipynb", *written]
-
-
-def _is_there(path: Path) -> bool:
-    return path.exists() or path.is_symlink()
+        if exercise in found or folder.is_dir():
+            candidates = tuple(found.get(exercise, ()))
+            yield Work(student.name, exercise, candidates, _timestamp(folder), _secret(folder))
 
 
 def _visible(folder: Path) -> list[Path]:

@@ -156,7 +156,7 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
 
 
 def _work_of(row: _Row, grade: Grade) -> Work:
-    return Work(grade.student, grade.exercise, None, row["timestamp"], row["secret"])
+    return Work(grade.student, grade.exercise, (), row["timestamp"], row["secret"])
 
 
 def _grade_of(row: _Row, folder: Path) -> Grade:

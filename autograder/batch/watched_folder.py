@@ -61,7 +61,7 @@ class WatchedFolder:
 
     def _is_empty(self, work: Work) -> bool:
         """Whether there is a folder for the exercise and nothing in it yet."""
-        if work.path:
+        if work.candidates:
             return False
         try:
             return not any((self._folder / work.student / work.exercise).iterdir())

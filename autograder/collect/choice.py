@@ -1,80 +1,54 @@
-"""Which of a student's files is for which exercise, under which name."""
+"""Which of a student's files is for which exercise, and which counts."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from pathlib import PurePosixPath
 
+from autograder.batch.collection import files_of_exercises
 from autograder.collect.handed_in import Assignment, HandedIn
-from autograder.engine.exercise import all_names, file_names
-
-# What Canvas and browsers put behind the name of a file that they have already.
-_AGAIN = re.compile(r"(?P<stem>.+?)(?:-\d+| ?\(\d+\))")
+from autograder.engine.hand_in import Candidate, Names, choose_work, merged
 
 
 @dataclass
 class Choice:
-    """The files to keep, by student and exercise and by their new name, and a sentence for each that is left aside."""
+    """What to keep, by student and exercise, and a sentence for each file that is left aside."""
 
-    works: dict[tuple[str, str], dict[str, HandedIn]] = field(default_factory=dict)
+    works: dict[tuple[str, str], Candidate] = field(default_factory=dict)
     left_aside: list[str] = field(default_factory=list)
+    timestamps: dict[tuple[str, str], str] = field(default_factory=dict)
 
 
 def choose(files: Sequence[HandedIn], assignment: Assignment) -> Choice:
-    """Assign every file to an exercise by its name, or to the download's exercise; the last one handed in counts."""
+    """Assign every file to an exercise by its name, or to the download's exercise, and choose as every reader does."""
     choice = Choice()
-    known = _known_names()
-    named: set[tuple[str, str, str]] = set()  # files that are called as the exercise wants it
-    for one in sorted(files, key=lambda one: (one.student, one.turn, str(one.file.path))):
-        exercise, name, exact = _place_of(one, known, assignment)
+    names = Names(files_of_exercises())
+    found: dict[tuple[str, str], list[Candidate]] = {}
+    for one in files:
         only = one.exercise or assignment.exercise
-        if not exercise:
+        folders = [home for part in one.file.path.parts[:-1] if (home := names.exercise_of(part))]
+        named = names.of(one.name) or (names.any_of(only, one.name) if only else None)
+        if not named:
             choice.left_aside.append(f"{one.file.path} is of no exercise ({one.student})")
-            continue
-        if only and exercise != only:
-            choice.left_aside.append(f"{one.file.path} is of {exercise}, not of {only} ({one.student})")
-            continue
-        work = choice.works.setdefault((one.student, exercise), {})
-        if (before := work.get(name)) and not exact and (one.student, exercise, name) in named:
-            choice.left_aside.append(
-                f"{one.file.path}: {before.file.path} is called as it should be ({one.student})"
+        elif only and named.exercise != only:
+            choice.left_aside.append(f"{one.file.path} is of {named.exercise}, not of {only} ({one.student})")
+        elif folders and folders[-1] != named.exercise:
+            choice.left_aside.append(f"{one.file.path} lies in the folder of {folders[-1]} ({one.student})")
+        else:
+            depth = len(one.file.path.parts) - bool(folders)
+            candidate = Candidate(
+                named.exercise,
+                one.file.path,
+                {named.name: one.file},
+                one.turn,
+                depth,
+                one.file.changed,
+                named.copy,
             )
-            continue
-        if before:
-            choice.left_aside.append(
-                f"{before.file.path} was handed in again as {one.file.path} ({one.student})"
-            )
-        work[name] = one
-        if exact:
-            named.add((one.student, exercise, name))
+            key = one.student, named.exercise
+            found.setdefault(key, []).append(candidate)
+            choice.timestamps[key] = max(choice.timestamps.get(key, ""), one.timestamp)
+    for key, candidates in sorted(found.items()):
+        choice.works[key], others = choose_work(merged(candidates))
+        choice.left_aside += [f"{line} ({key[0]})" for line in others]
     return choice
-
-
-def _known_names() -> dict[str, tuple[str, str]]:
-    """The exercise and the right name of every file that students write, by that name in small letters."""
-    names: dict[str, tuple[str, str]] = {}
-    for exercise in all_names():
-        for name in (f"{exercise}.ipynb", *file_names(exercise)):
-            names[name.lower()] = (exercise, name)
-    return names
-
-
-def _place_of(
-    one: HandedIn, known: dict[str, tuple[str, str]], assignment: Assignment
-) -> tuple[str, str, bool]:
-    """Return the exercise, the name its file gets there, and whether the student called it so."""
-    path = PurePosixPath(one.name)
-    again = _AGAIN.fullmatch(path.stem)
-    for stem in (path.stem, again["stem"] if again else path.stem):
-        if found := known.get(f"{stem}{path.suffix}".lower()):
-            return (*found, True)
-    exercise = one.exercise or assignment.exercise
-    possible = [
-        f"{exercise}.ipynb",
-        *(file_names(exercise) if exercise and len(file_names(exercise)) == 1 else ()),
-    ]
-    if exercise and f"{exercise}{path.suffix}" in possible:
-        return exercise, f"{exercise}{path.suffix}", False
-    return "", "", False

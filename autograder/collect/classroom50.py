@@ -17,7 +17,7 @@ EXPECTED = "folders such as robotics-battery-service-anna"
 
 
 def read(download: Download, assignment: Assignment) -> Reading:
-    """Return every student's files; of two with the same name the one nearest to the top counts."""
+    """Return every student's files."""
     reading = Reading()
     exercises = _by_slug(assignment)
     slugs = "|".join(sorted(map(re.escape, exercises), key=len, reverse=True))
@@ -34,7 +34,7 @@ def read(download: Download, assignment: Assignment) -> Reading:
             reading.refused.append(str(error))
             continue
         exercise = exercises[match["slug"].lower()]
-        reading.files.append(HandedIn(student, parts[-1], file, -len(parts), exercise))
+        reading.files.append(HandedIn(student, parts[-1], file, exercise=exercise))
     known = ", ".join(sorted(exercises))
     reading.unknown = [
         f"{name} is not called <classroom>-<assignment>-<user> with one of {known}"

@@ -12,29 +12,34 @@ import zipfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path, PurePosixPath
 from typing import BinaryIO
 
+from autograder.engine.hand_in import NOT_THEIRS
+from autograder.engine.submission import CLEAR_OUTPUTS, MAX_NOTEBOOK_BYTES, UnusableSubmission
+
 MOST_FILES = 200_000
 MOST_BYTES = 4 * 2**30  # read of one download
-_JUNK = ("__MACOSX", ".git", ".ipynb_checkpoints", "__pycache__", ".DS_Store")
+_JUNK = (*NOT_THEIRS, ".git", ".ipynb_checkpoints", ".DS_Store")
 
 
 class UnusableDownload(Exception):
     """The download cannot be read as one of the platform; the message says what was found and what is expected."""
 
 
-class Refused(Exception):
+class Refused(UnusableSubmission):
     """One file of the download is not read; the message says why."""
 
 
 @dataclass(frozen=True)
 class File:
-    """One file of a download: where it lies there, and how it is opened."""
+    """One file of a download: where it lies there, how it is opened, and when it was changed (s)."""
 
     path: PurePosixPath
     open: Callable[[], BinaryIO]
     budget: Budget
+    changed: float = 0.0
 
     def read(self, limit: int) -> bytes:
         """Return its content.
@@ -57,7 +62,8 @@ class File:
         except Exception as error:  # each way of compression has errors of its own
             raise Refused(f"{self.path} cannot be unpacked: {error}") from error
         if len(content) > limit:
-            raise Refused(f"{self.path} has more than {limit:,} bytes, and no submission has as many")
+            advice = f": {CLEAR_OUTPUTS}" if limit == MAX_NOTEBOOK_BYTES else ""
+            raise Refused(f"{self.path} has more than {limit:,} bytes, and no submission has as many{advice}")
         self.budget.spend(len(content))
         return content
 
@@ -118,23 +124,39 @@ def _sorted(found: Iterator[File | str]) -> Download:
 
 
 def _from_zip(archive: zipfile.ZipFile, budget: Budget) -> Iterator[File | str]:
-    seen: set[str] = set()
+    seen: set[PurePosixPath] = set()
     for entry in archive.infolist():
-        path = PurePosixPath(entry.filename)
+        path = _place(entry.filename)
         kind = stat.S_IFMT(entry.external_attr >> 16)
-        if entry.is_dir() or _is_junk(path):
+        if entry.filename.endswith(("/", "\\")) or _is_junk(path):
             continue
-        if path.is_absolute() or ".." in path.parts or "\\" in entry.filename or ":" in path.parts[0][1:2]:
+        if _leads_out(path):
             yield f"{entry.filename!r} leads out of the download"
         elif kind not in (0, stat.S_IFREG):
             yield f"{entry.filename!r} is a link or a device"
         elif entry.flag_bits & 1:
             yield f"{entry.filename!r} is encrypted"
-        elif entry.filename in seen:
+        elif path in seen:
             yield f"{entry.filename!r} is there twice"
         else:
-            seen.add(entry.filename)
-            yield File(path, _opener(archive, entry), budget)
+            seen.add(path)
+            yield File(path, _opener(archive, entry), budget, _time_of(entry))
+
+
+def _place(name: str) -> PurePosixPath:
+    """Where a file lies: some programs for Windows write backslashes between folders, against the format."""
+    return PurePosixPath(name.replace("\\", "/"))
+
+
+def _leads_out(path: PurePosixPath) -> bool:
+    return path.is_absolute() or ".." in path.parts or ":" in path.parts[0][1:2]
+
+
+def _time_of(entry: zipfile.ZipInfo) -> float:
+    try:
+        return datetime(*entry.date_time).timestamp()
+    except (ValueError, OverflowError):
+        return 0.0
 
 
 def _opener(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Callable[[], BinaryIO]:
@@ -147,11 +169,14 @@ def _from_folder(folder: Path, budget: Budget) -> Iterator[File | str]:
         links = [name for name in folders if os.path.islink(os.path.join(place, name))]
         folders[:] = sorted(name for name in folders if name not in _JUNK and name not in links)
         for name in sorted([*links, *names]):
-            path = inside / name
+            path = _place(str(inside / name))
             if _is_junk(path):
                 continue
-            if stat.S_ISREG(os.lstat(os.path.join(place, name)).st_mode):
-                yield File(path, _plain_opener(Path(place) / name), budget)
+            found = os.lstat(os.path.join(place, name))
+            if _leads_out(path):
+                yield f"{name!r} leads out of the download"
+            elif stat.S_ISREG(found.st_mode):
+                yield File(path, _plain_opener(Path(place) / name), budget, found.st_mtime)
             else:
                 yield f"{str(path)!r} is a link or a device"
 

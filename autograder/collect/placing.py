@@ -9,9 +9,8 @@ from pathlib import Path
 from autograder.atomic_file import write_atomically
 from autograder.collect.choice import Choice
 from autograder.collect.download import Refused
-from autograder.collect.handed_in import HandedIn
 from autograder.engine.exercise import file_names
-from autograder.engine.submission import MAX_BYTES, MAX_NOTEBOOK_BYTES
+from autograder.engine.submission import most_bytes
 
 TIMESTAMP = "timestamp.txt"
 
@@ -28,10 +27,10 @@ class Placed:
 def place(choice: Choice, out: Path, *, overwrite: bool) -> Placed:
     """Write every submission as a whole: all of its files, or none where one cannot be read."""
     placed = Placed()
-    for (student, exercise), files in sorted(choice.works.items()):
+    for (student, exercise), work in sorted(choice.works.items()):
         folder = out / student / exercise
         try:
-            contents = {name: _read(name, one) for name, one in files.items()}
+            contents = {name: file.read(most_bytes(name)) for name, file in work.files.items()}
         except Refused as error:
             placed.refused.append(f"{student}'s {exercise}: {error}")
             continue
@@ -46,13 +45,9 @@ def place(choice: Choice, out: Path, *, overwrite: bool) -> Placed:
                 f"{student}'s {exercise}: {folder} holds other work; --overwrite replaces it, another --out keeps both"
             )
         else:
-            _write(folder, contents, before, files)
+            _write(folder, contents, before, choice.timestamps[student, exercise])
             placed.written.append((student, exercise))
     return placed
-
-
-def _read(name: str, one: HandedIn) -> bytes:
-    return one.file.read(MAX_NOTEBOOK_BYTES if name.endswith(".ipynb") else MAX_BYTES)
 
 
 def _there(folder: Path, exercise: str) -> dict[str, bytes | None]:
@@ -69,12 +64,12 @@ def _write(
     folder: Path,
     contents: Mapping[str, bytes],
     before: Mapping[str, bytes | None],
-    files: Mapping[str, HandedIn],
+    timestamp: str,
 ) -> None:
     for name in before.keys() - contents.keys():
         (folder / name).unlink()
     for name, content in contents.items():
         write_atomically(folder / name, content)
     (folder / TIMESTAMP).unlink(missing_ok=True)
-    if timestamp := max(one.timestamp for one in files.values()):
+    if timestamp:
         write_atomically(folder / TIMESTAMP, f"{timestamp}\n")

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
+
+from autograder.engine.notebook import cells_in, source_of
 
 _CLAUSE = re.compile(r"^(\d+)\. +(.+(?:\n(?!\d+\. |\n).+)*)", re.MULTILINE)
 _MARKUP = re.compile(r"[`*]")
@@ -14,14 +15,15 @@ _MARKUP = re.compile(r"[`*]")
 
 @cache
 def clauses_in(notebook: Path) -> Mapping[int, str]:
-    """Return the clauses by number, each as one line of plain text; none, if there is no such notebook."""
-    if not notebook.is_file():
+    """Return the clauses by number, each as one line of plain text; none, if there is no notebook that can be read."""
+    try:
+        cells = cells_in(notebook.read_text(encoding="utf-8-sig"))
+    except (OSError, ValueError):
         return {}
-    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
-    task = next((cell for cell in cells if cell.get("id") == "task"), {"source": ""})
+    task = next((cell for cell in cells if cell.get("id") == "task"), {})
     return {
         int(number): " ".join(_MARKUP.sub("", text).split())
-        for number, text in _CLAUSE.findall("".join(task["source"]))
+        for number, text in _CLAUSE.findall(source_of(task))
     }
 
 

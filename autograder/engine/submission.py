@@ -5,18 +5,25 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from autograder.engine.exercise import file_names
+from autograder.engine.notebook import code_cells, written_by
 from autograder.engine.program_text import NoProgram, bytes_of, text_of
 
 MAX_BYTES = 1_000_000  # of a file a student writes
-LONGEST_QUOTE = 500  # characters of why a notebook is none, which may quote all of it
 MAX_NOTEBOOK_BYTES = 50_000_000  # a notebook also holds pictures of the robot
+CLEAR_OUTPUTS = (
+    "clear its outputs (in JupyterLab Edit > Clear Outputs of All Cells), save it and hand it in again"
+)
+_HALF_A_CHARACTER = re.compile("[\ud800-\udfff]")  # half of an emoji, which an editor cut in two
 
 
 class UnusableSubmission(Exception):
     """The submission cannot be read; the message says what was found and what is expected."""
+
+    def __init__(self, message: str) -> None:
+        super().__init__(message.encode(errors="backslashreplace").decode())  # it may quote half a character
 
     def _render_traceback_(self) -> list[str]:
         """Jupyter shows this instead of a traceback."""
@@ -55,71 +62,97 @@ def read_submission(path: Path, exercise: str, student: str = "you") -> Submissi
     if not path.exists():
         hint = f"; run the cell that begins %%writefile {path.name}" if path.name in names else ""
         raise UnusableSubmission(f"there is no file {path}{hint}")
-    if path.suffix == ".ipynb":
-        written = sources_from_notebook(_text(path.name, _read(path, MAX_NOTEBOOK_BYTES), path), names, path)
-        # %%writefile writes UTF-8, whatever the program declares
-        sources = {
-            name: _text(name, text.encode(errors="surrogatepass"), path) for name, text in written.items()
-        }
+    if ".ipynb" in map(str.lower, path.suffixes):
+        files = {f"{exercise}.ipynb": path}
     elif path.is_dir():
-        there = [name for name in names if (path / name).exists()]
-        sources = {name: _text(name, _read(path / name, MAX_BYTES), path / name) for name in there}
+        files = {name: path / name for name in names if (path / name).exists()}
     elif len(names) == 1:
-        sources = {names[0]: _text(names[0], _read(path, MAX_BYTES), path)}
+        files = {names[0]: path}
     else:
         raise UnusableSubmission(
             f"{exercise} has several files, {', '.join(names)}: give the folder they lie in, or the notebook"
         )
-    if not sources:
+    if not files:
         raise UnusableSubmission(f"{path} holds none of {', '.join(names)}")
-    for name, text in sources.items():
-        _require_at_most(MAX_BYTES, len(text), name)
+    return read_files(files, exercise, student)
+
+
+def read_files(files: Mapping[str, Path], exercise: str, student: str = "you") -> Submission:
+    """Read a notebook or the files, given by their names in the exercise.
+
+    Raises:
+        UnusableSubmission: one of them cannot be read.
+    """
+    sources: dict[str, str] = {}
+    for name, path in files.items():
+        sources |= sources_of(name, read_bytes(path, most_bytes(name), path), exercise, path)
     return Submission(exercise, student, sources)
 
 
-def sources_from_notebook(text: str, names: tuple[str, ...], path: Path) -> dict[str, str]:
-    """Return, for each name, the source in the last cell that begins `%%writefile NAME`; the notebook is not run."""
-    import nbformat  # which takes a quarter of a second to import, and a program is read without it
+def sources_of(name: str, content: bytes, exercise: str, path: PurePath) -> dict[str, str]:
+    """Return the texts of the exercise's files that the file `name` holds, which is one of them or the notebook.
 
-    try:
-        notebook = nbformat.reads(text, as_version=4)
-        cells = [
-            source
-            for cell in notebook.cells
-            if cell.get("cell_type") == "code" and isinstance(source := cell.get("source"), str)
-        ]
-    except Exception as error:  # a broken file fails in many ways: no JSON, no cells, cells that are none
-        raise UnusableSubmission(f"{path} is not a notebook: {str(error)[:LONGEST_QUOTE]}") from error
-    found = {
-        name: source for name in names for cell in cells if (source := written_by(cell, name)) is not None
-    }
-    if not found:
-        wanted = " or ".join(f"'%%writefile {name}'" for name in names)
-        raise UnusableSubmission(f"{path} has no code cell that begins with {wanted}")
-    return found
-
-
-def written_by(cell: str, name: str) -> str | None:
-    """Return what a cell writes into the file of that name; None if it does not."""
-    magic = re.match(rf"\s*%%writefile\s+(?:\./)?{re.escape(name)}\s*\n", cell)
-    return cell[magic.end() :] if magic else None
+    Raises:
+        UnusableSubmission: it cannot be read; the message calls it `path`.
+    """
+    text = _text(name, content, path)
+    if not name.endswith(".ipynb"):
+        return {name: text}
+    sources = sources_from_notebook(text, file_names(exercise), path)
+    for file, source in sources.items():
+        _require_at_most(MAX_BYTES, len(source), file)
+        if half := _HALF_A_CHARACTER.search(source):
+            line = source.count("\n", 0, half.start()) + 1
+            raise UnusableSubmission(
+                f"{path}: line {line} of {file} holds half a character, \\u{ord(half[0]):x}, which no file can: "
+                "delete it there"
+            )
+    # %%writefile writes UTF-8, whatever the program declares
+    return {file: _text(file, source.encode(), path) for file, source in sources.items()}
 
 
-def _read(path: Path, limit: int) -> bytes:
-    try:
-        _require_at_most(limit, path.stat().st_size, str(path))
-        return path.read_bytes()
-    except OSError as error:  # a folder of that name, or nobody may read it
-        raise UnusableSubmission(f"{path} cannot be read: {error.strerror}") from error
-
-
-def _text(name: str, content: bytes, path: Path) -> str:
+def _text(name: str, content: bytes, path: PurePath) -> str:
     try:
         return text_of(name, content)
     except NoProgram as error:
         raise UnusableSubmission(f"{path} {error}") from error
 
 
+def most_bytes(name: str) -> int:
+    """Return how many bytes of a file of that name are read."""
+    return MAX_NOTEBOOK_BYTES if name.endswith(".ipynb") else MAX_BYTES
+
+
+def sources_from_notebook(text: str, names: tuple[str, ...], path: PurePath) -> dict[str, str]:
+    """Return the text of each of these files that the notebook's cells write, run from top to bottom; none is run."""
+    try:
+        written = written_by(code_cells(text))
+    except ValueError as error:
+        raise UnusableSubmission(f"{path} {error}") from error
+    found = {name: there for name in names if (there := _file_of(name, written.files)) is not None}
+    if not found:
+        wanted = " or ".join(f"'%%writefile {name}'" for name in names)
+        because = f": {written.failures[0]}" if written.failures else ""
+        raise UnusableSubmission(f"{path} has no code cell that begins with {wanted}{because}")
+    return found
+
+
+def _file_of(name: str, files: Mapping[str, str]) -> str | None:
+    """Return the text of a file; if the notebook writes it elsewhere or in other capitals alone, of the last one."""
+    elsewhere = [text for path, text in files.items() if PurePath(path).name.lower() == name.lower()]
+    return files.get(name, elsewhere[-1] if elsewhere else None)
+
+
+def read_bytes(path: Path, limit: int, called: object) -> bytes:
+    """Return a file's content; raises `UnusableSubmission`, which calls it `called`, if it is no file of this size."""
+    try:
+        _require_at_most(limit, path.stat().st_size, str(called))
+        return path.read_bytes()
+    except OSError as error:  # a folder of that name, or nobody may read it
+        raise UnusableSubmission(f"{called} cannot be read: {error.strerror}") from error
+
+
 def _require_at_most(limit: int, size: int, what: str) -> None:
     if size > limit:
-        raise UnusableSubmission(f"{what} has {size} bytes; at most {limit} are read")
+        advice = f"; {CLEAR_OUTPUTS}" if limit == MAX_NOTEBOOK_BYTES else ""
+        raise UnusableSubmission(f"{what} has {size:,} bytes; at most {limit:,} are read{advice}")

@@ -11,7 +11,7 @@ from nbgrader.utils import is_solution
 
 from autograder.engine.essay import load_essay
 from autograder.engine.exercise import essay_names, file_names
-from autograder.engine.submission import written_by
+from autograder.engine.notebook import written_by
 
 ON_PAPER = "Your marker saw this drawn."  # for the feedback page, from which nbgrader takes every drawing
 
@@ -24,13 +24,10 @@ class EssayPictures(NbGraderPreprocessor):
         name = resources["nbgrader"]["assignment"]
         if name not in essay_names() or (picture := load_essay(name).picture) is None:
             return nb, resources
-        cells = {
-            file: cell
-            for file in file_names(name)
-            for cell in nb.cells
-            if cell.cell_type == "code" and is_solution(cell) and written_by(cell.source, file) is not None
-        }
-        svg = picture({file: written_by(cell.source, file) or "" for file, cell in cells.items()})
+        solutions = [cell for cell in nb.cells if cell.cell_type == "code" and is_solution(cell)]
+        written = [(cell, written_by([cell.source]).files) for cell in solutions]
+        cells = {file: cell for file in file_names(name) for cell, files in written if file in files}
+        svg = picture({file: text for _, files in written for file, text in files.items() if file in cells})
         if svg and cells:
             first = next(iter(cells.values()))
             first.outputs = [new_output("display_data", data={"image/svg+xml": svg, "text/plain": ON_PAPER})]

@@ -25,6 +25,7 @@ from autograder.nbgrader_bridge.course_folder import (
 from autograder.nbgrader_bridge.generated_cells import with_generated_cells
 from autograder.nbgrader_bridge.hand_marks import ask_again, with_marks
 from autograder.nbgrader_bridge.rebuild_submission import rebuild_submission
+from autograder.nbgrader_bridge.source_notebook import read_source
 
 TIMESTAMP, SECRET = "timestamp.txt", "submission_secret.txt"
 
@@ -110,7 +111,7 @@ class CourseGradebook:
             return
         folder = self._folder / "source" / exercise
         folder.mkdir(parents=True, exist_ok=True)
-        source = nbformat.read(self._solutions / exercise / f"{exercise}.ipynb", as_version=4)
+        source = read_source(self._solutions / exercise / f"{exercise}.ipynb")
         nbformat.write(with_generated_cells(source, exercise), folder / f"{exercise}.ipynb")
         try:
             call(self._course.generate_assignment, exercise)

@@ -10,6 +10,7 @@ import nbformat
 
 from autograder.nbgrader_bridge.course_folder import call, open_course
 from autograder.nbgrader_bridge.generated_cells import with_generated_cells
+from autograder.nbgrader_bridge.source_notebook import read_source
 
 
 def source_notebooks(solutions: Path) -> dict[str, Path]:
@@ -49,7 +50,9 @@ def generate_release(solutions: Path, exercises: Path) -> None:
     with tempfile.TemporaryDirectory() as temporary:
         course = Path(temporary)
         for exercise, notebook in source_notebooks(solutions).items():
-            copy_notebook(notebook, course / "source" / exercise)
+            place = course / "source" / exercise / notebook.name
+            place.parent.mkdir(parents=True)
+            nbformat.write(read_source(notebook), place)
             call(open_course(course, gradebook=False).generate_assignment, exercise)
             copy_notebook(course / "release" / exercise / notebook.name, exercises / exercise)
 
@@ -60,7 +63,7 @@ def _wanted(solutions: Path, exercises: Path) -> dict[Path, str | None]:
     with tempfile.TemporaryDirectory() as temporary:
         renewed, released = Path(temporary) / "solutions", Path(temporary) / "exercises"
         for exercise, notebook in source_notebooks(solutions).items():
-            source = nbformat.read(notebook, as_version=4)
+            source = read_source(notebook)
             (renewed / exercise).mkdir(parents=True)
             nbformat.write(with_generated_cells(source, exercise), renewed / exercise / notebook.name)
         generate_release(renewed, released)

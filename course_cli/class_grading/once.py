@@ -37,7 +37,8 @@ def grade_once(console: Console, request: BatchRequest) -> bool:
         record = replace(setting.record, left_aside=collection.ignored, refused=collection.refused)
         results = _grade(setting, request.shard.part(works) if request.shard else works, record)
         rows = record.rows if request.keeps_others else ()  # those of removed submissions do not stay
-        record = replace(record, rows=rows).with_results(results).closed("ended")
+        record = replace(record, rows=rows, left_aside=left_aside(collection, results))
+        record = record.with_results(results).closed("ended")
         if request.shard:
             write_batch(request.out, record)
             is_entered = _write_shard(setting, collection.works, results)
@@ -100,9 +101,14 @@ def _write_class(
     return not unentered
 
 
+def left_aside(collection: Collection, results: Sequence[Graded]) -> list[str]:
+    """Return a sentence for each thing that was handed in and does not count."""
+    return [*collection.ignored, *(line for result in results for line in result.work.left_aside)]
+
+
 def tell_what_is_left(console: Console, collection: Collection, results: Sequence[Graded]) -> int:
     """Name what has no grade; return how many submissions the grader failed to judge."""
-    for line in collection.ignored:
+    for line in left_aside(collection, results):
         console.print(f"left aside: {line}", style="yellow", markup=False)
     for line in collection.refused:
         console.print(f"not graded: {line}", style="red", markup=False)

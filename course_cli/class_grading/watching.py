@@ -21,7 +21,7 @@ from autograder.nbgrader_bridge.course_folder import RELEASE
 from autograder.report.classroom.drawings import Drawings
 from autograder.report.classroom.pages import write_class_page, write_student_page, write_submission_pages
 from course_cli.class_grading.entering import Entering
-from course_cli.class_grading.once import tell_what_is_left
+from course_cli.class_grading.once import left_aside, tell_what_is_left
 from course_cli.class_grading.progress import BatchProgress
 from course_cli.class_grading.setting import Setting, prepared
 
@@ -76,7 +76,7 @@ class _Watch:
                 pass
         self._record = replace(
             self._record,
-            left_aside=self._folder.collection.ignored,
+            left_aside=left_aside(self._folder.collection, list(self._results.values())),
             refused=self._folder.collection.refused,
         ).closed("interrupted" if self._folder.unfinished else "ended")
         self._write_class()

@@ -18,11 +18,15 @@ from autograder.engine.exercise import (
     file_names,
     scenario_file,
 )
-from autograder.engine.submission import UnusableSubmission, place_of_work, read_submission
+from autograder.engine.hand_in import MOST_FOLDERS, work_in
+from autograder.engine.submission import UnusableSubmission, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 from course_cli.jobs_option import JobsOption
+from ros_runtime.project import PROJECT
+
+FOLDERS_HERE = 2  # below the one in which the command was typed
 
 
 def check(
@@ -30,7 +34,7 @@ def check(
     file: Annotated[
         Path | None,
         typer.Argument(
-            help="your .py file or notebook (default: EXERCISE.py here, else exercises/EXERCISE/)"
+            help="your .py file, notebook or folder (default: your last work here, else in exercises/EXERCISE/)"
         ),
     ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", help="write the verdicts to this file")] = None,
@@ -44,7 +48,9 @@ def check(
     """Check your own solution of an exercise."""
     console = Console(highlight=False)
     try:
-        path = file or _default_file(exercise)
+        path, left_aside = _work(exercise, file)
+        for line in left_aside:
+            console.print(f"left aside: {line}", style="yellow", markup=False)
         if exercise in essay_names():
             _show_rubric(console, exercise, path)
             return
@@ -71,13 +77,19 @@ def _show_rubric(console: Console, exercise: str, path: Path) -> None:
         console.print(f"  {criterion.title}: {criterion.points} points", markup=False)
 
 
-def _default_file(exercise: str) -> Path:
-    """Return the first existing file of the places where a student's work may be."""
-    if written := place_of_work(exercise, Path()):
-        return written
-    notebooks = [Path("exercises") / exercise / f"{exercise}.ipynb", Path(f"{exercise}.ipynb")]
-    for notebook in notebooks:
-        if notebook.exists():
-            return notebook
-    looked_for = ", ".join([*file_names(exercise), *map(str, notebooks)])
-    raise UnusableSubmission(f"found none of {looked_for}; name your file: ./course check {exercise} FILE")
+def _work(exercise: str, file: Path | None) -> tuple[Path, list[str]]:
+    """Return the student's file, and a sentence for each other one of the exercise that lies there."""
+    if file and not file.is_dir():
+        return file, []
+    here = Path()
+    own = Path("exercises") / exercise
+    below = 0 if here.resolve() == PROJECT else FOLDERS_HERE  # the project has known submissions
+    places = [(file, MOST_FOLDERS)] if file else [(here, 0), (own, MOST_FOLDERS), (here, below)]
+    for folder, depth in places:
+        if folder.is_dir() and (found := work_in(folder, exercise, depth=depth)):
+            return found
+    names = ", ".join([f"{exercise}.ipynb", *file_names(exercise)])
+    folders = str(file) if file else f"this folder and {own}"
+    raise UnusableSubmission(
+        f"found none of {names} in {folders}; name your file: ./course check {exercise} FILE"
+    )

@@ -9,6 +9,7 @@ import typer
 from rich.console import Console
 
 from autograder.engine.exercise import UnusableExercise, exercises_folder
+from autograder.nbgrader_bridge.course_folder import NbgraderError
 from autograder.nbgrader_bridge.release import bring_up_to_date, out_of_date
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
@@ -38,7 +39,7 @@ def release(
     console = Console(highlight=False)
     try:
         _release(console, out, exercises, check)
-    except UnusableExercise as error:
+    except (NbgraderError, UnusableExercise) as error:
         raise ended(console, error, UNUSABLE) from error
 
 

@@ -114,7 +114,7 @@ def _require_no_more_than_full(grade: Grade) -> None:
 
 
 def _shard(number: int) -> bytes:
-    works = [Work(name, EXERCISE, None, "") for name in ("anna", "bert", "zoe", "zora")]
+    works = [Work(name, EXERCISE) for name in ("anna", "bert", "zoe", "zora")]
     shard = Shard(number, 2)
     graded = [
         Graded(

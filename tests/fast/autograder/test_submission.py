@@ -27,7 +27,7 @@ def test_of_a_notebook_the_last_cell_that_writes_the_file_counts_and_nothing_is_
             "%%writefile battery_service.py\nnew",
         )
     )
-    assert read_submission(file, "battery_service").sources == {"battery_service.py": "new"}
+    assert read_submission(file, "battery_service").sources == {"battery_service.py": "new\n"}
 
 
 def test_several_files_are_read_from_a_notebook_or_a_folder(tmp_path):
@@ -90,7 +90,7 @@ def test_a_program_that_was_not_written_yet_names_its_cell(tmp_path):
 
 def test_a_reason_quotes_little_of_a_notebook(tmp_path):
     file = tmp_path / "work.ipynb"
-    file.write_text(json.dumps({"nbformat": "4" + "x" * 3_000_000, "cells": []}))
-    with pytest.raises(UnusableSubmission, match="Unsupported nbformat version 4xxx") as caught:
+    file.write_text(notebook(f"%%writefile {'x' * 2_000_000}\npass"))
+    with pytest.raises(UnusableSubmission, match="its arguments have 2,000,000 characters") as caught:
         read_submission(file, "battery_service")
     assert len(str(caught.value)) < 2000

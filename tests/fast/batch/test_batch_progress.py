@@ -34,7 +34,7 @@ def job(student: str) -> GradingJob:
 def result(student: str, cached: bool = False) -> Graded:
     effort = Effort("", "", "here", 1.0, 1, 1)
     grade = Grade("walk_to", student, "namespaces", [VERDICT])
-    return Graded(Work(student, "walk_to", None), grade, {}, cached=cached, effort=effort)
+    return Graded(Work(student, "walk_to"), grade, {}, cached=cached, effort=effort)
 
 
 @pytest.fixture
@@ -113,7 +113,7 @@ def test_a_submission_without_verdicts_is_counted_as_done(clock):
     progress = BatchProgress(console, clock=clock)
     progress.expect(checks=4, submissions=2)
     clock.now = PERIOD
-    lost = Graded(Work("anna", "walk_to", None), Grade("walk_to", "anna", "", reason="lost"), {})
+    lost = Graded(Work("anna", "walk_to"), Grade("walk_to", "anna", "", reason="lost"), {})
     progress.graded(lost, checks=2)
     assert progress._pace.done == 2
 

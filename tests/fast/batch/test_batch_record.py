@@ -36,7 +36,7 @@ def result(student, host="one", status="passed", seconds=20.5):
     )
     effort = Effort("2026-03-01T12:00:01+00:00", "2026-03-01T12:00:41+00:00", host, seconds, 2, 9)
     return Graded(
-        Work(student, "battery_service", None, "2026-02-28 08:00:00 UTC"), grade, PROGRAM, effort=effort
+        Work(student, "battery_service", (), "2026-02-28 08:00:00 UTC"), grade, PROGRAM, effort=effort
     )
 
 

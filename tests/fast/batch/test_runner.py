@@ -12,6 +12,7 @@ from autograder.batch.cache import GradeCache
 from autograder.batch.collection import Work
 from autograder.batch.runner import BatchRunner
 from autograder.engine.exercise import load_exercise
+from autograder.engine.hand_in import candidate_at
 from autograder.engine.stop import Stopped
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_process import Kind
@@ -44,8 +45,11 @@ def works(tmp_path):
     sources = {"anna": "right", "bert": "crash", "carl": "busy", "dora": "right"}
     for student, source in sources.items():
         (tmp_path / f"{student}.py").write_text(source)
-    found = [Work(student, "battery_service", tmp_path / f"{student}.py") for student in sources]
-    return [*found, Work("emil", "battery_service", None)]
+    found = [
+        Work(student, "battery_service", (candidate_at(tmp_path / f"{student}.py", "battery_service"),))
+        for student in sources
+    ]
+    return [*found, Work("emil", "battery_service")]
 
 
 def batch(tmp_path, isolation=ISOLATED, **options):
@@ -109,7 +113,10 @@ def test_leaving_early_ends_what_runs_and_starts_nothing_more(tmp_path, works, m
         raise Stopped
 
     monkeypatch.setattr(module, "grade", until_stopped)
-    blocked = [works[0], *(Work(name, "battery_service", works[3].path) for name in ("fred", "gina", "hans"))]
+    blocked = [
+        works[0],
+        *(Work(name, "battery_service", works[3].candidates) for name in ("fred", "gina", "hans")),
+    ]
     with closing(batch(tmp_path).run(blocked)) as results:
         assert next(results).work.student == "anna"
     assert "hans" not in started

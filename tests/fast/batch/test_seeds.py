@@ -18,6 +18,7 @@ from autograder.batch.shards import Shard
 from autograder.engine import grading
 from autograder.engine.arena_run import NotGraded
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise
+from autograder.engine.hand_in import candidate_at
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import Grade
 from autograder.isolation.arena_process import Kind
@@ -55,7 +56,7 @@ def test_shards_agree_without_a_word_until_what_was_handed_in_differs(tmp_path):
     for student in ("anna", "bert"):
         path = tmp_path / f"{student}.py"
         path.write_text(f"name = {student!r}\n")
-        works.append(Work(student, "walk_to", path))
+        works.append(Work(student, "walk_to", (candidate_at(path, "walk_to"),)))
     first, second = (replace(NEW, shard=Shard(number, 2)) for number in (1, 2))
     seeds = choose_seeds(first, None, (), works)
     assert seeds == choose_seeds(second, None, (), works[::-1])

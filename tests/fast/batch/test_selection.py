@@ -10,9 +10,7 @@ from autograder.batch.seeds import Seeds
 from autograder.batch.selection import NothingSelected, OtherSeed, require_seed, select, with_others
 from autograder.engine.verdict import CheckVerdict, Grade
 
-WORKS = [
-    Work(student, exercise, None) for student in ("anna", "bert") for exercise in ("patterns", "walk_to")
-]
+WORKS = [Work(student, exercise) for student in ("anna", "bert") for exercise in ("patterns", "walk_to")]
 
 
 def grade(student: str, exercise: str, points: float = 1, seed: int = 0) -> Grade:

@@ -13,7 +13,7 @@ from autograder.batch.shards import SHARD, CannotMerge, Shard, merge_shards, wri
 from autograder.engine.verdict import CheckVerdict, Grade
 
 WORKS = [
-    Work(f"student{number}", exercise, None, "2026-03-01 12:00:00 UTC")
+    Work(f"student{number}", exercise, (), "2026-03-01 12:00:00 UTC")
     for number in range(5)
     for exercise in ("battery_service", "walk_to")
 ]
@@ -80,7 +80,7 @@ def test_what_is_not_one_batch_is_refused(tmp_path, change, message):
 
 
 def test_an_essay_stands_beside_grades_without_isolation(tmp_path):
-    work = Work("zoe", "arm_architecture", None)
+    work = Work("zoe", "arm_architecture")
     write_shard(
         tmp_path,
         Shard(1, 1),

@@ -12,7 +12,7 @@ from ros_runtime.project import PROJECT
 
 
 def result(student, sources, exercise="battery_service"):
-    return Graded(Work(student, exercise, None), Grade(exercise, student, "namespaces"), sources)
+    return Graded(Work(student, exercise), Grade(exercise, student, "namespaces"), sources)
 
 
 def files(folder: Path) -> dict[str, str]:

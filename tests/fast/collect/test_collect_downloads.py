@@ -6,11 +6,23 @@ import re
 from pathlib import Path
 
 import pytest
-from downloads import ALL, CANVAS, CLASSROOM50, GRADESCOPE, MOODLE, PROGRAM, notebook, unpacked, zipped
+from downloads import (
+    ALL,
+    CANVAS,
+    CLASSROOM50,
+    GRADESCOPE,
+    METADATA,
+    MOODLE,
+    PROGRAM,
+    notebook,
+    unpacked,
+    zipped,
+)
 from typer.testing import CliRunner, Result
 
 from autograder.batch.collection import collect
 from course_cli.app import app
+from ros_runtime.project import PROJECT
 
 WANTED = {
     "canvas": {"leeanna-101": "second = 2\n", "oneilbert-102": PROGRAM},
@@ -216,3 +228,54 @@ def test_unusable_arguments(tmp_path: Path) -> None:
     (tmp_path / "text.zip").write_text("no zip")
     assert course(tmp_path / "text.zip", "--from", "canvas").exit_code == 2
     assert course(tmp_path / "missing.zip", "--from", "canvas").exit_code == 2
+
+
+def test_the_last_attachment_counts_whatever_was_put_around_its_name(tmp_path: Path) -> None:
+    files = {
+        "ohl_1_9001_battery_service.ipynb": notebook("first = 1\n"),
+        "ohl_1_9002_battery_service (1)-1.ipynb": notebook("second = 1\n"),
+        "kim_LATE_2_9003_battery_service-Copy1.ipynb": notebook("copy = 1\n"),
+        "li_3_9004_Copy of battery_service.ipynb": notebook("colab = 1\n"),
+        "pat_4_9005_battery_service.ipynb.txt": notebook("safari = 1\n"),
+        "team_5_9006_Battery_Service.IPYNB": notebook("capitals = 1\n"),
+        "zoe_6_9007_battery_service.py": "work = 1\n",
+        "zoe_6_9008_battery_service-1.ipynb": (
+            PROJECT / "exercises/battery_service/battery_service.ipynb"
+        ).read_text(),
+    }
+    done = course(zipped(tmp_path / "d.zip", files), "--from", "canvas", "--out", tmp_path / "s")
+    assert programs(tmp_path / "s") == {
+        "ohl-1": "second = 1\n",
+        "kim-2": "copy = 1\n",
+        "li-3": "colab = 1\n",
+        "pat-4": "safari = 1\n",
+        "team-5": "capitals = 1\n",
+        "zoe-6": "work = 1\n",
+    }
+    assert "9001_battery_service.ipynb was handed in again as ohl_1_9002" in said(done)
+    assert "zoe_6_9008_battery_service-1.ipynb is as it was given out" in said(done)
+
+
+TOPS = {
+    "moodle": "Mira_4_assignsubmission_file_/",
+    "gradescope": "submission_77/",
+    "classroom50": "ros-battery_service-mira/",
+}
+
+
+@pytest.mark.parametrize("platform", TOPS)
+def test_a_copy_in_a_folder_never_comes_before_the_work_at_the_top(tmp_path: Path, platform: str) -> None:
+    places = ["battery_service.py", "old/battery_service.py", "venv/lib/battery_service.py"]
+    files = {f"{TOPS[platform]}{place}": f"place = {place!r}\n" for place in places}
+    files |= {"submission_metadata.yml": METADATA} if platform == "gradescope" else {}
+    done = course(zipped(tmp_path / "d.zip", files), "--from", platform, "--out", tmp_path / "s")
+    assert set(programs(tmp_path / "s").values()) == {"place = 'battery_service.py'\n"}
+    assert said(done).count("lies deeper than") == 2
+
+
+@pytest.mark.parametrize("packed", [zipped, unpacked])
+def test_backslashes_between_folders_are_slashes(tmp_path: Path, packed) -> None:
+    files = {f"hw/{name}".replace("/", "\\"): text for name, text in MOODLE.items()}
+    done = course(packed(tmp_path / "d", files), "--from", "moodle", "--out", tmp_path / "s")
+    assert done.exit_code == 0, done.output
+    assert programs(tmp_path / "s") == WANTED["moodle"]

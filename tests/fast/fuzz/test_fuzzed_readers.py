@@ -15,6 +15,7 @@ from autograder.batch.collection import Work, collect
 from autograder.batch.records import GRADES, UnusableRecord, read_grades
 from autograder.batch.shards import SHARD, CannotMerge, merge_shards
 from autograder.engine.arena_run import NotGraded, read_events
+from autograder.engine.hand_in import candidate_at
 from autograder.engine.submission import UnusableSubmission
 from autograder.engine.verdict import Grade
 from autograder.report.classroom.drawings import Drawings
@@ -100,7 +101,7 @@ def test_a_file_that_nobody_may_read_is_told(tmp_path: Path, monkeypatch: pytest
 
     monkeypatch.setattr(Path, "read_bytes", refuse)
     with pytest.raises(UnusableSubmission, match=r"battery_service\.py cannot be read: Permission denied"):
-        Work("anna", "battery_service", path).read()
+        Work("anna", "battery_service", (candidate_at(path, "battery_service"),)).read()
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may read every folder")

@@ -18,6 +18,7 @@ from autograder.batch.collection import Work
 from autograder.batch.crew import Workers
 from autograder.batch.job import GradingJob, Outcome
 from autograder.batch.runner import BatchRunner
+from autograder.engine.hand_in import candidate_at
 from autograder.engine.verdict import Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
@@ -51,7 +52,10 @@ def works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[Work]:
     asked.clear()
     for student in ("anna", "bert"):
         (tmp_path / f"{student}.py").write_text(f"# {student}")
-    return [Work(student, "walk_to", tmp_path / f"{student}.py") for student in ("anna", "bert")]
+    return [
+        Work(student, "walk_to", (candidate_at(tmp_path / f"{student}.py", "walk_to"),))
+        for student in ("anna", "bert")
+    ]
 
 
 def batch(tmp_path: Path, recordings: Path | None, **options: Any) -> BatchRunner:

@@ -1,0 +1,335 @@
+"""Which of the files that a student handed in is their work, by one rule for whoever reads hand-ins.
+
+A file belongs to an exercise by its name: that of the exercise's notebook or files, in any capitals, with whatever
+Jupyter, browsers, file managers and drives put around the name of a copy. Of several, in this order:
+
+- real work before what cannot be read, and both before the untouched starter;
+- the one handed in later, if the platform says so;
+- the one nearest to the top: never a copy in old/ before it;
+- the one changed later, if their times differ: what was cloned or unpacked together has one time;
+- the notebook before the file that it writes, and its own name before a copy's.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import unicodedata
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from pathlib import Path, PurePath
+from typing import Protocol
+
+from autograder.engine.exercise import exercises_folder, file_names
+from autograder.engine.notebook import written_by
+from autograder.engine.submission import (
+    MAX_NOTEBOOK_BYTES,
+    UnusableSubmission,
+    most_bytes,
+    read_bytes,
+    sources_of,
+)
+
+ONE_TIME = 60.0  # s; files that differ by less were written together
+ANY_NAME = 2  # as `Named.copy`: the exercise is known from something else
+MOST_FOLDERS = 6  # below a student's that are looked into
+NOT_THEIRS = ("__MACOSX", "__pycache__", "node_modules", "site-packages")  # folders that programs fill
+_COPY = "copy|copie|copia|cópia|kopie|kopia|kopi|kopio|kopya|копия|másolat|副本|コピー|복사본"
+_OF = "of|von|de|di|da|van|av|af|z"
+_KINDS = re.compile(r"(?P<stem>.+?)(?P<kind>\.\w+?)(?:\.txt|\.json|(?P=kind))?", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Named:
+    """What a file is by its name.
+
+    Attributes:
+        exercise: to which it belongs.
+        name: as the exercise calls it.
+        copy: 0 for that name itself, negative for a copy that a number makes a later one, positive for others.
+    """
+
+    exercise: str
+    name: str
+    copy: int = 0
+
+
+class Names:
+    """The names of the files of exercises, and those of their copies."""
+
+    def __init__(self, files: Mapping[str, Sequence[str]]) -> None:
+        self.files = files
+        self._folders = {_in_words(exercise): exercise for exercise in files}
+        self._known = {
+            (_in_words(PurePath(name).stem), PurePath(name).suffix.lower()): (exercise, name)
+            for exercise, names in files.items()
+            for name in (f"{exercise}.ipynb", *names)
+        }
+        stems = "|".join(sorted({re.escape(stem) for stem, _ in self._known}, key=len, reverse=True))
+        self._copies = re.compile(
+            rf"(?P<before>(?:(?:{_COPY})_(?:(?:{_OF})_)?)*)(?P<stem>{stems})"
+            rf"(?P<after>(?:_(?:another_)?的?(?:{_COPY})?_?\d{{0,3}})*)"
+        )
+
+    def of(self, name: str) -> Named | None:
+        """Return what a file of that name is; None if it is of no exercise."""
+        kinds = _KINDS.fullmatch(name)
+        words = self._copies.fullmatch(_in_words(kinds["stem"])) if kinds else None
+        if not kinds or not words or not (known := self._known.get((words["stem"], kinds["kind"].lower()))):
+            return None
+        exercise, own = known
+        if name == own:
+            return Named(exercise, own)
+        is_copy = words["before"] or re.search(_COPY, words["after"])
+        numbers = [] if is_copy else re.findall(r"\d+", words["after"])
+        return Named(exercise, own, -int(numbers[-1]) if numbers else 1)
+
+    def any_of(self, exercise: str, name: str) -> Named | None:
+        """Return what a notebook or program of any name is where it can only be for this exercise."""
+        kind = PurePath(name).suffix.lower()
+        own = [f"{exercise}.ipynb", *(self.files[exercise] if len(self.files[exercise]) == 1 else ())]
+        return next((Named(exercise, one, ANY_NAME) for one in own if PurePath(one).suffix == kind), None)
+
+    def exercise_of(self, folder: str) -> str | None:
+        """Return the exercise as which a folder is called; None if it is none."""
+        return self._folders.get(_in_words(folder))
+
+
+def _in_words(stem: str) -> str:
+    return re.sub(r"[\W_]+", "_", unicodedata.normalize("NFC", stem).casefold()).strip("_")
+
+
+class Readable(Protocol):
+    """A file of a hand-in."""
+
+    def read(self, limit: int) -> bytes:
+        """Return its content; raises `UnusableSubmission` if that is more than `limit` bytes, or cannot be read."""
+
+
+@dataclass(frozen=True)
+class OwnFile:
+    """A file on this machine in a folder that a student has filled: a link in it is not followed."""
+
+    path: Path
+
+    def read(self, limit: int) -> bytes:
+        """Return its content; raises `UnusableSubmission`, which calls the file by its name alone."""
+        name = self.path.name
+        if self.path.is_symlink() and self.path.is_dir():
+            raise UnusableSubmission(
+                f"the folder {name} is a link; hand in the folder itself, with the files in it"
+            )
+        if self.path.is_symlink() or not self.path.is_file():
+            raise UnusableSubmission(f"{name} is not an ordinary file")
+        return read_bytes(self.path, limit, called=name)
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A notebook, or the file or files of an exercise, which may be a student's work.
+
+    Attributes:
+        exercise: its name.
+        path: what it is called where a person reads of it.
+        files: by their names in the exercise.
+        turn: of two hand-ins the one with the higher turn is the later one.
+        depth: in how many folders it lies, but for the exercise's own.
+        changed: when, in s.
+        copy: as in `Named`.
+    """
+
+    exercise: str
+    path: PurePath
+    files: Mapping[str, Readable]
+    turn: int = 0
+    depth: int = 0
+    changed: float = 0.0
+    copy: int = 0
+
+    @property
+    def is_notebook(self) -> bool:
+        """Whether it is the notebook."""
+        return f"{self.exercise}.ipynb" in self.files
+
+    @cached_property
+    def sources(self) -> dict[str, str] | UnusableSubmission:
+        """The texts of the exercise's files, or why they cannot be read."""
+        sources: dict[str, str] = {}
+        try:
+            for name, file in self.files.items():
+                called = PurePath(self.path.name) if len(self.files) == 1 else PurePath(name)
+                sources |= sources_of(name, file.read(most_bytes(name)), self.exercise, called)
+        except UnusableSubmission as error:
+            return error
+        return sources
+
+    @cached_property
+    def given(self) -> dict[str, str]:
+        """What those cells of a notebook write that are as they were given to students, by nbgrader's checksums."""
+        if not self.is_notebook or isinstance(self.sources, UnusableSubmission):
+            return {}
+        (file,) = self.files.values()
+        return given_in(file.read(MAX_NOTEBOOK_BYTES))
+
+
+def candidate_at(path: Path, exercise: str) -> Candidate:
+    """Return the notebook or program at this place, whatever it is called."""
+    name = path.name if path.suffix == ".ipynb" else file_names(exercise)[0]
+    return Candidate(exercise, PurePath(path.name), {name: OwnFile(path)})
+
+
+def work_in(folder: Path, exercise: str, *, depth: int = MOST_FOLDERS) -> tuple[Path, list[str]] | None:
+    """Return where an exercise's work is in a folder, and a sentence for each other file that might be; None without.
+
+    Raises:
+        OSError: the folder cannot be read.
+        UnknownExercise: there is none of that name.
+    """
+    found = candidates_in(folder, {exercise: file_names(exercise)}, depth=depth).get(exercise)
+    if not found:
+        return None
+    chosen, others = choose_work(found)
+    return folder / chosen.path, others
+
+
+def merged(found: Iterable[Candidate]) -> list[Candidate]:
+    """Return the same, with those that are some of an exercise's several files made one for each folder."""
+    whole: list[Candidate] = []
+    parts: dict[tuple[str, PurePath], list[Candidate]] = {}
+    for one in found:
+        if one.is_notebook or len(file_names(one.exercise)) == 1:
+            whole.append(one)
+        else:
+            parts.setdefault((one.exercise, one.path.parent), []).append(one)
+    for (exercise, folder), ones in parts.items():
+        best = sorted(ones, key=lambda one: (one.turn, -one.copy))  # later ones replace earlier ones
+        files = {name: file for one in best for name, file in one.files.items()}
+        turn, changed = max(one.turn for one in ones), max(one.changed for one in ones)
+        whole.append(Candidate(exercise, folder, files, turn, ones[0].depth, changed))
+    return whole
+
+
+def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
+    """Return the one that counts, and a sentence for each other that holds something else."""
+    if len(candidates) == 1:
+        return candidates[0], []
+    exercise = candidates[0].exercise
+    release = exercises_folder().parent / "exercises" / exercise / f"{exercise}.ipynb"
+    given = [released(release), *(one.given for one in candidates)]
+
+    def standing(one: Candidate) -> int:
+        if isinstance(one.sources, UnusableSubmission):
+            return 1
+        return 2 if any(_same(one.sources, texts) for texts in given) else 0
+
+    standings = {one: standing(one) for one in candidates}
+    rest = _least(candidates, lambda one: one.copy == ANY_NAME and 2 - one.is_notebook)
+    rest = _least(rest, standings.__getitem__)
+    rest = _least(rest, lambda one: -one.turn)
+    rest = _least(rest, lambda one: one.depth)
+    newest = max(one.changed for one in rest)
+    rest = [one for one in rest if one.changed > newest - ONE_TIME]
+    chosen = min(rest, key=lambda one: (not one.is_notebook, one.copy, str(one.path)))
+
+    def why(one: Candidate) -> str:
+        if one.copy == ANY_NAME != chosen.copy:
+            return f"is not called as {exercise} asks, and {chosen.path} is"
+        if standings[one] != standings[chosen]:
+            return "is as it was given out" if standings[one] == 2 else f"cannot be read: {one.sources}"
+        if one.turn != chosen.turn:
+            return f"was handed in again as {chosen.path}"
+        if one.depth != chosen.depth:
+            return f"lies deeper than {chosen.path}"
+        if one.changed <= newest - ONE_TIME:
+            return f"is older than {chosen.path}"
+        return f"comes after {chosen.path}" + (
+            ", the notebook" if chosen.is_notebook > one.is_notebook else ""
+        )
+
+    others = sorted(
+        (one for one in candidates if one is not chosen and not _same(one.sources, chosen.sources)),
+        key=lambda one: str(one.path),
+    )
+    return chosen, [f"{one.path} {why(one)}" for one in others]
+
+
+def given_in(notebook: bytes) -> dict[str, str]:
+    """Return what the cells of a notebook write in which students are to work and have not, by nbgrader's checksums."""
+    from nbformat import from_dict
+    from nbgrader.utils import compute_checksum, is_solution
+
+    untouched = []
+    try:
+        for cell in from_dict(json.loads(notebook.decode("utf-8-sig")))["cells"]:
+            cell.source = "".join(cell.source)
+            if is_solution(cell) and cell.metadata.nbgrader.get("checksum") == compute_checksum(cell):
+                untouched.append(cell.source)
+    except Exception:  # metadata can be malformed in many ways: then nobody says that it is as it was given
+        return {}
+    return written_by(untouched).files
+
+
+@lru_cache
+def released(release: Path) -> dict[str, str]:
+    """Return what students were given, if a release is there."""
+    return given_in(release.read_bytes()) if release.is_file() else {}
+
+
+def _same(one: object, other: object) -> bool:
+    """Whether two mappings of texts are the same, but for what stands around a text."""
+    if not isinstance(one, dict) or not isinstance(other, dict):
+        return False
+    return {name: text.strip() for name, text in one.items()} == {
+        name: text.strip() for name, text in other.items()
+    }
+
+
+def _least(candidates: Sequence[Candidate], key: Callable[[Candidate], int]) -> list[Candidate]:
+    least = min(map(key, candidates))
+    return [one for one in candidates if key(one) == least]
+
+
+def candidates_in(
+    folder: Path, files: Mapping[str, Sequence[str]], *, depth: int = MOST_FOLDERS
+) -> dict[str, list[Candidate]]:
+    """Return what may be a student's work in a folder of theirs, for each exercise; no link is followed.
+
+    A folder called as an exercise holds nothing for others; in it a notebook or program of any name may be the work.
+
+    Raises:
+        OSError: the folder cannot be read.
+    """
+    names = Names(files)
+    found: list[Candidate] = []
+    for path in _visible_files(folder, depth, names):
+        within = path.relative_to(folder)
+        homes = [home for part in within.parts[:-1] if (home := names.exercise_of(part))]
+        own = names.of(path.name)
+        if not own and path.is_symlink() and (linked := names.exercise_of(path.name)):
+            own = Named(linked, f"{linked}.ipynb")
+        if not own and homes and names.exercise_of(path.parent.name) == homes[-1]:
+            own = names.any_of(homes[-1], path.name)
+        if own and (not homes or homes[-1] == own.exercise):
+            place = {own.name: OwnFile(path)}
+            deep, changed = len(within.parts) - 1 - bool(homes), path.lstat().st_mtime
+            found.append(Candidate(own.exercise, within, place, depth=deep, changed=changed, copy=own.copy))
+    by_exercise: dict[str, list[Candidate]] = {}
+    named = {one.exercise for one in found if one.copy != ANY_NAME}
+    for one in merged(one for one in found if one.copy != ANY_NAME or one.exercise not in named):
+        by_exercise.setdefault(one.exercise, []).append(one)
+    return by_exercise
+
+
+def _visible_files(folder: Path, depth: int, names: Names) -> Iterator[Path]:
+    """Yield what is no folder, and folders in the place of a file, with at most `depth` folders between."""
+    deeper: list[Path] = []
+    for path in sorted(folder.iterdir()):
+        if path.name.startswith(".") or path.name in NOT_THEIRS:
+            continue
+        if path.is_symlink() or not path.is_dir() or names.of(path.name):
+            yield path
+        elif depth:
+            deeper.append(path)
+    for path in deeper:
+        yield from _visible_files(path, depth - 1, names)

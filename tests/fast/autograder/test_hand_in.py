@@ -1,0 +1,198 @@
+"""Of all that lies in a hand-in, the latest real work counts, whatever its file is called; what does not is named."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+from nbformat.v4 import new_code_cell, new_notebook, writes
+
+from autograder import self_check as module
+from autograder.batch.collection import collect, files_of_exercises
+from autograder.engine.hand_in import Names
+from autograder.engine.verdict import Grade
+from course_cli.commands import check as command
+from ros_runtime.project import PROJECT
+
+NAME = "battery_service"
+STARTER = PROJECT / f"exercises/{NAME}/{NAME}.ipynb"
+WORK, OTHER = "work = 1\n", "other = 1\n"
+HOUR = 3600.0  # s
+
+
+def notebook(program: str = WORK) -> str:
+    return writes(new_notebook(cells=[new_code_cell(f"%%writefile {NAME}.py\n{program}")]))
+
+
+def put(folder: Path, *files: str | tuple[str, str]) -> None:
+    """Write files with work in them, or with the given text; each an hour after the one before it."""
+    for number, file in enumerate(files):
+        name, text = file if isinstance(file, tuple) else (file, "")
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text or (notebook() if ".ipynb" in name.lower() else WORK))
+        os.utime(path, (number * HOUR, number * HOUR))
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *(f"{NAME} (1).ipynb", f"{NAME}(2).py", f"{NAME}-1.py", f"{NAME} (1)-1.ipynb", f"{NAME} 2.ipynb"),
+        *(
+            f"{NAME}-Copy1.ipynb",
+            f"{NAME}-Copy12-3.ipynb",
+            f"Copy of {NAME}.ipynb",
+            f"Kopie von {NAME}.ipynb",
+        ),
+        *(f"{NAME} - Kopie (2).py", f"{NAME} copy.py", f"{NAME} (another copy).py", f"Cópia de {NAME}.ipynb"),
+        *("Battery_Service.IPYNB", "battery service.py", "Battery-Service.py", f"{NAME}.副本.py"),
+        *(f"{NAME}.ipynb.txt", f"{NAME}.ipynb.json", f"{NAME}.py.txt", f"{NAME}.py.py"),
+    ],
+)
+def test_a_copy_is_the_exercises_whatever_made_it(tmp_path: Path, name: str) -> None:
+    for place in ("anna/", "bert/battery_service/", "carla/work/", "dora/Battery_Service/sub/"):
+        put(tmp_path, place + name)
+    works = collect(tmp_path).works
+    assert [(work.student, work.exercise) for work in works] == [
+        (student, NAME) for student in ("anna", "bert", "carla", "dora")
+    ]
+    assert {work.read().sources[f"{NAME}.py"] for work in works} == {WORK}
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["test_battery_service.py", "battery_service_client.py", "battery.py", "battery_service.txt", "x.tar.gz"],
+)
+def test_a_file_of_another_name_is_of_no_exercise(name: str) -> None:
+    assert Names(files_of_exercises()).of(name) is None
+
+
+def test_in_the_exercises_own_folder_any_name_will_do(tmp_path: Path) -> None:
+    put(tmp_path, "anna/battery_service/final version.ipynb", "bert/final version.ipynb")
+    put(tmp_path / "anna/battery_service", ("a file.py", ""), ("where_am_i.py", OTHER))
+    collection = collect(tmp_path)
+    (work,) = collection.works
+    assert work.read().sources == {f"{NAME}.py": WORK}
+    assert "bert handed in none of" in collection.ignored[0]
+    assert collection.ignored[0].endswith("their folder holds final version.ipynb")
+
+
+FIRST, SECOND = f"{NAME}.py", f"{NAME} (1).py"
+CASES = {
+    "the later one": ([(SECOND, OTHER), FIRST], f"{SECOND} is older than {FIRST}"),
+    "also if it is a copy": (
+        [(FIRST, OTHER), f"{NAME}-Copy1.ipynb"],
+        f"{FIRST} is older than {NAME}-Copy1.ipynb",
+    ),
+    "never the starter": (
+        [f"{NAME}-Copy1.ipynb", (f"{NAME}.ipynb", "starter")],
+        f"{NAME}.ipynb is as it was given",
+    ),
+    "nor what it writes": ([f"{NAME}-Copy1.ipynb", (FIRST, "its file")], f"{FIRST} is as it was given out"),
+    "nor one at the top": (
+        [f"sub/{FIRST}", (f"{NAME}.ipynb", "starter")],
+        f"{NAME}.ipynb is as it was given out",
+    ),
+    "never a nested one": ([FIRST, (f"old/{FIRST}", OTHER)], f"old/{FIRST} lies deeper than {FIRST}"),
+    "what can be read": (
+        [FIRST, (f"{NAME}.ipynb", "{")],
+        f"{NAME}.ipynb cannot be read: {NAME}.ipynb is not a note",
+    ),
+    "the notebook": ([(FIRST, OTHER), f"{NAME}.ipynb"], f"{FIRST} is older than {NAME}.ipynb"),
+    "nothing to say of the same": ([FIRST, f"{NAME}.ipynb", f"old/{FIRST}"], ""),
+    "nothing of what examples write": ([FIRST, (f"{NAME}/where_am_i.py", OTHER)], ""),
+    "no installed package": ([FIRST, (f"venv/lib/site-packages/{FIRST}", OTHER)], ""),
+}
+
+
+def put_case(folder: Path, files: list) -> None:
+    texts = {"starter": STARTER.read_text()}
+    if any(file[1] == "its file" for file in files):
+        from autograder.engine.submission import read_submission
+
+        texts["its file"] = read_submission(STARTER, NAME).sources[FIRST]
+    put(
+        folder,
+        *((file[0], texts.get(file[1], file[1])) if isinstance(file, tuple) else file for file in files),
+    )
+
+
+@pytest.mark.parametrize(("files", "line"), CASES.values(), ids=CASES)
+@pytest.mark.parametrize("home", ["anna", f"anna/{NAME}"])
+def test_of_several_one_counts_and_the_others_are_named(
+    tmp_path: Path, files: list, line: str, home: str
+) -> None:
+    put_case(tmp_path / home, files)
+    (work,) = collect(tmp_path).works
+    assert work.read().sources == {FIRST: WORK}
+    within = Path(home).relative_to("anna")
+    said = [one.replace(f"{within}/", "") for one in work.left_aside]
+    assert len(said) == bool(line)
+    assert all(one.startswith(f"anna: {line}") for one in said)
+
+
+def test_files_of_one_time_are_told_apart_by_their_names(tmp_path: Path) -> None:
+    """What was cloned or unpacked together: the notebook first, then numbers upwards, then copies."""
+    order = [f"{NAME}.ipynb", f"{NAME} (2).py", f"{NAME} (1).py", f"{NAME}.py", f"{NAME}-Copy1.py"]
+    for number, name in enumerate(order):
+        text = f"number = {number}\n"
+        put(tmp_path / "anna", (name, notebook(text) if name.endswith("ipynb") else text))
+    for number, name in enumerate(order):
+        (work,) = collect(tmp_path).works
+        assert work.read().sources == {FIRST: f"number = {number}\n"}
+        (tmp_path / "anna" / name).unlink()
+
+
+def test_the_starter_alone_is_what_was_handed_in(tmp_path: Path) -> None:
+    put(tmp_path, (f"anna/{NAME}/{NAME}.ipynb", STARTER.read_text()))
+    (work,) = collect(tmp_path).works
+    assert "# YOUR CODE HERE" in work.read().sources[FIRST]
+    assert work.left_aside == []
+
+
+def test_copies_of_several_files_make_one_work(tmp_path: Path) -> None:
+    put(
+        tmp_path / "anna/work",
+        "GetBatteryStatus (1).srv",
+        ("getbatterystatus.srv", OTHER),
+        "NavigateToPose-Copy1.action",
+    )
+    (work,) = collect(tmp_path).works
+    assert work.read().sources == {"GetBatteryStatus.srv": WORK, "NavigateToPose.action": WORK}
+
+
+def test_a_file_in_the_folder_of_another_exercise_is_not_taken(tmp_path: Path) -> None:
+    put(tmp_path / "anna", f"walk_to/{FIRST}", "walk_to/walk_to.py")
+    assert [work.exercise for work in collect(tmp_path).works] == ["walk_to"]
+
+
+@pytest.mark.parametrize(("files", "line"), CASES.values(), ids=CASES)
+def test_check_takes_what_grade_takes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture, files: list, line: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    put_case(tmp_path / "exercises" / NAME, files)
+    for given in (None, Path("exercises") / NAME):
+        path, left_aside = command._work(NAME, given)
+        assert command.read_submission(path, NAME).sources == {FIRST: WORK}
+        assert [one[: len(line)] for one in left_aside] == ([line] if line else [])
+
+
+def test_check_finds_work_in_a_folder_below(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    put(tmp_path, f"work/{SECOND}")
+    assert command._work(NAME, None) == (Path("work") / SECOND, [])
+
+
+def test_a_notebook_that_holds_other_work_than_its_file_is_named_by_its_self_check(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(module, "check_aloud", lambda *_, **__: Grade(NAME, "me", "none", []))
+    put(tmp_path, FIRST, f"{NAME}.ipynb")
+    module.self_check(NAME)
+    assert capsys.readouterr().out == ""
+    put(tmp_path, FIRST, (f"{NAME}.ipynb", notebook(OTHER)))
+    module.self_check(NAME)
+    assert f"{NAME}.ipynb is what a grader takes" in capsys.readouterr().out
