@@ -9,6 +9,7 @@ from rich.console import Console
 
 COULD_NOT = 1
 UNUSABLE = 2
+NOT_GRADED = 3  # something could not be graded, and no student is to blame
 FULL_DISK = (
     "course: the disk is full. What was complete before is unharmed.\n"
     "Next: make room, then type the same command again; `course grade` goes on with --resume."

@@ -312,10 +312,10 @@ class _Session:
         return None
 
     def _not_run(self, check: Check, unmet: Sequence[str]) -> CheckVerdict:
+        title = self._verdicts[unmet[0]].title
         if any(self._verdicts[need].status == "error" for need in unmet):
-            return verdict_on(check, "error", help=f"Not graded, because {unmet[0]} was not graded.")
-        titles = {other.id: other.title for other in self._exercise.checks}
-        return verdict_on(check, "not run", help=f"Needs a check that did not pass: “{titles[unmet[0]]}”.")
+            return verdict_on(check, "error", help=f"Not graded, because “{title}” was not graded.")
+        return verdict_on(check, "not run", help=f"Needs a check that did not pass: “{title}”.")
 
     def _conclude(self, verdict: CheckVerdict) -> None:
         self._verdicts[verdict.id] = verdict

@@ -21,10 +21,11 @@ from autograder.report.classroom.pages import write_pages
 from course_cli.class_grading.output import enter_all, sources_of, tell_of_recordings, tell_the_end
 from course_cli.class_grading.progress import BatchProgress
 from course_cli.class_grading.setting import Setting, prepared
+from course_cli.ending import COULD_NOT, NOT_GRADED
 
 
-def grade_once(console: Console, request: BatchRequest) -> bool:
-    """Grade a batch; return whether everything that was handed in has a grade, and is in the gradebook.
+def grade_once(console: Console, request: BatchRequest) -> int:
+    """Grade a batch; return the exit status: 0 if all that was handed in has a grade and is in the gradebook.
 
     Raises:
         NoSubmissions, NothingSelected: there is nothing to grade.
@@ -51,7 +52,9 @@ def grade_once(console: Console, request: BatchRequest) -> bool:
         console.print(
             f"{request.out / SHARD}; join all of them with `course merge`", style="dim", markup=False
         )
-    return is_entered and not not_graded and not collection.refused
+    if not_graded:
+        return NOT_GRADED
+    return 0 if is_entered and not collection.refused else COULD_NOT
 
 
 def _grade(setting: Setting, works: Sequence[Work], record: BatchRecord) -> list[Graded]:
@@ -114,5 +117,8 @@ def tell_what_is_left(console: Console, collection: Collection, results: Sequenc
         console.print(f"not graded: {line}", style="red", markup=False)
     not_graded = sum(result.grade.status == "not graded" for result in results)
     if not_graded:
-        console.print(f"{not_graded} not graded; try those again with --resume", style="magenta")
+        console.print(
+            f"{not_graded} not graded; try those again with --resume --jobs 1, when the machine has less to do",
+            style="magenta",
+        )
     return not_graded

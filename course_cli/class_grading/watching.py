@@ -24,14 +24,15 @@ from course_cli.class_grading.entering import Entering
 from course_cli.class_grading.once import left_aside, tell_what_is_left
 from course_cli.class_grading.progress import BatchProgress
 from course_cli.class_grading.setting import Setting, prepared
+from course_cli.ending import COULD_NOT, NOT_GRADED
 
 BETWEEN_LOOKS = 1.0  # s at least
 SHARE_OF_TIME = 0.1  # that looking may take at most, and as much for files on the whole class
 _STEP = 0.2  # s
 
 
-def watch_and_grade(console: Console, request: BatchRequest) -> bool:
-    """Grade until somebody presses Ctrl-C; return whether everything seen has a grade and is in the gradebook.
+def watch_and_grade(console: Console, request: BatchRequest) -> int:
+    """Grade until somebody presses Ctrl-C; return the exit status: 0 if all that was seen has a grade in the gradebook.
 
     Raises:
         NoSubmissions: there is no such folder; an empty one is fine.
@@ -58,7 +59,7 @@ class _Watch:
         self._is_written = True  # what is on the whole class
         self._next_writing = 0.0  # s, monotonic
 
-    def run(self) -> bool:
+    def run(self) -> int:
         setting, request = self._setting, self._setting.request
         write_batch(request.out, self._record)
         setting.console.print(
@@ -132,7 +133,7 @@ class _Watch:
         )
         self._is_written = True
 
-    def _tell_the_end(self) -> bool:
+    def _tell_the_end(self) -> int:
         console, problems = self._setting.console, self._entering.problems()
         for line in problems:
             console.print(f"not in the gradebook: {line}", style="red", markup=False)
@@ -142,4 +143,4 @@ class _Watch:
             f"{len(self._results)} graded"
             + (f", {waiting} not yet: the same command goes on with them" if waiting else ""),
         )
-        return not (problems or not_graded or waiting)
+        return NOT_GRADED if not_graded else COULD_NOT if problems or waiting else 0

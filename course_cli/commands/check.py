@@ -21,7 +21,7 @@ from autograder.engine.exercise import (
 from autograder.engine.hand_in import MOST_FOLDERS, work_in
 from autograder.engine.submission import UnusableSubmission, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.ending import COULD_NOT, NOT_GRADED, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 from course_cli.jobs_option import JobsOption
 from ros_runtime.project import PROJECT
@@ -66,6 +66,11 @@ def check(
         raise ended(console, error, UNUSABLE) from error
     if json_file:
         json_file.write_text(json.dumps(result.to_json(), indent=2) + "\n")
+    if result.status == "not graded":
+        console.print(
+            f"Next: ./course check {exercise} --jobs 1, when the machine has less to do.", markup=False
+        )
+        raise typer.Exit(NOT_GRADED)
     raise typer.Exit(0 if result.all_passed else COULD_NOT)
 
 

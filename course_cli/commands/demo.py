@@ -27,7 +27,7 @@ from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.page import Section, write_page
 from autograder.report.sequence import transcript_svg
 from autograder.report.table import MARKS, summary
-from course_cli.ending import COULD_NOT, ended
+from course_cli.ending import COULD_NOT, NOT_GRADED, ended
 from course_cli.jobs_option import JobsOption
 from humanoid_interfaces.action import WalkTo
 from ros_runtime.project import PROJECT
@@ -39,6 +39,14 @@ FAULTY = {"ignores cancel": "faulty/ignores_cancel", "crashes": "faulty/crashes_
 
 class DemoFailed(Exception):
     """A step of the demo did not do what it should show."""
+
+    status = COULD_NOT
+
+
+class DemoNotGraded(DemoFailed):
+    """The machine had too much to do."""
+
+    status = NOT_GRADED
 
 
 def demo(
@@ -52,8 +60,10 @@ def demo(
         figures = _walk_and_cancel(console)
         grades, sections = _grade_three(console, jobs)
         _require_expected(grades)
-    except (DemoFailed, lab.LabError) as error:
+    except lab.LabError as error:
         raise ended(console, f"The demo failed: {error}", COULD_NOT) from error
+    except DemoFailed as error:
+        raise ended(console, f"The demo failed: {error}", error.status) from error
     console.print(_comparison(grades))
     report = out / "report.html"
     write_page(
@@ -138,7 +148,7 @@ def _grade_three(console: Console, jobs: int) -> tuple[list[Grade], list[Section
 def _require_expected(grades: Sequence[Grade]) -> None:
     for given in grades:
         if given.status == "not graded":
-            raise DemoFailed(
+            raise DemoNotGraded(
                 f"“{given.student}” could not be graded: {given.why_not_graded}\n"
                 "Next: ./course demo --jobs 1, when the machine has less to do."
             )

@@ -109,7 +109,7 @@ def grade(
     except ValueError as error:  # of a shard, or of options that do not go together
         raise ended(console, error, UNUSABLE) from error
     try:
-        complete = watch_and_grade(console, request) if request.watch else grade_once(console, request)
+        status = watch_and_grade(console, request) if request.watch else grade_once(console, request)
     except KeyboardInterrupt:
         console.print("Interrupted. Add --resume to go on where it stopped.", style="yellow")
         raise typer.Exit(COULD_NOT) from None
@@ -117,7 +117,7 @@ def grade(
         raise ended(console, error, UNUSABLE) from error
     except (FolderInUse, HiddenChecksRefused, NoCluster) as error:
         raise ended(console, error, COULD_NOT) from error
-    raise typer.Exit(0 if complete else COULD_NOT)
+    raise typer.Exit(status)
 
 
 def _one_folder(submitted: Path | None, watched: Path | None) -> Path:

@@ -18,7 +18,7 @@ from autograder.nbgrader_bridge.course_folder import RELEASE
 from autograder.recording.kept import FOLDER as RECORDINGS
 from autograder.report.classroom.pages import write_pages
 from course_cli.class_grading.output import enter_all, sources_of, tell_the_end
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.ending import COULD_NOT, NOT_GRADED, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 
 
@@ -37,14 +37,14 @@ def merge(
         raise ended(console, error, UNUSABLE) from error
     try:
         with locked(out):
-            complete = _write(console, merged, folders, out)
+            status = _write(console, merged, folders, out)
     except FolderInUse as error:
         raise ended(console, error, COULD_NOT) from error
-    raise typer.Exit(0 if complete else COULD_NOT)
+    raise typer.Exit(status)
 
 
-def _write(console: Console, merged: Merged, folders: Sequence[Path], out: Path) -> bool:
-    """Write gradebook, grades and pages; return whether every submission of the class has a grade in both."""
+def _write(console: Console, merged: Merged, folders: Sequence[Path], out: Path) -> int:
+    """Write gradebook, grades and pages; return the exit status: 0 if all of the class has a grade in both."""
     write_grades(out / GRADES, [result.grade for result in merged.results])
     unentered, grades = enter_all(console, merged.results, out)
     write_grades(out / GRADES, grades)
@@ -70,4 +70,4 @@ def _write(console: Console, merged: Merged, folders: Sequence[Path], out: Path)
     not_graded = sum(grade.status == "not graded" for grade in grades)
     if not_graded:
         console.print(f"{not_graded} not graded; grade their shards again with --resume", style="magenta")
-    return not (merged.missing or unentered or not_graded)
+    return NOT_GRADED if not_graded else COULD_NOT if merged.missing or unentered else 0

@@ -99,6 +99,10 @@ CASES = {
         [FIRST, (f"{NAME}.ipynb", "{")],
         f"{NAME}.ipynb cannot be read: {NAME}.ipynb is not a note",
     ),
+    "never its export": (
+        [f"{NAME}.ipynb", (FIRST, f"get_ipython().run_cell_magic('writefile', '{FIRST}', 'work = 1')\n")],
+        f"{FIRST} cannot be read: {FIRST} is a notebook that was exported as a script",
+    ),
     "the notebook": ([(FIRST, OTHER), f"{NAME}.ipynb"], f"{FIRST} is older than {NAME}.ipynb"),
     "nothing to say of the same": ([FIRST, f"{NAME}.ipynb", f"old/{FIRST}"], ""),
     "nothing of what examples write": ([FIRST, (f"{NAME}/where_am_i.py", OTHER)], ""),
