@@ -5,6 +5,7 @@ from __future__ import annotations
 from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
 from autograder.authoring.goal import ABORTED, Goal
+from autograder.authoring.goal_endings import why_rclpy_aborted
 from autograder.authoring.missing import unseen
 from autograder.authoring.robot_record import RobotRecord
 from autograder.authoring.walking.reports import require_error_code
@@ -37,7 +38,8 @@ def require_fell_told(goal: Goal, fallen: ev.RobotTruth) -> None:
         result.t >= fallen.t - REACTION,
         expected="the goal to go on until the robot falls",
         observed=f"it ended {fallen.t - result.t:.1f} s before the robot fell",
-        help="A push alone is no reason to give up: abort when robot_state.mode is FALLEN.",
+        help=why_rclpy_aborted(goal)
+        or "A push alone is no reason to give up: abort when robot_state.mode is FALLEN.",
         at=result.t,
     )
     require_error_code(goal, "FELL", because="the robot has fallen")

@@ -3,39 +3,61 @@
 from __future__ import annotations
 
 import math
+from functools import partial
+from random import Random
+from typing import Any
 
-from autograder.authoring.checks import Scenario, check
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import standard_hidden
+from autograder.authoring.checks import Scenario
+from autograder.authoring.obligation import check_of
 
-from .checks import (
-    CROUCH,
-    cancels_under_way,
-    gives_up_in_time,
-    percent_is_measured,
-    rises,
-    says_that_it_stands_already,
-    settles_before_it_succeeds,
-    shifts_again_after_a_push,
-    stays_where_it_was_canceled,
-    waits_for_even_loads,
-    waits_until_it_is_still,
-)
-from .endings import require_standing_told, require_stayed_down
-from .leaning import require_leaned_on
-from .played import require_calm, require_even_for_a_while, require_shifted_at_the_top, require_tired
-from .reports import require_measured_percent
-from .rising import GAIN, require_low, require_risen, require_settled
+from . import checks, model
+from .checks import CROUCH, crouching
+
+LEANING = 8.0  # s that somebody leans on the robot, longer than a goal may take to end after a cancel
+AFTERWARDS = 2.0  # s after an end in which the pelvis must stay where it is
 
 
-def _side(random) -> int:
+def _side(random: Random) -> int:
     return random.choice((-1, 1))
 
 
-ANY_HEIGHT = Scenario("rise_from", lambda random: {"height": round(random.uniform(0.50, 0.57), 3)})
-RISE_TWICE = Scenario("rise_twice", robot=CROUCH)
-AGAIN = Scenario(
-    "cancel_and_rise_again", lambda random: {"height": round(random.uniform(0.48, 0.52), 3)}, robot=CROUCH
-)
+def _steps(random: Random) -> dict[str, Any]:
+    """Cancel, rise on, pushed; ask when it stands; crouch: cancel in shifting, ask twice at once; fall."""
+
+    def height(least: float, most: float) -> float:
+        return round(random.uniform(least, most), 3)
+
+    first = height(0.47, 0.5)
+    push = [round(random.uniform(-2.0, 2.0), 1), round(_side(random) * random.uniform(9.0, 10.0), 1), 0.0]
+    shifting = [
+        *(["crouch", height(0.5, 0.55)], ["lean_on", _side(random) * 20.0, LEANING], ["go", "leaned on"]),
+        *(["wait", 1.5], ["cancel", "leaned on"], ["end", "leaned on"], ["wait", LEANING]),
+    ]
+    anew = [
+        *(["crouch", height(0.5, 0.55)], ["go_together", "one", "other"], ["end", "one"], ["end", "other"]),
+        ["wait", AFTERWARDS],
+    ]
+    blocks = [shifting, anew]
+    random.shuffle(blocks)
+    return {
+        "steps": [
+            *(["go", "canceled"], ["reach", first], ["cancel", "canceled"], ["end", "canceled"]),
+            *(["wait", AFTERWARDS], ["go", "pushed"], ["reach", round(first + 0.055, 3)], ["push", *push]),
+            *(["go", "meanwhile"], ["end", "pushed"], ["wait", 1.0], ["go", "up"], ["end", "up"]),
+            *(step for block in blocks for step in block),
+            *(
+                ["crouch", 0.5],
+                ["go", "last"],
+                ["reach", 0.52],
+                ["knock_over", 0.0, _side(random) * 80.0, 0.0],
+            ),
+            *(["end", "last"], ["wait", 1.0], ["go", "lying"], ["end", "lying"]),
+        ]
+    }
+
+
+ANY_ORDER = Scenario("in_order", _steps, robot=CROUCH)
 SWAYS = Scenario(
     "sway_before",
     lambda random: {
@@ -66,11 +88,6 @@ FIDGETS = Scenario(
     },
     robot=None,
 )
-SHIFTING = Scenario(
-    "cancel_while_it_shifts",
-    lambda random: {"force": [0.0, _side(random) * 20.0, 0.0], "duration": 12.0},
-    robot=CROUCH,
-)
 TIRES = Scenario(
     "never_get_up",
     lambda random: {
@@ -80,120 +97,81 @@ TIRES = Scenario(
     },
     robot=None,
 )
-PUSH = Scenario(
-    "push",
-    lambda random: {
-        "impulse": [
-            round(random.uniform(-2.0, 2.0), 1),
-            round(_side(random) * random.uniform(9.0, 10.0), 1),
-            0.0,
-        ],
-        "height": round(random.uniform(0.48, 0.56), 3),
-    },
-    robot=CROUCH,
-)
-OTHER_NAMESPACE = Scenario("rise", robot=CROUCH, namespace="/lab_7/robot")
+OTHER_NAMESPACE = crouching(["go", "rise"], ["end", "rise"], namespace="/lab_7/robot")
 
+in_any_order = partial(check_of, on=ANY_ORDER)
 
-@check(
+rises_from_any_height = in_any_order(
+    "rises_from_any_height",
+    *(model.succeeds, model.settles, model.measures_percent, model.never_loses_percent),
+    *(model.names_its_phase, model.feedback_at_5_hz, model.feedback_ends, model.rejects_while_busy),
+    model.takes_one_of_several,
+    title="It rises from any crouch, counts its percents from there, and keeps every clause on its way",
     points=2,
-    on=ANY_HEIGHT,
-    needs=[settles_before_it_succeeds, percent_is_measured],
+    needs=[checks.settles_before_it_succeeds, checks.percent_is_measured],
     see="08_navigation#zero-why",
-    clauses=[6, 10],
 )
-def rises_from_any_height(run: Transcript) -> None:
-    """It rises from any crouch, and counts its percents from there"""
-    require_low(run.goal("rise"), run.params["height"])
-    require_settled(run.goal("rise"))
-    require_measured_percent(run.goal("rise"))
-
-
-@check(on=RISE_TWICE, needs=[rises, says_that_it_stands_already], see="09_arms#phases-why", clauses=[2])
-def stands_already_after_it_has_risen(run: Transcript) -> None:
-    """A goal after a success is accepted, and ABORTED with ALREADY_STANDING"""
-    require_risen(run.goal("rise"))
-    require_standing_told(run.goal("again"))
-
-
-@check(
-    on=AGAIN,
-    needs=[percent_is_measured, stays_where_it_was_canceled],
+stands_already_after_it_has_risen = in_any_order(
+    "stands_already_after_it_has_risen",
+    *(model.says_that_it_stands, model.says_why_it_aborted),
+    title="A goal after a success is accepted, and ABORTED with ALREADY_STANDING",
+    needs=[checks.rises, checks.says_that_it_stands_already],
+    see=checks.PHASES,
+)
+rises_after_a_cancel = in_any_order(
+    "rises_after_a_cancel",
+    *(model.accepts, model.cancels, model.stays_where_it_ended, model.names_no_error),
+    *(model.status_in_order, model.measures_percent, model.ends_with_a_fall, model.refuses_the_floor),
+    title="After any end a new goal goes on from the height reached, up to a fall",
+    needs=[checks.percent_is_measured, checks.stays_where_it_was_canceled],
     see="07_cancel_and_preempt#fix-intro",
-    clauses=[6, 10],
 )
-def rises_after_a_cancel(run: Transcript) -> None:
-    """After a cancel a new goal goes on from the height reached"""
-    run.goal("canceled").require_canceled()
-    require_risen(run.goal("again"))
-    require_measured_percent(run.goal("again"))
-
-
-@check(on=SWAYS, needs=waits_for_even_loads, see="09_arms#steady-gap", clauses=[4])
-def waits_until_loads_stay_even(run: Transcript) -> None:
-    """Loads that are even for a moment only, or 30 % apart, do not let it rise"""
-    require_even_for_a_while(run, run.goal("rise"))
-
-
-@check(
-    on=ASIDE,
-    needs=[settles_before_it_succeeds, waits_for_even_loads, shifts_again_after_a_push],
-    see="09_arms#phases-why",
-    clauses=[7],
-)
-def shifts_again_from_settling(run: Transcript) -> None:
-    """Uneven loads lead back to shifting also from settling"""
-    require_shifted_at_the_top(run, run.goal("rise"))
-
-
-@check(
-    on=FIDGETS,
-    needs=[settles_before_it_succeeds, waits_until_it_is_still],
+waits_until_loads_stay_even = check_of(
+    "waits_until_loads_stay_even",
+    *(model.stays_down_while_uneven, model.succeeds),
+    title="Loads that are even for a moment only, or 30 % apart, do not let it rise",
+    on=SWAYS,
+    needs=checks.waits_for_even_loads,
     see="09_arms#steady-gap",
-    clauses=[6],
 )
-def waits_until_calm_lasts(run: Transcript) -> None:
-    """A robot that is calm for a moment only has not settled"""
-    require_calm(run, run.goal("rise"))
-
-
-@check(
-    on=SHIFTING,
-    needs=[cancels_under_way, waits_for_even_loads],
+shifts_again_from_settling = check_of(
+    "shifts_again_from_settling",
+    *(model.shifts_again, model.names_shifting, model.succeeds),
+    title="Uneven loads lead back to shifting also from settling",
+    on=ASIDE,
+    needs=[checks.settles_before_it_succeeds, checks.waits_for_even_loads, checks.shifts_again_after_a_push],
+    see=checks.PHASES,
+)
+waits_until_calm_lasts = check_of(
+    "waits_until_calm_lasts",
+    *(model.settles, model.succeeds),
+    title="A robot that is calm for a moment only has not settled",
+    on=FIDGETS,
+    needs=[checks.settles_before_it_succeeds, checks.waits_until_it_is_still],
+    see="09_arms#steady-gap",
+)
+cancels_while_it_shifts = in_any_order(
+    "cancels_while_it_shifts",
+    *(model.cancels, model.stays_down_while_uneven, model.names_shifting, model.stays_where_it_ended),
+    title="A cancel in shifting ends CANCELED, and the robot stays down",
+    needs=[checks.cancels_under_way, checks.waits_for_even_loads],
     see="07_cancel_and_preempt#m1-why",
-    clauses=[12],
 )
-def cancels_while_it_shifts(run: Transcript) -> None:
-    """A cancel in shifting ends CANCELED, and the robot stays down"""
-    goal = run.goal("rise")
-    request = goal.require_canceled()
-    require_leaned_on(run)
-    require_stayed_down(goal, request.t, GAIN)
-
-
-@check(
+the_limit_holds_for_all_phases = check_of(
+    "the_limit_holds_for_all_phases",
+    *(model.keeps_the_limit, model.names_no_error, model.says_why_it_aborted),
+    title="The 12 s begin once, and are over in shifting, too",
     on=TIRES,
-    needs=[gives_up_in_time, waits_for_even_loads],
+    needs=[checks.gives_up_in_time, checks.waits_for_even_loads],
     see="08_navigation#late-why",
-    clauses=[14],
 )
-def the_limit_holds_for_all_phases(run: Transcript) -> None:
-    """The 12 s begin once, and are over in shifting, too"""
-    require_tired(run, run.goal("rise"))
-
-
-@check(
-    on=PUSH,
-    needs=[settles_before_it_succeeds, shifts_again_after_a_push],
-    see="09_arms#phases-why",
-    clauses=[6, 7],
+survives_a_push = in_any_order(
+    "survives_a_push",
+    *(model.rises_though_pushed, model.settles),
+    title="Pushed hard on its way, it rises all the same",
+    needs=[checks.settles_before_it_succeeds, checks.shifts_again_after_a_push],
+    see=checks.PHASES,
 )
-def survives_a_push(run: Transcript) -> None:
-    """Pushed hard on its way, it rises all the same"""
-    require_settled(run.goal("rise"))
-
-
-@check(on=OTHER_NAMESPACE, needs=rises, see="01_robot_and_graph#names-why", clauses=[18])
-def works_in_any_namespace(run: Transcript) -> None:
-    """Started in another namespace, it raises the robot there"""
-    require_risen(run.goal("rise"))
+works_in_any_namespace = standard_hidden.works_in_any_namespace(
+    "raises the robot", model.succeeds, on=OTHER_NAMESPACE, needs=checks.rises, clauses=[18]
+)

@@ -13,142 +13,74 @@ from nav_msgs.msg import Odometry
 from rclpy.clock import Clock
 
 from autograder.arena.heard_topic import HeardTopic
+from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import ActionClient, Goal, Stage
 from humanoid_interfaces.action import StandUp
 from humanoid_interfaces.msg import RobotState
 
 SETTLING = 1.0  # s for the first messages of the robot to arrive
-AFTERWARDS = 1.5  # s after a result in which nothing more may be published
-WATCHING = 3.0  # s after a cancel or the time limit in which the pelvis must stay where it is
-SOON = 5.0  # s for a result that has to come at once
+SOON = 5.0  # s for the pelvis to get to a height
 LONGEST = 16.0  # s for any result
-BEGUN = 0.46  # m; a pelvis so high has begun to rise from the crouch at 0.45 m
 UNEVEN = 0.5  # of the larger load, at most; so the robot stands when somebody leans on it
 LEANING = 4.0  # s for the loads to become uneven
+NO_VELOCITY = (0.0, 0.0, 0.0)
 
 
-def rise(stage: Stage) -> None:
-    """Stand up, and watch a little longer."""
-    goal = _open(stage).send_and_wait(as_="rise")
-    goal.wait_for_result(LONGEST)
-    stage.wait(AFTERWARDS)
-
-
-def rise_from(stage: Stage, height: float) -> None:
-    """Crouch to a height (m), and stand up from there."""
-    stand_up = _open(stage)
-    stage.robot.take_over((0.0, 0.0, 0.0))  # so that nothing comes between
-    stage.robot.move_body(-0.1)
-    stage.robot.wait_for(lambda robot: robot.z < height, SOON)
-    stage.robot.move_body(0.0)
-    stage.robot.give_back()
-    stage.robot.wait(SETTLING)
-    stand_up.send_and_wait(as_="rise").wait_for_result(LONGEST)
-
-
-def rise_twice(stage: Stage) -> None:
-    """Stand up, and ask for it again."""
-    stand_up = _open(stage)
-    stand_up.send_and_wait(as_="rise").wait_for_result(LONGEST)
+def in_order(stage: Stage, steps: Steps) -> None:
+    """Ask, cancel, lean on the robot, push it, let it crouch: in the order of the steps."""
+    stand_up = stage.action("stand_up", StandUp)
+    stage.open()
+    robot = stage.robot
+    robot.report_feet()
+    robot.wait_for_commands()
     stage.wait(SETTLING)
-    stand_up.send_and_wait(as_="again").wait_for_result(SOON)
+    sent: dict[str, Goal] = {}
 
+    def go(name: str) -> None:
+        sent[name] = stand_up.send_and_wait(as_=name)
 
-def ask_a_standing_robot(stage: Stage) -> None:
-    """Ask a robot that stands, and watch it."""
-    goal = _open(stage).send_and_wait(as_="standing")
-    goal.wait_for_result(SOON)
-    stage.wait(AFTERWARDS)
+    def go_together(*names: str) -> None:
+        sent.update((name, stand_up.send(as_=name)) for name in names)
+        for name in names:
+            sent[name].wait_for_answer()
 
+    def cancel(name: str) -> None:
+        sent[name].cancel().wait()
 
-def lean_on_before(stage: Stage, force: Sequence[float], duration: float) -> None:
-    """Lean on the robot (N in odom) for `duration` s, then ask."""
-    stand_up = _open(stage, with_feet=True)
-    _lean_on(stage, force, duration)
-    stand_up.send_and_wait(as_="rise").wait_for_result(LONGEST)
+    def crouch(height: float) -> None:
+        robot.take_over(NO_VELOCITY)  # so that nothing comes between
+        robot.move_body(-0.1)
+        robot.wait_for(lambda state: state.z < height, SOON)
+        robot.move_body(0.0)
+        robot.give_back()
+        robot.wait(SETTLING)
 
+    def hold(is_held: bool) -> None:
+        robot.take_over(NO_VELOCITY) if is_held else robot.give_back()
+        robot.wait_for_commands()
 
-def lean_on_under_way(stage: Stage, force: Sequence[float], duration: float) -> None:
-    """Lean on the robot (N in odom) for `duration` s as soon as it rises."""
-    goal = _open(stage, with_feet=True).send_and_wait(as_="rise")
-    stage.robot.wait_for(lambda robot: robot.z > BEGUN, SOON)
-    _lean_on(stage, force, duration)
-    goal.wait_for_result(LONGEST)
+    def lean_on(force: float, duration: float) -> None:
+        robot.lean_on([0.0, force, 0.0], duration)
+        robot.wait_for_feet(lambda left, right: min(left, right) < UNEVEN * max(left, right), LEANING)
 
-
-def push(stage: Stage, impulse: Sequence[float], height: float) -> None:
-    """Push the rising robot (N·s in odom) when its pelvis is at a height (m)."""
-    goal = _open(stage).send_and_wait(as_="rise")
-    stage.robot.wait_for(lambda robot: robot.z > height, SOON)
-    stage.robot.push(impulse)
-    goal.wait_for_result(LONGEST)
-
-
-def cancel(stage: Stage, height: float) -> None:
-    """Cancel a goal when the pelvis is at a height (m), and watch it."""
-    _cancel(stage, _open(stage), height)
-    stage.wait(WATCHING)
-
-
-def cancel_and_rise_again(stage: Stage, height: float) -> None:
-    """Cancel a goal when the pelvis is at a height (m), then send another."""
-    stand_up = _open(stage)
-    _cancel(stage, stand_up, height)
-    stage.wait(SETTLING)
-    stand_up.send_and_wait(as_="again").wait_for_result(LONGEST)
-
-
-def cancel_while_it_shifts(stage: Stage, force: Sequence[float], duration: float) -> None:
-    """Lean on the robot (N in odom) for `duration` s, ask, and cancel while it is leaned on."""
-    stand_up = _open(stage, with_feet=True)
-    _lean_on(stage, force, duration)
-    goal = stand_up.send_and_wait(as_="rise")
-    stage.wait(0.8)
-    goal.cancel().wait()
-    goal.wait_for_result(SOON)
-    stage.wait(WATCHING)
-
-
-def ask_twice(stage: Stage) -> None:
-    """Send a second goal while the robot rises."""
-    stand_up = _open(stage)
-    first = stand_up.send_and_wait(as_="first")
-    stage.robot.wait_for(lambda robot: robot.z > BEGUN, SOON)
-    stand_up.send_and_wait(as_="second")
-    first.wait_for_result(LONGEST)
-
-
-def hold(stage: Stage) -> None:
-    """Keep the robot from rising until the goal has ended, then let it go and watch."""
-    stand_up = _open(stage)
-    stage.robot.take_over((0.0, 0.0, 0.0))
-    stage.robot.wait_for_commands()
-    stand_up.send_and_wait(as_="held").wait_for_result(LONGEST)
-    stage.robot.give_back()
-    stage.robot.wait_for_commands()
-    stage.wait(WATCHING)
-
-
-def fall(stage: Stage, impulse: Sequence[float]) -> None:
-    """Knock the rising robot over (N·s in odom)."""
-    goal = _open(stage).send_and_wait(as_="rise")
-    stage.robot.wait_for(lambda robot: robot.z > BEGUN, SOON)
-    stage.robot.knock_over(impulse)
-    goal.wait_for_result(SOON)
-
-
-def ask_a_fallen_robot(stage: Stage, impulse: Sequence[float]) -> None:
-    """Knock the robot over (N·s in odom), let it say so, and ask it to stand up."""
-    stand_up = _open(stage)
-    stage.robot.knock_over(impulse)
-    stage.wait(SETTLING)
-    stand_up.send_and_wait(as_="fallen").wait_for_result(SOON)
-
-
-def interrupt(stage: Stage) -> None:
-    """Press Ctrl-C while no goal is active."""
-    _open(stage)
-    stage.interrupt_node()
+    carry_out(
+        stage,
+        steps,
+        {
+            "go": go,
+            "go_together": go_together,
+            "cancel": cancel,
+            "end": lambda name: sent[name].wait_for_result(LONGEST) or None,
+            "reach": lambda height: robot.wait_for(lambda state: state.z > height, SOON) or None,
+            "crouch": crouch,
+            "hold": hold,
+            "lean_on": lean_on,
+            "push": lambda *impulse: robot.push(impulse),
+            "knock_over": lambda *impulse: robot.knock_over(impulse),
+            "wait": stage.wait,
+            "interrupt": stage.interrupt_node,
+        },
+    )
 
 
 # -- a robot that the scenario plays -----------------------------------------------------------------------------------
@@ -244,28 +176,11 @@ def never_get_up(stage: Stage, even: float, uneven: float, times: int) -> None:
         robot.live_until_the_end(goal)
 
 
-def _open(stage: Stage, *, with_feet: bool = False) -> ActionClient:
-    """Open the stage; `with_feet`: record what each foot carries."""
+def _open(stage: Stage) -> ActionClient:
     stand_up = stage.action("stand_up", StandUp)
     stage.open()
-    if with_feet:
-        stage.robot.report_feet()
-        stage.robot.wait_for_commands()
     stage.wait(SETTLING)
     return stand_up
-
-
-def _lean_on(stage: Stage, force: Sequence[float], duration: float) -> None:
-    """Lean on the robot, and wait until one foot carries much more than the other."""
-    stage.robot.lean_on(force, duration)
-    stage.robot.wait_for_feet(lambda left, right: min(left, right) < UNEVEN * max(left, right), LEANING)
-
-
-def _cancel(stage: Stage, stand_up: ActionClient, height: float) -> None:
-    goal = stand_up.send_and_wait(as_="canceled")
-    stage.robot.wait_for(lambda robot: robot.z > height, SOON)
-    goal.cancel().wait()
-    goal.wait_for_result(SOON)
 
 
 PERIOD = 0.05  # s between two messages of the played robot

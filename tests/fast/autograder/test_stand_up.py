@@ -10,15 +10,12 @@ from action_msgs.msg import GoalStatus
 from records import failure_of, robot, run_of
 
 from autograder.authoring import events as ev
-from autograder.authoring.failure import CannotBeJudged
 from autograder.authoring.transcript import Transcript
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.action import StandUp
+from humanoid_interfaces.msg import RobotState
 
-ENDINGS = exercise_module("stand_up", "endings")
-LEANING = exercise_module("stand_up", "leaning")
-REPORTS = exercise_module("stand_up", "reports")
-RISING = exercise_module("stand_up", "rising")
+MODEL = exercise_module("stand_up", "model")
 ACCEPTED, LEAN, LET_GO = 2.0, 1.5, 5.0  # s
 EVEN, UNEVEN = (186.0, 186.0), (300.0, 72.0)  # N
 ABORTED, SUCCEEDED = GoalStatus.STATUS_ABORTED, GoalStatus.STATUS_SUCCEEDED
@@ -68,27 +65,22 @@ PHASES = [(2.2, "shifting", 0.0), (2.7, "rising", 35.0), (3.0, "rising", 80.0), 
 
 
 def test_a_measured_rise_passes() -> None:
-    goal = stood_up(risen(3.2), feedback=[*PHASES, (4.4, "settling", 100.0)]).goal("rise")
-    for require in (
-        *(RISING.require_risen, RISING.require_on_the_spot, RISING.require_settled),
-        *(
-            REPORTS.require_named_phases,
-            REPORTS.require_measured_percent,
-            REPORTS.require_percent_never_falls,
-        ),
+    run = stood_up(risen(3.2), feedback=[*PHASES, (4.4, "settling", 100.0)])
+    for obligation in (
+        *(MODEL.accepts, MODEL.succeeds, MODEL.rises_in_place, MODEL.settles, MODEL.names_no_error),
+        *(MODEL.names_its_phase, MODEL.measures_percent, MODEL.never_loses_percent),
     ):
-        require(goal)
+        assert obligation.judge(run)
 
 
-def test_a_success_in_the_crouch_is_told_what_raises_the_pelvis() -> None:
-    failure = failure_of(RISING.require_risen, stood_up(lambda t: 0.45).goal("rise"))
+def test_a_success_in_the_crouch_names_what_raises_the_pelvis() -> None:
+    failure = failure_of(MODEL.succeeds.judge, stood_up(lambda t: 0.45))
     assert "0.450 m" in failure.observed
     assert failure.help.startswith("It never rose: publish a Twist with linear.z")
 
 
 def test_a_success_on_the_way_has_not_settled() -> None:
-    failure = failure_of(RISING.require_settled, stood_up(risen(4.5)).goal("rise"))
-    assert "it is at 0.5" in failure.observed
+    assert "it is at 0.5" in failure_of(MODEL.settles.judge, stood_up(risen(4.5))).observed
 
 
 @pytest.mark.parametrize(
@@ -100,42 +92,38 @@ def test_a_success_on_the_way_has_not_settled() -> None:
     ],
 )
 def test_phases_by_the_clock_are_found(phases: list[tuple[float, str, float]], word: str) -> None:
-    failure = failure_of(REPORTS.require_named_phases, stood_up(risen(3.2), feedback=phases).goal("rise"))
+    failure = failure_of(MODEL.names_its_phase.judge, stood_up(risen(3.2), feedback=phases))
     assert word in failure.observed
 
 
 @pytest.mark.parametrize("percent", [75.0, 0.4])
 def test_a_percentage_that_is_not_the_share_of_the_height_is_found(percent: float) -> None:
-    goal = stood_up(risen(3.2), feedback=[(2.1, "shifting", percent), (4.0, "settling", percent)]).goal(
-        "rise"
-    )
-    assert "the share of the height" in failure_of(REPORTS.require_measured_percent, goal).expected
+    run = stood_up(risen(3.2), feedback=[(2.1, "shifting", percent), (4.0, "settling", percent)])
+    assert "the share of the height" in failure_of(MODEL.measures_percent.judge, run).expected
 
 
 def test_the_percentage_may_fall_to_shifting_alone() -> None:
-    fallen = [(2.7, "rising", 35.0), (3.0, "{}", 20.0)]
-    back = [(t, phase.format("shifting"), percent) for t, phase, percent in fallen]
-    REPORTS.require_percent_never_falls(stood_up(risen(4.0), feedback=back).goal("rise"))
-    bobs = [(t, phase.format("rising"), percent) for t, phase, percent in fallen]
-    goal = stood_up(risen(4.0), feedback=bobs).goal("rise")
-    assert "20.0 after 35.0" in failure_of(REPORTS.require_percent_never_falls, goal).observed
+    back = [(2.7, "rising", 35.0), (3.0, "shifting", 20.0)]
+    assert MODEL.never_loses_percent.judge(stood_up(risen(4.0), feedback=back))
+    bobs = stood_up(risen(4.0), feedback=[back[0], (3.0, "rising", 20.0)])
+    assert "20.0 after 35.0" in failure_of(MODEL.never_loses_percent.judge, bobs).observed
 
 
-def test_a_rise_under_somebodys_weight_is_told_the_loads() -> None:
+def test_a_rise_under_somebodys_weight_is_shown_the_loads() -> None:
     shifting = [(t, "shifting", 0.0) for t in (2.4, 2.6, 4.0)]
-    LEANING.require_waited(stood_up(risen(6.4), *leaned_on(), end=8.0, feedback=shifting).goal("rise"))
-    failure = failure_of(
-        LEANING.require_waited, stood_up(risen(3.5), *leaned_on(), end=8.0, feedback=shifting).goal("rise")
-    )
+    waits = stood_up(risen(6.4), *leaned_on(), end=8.0, feedback=shifting)
+    assert MODEL.stays_down_while_uneven.judge(waits)
+    assert MODEL.names_shifting.judge(waits)
+    rises = stood_up(risen(3.5), *leaned_on(), end=8.0, feedback=shifting)
+    failure = failure_of(MODEL.stays_down_while_uneven.judge, rises)
     assert "loads of 300 and 72 N" in failure.observed
     assert "force.z" in failure.help
 
 
 def test_a_robot_on_which_nobody_leaned_proves_nothing() -> None:
     even = [ev.FeetTruth(t=0.02 * k, left=186.0, right=186.0) for k in range(500)]
-    push = ev.RobotCommanded(t=LEAN, command={"do": "push", "impulse": [0.0, 0.1, 0.0], "duration": 3.5})
-    with pytest.raises(CannotBeJudged, match="nobody leaned on the robot"):
-        LEANING.require_waited(stood_up(risen(6.4), push, *even, end=8.0).goal("rise"))
+    assert not MODEL.stays_down_while_uneven.judge(stood_up(risen(6.4), *even, end=8.0))
+    assert not MODEL.stays_down_while_uneven.judge(stood_up(risen(6.4), end=8.0))
 
 
 def test_a_rise_that_goes_on_when_it_is_leaned_on_is_found_and_so_is_its_phase() -> None:
@@ -144,59 +132,68 @@ def test_a_rise_that_goes_on_when_it_is_leaned_on_is_found_and_so_is_its_phase()
 
     leaned = leaned_on(2.4, LET_GO)
     shifting = [(2.3, "rising", 5.0), (3.1, "shifting", 25.0), (4.0, "shifting", 25.0)]
-    LEANING.require_shifted_again(stood_up(stops, *leaned, end=8.0, feedback=shifting).goal("rise"))
-    named = [(t, "rising", percent) for t, _, percent in shifting]
-    failure = failure_of(
-        LEANING.require_shifted_again, stood_up(stops, *leaned, end=8.0, feedback=named).goal("rise")
-    )
-    assert "'rising'" in failure.observed
-    goes_on = stood_up(risen(3.2), *leaned, end=8.0, feedback=shifting).goal("rise")
-    assert "to stop" in failure_of(LEANING.require_shifted_again, goes_on).expected
+    stopped = stood_up(stops, *leaned, end=8.0, feedback=shifting)
+    assert MODEL.shifts_again.judge(stopped)
+    assert MODEL.names_shifting.judge(stopped)
+    named = stood_up(stops, *leaned, end=8.0, feedback=[(t, "rising", percent) for t, _, percent in shifting])
+    assert "'rising'" in failure_of(MODEL.names_shifting.judge, named).observed
+    goes_on = stood_up(risen(3.2), *leaned, end=8.0, feedback=shifting)
+    assert "to stop" in failure_of(MODEL.shifts_again.judge, goes_on).expected
 
 
 def test_a_goal_for_a_standing_robot_wants_the_code_and_a_sentence() -> None:
-    def told(**result: Any) -> Any:
-        return stood_up(lambda t: 0.60, end=2.4, **result).goal("rise")
+    def ended(**result: Any) -> Transcript:
+        return stood_up(lambda t: 0.60, end=2.4, **result)
 
     code = {"error_code": StandUp.Result.ALREADY_STANDING}
-    ENDINGS.require_standing_told(told(status=ABORTED, **code, error_msg="it stands"))
-    assert "no success" in failure_of(ENDINGS.require_standing_told, told()).help
-    assert "empty" in failure_of(ENDINGS.require_standing_told, told(status=ABORTED, **code)).observed
-    without = told(status=ABORTED, error_msg="it stands")
-    assert "ALREADY_STANDING" in failure_of(ENDINGS.require_standing_told, without).expected
+    assert MODEL.says_that_it_stands.judge(ended(status=ABORTED, **code, error_msg="it stands"))
+    assert "no success" in failure_of(MODEL.says_that_it_stands.judge, ended()).help
+    assert "empty" in failure_of(MODEL.says_why_it_aborted.judge, ended(status=ABORTED, **code)).observed
+    without = ended(status=ABORTED, error_msg="it stands")
+    assert "ALREADY_STANDING" in failure_of(MODEL.says_that_it_stands.judge, without).expected
 
 
 @pytest.mark.parametrize(("end", "word"), [(9.0, "after 7.0 s"), (17.5, "after 15.5 s")])
 def test_the_time_limit_is_neither_early_nor_late(end: float, word: str) -> None:
-    goal = stood_up(lambda t: 0.45, end=end, status=ABORTED, error_msg="too long").goal("rise")
-    assert failure_of(ENDINGS.require_given_up, goal, ACCEPTED).observed == word
+    run = stood_up(lambda t: 0.45, end=end, status=ABORTED, error_msg="too long")
+    assert failure_of(MODEL.keeps_the_limit.judge, run).observed == word
+
+
+def test_a_success_after_the_time_limit_comes_too_late() -> None:
+    failure = failure_of(MODEL.keeps_the_limit.judge, stood_up(risen(16.5), end=17.5))
+    assert "ABORTED" in failure.expected
+    assert failure.help.startswith("12 s are over")
+
+
+def test_silence_on_the_floor_is_no_rejection() -> None:
+    lying = [robot(0.02 * k, mode=RobotState.FALLEN) for k in range(500)]
+    asked = ev.GoalSent(t=ACCEPTED, goal="lying", action="stand_up", request=StandUp.Goal())
+    failure = failure_of(MODEL.refuses_the_floor.judge, run_of(*lying, asked, until=10.0))
+    assert "no answer" in failure.observed
 
 
 def test_the_time_limit_has_no_code() -> None:
-    def gave_up(**result: Any) -> Any:
-        return stood_up(lambda t: 0.45, end=14.1, status=ABORTED, **result).goal("rise")
+    def gave_up(**result: Any) -> Transcript:
+        return stood_up(lambda t: 0.45, end=14.1, status=ABORTED, error_msg="too long", **result)
 
-    ENDINGS.require_given_up(gave_up(error_msg="too long"), ACCEPTED)
-    fell = gave_up(error_code=StandUp.Result.FELL, error_msg="too long")
-    assert "NONE" in failure_of(ENDINGS.require_given_up, fell, ACCEPTED).expected
+    assert MODEL.names_no_error.judge(gave_up())
+    assert "NONE" in failure_of(MODEL.names_no_error.judge, gave_up(error_code=StandUp.Result.FELL)).expected
 
 
 @pytest.mark.parametrize(
     ("later", "help"), [(0.60, "Publish a zero Twist as soon"), (0.45, "Do not crouch again")]
 )
 def test_a_cancel_leaves_the_pelvis_where_it_is(later: float, help: str) -> None:
-    def stays(height: float) -> Any:
-        def place(t: float) -> float:
-            return risen(3.2)(t) if t < 2.65 else height
-
+    def stays(height: float) -> Transcript:
         cancel = [
             ev.CancelSent(t=2.6, cancel="cancel 1", goal="rise", by="client"),
             ev.CancelAnswered(t=2.7, cancel="cancel 1", return_code=0, canceling=["rise"]),
         ]
-        return stood_up(place, *cancel, end=3.0, status=GoalStatus.STATUS_CANCELED).goal("rise")
+        status = GoalStatus.STATUS_CANCELED
+        return stood_up(lambda t: risen(3.2)(t) if t < 2.65 else height, *cancel, end=3.0, status=status)
 
-    ENDINGS.require_stayed(stays(0.53))
-    assert failure_of(ENDINGS.require_stayed, stays(later)).help.startswith(help)
+    assert MODEL.stays_where_it_ended.judge(stays(0.53))
+    assert failure_of(MODEL.stays_where_it_ended.judge, stays(later)).help.startswith(help)
 
 
 @pytest.mark.parametrize(
@@ -212,14 +209,15 @@ def test_a_cancel_leaves_the_pelvis_where_it_is(later: float, help: str) -> None
         ({"error_msg": "somebody pushes"}, 4.0, "Nothing was wrong with the robot"),
     ],
 )
-def test_an_abort_is_told_by_its_code_and_its_time(result: dict[str, Any], end: float, word: str) -> None:
-    goal = stood_up(lambda t: 0.45, end=end, status=ABORTED, **result).goal("rise")
-    failure = failure_of(RISING.require_risen, goal)
+def test_an_abort_is_explained_by_its_code_and_its_time(
+    result: dict[str, Any], end: float, word: str
+) -> None:
+    failure = failure_of(MODEL.succeeds.judge, stood_up(lambda t: 0.45, end=end, status=ABORTED, **result))
     assert word in failure.help
     assert repr(result["error_msg"]) in failure.observed
 
 
 def test_an_execute_that_keeps_odom_from_being_served_is_found() -> None:
     told = [(2.2 + 0.2 * k, "rising", 0.0) for k in range(12)]
-    goal = stood_up(risen(3.2), end=14.1, status=ABORTED, error_msg="too long", feedback=told).goal("rise")
-    assert "percent_complete stayed 0 in all 12" in failure_of(RISING.require_risen, goal).help
+    run = stood_up(risen(3.2), end=14.1, status=ABORTED, error_msg="too long", feedback=told)
+    assert "percent_complete stayed 0 in all 12" in failure_of(MODEL.succeeds.judge, run).help

@@ -1,0 +1,187 @@
+"""What the robot did, simulated or played by the scenario, and what happened to it during a goal."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from geometry_msgs.msg import Quaternion
+
+from autograder.authoring import events as ev
+from autograder.authoring.falls import fall_after
+from autograder.authoring.goal import Goal
+from autograder.authoring.missing import unseen
+from autograder.authoring.transcript import Transcript
+from autograder.authoring.walking.life import accepted, ended_at, granted, interrupted, next_sent, run_of
+
+STANCE, RISEN, CROUCHED = 0.60, 0.59, 0.47  # m, heights of the pelvis
+HEIGHT_SLACK = 0.005  # m
+GAIN = 0.02  # m that a pelvis may still come up that should stay where it is
+UNEVEN, EVEN = 0.6, 0.8  # of the larger load
+STILL, UPRIGHT = 0.035, 0.06  # m/s, rad; 0.02 and 0.05 are asked for
+CAN_RISE = 6.0  # s that the robot needs for all of its way, at most
+TIME_LIMIT, EARLY, LATE = 12.0, 0.7, 2.5  # s
+WEAK = "never_get_up"  # the scenario whose played robot does not rise
+
+
+@dataclass(frozen=True)
+class Body:
+    """How base_link was at a moment: its height (m), speed in any direction (m/s), and tilt (rad)."""
+
+    t: float
+    z: float
+    speed: float
+    tilt: float
+
+    @property
+    def unrest(self) -> str:
+        """What keeps it from having settled, '' if nothing does."""
+        if self.z < RISEN - HEIGHT_SLACK:
+            return f"it is at {self.z:.3f} m"
+        if self.speed > STILL:
+            return f"it moves at {self.speed:.2f} m/s"
+        return f"it leans by {self.tilt:.2f} rad" if self.tilt > UPRIGHT else ""
+
+
+@dataclass(frozen=True)
+class Loads:
+    """What the feet carried at a moment, N."""
+
+    t: float
+    left: float
+    right: float
+
+    @property
+    def share(self) -> float:
+        """The smaller load as a share of the larger."""
+        return max(0.0, min(self.left, self.right)) / max(self.left, self.right, 1.0)
+
+
+def bodies(run: Transcript, begin: float, end: float) -> list[Body]:
+    """Return how base_link was between two moments (s); there must be some."""
+    if run.ground_truth:
+        return [
+            Body(
+                robot.t,
+                robot.z,
+                math.hypot(robot.speed, climb(run, robot.t)),
+                math.acos(max(-1.0, min(1.0, robot.up))),
+            )
+            for robot in run.robot_between(begin, max(begin, end))
+        ]
+    found = []
+    for each in run.published("odom"):
+        if begin <= each.t <= end:
+            pose, velocity = each.message.pose.pose, each.message.twist.twist.linear
+            speed = math.hypot(velocity.x, velocity.y, velocity.z)
+            found.append(Body(each.t, pose.position.z, speed, tilt(pose.orientation)))
+    if not found:
+        raise unseen(run, f"nothing is known of the robot at {end:.1f} s")
+    return found
+
+
+def tilt(q: Quaternion) -> float:
+    """Return the angle (rad) between the vertical and the z axis of an orientation."""
+    return math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (q.x**2 + q.y**2))))
+
+
+def climb(run: Transcript, t: float) -> float:
+    """Return how fast (m/s) the pelvis of a simulated robot rose around a time (s)."""
+    earlier, later = run.robot_at(t - 0.06), run.robot_at(t + 0.06)
+    return (later.z - earlier.z) / max(later.t - earlier.t, 0.02)
+
+
+def height_at(run: Transcript, t: float) -> float:
+    """Return the height (m) of base_link at a moment (s)."""
+    return bodies(run, t - 0.2, t)[-1].z
+
+
+def loads(run: Transcript, begin: float, end: float) -> list[Loads]:
+    """Return what the feet carried between two moments (s); empty where nobody asked."""
+    if run.ground_truth:
+        return [
+            Loads(each.t, each.left, each.right) for each in run.all(ev.FeetTruth) if begin <= each.t <= end
+        ]
+    left, right = (
+        [each for each in run.published(f"{side}_foot/wrench") if begin <= each.t <= end] for side in "lr"
+    )
+    return [
+        Loads(one.t, one.message.wrench.force.z, other.message.wrench.force.z)
+        for one, other in zip(left, right, strict=False)
+    ]
+
+
+def uneven_spans(run: Transcript, begin: float, end: float, least: float) -> list[tuple[float, float]]:
+    """Return from when to when (s) the loads were uneven without a break, where that took at least so long (s)."""
+    spans: list[tuple[float, float]] = []
+    since = None
+    for each in [*loads(run, begin, end), Loads(math.inf, 1.0, 1.0)]:
+        if each.share < UNEVEN:
+            since = each.t if since is None else since
+            last = each.t
+        elif since is not None:
+            if last - since >= least:
+                spans.append((since, last))
+            since = None
+    return spans
+
+
+# -- what happened during a goal --------------------------------------------------------------------------------------
+
+
+def began_low(goal: Goal) -> bool:
+    """Return whether the robot certainly crouched when the goal was accepted, and was on its feet."""
+    run = run_of(goal)
+    return accepted(goal) and height_at(run, goal.accepted_at) < RISEN - 0.01 and not lay_on_the_floor(goal)
+
+
+def began_high(goal: Goal) -> bool:
+    """Return whether the robot certainly stood when the goal was sent."""
+    robots = goal.run.robot_between(goal.sent.t - 0.5, goal.sent.t) if goal.run.ground_truth else []
+    return bool(robots) and all(robot.z >= RISEN for robot in robots) and not lay_on_the_floor(goal)
+
+
+def lay_on_the_floor(goal: Goal) -> bool:
+    """Return whether the robot had fallen before the goal was sent."""
+    fallen = fall_after(goal.run, 0.0) if goal.run.ground_truth else None
+    return fallen is not None and fallen.t < goal.sent.t
+
+
+def fallen_during(goal: Goal) -> ev.RobotTruth | None:
+    """Return the robot when it had fallen after the goal was accepted and before the next one was sent, if it did."""
+    fallen = fall_after(goal.run, goal.accepted_at) if goal.run.ground_truth else None
+    return fallen if fallen and fallen.t <= next_sent(goal, goal.sent.t) else None
+
+
+def life(goal: Goal) -> tuple[float, float]:
+    """Return from when to when (s) an accepted goal was active."""
+    return goal.accepted_at, min(ended_at(goal), goal.run.end)
+
+
+def pushes(run: Transcript) -> list[tuple[float, float]]:
+    """Return from when to when (s) the scenario pushed the robot or leaned on it, each time."""
+    told = [each for each in run.all(ev.RobotCommanded) if each.command.get("do") == "push"]
+    return [(each.t, each.t + each.command.get("duration", 0.0)) for each in told]
+
+
+def was_pushed(goal: Goal) -> bool:
+    """Return whether the scenario pushed the robot, or leaned on it, while the goal was active."""
+    if not accepted(goal):
+        return False
+    begin, end = life(goal)
+    return any(first <= end and last >= begin for first, last in pushes(run_of(goal)))
+
+
+def was_held(goal: Goal) -> bool:
+    """Return whether the robot could not rise, for the scenario held it down, or played one that is too weak."""
+    taken = [each for each in goal.run.all(ev.RobotCommanded) if each.command.get("do") == "take_over"]
+    before = [each for each in taken if each.t <= goal.accepted_at]
+    return goal.run.scenario == WEAK or bool(before and before[-1].command.get("velocity") is not None)
+
+
+def could_rise(goal: Goal) -> bool:
+    """Return whether nothing kept the robot from rising in time: no cancel, fall, hold, Ctrl-C or load on one foot."""
+    if not began_low(goal) or was_held(goal) or granted(goal) or fallen_during(goal) or interrupted(goal):
+        return False
+    spans = uneven_spans(run_of(goal), *life(goal), 0.1)
+    return not spans or spans[-1][1] < goal.accepted_at + TIME_LIMIT - CAN_RISE
