@@ -31,7 +31,10 @@ PARTS = (
     *(f"course_cli/{name}.py" for name in ("__init__", "app", "ending", "exercises_option", "jobs_option")),
     *(f"course_cli/commands/{name}.py" for name in ("__init__", "check", "gradescope")),
 )
-KEPT_BACK = ("autograder/authoring/standard_hidden.py",)
+KEPT_BACK = (
+    "autograder/authoring/standard_hidden.py",
+    "autograder/authoring/walking/every_client_hidden.py",
+)
 _SETUP = f"""#!/usr/bin/env bash
 # Gradescope runs this once, as root, when it builds the image: the launcher makes the course's environment.
 export DEBIAN_FRONTEND=noninteractive

@@ -47,6 +47,7 @@ PARTS = (
 KEPT_BACK = (
     "autograder/audit",
     "autograder/authoring/standard_hidden.py",
+    "autograder/authoring/walking/every_client_hidden.py",
     "autograder/batch",
     "autograder/collect",
     "autograder/export",

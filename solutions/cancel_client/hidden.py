@@ -5,7 +5,7 @@ from __future__ import annotations
 from autograder.authoring.checks import program
 from autograder.authoring.obligation import check_of
 from autograder.authoring.walking import client_scenarios as scene
-from autograder.authoring.walking import every_client
+from autograder.authoring.walking import every_client, every_client_hidden
 from autograder.authoring.walking.client_obligations import follows
 
 from . import checks, model
@@ -128,7 +128,7 @@ walks_without_an_input = check_of(
     see="07_cancel_and_preempt#button-code",
 )
 
-gives_up_without_an_answer = every_client.check(
+gives_up_without_an_answer = every_client_hidden.check(
     "gives_up_without_an_answer", 1, needs=[checks.walks, checks.gives_up_without_a_server]
 )
 
@@ -142,6 +142,6 @@ notices_silence_on_the_way = check_of(
     see="03_clients_that_survive#kill-why",
 )
 
-survives_early_feedback = every_client.check(
+survives_early_feedback = every_client_hidden.check(
     "survives_early_feedback", 1, needs=[checks.walks, checks.prints_feedback_at_once]
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from autograder.authoring.checks import program
 from autograder.authoring.obligation import check_of
 from autograder.authoring.walking import client_scenarios as scene
-from autograder.authoring.walking import every_client
+from autograder.authoring.walking import every_client_hidden
 from autograder.authoring.walking.client_obligations import follows
 
 from . import checks, model
@@ -57,7 +57,7 @@ works_in_any_namespace = check_of(
     see="01_robot_and_graph#names-why",
 )
 
-gives_up_without_an_answer = every_client.check(
+gives_up_without_an_answer = every_client_hidden.check(
     "gives_up_without_an_answer", 6, 9, needs=[checks.sends_the_goal, checks.gives_up_without_a_server]
 )
 
@@ -81,7 +81,7 @@ notices_silence_on_the_way = check_of(
     see="03_clients_that_survive#kill-why",
 )
 
-survives_early_feedback = every_client.check(
+survives_early_feedback = every_client_hidden.check(
     "survives_early_feedback", 12, needs=[checks.prints_the_feedback, checks.says_how_it_succeeded]
 )
 
