@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.failure import CannotBeJudged, Failure
+from autograder.authoring.failure import CannotBeJudged, Failure, NoOccasion
 from autograder.authoring.record import Record
 from autograder.authoring.root_cause import Cause, why_it_went_no_further, why_the_robot_was_held_up
 
@@ -30,6 +30,12 @@ def unseen(run: Record, what: str) -> Exception:
     That is a `Failure` where the submission itself is the reason, else `CannotBeJudged`.
     """
     return _exception_for(run, what, why_the_robot_was_held_up(run) or why_it_went_no_further(run))
+
+
+def not_shown(run: Record, what: str) -> Exception:
+    """Return what to raise if nothing shows whether the sentence `what` holds; only the submission decides that."""
+    found = unseen(run, f"nothing shows whether {what}")
+    return found if isinstance(found, Failure) else NoOccasion(what)
 
 
 def held_up(run: Record, what: str) -> Exception:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from autograder.authoring import events as ev
 from autograder.authoring.feedback import require_feedback
 from autograder.authoring.goal import SUCCEEDED, Goal
-from autograder.authoring.missing import unseen
+from autograder.authoring.missing import not_shown, unseen
 from autograder.authoring.sequence import STEPS
 from autograder.authoring.walking import life
 from autograder.authoring.walking.planar import error, target
@@ -44,7 +44,7 @@ class Leg:
         for robot in goal.run.robot_between(start, end):
             if error(robot, goal)[0] <= whole / 2:
                 return Leg(start, robot.t, end)
-        raise unseen(goal.run, f"the robot was never half way to “{goal.name}”")
+        raise not_shown(goal.run, f"the robot walks half of the way to “{goal.name}”")
 
 
 def operated(goal: Goal, *how: str) -> bool:
@@ -84,7 +84,7 @@ def under_way(goal: Goal) -> Sequence[ev.FeedbackReceived]:
     """Return the feedback that came while more than 0.3 m were left, of which there must be some."""
     far = [each for each in told(goal) if error(goal.run.robot_at(each.t), goal)[0] > ON_THE_WAY]
     if not far:
-        raise unseen(goal.run, f"no feedback came under way to “{goal.name}”")
+        raise not_shown(goal.run, f"feedback comes while the robot is on its way to “{goal.name}”")
     return far
 
 

@@ -8,7 +8,7 @@ from collections import Counter
 from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
 from autograder.authoring.goal import Goal
-from autograder.authoring.missing import unseen
+from autograder.authoring.missing import not_shown
 from autograder.authoring.walking.life import phase
 from autograder.authoring.walking.path import walking_speed
 
@@ -67,7 +67,7 @@ def names_its_phases(goal: Goal) -> str | None:
         ("it turns to the goal's heading", aligning),
     ):
         if not statuses:
-            raise unseen(goal.run, f"no feedback came while {what}")
+            raise not_shown(goal.run, f"feedback comes while {what}")
         expect(
             all(status.strip() for status in statuses),
             expected=f"feedback.status to say in words that {what}",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from autograder.authoring.failure import expect
 from autograder.authoring.goal import Goal
-from autograder.authoring.missing import unseen
+from autograder.authoring.missing import not_shown
 from autograder.authoring.walking.life import accepted, interrupted, phase
 from autograder.authoring.walking.truth import require_arrival
 
@@ -54,7 +54,7 @@ def counts_the_detour(goal: Goal) -> str | None:
         at=taken,
     )
     if not counts:
-        raise unseen(goal.run, f"there was no feedback on “{goal.name}” before its result")
+        raise not_shown(goal.run, f"feedback on “{goal.name}” comes before its result")
     expect(
         1 <= counts[-1] <= MOST_DETOURS,
         expected="number_of_recoveries 1 after the robot was led astray once",

@@ -9,7 +9,7 @@ from autograder.authoring import events as ev
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import Goal
 from autograder.authoring.goal_endings import why_blind, why_rclpy_aborted
-from autograder.authoring.missing import unseen
+from autograder.authoring.missing import not_shown
 from autograder.authoring.walking.planar import POSITION_TOLERANCE, YAW_TOLERANCE, error, heading
 from autograder.authoring.walking.truth import require_accepted
 from ros_runtime.angles import wrap
@@ -65,7 +65,7 @@ def require_limited_velocity(goal: Goal) -> None:
     start = goal.run.robot_at(require_accepted(goal).sent.t)
     arrival = next((each for each in _on_its_way(goal) if error(each, goal)[0] <= POSITION_TOLERANCE), None)
     if arrival is None:
-        raise unseen(goal.run, f"the robot did not come near the goal “{goal.name}”")
+        raise not_shown(goal.run, f"the robot comes near the goal “{goal.name}”")
     speed = math.hypot(arrival.x - start.x, arrival.y - start.y) / max(arrival.t - start.t, 1e-6)
     expect(
         speed <= SPEED_SLACK * limit,

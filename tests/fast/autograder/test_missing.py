@@ -8,7 +8,7 @@ from std_srvs.srv import Trigger
 from autograder.authoring import events as ev
 from autograder.authoring.checks import Check, Scenario
 from autograder.authoring.failure import CannotBeJudged, Failure
-from autograder.authoring.missing import Missing, unseen
+from autograder.authoring.missing import Missing, not_shown, unseen
 from autograder.authoring.transcript import Transcript
 from autograder.engine.judging import judge
 from autograder.engine.wholeness import require_whole
@@ -228,3 +228,19 @@ def test_a_verdict_of_each_kind():
     broken = judge(check_that(lambda run: run.nonsense), [whole])
     assert broken.status == "error"
     assert "AttributeError" in broken.help
+
+
+def test_what_the_submission_alone_decides_and_does_not_show_costs_it_the_points_in_the_end():
+    quiet = transcript(ASKED, ANSWERED)
+
+    def never_walks(run):
+        raise not_shown(run, "the robot comes near the goal")
+
+    check = Check("walks", "It walks", 1, never_walks, on=(WITH_ROBOT,), needs=())
+    assert judge(check, [quiet]).status == "error"
+    verdict = judge(check, [quiet], finally_=True)
+    assert (verdict.status, verdict.expected) == (
+        "failed",
+        "an answer that shows this: the robot comes near the goal",
+    )
+    assert isinstance(not_shown(transcript(RAISED, EXITED), "the robot comes near"), Failure)
