@@ -65,7 +65,7 @@ walks_as_long_as_it_takes = check_of(
     "walks_as_long_as_it_takes",
     model.sends_one_goal,
     follows(8),
-    title="A late server, a late answer, and a walk of 12 s with feedback at most 4.5 s apart are waited for",
+    title="A late server, a late answer, and a walk of a minute with feedback at most 4.5 s apart are waited for",
     points=2,
     on=SLOW,
     needs=checks.gives_up_in_silence,

@@ -44,7 +44,7 @@ ON_ITS_WAY = 0.3  # s that feedback may be overtaken by the result
 ENDS_AT_ONCE = 10.0  # s
 USAGE = 2  # the exit status of argparse
 SOON = 1.0  # s in which a line about the answer to a cancel is printed
-LONGEST = 60.0  # s; no scenario lasts so long
+LONGEST = 100.0  # s; no scenario lasts so long
 TRACEBACK = "Traceback (most recent call last)"
 REFUSED = re.compile(
     r"refus|reject|declin|den(?:y|ied)|(?:not|n't|cannot) (?:be )?cancel|fail|terminated|already|too late",

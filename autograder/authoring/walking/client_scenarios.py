@@ -70,16 +70,17 @@ def any_walk(random: Random, arguments: int = 3) -> Script:
 
 
 def slow_walk(random: Random) -> Script:
-    """Return a walk of 12 s or more that stands still on the way; the server comes late, and its answer takes long."""
-    gaps = [round(random.uniform(4.0, LONGEST_GAP), 2) for _ in range(3)]
+    """Return a walk of a minute that stands still on the way; the server comes late, and its answer takes long."""
+    gaps = [round(random.uniform(4.0, LONGEST_GAP), 2) for _ in range(15)]
     distance = round(random.uniform(0.1, 20.0), 2)
     server = {
         "after": round(random.uniform(3.0, 3.4), 2),
-        "distances": [distance, distance, 0.0],
+        "distances": [*[distance] * 14, 0.0],
         "every": gaps,
         "ends_after": round(sum(gaps), 2),
     }
-    return {"arguments": any_pose(random), "server": server, "steps": [["wait", 2.5], ["offer"]]}
+    steps = [["wait", 2.5], ["offer"], ["await_answer"], ["wait", server["ends_after"]]]
+    return {"arguments": any_pose(random), "server": server, "steps": steps}
 
 
 def silence_on_the_way(random: Random, *, types: bool = False) -> Script:
