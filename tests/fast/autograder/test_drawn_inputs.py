@@ -24,7 +24,7 @@ from ros_runtime.recorded_client.conversation import Conversation
 SEEDS = int(os.environ.get("DRAWN_SEEDS", "25"))
 APART = 0.08  # m between where a cup stands and where it shall stand, so that a place can be told
 NUMBER = re.compile(r"-?\d+(\.\d+)?")  # an argument of a program
-CHARGES, SECONDS = (0.0, 1.0), (0.0, 20.0)
+CHARGES, SECONDS = (0.0, 1.0), (0.0, 70.0)
 BOUNDS = {
     "set_battery": CHARGES,
     "wait": SECONDS,
