@@ -68,14 +68,12 @@ def known_submissions(exercise: str, *, only: str = "*") -> list[KnownSubmission
     Each is a program, a patch, or a folder where students of the exercise write several files.
     """
     folders = [exercises_folder() / exercise / KNOWN / kind for kind in get_args(Kind)]
-    patterns = ("*.py", f"*{SUFFIX}", "[!_]*/")
-    paths = [
-        path for place in folders for path in sorted(p for pattern in patterns for p in place.glob(pattern))
-    ]
     return [
         read_known_submission(path)
-        for path in paths
-        if fnmatch(path.stem, only) or fnmatch(f"{path.parent.name}/{path.stem}", only)
+        for place in folders
+        for path in sorted(place.glob("[!_]*"))
+        if (path.is_dir() or path.suffix in (".py", SUFFIX))
+        and (fnmatch(path.stem, only) or fnmatch(f"{path.parent.name}/{path.stem}", only))
     ]
 
 
