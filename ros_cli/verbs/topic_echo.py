@@ -67,8 +67,7 @@ def print_messages(options: Namespace) -> None:
         command.discover(lambda: topic in command.topics())
         message_type = _message_type(command, topic, options.message_type)
         select(message_type(), options.field)
-        overridden = options.qos_reliability or options.qos_durability
-        qos = fitting_qos([] if overridden else command.node.get_publishers_info_by_topic(topic))
+        qos = fitting_qos(command.node.get_publishers_info_by_topic(topic))
         _override(qos, options.qos_reliability, options.qos_durability)
         arrived = command.messages(message_type, topic, qos)
         deadline = time.monotonic() + (options.timeout or float("inf"))
