@@ -22,6 +22,13 @@ def ended(console: Console, reason: object, status: int) -> typer.Exit:
     return typer.Exit(status)
 
 
+def batch_status(*, not_graded: int, complete: bool) -> int:
+    """Return the exit status of a batch: what the machine failed to grade comes before anything else incomplete."""
+    if not_graded:
+        return NOT_GRADED
+    return 0 if complete else COULD_NOT
+
+
 def is_a_full_disk(error: BaseException | None) -> bool:
     """Return whether an error, or one that led to it, says that nothing more can be written: also SQLite's words."""
     while error is not None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from course_cli.archive import write_archive
-from course_cli.student_bundle import files_of, require_no_leak, visible_checks
+from course_cli.student_bundle import HIDDEN, files_of, require_no_leak, visible_checks
 
 TOP = "humanoid-course"  # the folder of /autograder/source in which the course lies
 PARTS = (
@@ -31,10 +31,7 @@ PARTS = (
     *(f"course_cli/{name}.py" for name in ("__init__", "app", "ending", "exercises_option", "jobs_option")),
     *(f"course_cli/commands/{name}.py" for name in ("__init__", "check", "gradescope")),
 )
-KEPT_BACK = (
-    "autograder/authoring/standard_hidden.py",
-    "autograder/authoring/walking/every_client_hidden.py",
-)
+KEPT_BACK = HIDDEN
 _SETUP = f"""#!/usr/bin/env bash
 # Gradescope runs this once, as root, when it builds the image: the launcher makes the course's environment.
 export DEBIAN_FRONTEND=noninteractive

@@ -44,10 +44,13 @@ PARTS = (
     "docs/ros2_commands.md",
 )
 # For instructors only. `course` lists only commands whose modules exist.
-KEPT_BACK = (
-    "autograder/audit",
+HIDDEN = (  # hidden checks that several exercises share
     "autograder/authoring/standard_hidden.py",
     "autograder/authoring/walking/every_client_hidden.py",
+)
+KEPT_BACK = (
+    *HIDDEN,
+    "autograder/audit",
     "autograder/batch",
     "autograder/collect",
     "autograder/export",

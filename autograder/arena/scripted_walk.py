@@ -35,7 +35,7 @@ class World:
         self._server: ScriptedAction | None = None
 
     def play(self, arguments: Sequence[str], steps: Steps, **verbs: Callable[..., object]) -> None:
-        """Run the program, carry out the steps, for which there may be more `verbs`, and await its end.
+        """Run the program, carry out the steps, and wait for its end; `verbs` are steps beside those of every script.
 
         The server, if there is a script for it, is there from the start, or from a step on that says so.
         """

@@ -15,7 +15,7 @@ _MARKUP = re.compile(r"[`*]")
 
 @cache
 def clauses_in(notebook: Path) -> Mapping[int, str]:
-    """Return the clauses by number, each as one line of plain text; none, if there is no notebook that can be read."""
+    """Return the clauses by number, each as one line of plain text; empty without a readable notebook."""
     try:
         cells = cells_in(notebook.read_text(encoding="utf-8-sig"))
     except (OSError, ValueError):

@@ -73,7 +73,7 @@ class Names:
         )
 
     def of(self, name: str) -> Named | None:
-        """Return what a file of that name is; None if it is of no exercise."""
+        """Return the exercise and the file for which a file of that name stands; None if it belongs to no exercise."""
         kinds = _KINDS.fullmatch(name)
         words = self._copies.fullmatch(_in_words(kinds["stem"])) if kinds else None
         if not kinds or not words or not (known := self._known.get((words["stem"], kinds["kind"].lower()))):

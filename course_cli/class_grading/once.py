@@ -21,7 +21,7 @@ from autograder.report.classroom.pages import write_pages
 from course_cli.class_grading.output import enter_all, sources_of, tell_of_recordings, tell_the_end
 from course_cli.class_grading.progress import BatchProgress
 from course_cli.class_grading.setting import Setting, prepared
-from course_cli.ending import COULD_NOT, NOT_GRADED
+from course_cli.ending import batch_status
 
 
 def grade_once(console: Console, request: BatchRequest) -> int:
@@ -52,9 +52,7 @@ def grade_once(console: Console, request: BatchRequest) -> int:
         console.print(
             f"{request.out / SHARD}; join all of them with `course merge`", style="dim", markup=False
         )
-    if not_graded:
-        return NOT_GRADED
-    return 0 if is_entered and not collection.refused else COULD_NOT
+    return batch_status(not_graded=not_graded, complete=is_entered and not collection.refused)
 
 
 def _grade(setting: Setting, works: Sequence[Work], record: BatchRecord) -> list[Graded]:

@@ -24,7 +24,7 @@ from course_cli.class_grading.entering import Entering
 from course_cli.class_grading.once import left_aside, tell_what_is_left
 from course_cli.class_grading.progress import BatchProgress
 from course_cli.class_grading.setting import Setting, prepared
-from course_cli.ending import COULD_NOT, NOT_GRADED
+from course_cli.ending import batch_status
 
 BETWEEN_LOOKS = 1.0  # s at least
 SHARE_OF_TIME = 0.1  # that looking may take at most, and as much for files on the whole class
@@ -143,4 +143,4 @@ class _Watch:
             f"{len(self._results)} graded"
             + (f", {waiting} not yet: the same command goes on with them" if waiting else ""),
         )
-        return NOT_GRADED if not_graded else COULD_NOT if problems or waiting else 0
+        return batch_status(not_graded=not_graded, complete=not (problems or waiting))

@@ -18,7 +18,7 @@ from autograder.nbgrader_bridge.course_folder import RELEASE
 from autograder.recording.kept import FOLDER as RECORDINGS
 from autograder.report.classroom.pages import write_pages
 from course_cli.class_grading.output import enter_all, sources_of, tell_the_end
-from course_cli.ending import COULD_NOT, NOT_GRADED, UNUSABLE, ended
+from course_cli.ending import COULD_NOT, UNUSABLE, batch_status, ended
 from course_cli.exercises_option import CourseOption
 
 
@@ -70,4 +70,4 @@ def _write(console: Console, merged: Merged, folders: Sequence[Path], out: Path)
     not_graded = sum(grade.status == "not graded" for grade in grades)
     if not_graded:
         console.print(f"{not_graded} not graded; grade their shards again with --resume", style="magenta")
-    return NOT_GRADED if not_graded else COULD_NOT if merged.missing or unentered else 0
+    return batch_status(not_graded=not_graded, complete=not (merged.missing or unentered))

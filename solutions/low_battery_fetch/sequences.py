@@ -73,7 +73,7 @@ def in_order(*parts: Part, battery: float | None = CHARGED) -> dict[str, Any]:
 
 
 def scenario(*parts: Part, battery: float | None = CHARGED, **options: Any) -> Scenario:
-    """Return the scenario made of these parts; `options` are its other fields."""
+    """Return the scenario whose steps are these parts; `options` are the other fields of `Scenario`."""
     return Scenario("in_order", in_order(*parts, battery=battery), robot=None, **options)
 
 

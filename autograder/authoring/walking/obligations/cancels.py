@@ -1,4 +1,4 @@
-"""What a request to cancel a goal brings about, or does not."""
+"""How a request to cancel a goal is answered, and how the goal ends after it."""
 
 from __future__ import annotations
 
