@@ -43,7 +43,7 @@ QUESTIONS = (
         "What belongs in estimated_time_remaining, when a turn and a walk lie ahead?",
         (
             Choice(
-                "The sum of the parts, each at the speed that the robot really reaches: turns in rad/s, the way in m/s.",
+                "The sum of the parts, each at the speed that the robot really reaches: turns in rad/s, way in m/s.",
                 "A turn takes seconds and no metre, so it needs a speed of its own. Measure both, once or on the way.",
                 right=True,
             ),
@@ -104,8 +104,8 @@ QUESTIONS = (
             ),
             Choice(
                 "if percentage < 0.20: cancel()",
-                "Every comparison with NaN is false, so the walk goes on. A good guard warns once, too: this line alone "
-                "tells nobody that nothing was measured.",
+                "Every comparison with NaN is false, so the walk goes on. A good guard warns once, too: this line "
+                "alone tells nobody that nothing was measured.",
                 right=True,
             ),
             Choice(
