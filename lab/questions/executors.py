@@ -211,7 +211,8 @@ QUESTIONS = (
         (
             Choice(
                 "No: whatever takes longer than a second has to be an action.",
-                "No such limit exists. What matters is whether anybody wants to watch it or to cancel it.",
+                "No rule names a number. ROS's guide does keep services for what is quick, so you need a reason: does "
+                "anybody want to watch it, or to cancel it?",
             ),
             Choice(
                 "Yes: nobody wants to watch it or cancel it, and its answer is all that counts.",

@@ -40,20 +40,21 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "Which speed belongs into estimated_time_remaining?",
+        "What belongs in estimated_time_remaining, when a turn and a walk lie ahead?",
         (
             Choice(
-                "The one that the robot has reached lately, bounded away from 0.",
-                "It knows of the floor, the load and of somebody who holds the robot. The bound keeps it finite.",
+                "The sum of the parts, each at the speed that the robot really reaches: turns in rad/s, way in m/s.",
+                "A turn takes seconds and no metre, so it needs a speed of its own. Measure both, once or on the way.",
                 right=True,
             ),
             Choice(
-                "The one that you command: it is what the robot walks with.",
-                "The robot clamps a command, and it slips. The command is a wish; odom says what came of it.",
+                "The distance, divided by the speed that you command.",
+                "The robot clamps a command, and it slips. And the turn, which takes seconds, is forgotten.",
             ),
             Choice(
-                "The largest that the data sheet names, because people prefer short times.",
-                "People prefer times that come true. This one forgets that the robot has to turn, and that it slips.",
+                "The distance, divided by the speed of the last two seconds.",
+                "That is right while the robot walks. While it turns, that speed is about 0, and even a bounded one is "
+                "wrong by more than a factor of two.",
             ),
         ),
     ),
@@ -103,8 +104,8 @@ QUESTIONS = (
             ),
             Choice(
                 "if percentage < 0.20: cancel()",
-                "Every comparison with NaN is false. The walk goes on, and a warning tells people that nothing was "
-                "measured.",
+                "Every comparison with NaN is false, so the walk goes on. A good guard warns once, too: this line "
+                "alone tells nobody that nothing was measured.",
                 right=True,
             ),
             Choice(

@@ -58,12 +58,12 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "In rclpy, who sends the request for the result?",
+        "You sent a goal with send_goal_async(). Who sends the request for the result?",
         (
             Choice(
                 "send_goal_async(), together with the goal.",
                 "It sends the goal and registers the feedback callback. ros2 action send_goal and lab.send_goal "
-                "do more for you; rclpy doesn't.",
+                "do more for you; send_goal_async() doesn't.",
             ),
             Choice(
                 "You do, with get_result_async() on an accepted goal.",
@@ -96,7 +96,8 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "get_result_async() returns a response with status UNKNOWN and a result full of zeros. What happened?",
+        "The future of get_result_async() gives a response with status UNKNOWN and a result full of zeros. What "
+        "happened?",
         (
             Choice(
                 "The server doesn't know the goal, or no longer: its result may have expired.",

@@ -43,7 +43,7 @@ REFUSES = "02_services#set-refuse-why"
 KNOWS_NOTHING = "02_services#m9-fix-why"
 PUBLISHES = "01_robot_and_graph#conventions"
 LATCHES = "01_robot_and_graph#late-why"
-WALKS_LATER = "05_executors#why"
+WALKS_LATER = "05_executors#await-why"
 MEASURED = (model.tells_the_means, model.tells_the_count)
 
 server_appears = standard.server_appears("calibrate_imu", on=INTERRUPT)

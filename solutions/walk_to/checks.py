@@ -45,6 +45,7 @@ FALL = in_order(
 
 REJECT = "06_walk_to_a_pose#reject-task"
 FRAMES = "01_robot_and_graph#frames-intro"
+VELOCITY = "06_walk_to_a_pose#show-intro"
 
 server_appears = standard.server_appears(
     "the action walk_to", on=INTERRUPT, clauses=[13], see="06_walk_to_a_pose#small-intro"
@@ -85,7 +86,7 @@ refuses_a_cancel = check_of(
     title="It refuses to cancel",
     on=INTERFERE,
     needs=accepts_a_goal,
-    see="07_cancel_and_preempt#m1-why",
+    see="06_walk_to_a_pose#small-intro",
 )
 rejects_a_second_goal = check_of(
     "rejects_a_second_goal",
@@ -94,7 +95,7 @@ rejects_a_second_goal = check_of(
     title="A goal while another runs is rejected, and the first goes on",
     on=[INTERFERE, UNREADY],
     needs=refuses_a_cancel,
-    see="07_cancel_and_preempt#two-why",
+    see="06_walk_to_a_pose#small-intro",
 )
 of_a_walk = partial(check_of, on=WALK)
 walks_to_the_goal = of_a_walk(
@@ -110,14 +111,14 @@ obeys_max_velocity = of_a_walk(
     model.obeys_max_velocity,
     title="On the way it is no faster than max_velocity",
     needs=walks_to_the_goal,
-    see=FRAMES,
+    see=VELOCITY,
 )
 chooses_its_own_velocity = check_of(
     "chooses_its_own_velocity",
     model.walks_at_its_own_velocity,
     on=INTERFERE,
     needs=accepts_a_goal,
-    see="01_robot_and_graph#listen-intro",
+    see=VELOCITY,
 )
 arrives = of_a_walk(
     "arrives", model.succeeds, points=2, needs=walks_to_the_goal, see="06_walk_to_a_pose#settle-why"
