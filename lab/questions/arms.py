@@ -83,7 +83,7 @@ QUESTIONS = (
         (
             Choice(
                 "0.035 m.",
-                "10 / 400 = 0.025 m are to be missing. Whether it became 10 N, wrench says.",
+                "10 / 400 = 0.025 m have to be missing. wrench tells whether that became 10 N.",
                 right=True,
             ),
             Choice(
