@@ -60,8 +60,8 @@ def decides_about_what_is_asked_for() -> str:
         (wide, {"turn": 0.45, "speed": 0.2}, True, "lay all new values over the old ones before you judge"),
         (wide, {"speed": 0.3, "turn": 0.9}, True, "lay all new values over the old ones before you judge"),
         (half, {"turn": 0.1, "speed": 0.01}, False, "judge after the loop, with all the new values"),
-        (half, {"speed": math.nan}, False, "every comparison with NaN is false: ask `not speed >= …`"),
-        (half, {"turn": math.nan}, False, "every comparison with NaN is false: ask `not speed >= …`"),
+        (half, {"speed": math.nan}, False, "every `<` and `>` with NaN is false: ask `not speed >= …`"),
+        (half, {"turn": math.nan}, False, "every `<` and `>` with NaN is false: ask `not speed >= …`"),
         (
             half,
             {"use_sim_time": True},

@@ -45,12 +45,12 @@ QUESTIONS = (
         (
             Choice(
                 "abort(), then an empty trajectory.",
-                "The client may send its next goal as soon as it reads ABORTED. Your empty trajectory could then "
-                "stop that one.",
+                "The status ABORTED goes out at once. Whoever watches it, or has its result from a server in C++, "
+                "may send the next goal, and your empty trajectory would stop that one.",
             ),
             Choice(
                 "An empty trajectory, then abort() with a code and the joint's name.",
-                "First the arm is safe, then the client learns of it.",
+                "First the motion ends, then the client learns of it.",
                 right=True,
             ),
             Choice(
@@ -83,7 +83,7 @@ QUESTIONS = (
         (
             Choice(
                 "0.035 m.",
-                "10 / 400 = 0.025 m are to be missing. Whether it became 10 N, wrench says.",
+                "10 / 400 = 0.025 m have to be missing. wrench tells whether that became 10 N.",
                 right=True,
             ),
             Choice(

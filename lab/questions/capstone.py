@@ -80,7 +80,8 @@ QUESTIONS = (
         (
             Choice(
                 "Cancel the arm, then put the glass down, then give up.",
-                "The child at work ends first. Then comes the way out that fits what is in the hand.",
+                "The child at work ends first. Then comes the way out that fits what is in the hand. (Only a child "
+                "that puts down what it holds by itself, as the exercise's does, is left to finish.)",
                 right=True,
             ),
             Choice(
@@ -193,7 +194,7 @@ PREDICTIONS = (
         ),
     ),
     Question(
-        "The legs are killed on the way. What does the errand get to know?",
+        "The legs are killed on the way. What does the errand notice?",
         (
             Choice(
                 "The future of the result raises an exception.",

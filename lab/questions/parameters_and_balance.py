@@ -114,19 +114,19 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "Where does the order to stop the robot at once belong?",
+        "How do you give the order to stop the robot at once, whatever else is broken?",
         (
             Choice(
-                "Into a parameter stop, because everybody can set parameters.",
-                "A set may be refused, for its type alone, and nobody notices who only looks at the exit status.",
+                "By a parameter named stop, because everybody can set parameters.",
+                "A set may be refused, if only for its type, and the exit status of ros2 param set does not tell.",
             ),
             Choice(
-                "On a topic that the robot watches, or into hardware; not into a parameter.",
-                "A parameter is a setting. An order has to arrive whatever the settings are.",
+                "By hardware; a topic is at most for an ordinary stop, and a parameter for none.",
+                "A wire needs no program and no network. A parameter is a setting, and a set may be refused.",
                 right=True,
             ),
             Choice(
-                "Into the on-set callback of speed.",
+                "In the on-set callback of speed.",
                 "It decides about values. A side effect there moves the robot even when the set is refused.",
             ),
         ),

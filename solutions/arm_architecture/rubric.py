@@ -46,7 +46,8 @@ CRITERIA = (
         "qos",
         "QoS",
         on_links(
-            "every link of ROS says reliability, durability and depth (or what the default is), and why they fit"
+            "every link of ROS says reliability, durability and depth, or what the default is; and why, where it is "
+            "not the default"
         ),
     ),
     Criterion(
@@ -69,7 +70,8 @@ CRITERIA = (
         on_links(
             "every link says what it can do to a person or a thing, and each that moves something fails towards "
             "standing still",
-            or_none="what must always work depends on a program, a network or an answer",
+            or_none="what must always work depends on an ordinary program, network or answer (safety-rated ones count "
+            "as a wire)",
         ),
     ),
 )

@@ -19,7 +19,7 @@ REFUSALS = {
         "Refuse a kp that is not above 51.0 in the on-set callback: the new values are in its argument.",
     ),
     NEGATIVE: ("it is negative", "Let the range begin at 0.0, or look at the value in the on-set callback."),
-    NOT_FINITE: ("it is not finite", "Every comparison with NaN is false: ask math.isfinite()."),
+    NOT_FINITE: ("it is not finite", "Every `<` and `>` with NaN is false: ask math.isfinite()."),
     INTEGER: (
         "it is an integer",
         "Leave dynamic_typing alone: a parameter declared with a float stays a double.",

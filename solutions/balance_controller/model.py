@@ -320,7 +320,7 @@ def survives(run: Transcript) -> str | None:
     how = "its motors were switched off" if fallen is None else f"it fell at {fallen:.1f} s"
     expect(
         fallen is None and not off,
-        expected="a robot that stays on its feet, its motors on, because every gain that would let it fall is refused",
+        expected="a robot that stays on its feet, its motors on, because gains that can never hold it are refused",
         observed=f"{how}; it was pushed at {pushed:.1f} s; the last on {TOPIC} before: "
         + (_shown(_gains_in(heard[-1])) if heard else "nothing at all"),
         help="Somebody switched its motors off: publish nothing but balance_gains."

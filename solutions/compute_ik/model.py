@@ -145,7 +145,7 @@ def refuses_a_pose_that_is_not_finite(call: Call) -> str | None:
         not reply.is_a_success,
         expected=f"any error_code but SUCCESS for {reply.question}",
         observed=f"error_code {code_in_words(reply.error_code)}, {reply.angles}",
-        help="Every comparison with NaN is false: ask math.isfinite(), or test for what is good.",
+        help="Every `<` and `>` with NaN is false: ask math.isfinite(), or test for what is good.",
     )
     return "NaN" if any(map(math.isnan, reply.target)) else "infinite"
 

@@ -208,7 +208,7 @@ waits_for_a_child_that_goes_on = in_drops(
     *(*model.of(("refused",), *model.stops_in_time), model.one_child_at_a_time),
     title="A child that refuses the cancel is waited for all the same; then the robot goes home",
     needs=checks.gives_up_before_the_grasp,
-    see=checks.ORPHANS,
+    see=checks.GOES_DOWN,
 )
 gives_up_for_good = in_drops(
     "gives_up_for_good",

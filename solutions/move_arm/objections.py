@@ -107,7 +107,7 @@ TIMES = Objection(
 )
 NOT_FINITE = Objection(
     _is_not_finite,
-    "Test every position of every point with math.isfinite(): NaN compares false with everything, so it is neither "
+    "Test every position of every point with math.isfinite(): every `<` and `>` with NaN is false, so it is neither "
     "below nor above a limit.",
     "rejects_not_finite",
     "It rejects a trajectory that holds NaN or an infinite position",

@@ -78,7 +78,7 @@ def keeps_the_force(run: Transcript) -> None:
     require_force_kept(run.goal("fetch"))
 
 
-@check(on=FETCH, needs=places_the_cup, see="09_arms#silent-why", clauses=[10])
+@check(on=FETCH, needs=places_the_cup, see="06_walk_to_a_pose#late-why", clauses=[10])
 def fills_the_result(run: Transcript) -> None:
     """The result tells where the cup is, and the largest force that was measured"""
     require_filled_result(run.goal("fetch"))
@@ -113,7 +113,7 @@ def feedback_is_measured(run: Transcript) -> None:
     require_true_values(run.goal("fetch"))
 
 
-@check(on=FETCH, needs=places_the_cup, see="09_arms#phases-why", clauses=[9])
+@check(on=FETCH, needs=places_the_cup, see="08_navigation#zero-fix-why", clauses=[9])
 def percentage_rises(run: Transcript) -> None:
     """percent_complete rises from 0 towards 100 and never falls"""
     require_rising_percentage(run.goal("fetch"))
@@ -150,11 +150,11 @@ def rejects_a_wrong_force(run: Transcript) -> None:
     ):
         run.goal(name).require_rejected(
             because=f"no hand can hold with {force} N",
-            help="Write `if not 0.0 < goal_request.grasp_force <= 25.0`: NaN compares false with everything.",
+            help="Write `if not 0.0 < goal_request.grasp_force <= 25.0`: every `<` and `>` with NaN is false.",
         )
 
 
-@check(on=UNKNOWN, needs=accepts_a_goal, see="09_arms#base-intro", clauses=[11, 17])
+@check(on=UNKNOWN, needs=accepts_a_goal, see="09_arms#phases-why", clauses=[11, 17])
 def knows_no_teapot(run: Transcript) -> None:
     """An object whose pose nobody publishes ends the goal with UNKNOWN_OBJECT after 1 s"""
     goal = run.goal("unknown 1")
@@ -198,13 +198,13 @@ def _require_unreachable(run: Transcript, because: str) -> None:
     require_nothing_moved(goal)
 
 
-@check(points=2, on=TAKEN, needs=places_the_cup, see="09_arms#firm-why", clauses=[13, 17])
+@check(points=2, on=TAKEN, needs=places_the_cup, see="09_arms#force-why", clauses=[13, 17])
 def notices_an_empty_hand(run: Transcript) -> None:
     """When the fingers close on nothing the goal ends with GRASP_FAILED"""
     require_grasp_failed(run.goal("fetch"))
 
 
-@check(on=TAKEN, needs=notices_an_empty_hand, see="09_arms#firm-why", clauses=[13])
+@check(on=TAKEN, needs=notices_an_empty_hand, see="09_arms#force-why", clauses=[13])
 def withdraws_an_empty_hand(run: Transcript) -> None:
     """After that the hand is open and withdrawn"""
     result = require_grasp_failed(run.goal("fetch"))

@@ -70,7 +70,7 @@ LOOK = "07_cancel_and_preempt#conventions"
 
 @check(points=2, on=ANYWHERE, needs=places_the_cup, see="09_arms#careful-why", clauses=[2, 3, 4])
 def fetches_from_anywhere(run: Transcript) -> None:
-    """It finds the cup wherever it stands, and puts it down wherever it shall stand"""
+    """It finds the cup wherever it stands, and puts it down wherever it has to stand"""
     require_placed(run.goal("fetch"))
 
 
@@ -95,7 +95,7 @@ def fetches_twice(run: Transcript) -> None:
     require_placed(run.goal("fetch 2"))
 
 
-@check(on=NO_NAMES, needs=knows_no_teapot, see="09_arms#base-intro", clauses=[11, 17])
+@check(on=NO_NAMES, needs=knows_no_teapot, see="09_arms#phases-why", clauses=[11, 17])
 def survives_a_name_that_is_none(run: Transcript) -> None:
     """An object_id that cannot be part of a topic's name is an unknown object, too"""
     for number, name in enumerate(run.params["objects"], start=1):

@@ -107,8 +107,8 @@ FRAME = Objection(
 )
 NOT_FINITE = Objection(
     _is_not_finite,
-    "Test every number of position and orientation with math.isfinite() in goal_callback: NaN compares false with "
-    "everything.",
+    "Test every number of position and orientation with math.isfinite() in goal_callback: every `<` and `>` with "
+    "NaN is false.",
     "rejects_nan",
     "It rejects a pose that holds NaN or infinity",
 )

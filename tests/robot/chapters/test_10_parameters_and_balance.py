@@ -190,7 +190,7 @@ OVER = "for parameter in parameters:\n    wanted[parameter.name] = parameter.val
         (f"{OVER.replace('wanted', 'now')}{DECIDED}{REFUSED}", "deciding has no side effect"),
         (
             f'{OVER}if wanted["speed"] < TIGHTEST * abs(wanted["turn"]):\n{REFUSED}',
-            "every comparison with NaN is false",
+            "every `<` and `>` with NaN is false",
         ),
         (
             f'{OVER}if not wanted["speed"] >= TIGHTEST * wanted["turn"]:\n{REFUSED}',
