@@ -125,7 +125,7 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "With rclpy from PyPI, ROS_PYTHON_CHECK_FIELDS unset, you publish a Twist with linear.x = 1. The "
+        "With ROS from PyPI, ROS_PYTHON_CHECK_FIELDS unset, you publish a Twist with linear.x = 1. The "
         "robot does not "
         "move. What did your node send?",
         (
@@ -135,12 +135,12 @@ QUESTIONS = (
             ),
             Choice(
                 "Nothing: rclpy drops messages with wrong fields.",
-                "A sensible guess, but without ROS_PYTHON_CHECK_FIELDS=1 rclpy does not check the fields at all.",
+                "A sensible guess, but without ROS_PYTHON_CHECK_FIELDS=1 nobody checks the fields at all.",
             ),
             Choice(
-                "5e-324: the int was taken for a float, bit by bit.",
-                "A float field needs a float: 1.0. With ROS_PYTHON_CHECK_FIELDS=1 the line itself raises; "
-                "the rclpy of apt ends the process.",
+                "Practically 0: the int was taken for a float, bit by bit.",
+                "Python's 1, read so, is 5e-324 or 4e-323. A float field needs a float: 1.0. With "
+                "ROS_PYTHON_CHECK_FIELDS=1 the line itself raises; packages from apt end the process.",
                 right=True,
             ),
         ),
