@@ -19,7 +19,7 @@ QUESTIONS = (
                 right=True,
             ),
             Choice(
-                "The robot does not know that your node subscribes.",
+                "The robot doesn't know that your node subscribes.",
                 "It needn't know. The middleware matches publishers and subscriptions, if their QoS settings are "
                 "compatible.",
             ),
@@ -126,12 +126,12 @@ QUESTIONS = (
     ),
     Question(
         "With ROS from PyPI, ROS_PYTHON_CHECK_FIELDS unset, you publish a Twist with linear.x = 1. The "
-        "robot does not "
+        "robot doesn't "
         "move. What did your node send?",
         (
             Choice(
                 "1.0; the robot ignores speeds above its limit of 0.4 m/s.",
-                "It clamps them: with 1.0 it would walk at 0.4 m/s. But your node did not send 1.0.",
+                "It clamps them: with 1.0 it would walk at 0.4 m/s. But your node didn't send 1.0.",
             ),
             Choice(
                 "Nothing: rclpy drops messages with wrong fields.",
