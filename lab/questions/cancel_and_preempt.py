@@ -8,8 +8,8 @@ QUESTIONS = (
         (
             Choice(
                 "It is being cancelled: 0 means that there was no error.",
-                "0 only says that the server understood the request. The goals that it will cancel are in the list, "
-                "and the list is empty.",
+                "It should mean that, and rclpy's server answers 0 to a refusal, too. The goals that it will cancel "
+                "are in the list, and the list is empty.",
             ),
             Choice(
                 "It goes on as if nobody had asked.",
@@ -234,13 +234,13 @@ PREDICTIONS = (
         (
             Choice(
                 "It waits until the first has ended.",
-                "A sensible guess: the robot can't turn both ways. But rclpy runs each goal in a thread "
-                "of its own. If one goal should wait for another, your server has to see to it.",
+                "A sensible guess: the robot can't turn both ways. But rclpy begins each goal at once, here in a "
+                "thread of its own. If one goal should wait for another, your server has to see to it.",
             ),
             Choice(
                 "The server rejects it.",
-                "A sensible guess: the robot is busy. But only a goal callback rejects a goal, and this "
-                "server has none. Both goals run, each in a thread of its own.",
+                "A sensible guess: the robot is busy. But only a goal callback rejects a goal, and the one of "
+                "this server doesn't ask whether the robot is busy. Both goals run, each in a thread of its own.",
             ),
             Choice(
                 "It runs beside the first.",

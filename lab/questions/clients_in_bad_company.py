@@ -117,7 +117,7 @@ QUESTIONS = (
                 right=True,
             ),
             Choice(
-                "That the other server has not got the request.",
+                "That the other server hasn't got the request.",
                 "It has. Both get every request, and both carry it out.",
             ),
         ),

@@ -12,7 +12,7 @@ QUESTIONS = (
                 "None, and the next line fails.",
             ),
             Choice(
-                "Ask future.done(); if it is not done, remove the request and treat the outcome as unknown.",
+                "Ask future.done(); if it isn't done, remove the request and treat the outcome as unknown.",
                 "The function only limits the wait. You look whether there is an answer.",
                 right=True,
             ),

@@ -19,7 +19,7 @@ QUESTIONS = (
                 right=True,
             ),
             Choice(
-                "The robot does not know that your node subscribes.",
+                "The robot doesn't know that your node subscribes.",
                 "It needn't know. The middleware matches publishers and subscriptions, if their QoS settings are "
                 "compatible.",
             ),
@@ -125,22 +125,22 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "With rclpy from PyPI, ROS_PYTHON_CHECK_FIELDS unset, you publish a Twist with linear.x = 1. The "
-        "robot does not "
+        "With ROS from PyPI, ROS_PYTHON_CHECK_FIELDS unset, you publish a Twist with linear.x = 1. The "
+        "robot doesn't "
         "move. What did your node send?",
         (
             Choice(
                 "1.0; the robot ignores speeds above its limit of 0.4 m/s.",
-                "It clamps them: with 1.0 it would walk at 0.4 m/s. But your node did not send 1.0.",
+                "It clamps them: with 1.0 it would walk at 0.4 m/s. But your node didn't send 1.0.",
             ),
             Choice(
                 "Nothing: rclpy drops messages with wrong fields.",
-                "A sensible guess, but without ROS_PYTHON_CHECK_FIELDS=1 rclpy does not check the fields at all.",
+                "A sensible guess, but without ROS_PYTHON_CHECK_FIELDS=1 nobody checks the fields at all.",
             ),
             Choice(
-                "5e-324: the int was taken for a float, bit by bit.",
-                "A float field needs a float: 1.0. With ROS_PYTHON_CHECK_FIELDS=1 the line itself raises; "
-                "the rclpy of apt ends the process.",
+                "Practically 0: the int was taken for a float, bit by bit.",
+                "Python's 1, read so, is 5e-324 or 4e-323. A float field needs a float: 1.0. With "
+                "ROS_PYTHON_CHECK_FIELDS=1 the line itself raises; packages from apt end the process.",
                 right=True,
             ),
         ),

@@ -4,7 +4,7 @@ from lab.question import Choice, Question
 
 QUESTIONS = (
     Question(
-        "Your service callback cannot do what was asked: the robot lies on the floor. What should it do?",
+        "Your service callback can't do what was asked: the robot lies on the floor. What should it do?",
         (
             Choice(
                 "Raise an exception, so that the client notices.",
@@ -27,7 +27,7 @@ QUESTIONS = (
         "You have waited two seconds for a response, and you give up. What do you know about the request?",
         (
             Choice(
-                "The server did not carry it out.",
+                "The server didn't carry it out.",
                 "It may have: the self-test of this chapter ran to its end after the client had given up.",
             ),
             Choice(
@@ -51,7 +51,7 @@ QUESTIONS = (
                 "looks alive as long as it runs.",
             ),
             Choice(
-                "A server of this name and type has announced itself and has not signed off.",
+                "A server of this name and type has announced itself and hasn't signed off.",
                 "Discovery knows no more than that. Only the time limit on the call protects you.",
                 right=True,
             ),

@@ -17,7 +17,7 @@ QUESTIONS = (
             ),
             Choice(
                 "A topic of std_msgs/msg/Bool.",
-                "A topic has no response: the server could not say that the lamp is broken.",
+                "A topic has no response: the server couldn't say that the lamp is broken.",
             ),
         ),
     ),
@@ -35,7 +35,7 @@ QUESTIONS = (
             ),
             Choice(
                 "geometry_msgs/PointStamped target  # m",
-                "It carries its frame_id, so the server can refuse a point in a frame that it does not know.",
+                "It carries its frame_id, so the server can refuse a point in a frame that it doesn't know.",
                 right=True,
             ),
         ),
@@ -72,10 +72,10 @@ QUESTIONS = (
             ),
             Choice(
                 "The old node picks up the new definition.",
-                "It read the definition when it imported it. A running process does not change.",
+                "It read the definition when it imported it. A running process doesn't change.",
             ),
             Choice(
-                "They connect, and bytes are read as fields that they are not.",
+                "They connect, and bytes are read as fields that they aren't.",
                 "Only bytes travel, in the order of the file. "
                 "After a change every program that uses the type is started again.",
                 right=True,
@@ -107,7 +107,7 @@ QUESTIONS = (
         (
             Choice(
                 "The forearm is 1.0 m long.",
-                "1 is an integer and the parameter is a double. ROS 2 does not convert one into the other.",
+                "1 is an integer and the parameter is a double. ROS 2 doesn't convert one into the other.",
             ),
             Choice(
                 "The node ends at the declaration: the type is wrong.",

@@ -449,9 +449,9 @@ def says_what_was_refused(life: ClientLife) -> str | None:
         any(REFUSED.search(line) for line in said),
         expected=f"a line with the word refused, because goals_canceling is empty (return_code {reply.return_code})",
         observed=" | ".join((others or said)[:4]) or "nothing was printed meanwhile",
-        help="Look into the answer of cancel_goal_async(): return_code 0 says only that the request was understood. "
-        "The goal is being cancelled if it is in goals_canceling; every other answer is a refusal, whatever its "
-        "return_code.",
+        help="Look into the answer of cancel_goal_async(). return_code 0 is not yet a yes: rclpy's server answers 0 to "
+        "a refusal, too. The goal is being cancelled if it is in goals_canceling; every other answer is a refusal, "
+        "whatever its return_code.",
         at=reply.t,
     )
     return f"refused with code {reply.return_code}"
