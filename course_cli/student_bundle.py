@@ -72,7 +72,6 @@ KEPT_BACK = (
             "merge",
             "new",
             "package",
-            "rehearse",
             "release",
             "test",
         )
