@@ -90,9 +90,6 @@ COMMANDS: dict[str, Command] = {
     "new": Command("course_cli.commands.new:new", "Make the folder of a new exercise."),
     "release": Command("course_cli.commands.release:release", "Write the students' archive."),
     "audit": Command("course_cli.commands.audit:audit", "Grade submissions with known faults."),
-    "rehearse": Command(
-        "course_cli.commands.rehearse:rehearse", "Make a class whose grades are known, and compare them."
-    ),
     "book": Command(
         "course_cli.commands.book:book", "Make chapters, exercises and docs into a site for readers."
     ),

@@ -76,7 +76,6 @@ KEPT_BACK = (
             "merge",
             "new",
             "package",
-            "rehearse",
             "release",
             "test",
         )

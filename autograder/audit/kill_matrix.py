@@ -8,7 +8,6 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from autograder.audit.aftermath import Aftermath
 from autograder.audit.run import AuditedRun, checks_without_a_killer
 from autograder.engine.exercise import Exercise
 from autograder.report.table import MARKS
@@ -27,18 +26,6 @@ def print_progress(console: Console, run: AuditedRun, *, earlier: bool = False) 
     console.print(Text.assemble((f"{mark} ", colour), f"{run.known.name}  ", (facts, "dim")))
     for surprise in surprises:
         console.print(Text(f"    {surprise}", colour))
-
-
-def print_aftermath(console: Console, aftermath: Aftermath) -> None:
-    """Print one finished run, and what it did to the machine and to the next one."""
-    print_progress(console, aftermath.run)
-    if harm := aftermath.harm():
-        for line in harm:
-            console.print(Text(f"    {line}", "red"))
-    else:
-        correct = aftermath.next_run
-        points = f"{correct.grade.score}/{correct.grade.max_score}"
-        console.print(Text(f"    nothing left behind; then {correct.known.name}  {points}", "dim"))
 
 
 def kill_matrix(runs: Sequence[AuditedRun], exercise: Exercise) -> RenderableType:

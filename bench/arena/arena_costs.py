@@ -1,14 +1,12 @@
-"""Measures what arenas and gradings cost, in this version and another, in turns."""
+"""Measures what arenas and gradings cost."""
 
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
-from pathlib import Path
 from typing import Any
 
 from bench.arena.processor_time import metered_group
@@ -24,14 +22,6 @@ ARENAS = (  # the first scenario of a check
 
 class BenchFailed(Exception):
     """A measured run failed."""
-
-
-@dataclass(frozen=True)
-class Version:
-    """A checkout with its environment; this version's code measures every one."""
-
-    project: Path = PROJECT
-    python: Path = Path(sys.executable)
 
 
 @dataclass(frozen=True)
@@ -72,7 +62,7 @@ class SubmissionCost:
 
 @dataclass(frozen=True)
 class Costs:
-    """What was measured for one version."""
+    """What was measured in one run of `course bench`."""
 
     arenas: Sequence[ArenaCost] = ()
     submissions: Sequence[SubmissionCost] = ()
@@ -97,33 +87,30 @@ class Costs:
 
 
 def measure(
-    versions: Sequence[Version],
     *,
     arenas: Sequence[tuple[str, str]] = (),
     submissions: Sequence[str] = (),
     runs: int = 5,
     jobs: int = 2,
     progress: Callable[[str], None] = lambda what: None,
-) -> list[Costs]:
-    """Measure each version; the best of several runs counts, because a machine's noise only adds time.
+) -> Costs:
+    """Measure arenas and gradings; the best of several runs counts, because a machine's noise only adds time.
 
     Raises:
         BenchFailed: a run failed.
         CannotBeMeasured: this machine cannot count processor time.
     """
-    arena_costs: list[list[ArenaCost]] = [[] for _ in versions]
-    submission_costs: list[list[SubmissionCost]] = [[] for _ in versions]
+    arena_costs: list[ArenaCost] = []
+    submission_costs: list[SubmissionCost] = []
     for exercise, scenario in arenas:
-        for version, costs in zip(versions, arena_costs, strict=True):
-            progress(f"{exercise} {scenario}, {runs} times")
-            task = {"exercise": exercise, "scenario": scenario, "runs": runs, "jobs": 1}
-            costs.append(_arena_cost(exercise, scenario, list(_run(version, task))))
+        progress(f"{exercise} {scenario}, {runs} times")
+        task = {"exercise": exercise, "scenario": scenario, "runs": runs, "jobs": 1}
+        arena_costs.append(_arena_cost(exercise, scenario, list(_run(task))))
     for exercise in submissions:
-        for version, graded in zip(versions, submission_costs, strict=True):
-            progress(f"{exercise} graded, {runs} times")
-            task = {"exercise": exercise, "scenario": "", "runs": runs, "jobs": jobs}
-            graded.append(_submission_cost(exercise, list(_run(version, task))))
-    return [Costs(*both) for both in zip(arena_costs, submission_costs, strict=True)]
+        progress(f"{exercise} graded, {runs} times")
+        task = {"exercise": exercise, "scenario": "", "runs": runs, "jobs": jobs}
+        submission_costs.append(_submission_cost(exercise, list(_run(task))))
+    return Costs(arena_costs, submission_costs)
 
 
 def _arena_cost(exercise: str, scenario: str, runs: Sequence[dict[str, Any]]) -> ArenaCost:
@@ -148,19 +135,18 @@ def _submission_cost(exercise: str, runs: Sequence[dict[str, Any]]) -> Submissio
     return SubmissionCost(exercise, cpu, wall, min(run["floor_s"] for run in runs))
 
 
-def _run(version: Version, task: dict[str, Any]) -> Iterator[dict[str, Any]]:
+def _run(task: dict[str, Any]) -> Iterator[dict[str, Any]]:
     with metered_group() as (processes, meter):
-        task = {**task, "project": str(version.project), "meter": meter}
-        script = str(Path(__file__).with_name("measured_run.py"))
-        command = [str(version.python), script, json.dumps(task)]
+        task = {**task, "meter": meter}
+        command = [sys.executable, "-m", "bench.arena.measured_run", json.dumps(task)]
         process = subprocess.Popen(
             ["/bin/sh", "-c", 'echo $$ > "$0" && exec "$@"', str(processes), *command],
-            env={**os.environ, "PYTHONPATH": str(version.project)},
+            cwd=PROJECT,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
         )
         output, errors = process.communicate()
     if process.returncode:
-        raise BenchFailed(f"a run of {task['exercise']} in {version.project} failed: {errors[-2000:]}")
+        raise BenchFailed(f"a run of {task['exercise']} failed: {errors[-2000:]}")
     yield from map(json.loads, output.splitlines())

@@ -1,9 +1,8 @@
 """Runs a scenario or a grading again and again, and prints the cost of each run as a JSON object on a line.
 
-Run as `python measured_run.py TASK` in a process of its own, so that nothing else is counted, with any version of
-this package on the path: it uses what they have in common. TASK is JSON: the `project` whose reference solution is
-run, its `exercise`, the `scenario` (none: the whole grading), how many `runs`, with how many `jobs`, and the `meter`
-of `processor_time`.
+Run as `python -m bench.arena.measured_run TASK` in a process of its own, so that nothing else is counted. TASK is
+JSON: the `exercise` whose reference solution is run, the `scenario` (none: the whole grading), how many `runs`, with
+how many `jobs`, and the `meter` of `processor_time`.
 """
 
 from __future__ import annotations
@@ -13,33 +12,24 @@ import json
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from robot_watch import RobotWatch  # beside this file, in whatever version is measured
-
-try:
-    from autograder.authoring import events as ev
-    from autograder.engine import arena_run
-    from autograder.engine.exercise import Exercise, load_exercise
-    from autograder.engine.grading import grade
-    from autograder.engine.submission import Submission, read_submission
-except ImportError:  # as in older versions
-    from autograder.exercise import Exercise, load_exercise  # type: ignore
-    from autograder.grading import grade  # type: ignore
-    from autograder.submission import Submission, read_submission  # type: ignore
-
-    from autograder import arena_run  # type: ignore
-    from autograder import events as ev  # type: ignore
+from autograder.authoring import events as ev
+from autograder.engine.arena_run import ArenaRun, run_in_arena
+from autograder.engine.exercise import Exercise, load_exercise
+from autograder.engine.grading import grade
+from autograder.engine.submission import Submission, read_submission
+from autograder.engine.submission_arenas import SubmissionArenas
+from bench.arena.robot_watch import RobotWatch
+from ros_runtime.project import PROJECT
 
 
 def main() -> None:
     """Carry out the task."""
     task = json.loads(sys.argv[1])
     name = task["exercise"]
-    reference = Path(task["project"], "solutions", name, f"{name}.ipynb")
+    reference = PROJECT / "solutions" / name / f"{name}.ipynb"
     exercise, submission = load_exercise(name, hidden=True), read_submission(reference, name)
     for cost in (
         _arenas(task, exercise, submission) if task["scenario"] else _gradings(task, exercise, submission)
@@ -48,22 +38,19 @@ def main() -> None:
 
 
 def _arenas(task: dict[str, Any], exercise: Exercise, submission: Submission) -> Iterator[dict[str, Any]]:
-    """Run a scenario again and again; if an arena serves several, the run that opens it is marked."""
+    """Run a scenario again and again in one arena; the run that opens it is marked."""
     named = (check.on[0] for check in exercise.checks if check.id == task["scenario"])
-    run = arena_run.ArenaRun(exercise, submission.files, next(named))
-    with _shared_arenas(exercise) as arenas:
-        is_shared = arenas is not None
-        for number in range(task["runs"] + is_shared):
-            opens = is_shared and number == 0
-            this = dataclasses.replace(run, cold=opens, measured=True) if is_shared else run
+    run = ArenaRun(exercise, submission.files, next(named), measured=True)
+    with SubmissionArenas(exercise.scenario_file) as arenas:
+        for number in range(task["runs"] + 1):
+            opens = number == 0
             before = _used(task["meter"]), time.monotonic()
             with RobotWatch() as watch:
-                transcript = arena_run.run_in_arena(this, *((None, arenas) if is_shared else ()))
+                transcript = run_in_arena(dataclasses.replace(run, cold=opens), arenas=arenas)
             after = _used(task["meter"]), time.monotonic()
             phases = {
                 event.name: {"cpu_s": event.cpu, "wall_s": event.wall}
-                for event in transcript.events
-                if type(event).__name__ == "PhaseEnded"  # which the oldest versions do not have
+                for event in transcript.all(ev.PhaseEnded)
             }
             yield {
                 **_difference(before, after),
@@ -86,21 +73,6 @@ def _gradings(task: dict[str, Any], exercise: Exercise, submission: Submission) 
         after = _used(task["meter"]), time.monotonic()
         floor = sum(map(_floor, transcripts.values())) / task["jobs"]
         yield {**_difference(before, after), "floor_s": floor, "passed": result.all_passed}
-
-
-@contextmanager
-def _shared_arenas(exercise: Exercise) -> Iterator[Any]:
-    """Yield what keeps an arena open between scenarios; None in versions whose arenas serve one."""
-    for module in ("autograder.engine.submission_arenas", "autograder.submission_arenas"):
-        with suppress(ImportError):
-            arenas_type = import_module(module).SubmissionArenas
-            break
-    else:
-        yield None
-        return
-    # by the exercise's name, before exercises were folders
-    with arenas_type(getattr(exercise, "scenario_file", exercise.name)) as arenas:
-        yield arenas
 
 
 def _floor(transcript: Any) -> float:

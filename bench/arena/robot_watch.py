@@ -1,7 +1,4 @@
-"""Watches the simulator of an arena from outside, and measures the processor time it uses per second.
-
-It imports nothing of this package, because it also watches other versions of it.
-"""
+"""Watches the simulator of an arena from outside, and measures the processor time it uses per second."""
 
 from __future__ import annotations
 

@@ -10,8 +10,7 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from bench.arena.arena_costs import ARENAS, ArenaCost, Costs, SubmissionCost, Version, measure
-from bench.arena.other_version import version_of
+from bench.arena.arena_costs import ARENAS, ArenaCost, Costs, SubmissionCost, measure
 
 
 def bench_arenas(
@@ -19,35 +18,27 @@ def bench_arenas(
     *,
     arenas: bool,
     submissions: Sequence[str],
-    against: str | None,
+    against: Path | None,
     json_file: Path | None,
     runs: int,
     jobs: int,
 ) -> None:
-    """Measure, print, and write `json_file`; `against` is such a file, or a commit to measure, too.
+    """Measure, print, and write `json_file`; `against` is such a file of an earlier run.
 
     Raises:
         BenchFailed: a run failed.
         CannotBeMeasured: this machine cannot count processor time.
         ValueError: the file has another format.
     """
-    earlier = (
-        Costs.from_json(json.loads(Path(against).read_text())) if against and Path(against).exists() else None
-    )
-    versions = [Version()]
+    other = Costs.from_json(json.loads(against.read_text())) if against else None
     with console.status("") as status:
-        if against and earlier is None:
-            status.update(f"setting up {against}, once: some minutes …")
-            versions.append(version_of(against))
-        costs, *others = measure(
-            versions,
+        costs = measure(
             arenas=ARENAS if arenas else (),
             submissions=submissions,
             runs=runs,
             jobs=jobs,
             progress=lambda what: status.update(f"{what} …"),
         )
-    other = others[0] if others else earlier
     if costs.arenas:
         console.print(_arenas_table(costs.arenas, other.arenas if other else ()))
         console.print(_phases_table(costs.arenas))

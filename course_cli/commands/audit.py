@@ -9,11 +9,10 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.audit.aftermath import Aftermath, audit_one_by_one
 from autograder.audit.audit_record import AuditRecord, UnusableAuditRecord, read_runs
 from autograder.audit.fault_patch import SUFFIX, PatchError, as_patch
 from autograder.audit.generated.run import audit_generated, mutant_named
-from autograder.audit.kill_matrix import kill_matrix, print_aftermath, print_progress
+from autograder.audit.kill_matrix import kill_matrix, print_progress
 from autograder.audit.known_submission import (
     HeaderError,
     KnownSubmission,
@@ -73,13 +72,6 @@ def audit(
             "(default: 60; 30 where the robot moves)",
         ),
     ] = None,
-    aftermath: Annotated[
-        bool,
-        typer.Option(
-            "--aftermath",
-            help="one at a time, and after each: what it left on this machine, and a correct one's grade",
-        ),
-    ] = False,
     json_file: Annotated[
         Path | None, typer.Option("--json", help="write every verdict to this file, as soon as it is known")
     ] = None,
@@ -104,14 +96,10 @@ def audit(
     """Grade submissions with known faults; exit status 0 only if every verdict is as expected."""
     console = Console(highlight=False)
     audited: dict[str, list[AuditedRun]] = {}
-    harm: list[str] = []  # to the machine and to other submissions
-    if generated and (ignored := _given(context, "repeat", "aftermath", "to_patch")):
+    if generated and (ignored := _given(context, "repeat", "to_patch")):
         raise ended(console, f"--generated makes its own submissions: leave out {ignored}", UNUSABLE)
     if mutants and not generated:
         raise ended(console, "--mutants says how many to make: add --generated", UNUSABLE)
-    if aftermath and (ignored := _given(context, "jobs", "repeat", "seed", "scale", "resume")):
-        reason = f"--aftermath grades one at a time, once, as students are graded: leave out {ignored}"
-        raise ended(console, reason, UNUSABLE)
     if resume and json_file is None:
         raise ended(console, "--resume goes on with the file of --json: add --json FILE", UNUSABLE)
     try:
@@ -143,12 +131,7 @@ def audit(
         with residue() as left:
             for name in names:
                 known = known_submissions(name, only=only)
-                if aftermath:
-                    after_each = _aftermath_of_each(console, known, name, record)
-                    audited[name] = [after.run for after in after_each]
-                    harm += [line for after in after_each for line in after.harm()]
-                else:
-                    audited[name] = _audit_all(console, known, name, record, jobs, repeat, seed, scale)
+                audited[name] = _audit_all(console, known, name, record, jobs, repeat, seed, scale)
     except KeyboardInterrupt:
         go_on = f"{json_file} has what is done: add --resume to go on." if json_file else "Nothing is kept."
         raise ended(console, f"Interrupted. {go_on}", COULD_NOT) from None
@@ -161,7 +144,7 @@ def audit(
         raise ended(console, f"no submission matches {only!r}", UNUSABLE)
     for line in left:
         console.print(f"left behind: {line}", style="red", markup=False)
-    raise typer.Exit(COULD_NOT if left or harm or any(run.surprises() for run in every_run) else 0)
+    raise typer.Exit(COULD_NOT if left or any(run.surprises() for run in every_run) else 0)
 
 
 def _audit_all(
@@ -194,19 +177,6 @@ def _audit_all(
         record.write()  # also when nothing was left to grade
     _print_matrix(console, runs, exercise)
     return runs
-
-
-def _aftermath_of_each(
-    console: Console, submissions: Sequence[KnownSubmission], name: str, record: AuditRecord
-) -> list[Aftermath]:
-    """Grade each alone, and a correct one after it."""
-    exercise = load_exercise(name, hidden=True)
-
-    def keep(aftermath: Aftermath) -> None:
-        record.add(aftermath.run, exercise)
-        print_aftermath(console, aftermath)
-
-    return audit_one_by_one(submissions, name, report=keep)
 
 
 def _given(context: typer.Context, *options: str) -> str:

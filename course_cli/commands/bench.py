@@ -15,8 +15,6 @@ from bench.arena.processor_time import CannotBeMeasured
 from bench.arena.tables import bench_arenas
 from bench.overview import bench_overview
 from bench.robot.table import bench_robot
-from bench.upstream.source import NoTests
-from bench.upstream.table import bench_upstream
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.jobs_option import JobsOption
 
@@ -34,14 +32,11 @@ def bench(
         ),
     ] = None,
     against: Annotated[
-        str | None,
-        typer.Option(
-            metavar="FILE|COMMIT",
-            help="compare with a file that --json wrote, or with another commit, measured alternately",
-        ),
+        Path | None,
+        typer.Option(exists=True, dir_okay=False, help="compare with a file that --json wrote"),
     ] = None,
     json_file: Annotated[
-        Path | None, typer.Option("--json", help="write the costs of arenas, or rclpy's tests, to this file")
+        Path | None, typer.Option("--json", help="write the costs of arenas and gradings to this file")
     ] = None,
     runs: Annotated[
         int,
@@ -61,35 +56,13 @@ def bench(
         typer.Option(help="instead of all this, a trial of the robot in full (repeat it, or 'all')"),
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="with --trial: a few runs of each")] = False,
-    upstream: Annotated[
-        bool,
-        typer.Option(
-            "--upstream",
-            help="instead of all this, rclpy's own tests: as it is, repaired, and on the arena's clock at 1 and at 5",
-        ),
-    ] = False,
-    upstream_tests: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FOLDER",
-            exists=True,
-            file_okay=False,
-            help="with --upstream: a checkout of ros2/rclpy whose tests are run; by default they are downloaded",
-        ),
-    ] = None,
 ) -> None:
     """Print the performance table."""
     console = Console()
     if against and not (arena or submission):
         raise ended(console, "--against goes with --arena or --submission", UNUSABLE)
-    if json_file and not (arena or submission or upstream):
-        raise ended(console, "--json goes with --arena, --submission or --upstream", UNUSABLE)
-    if upstream:
-        try:
-            sound = bench_upstream(console, checkout=upstream_tests, json_file=json_file, jobs=jobs)
-        except NoTests as error:
-            raise ended(console, error, COULD_NOT) from error
-        raise typer.Exit(0 if sound else COULD_NOT)
+    if json_file and not (arena or submission):
+        raise ended(console, "--json goes with --arena or --submission", UNUSABLE)
     if not (arena or submission or checks_of or trial):
         bench_overview(console, runs=runs, scales=scale or [], jobs=jobs, with_robot=robot)
         return

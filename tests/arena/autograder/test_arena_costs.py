@@ -10,8 +10,7 @@ from rich.console import Console
 from autograder.audit.known_submission import known_submission
 from bench import overview
 from bench.arena import arena_costs, tables
-from bench.arena.arena_costs import ArenaCost, BenchFailed, Cost, Costs, SubmissionCost, measure
-from bench.arena.other_version import version_of
+from bench.arena.arena_costs import ArenaCost, Cost, Costs, SubmissionCost, measure
 from bench.arena.processor_time import CannotBeMeasured, metered_group
 from bench.arena.tables import bench_arenas
 
@@ -28,7 +27,7 @@ def is_metered():
 
 @pytest.mark.skipif(not is_metered(), reason="processor time needs control groups, which only root can make")
 def test_an_arena_and_a_grading_are_measured():
-    (costs,) = measure([tables.Version()], arenas=[arena_costs.ARENAS[1]], submissions=["patterns"], runs=1)
+    costs = measure(arenas=[arena_costs.ARENAS[1]], submissions=["patterns"], runs=1)
     (arena,), (graded,) = costs.arenas, costs.submissions
     assert (arena.exercise, arena.scenario, graded.exercise) == (*arena_costs.ARENAS[1], "patterns")
     assert set(arena.phases) >= PHASES
@@ -50,18 +49,18 @@ def test_costs_are_written_as_the_contract_says_and_read_back(tmp_path):
     assert Costs.from_json(record).to_json() == costs.to_json()
 
 
-def test_two_versions_stand_side_by_side_as_ratios(tmp_path, monkeypatch):
+def test_two_runs_stand_side_by_side_as_ratios(tmp_path, monkeypatch):
     now, before = (
         Costs(submissions=[SubmissionCost("walk", cpu, wall, 2.0)]) for cpu, wall in ((3, 5), (6, 20))
     )
     (tmp_path / "before.json").write_text(json.dumps(before.to_json()))
-    monkeypatch.setattr(tables, "measure", lambda versions, **options: [now])
+    monkeypatch.setattr(tables, "measure", lambda **options: now)
     console = Console(record=True, width=80)
     bench_arenas(
         console,
         arenas=False,
         submissions=["walk"],
-        against=str(tmp_path / "before.json"),
+        against=tmp_path / "before.json",
         json_file=tmp_path / "now.json",
         runs=1,
         jobs=2,
@@ -75,11 +74,6 @@ def test_two_versions_stand_side_by_side_as_ratios(tmp_path, monkeypatch):
         "0.50 / 0.25",
     ]
     assert json.loads((tmp_path / "now.json").read_text()) == json.loads(json.dumps(now.to_json()))
-
-
-def test_what_is_neither_a_file_nor_a_commit_is_named():
-    with pytest.raises(BenchFailed, match="'no_such_thing' is neither a file that --json wrote nor a commit"):
-        version_of("no_such_thing")
 
 
 def test_the_sound_server_of_the_fairness_rows_is_there():

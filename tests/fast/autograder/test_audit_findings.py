@@ -5,17 +5,14 @@ from pathlib import Path
 
 import pytest
 from rich.console import Console
-from typer.testing import CliRunner
 
-from autograder.audit.aftermath import Aftermath
-from autograder.audit.kill_matrix import figures, kill_matrix, print_aftermath
+from autograder.audit.kill_matrix import figures, kill_matrix
 from autograder.audit.known_submission import HeaderError, known_submissions, read_known_submission
 from autograder.audit.proof import enough_to_catch, enough_to_prove
 from autograder.audit.run import AuditedRun, audit, checks_without_a_killer
 from autograder.authoring.checks import Scenario, check
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise
 from autograder.engine.verdict import CheckVerdict, Grade
-from course_cli.app import app
 
 CORRECT = '"""Style: plain."""\n'
 FAULTY = '"""Fault: sleeps\nin the callback (M2)\nCaught by: answers\nAlso fails: ends\n\nCaught by nobody else."""\n'
@@ -185,31 +182,6 @@ def test_what_could_not_be_graded_is_graded_once_more_at_the_end(folder, exercis
     assert gradings == ["correct", "faulty", "correct"]
     assert [run.known.kind for run in reported] == ["faulty", "correct"]
     assert [run.grade.status for run in runs] == ["graded", "graded"]
-
-
-@pytest.mark.parametrize(
-    ("left", "next_one", "words"),
-    [
-        ((), "passed", "nothing left behind; then correct/one  1/1"),
-        (("mount /tmp/arena-1",), "passed", "left behind: mount /tmp/arena-1"),
-        ((), "failed", "the next one, correct/one: answers failed"),
-    ],
-)
-def test_what_a_submission_does_to_the_machine_and_to_the_next_one_is_told(folder, left, next_one, words):
-    where = folder(correct=CORRECT, hostile=HOSTILE)
-    hostile = run_of(read(where, "hostile"), appears="failed")
-    aftermath = Aftermath(hostile, left, run_of(read(where, "correct"), answers=next_one))
-    console = Console(width=100, record=True, file=StringIO())
-    print_aftermath(console, aftermath)
-    assert words in console.export_text()
-    assert bool(aftermath.harm()) == (words[:7] != "nothing")
-
-
-def test_an_aftermath_refuses_the_options_that_it_would_ignore(folder):
-    folder(correct=CORRECT)
-    ran = CliRunner().invoke(app("audit"), ["audit", "service", "--aftermath", "--jobs", "2", "--seed=4"])
-    assert ran.exit_code == 2
-    assert "leave out --jobs, --seed" in " ".join(ran.output.split())
 
 
 def test_enough_to_prove_is_every_check_once_and_whatever_is_not_faulty(tmp_path, monkeypatch):
