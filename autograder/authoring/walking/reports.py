@@ -9,14 +9,18 @@ from geometry_msgs.msg import PoseStamped
 
 from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
-from autograder.authoring.goal import Goal
+from autograder.authoring.goal import ABORTED, Goal
 from autograder.authoring.goal_endings import why_blind, why_rclpy_aborted
 from autograder.authoring.robot_topic import DELIVERY
+from autograder.authoring.walking.life import ended_at
 from autograder.authoring.walking.planar import error, heading, target, turn
 from humanoid_interfaces.msg import RobotState
 
 REPORT_SLACK = 0.08  # m or rad, over what the robot moved while the message was made and delivered
 REPORT_AGE = 0.6  # s that a reported pose may be old: odom's period, the feedback's period, delivery
+FINAL_AGE = (
+    0.5  # s before the end of a goal that may stop first, from when its final_pose may be: odom, delivery
+)
 FINAL_SLACK = 0.015  # m by which final_pose may be off: odom's period, and rounding to centimetres
 TRUTH_LATE = 0.5  # s that the simulator's word may come after a report that is made of it
 TAKING_OVER = 2.0  # s in which a goal that preempts another may begin
@@ -35,7 +39,8 @@ def require_true_feedback(goal: Goal) -> None:
         _require_true_place(goal, feedback, _recent(goal, feedback.t))
         if not hasattr(message, "steps_taken"):
             continue
-        _require_true_steps(goal, message.steps_taken, "feedback.steps_taken", feedback.t)
+        now = _recent(goal, feedback.t, DELIVERY)
+        _require_true_steps(goal, message.steps_taken, "feedback.steps_taken", feedback.t, now)
         expect(
             message.steps_taken >= steps,
             expected="steps_taken never to go back",
@@ -64,8 +69,9 @@ def require_true_result(goal: Goal) -> None:
     """Require that final_pose was measured when the goal ended, not copied from the request, and so were the steps."""
     end = goal.result
     assert end, "ask for its result first"
-    _require_true_steps(goal, end.result.total_steps, "result.total_steps", end.t)
-    stamped, recent = end.result.final_pose, _recent(goal, end.t, DELIVERY)
+    age = DELIVERY if goal.status == ABORTED else end.t - ended_at(goal) + FINAL_AGE
+    stamped, recent = end.result.final_pose, _recent(goal, end.t, age)
+    _require_true_steps(goal, end.result.total_steps, "result.total_steps", end.t, recent)
     position, aim = stamped.pose.position, target(goal).position
     help = why_rclpy_aborted(goal)
     if not help and (position.x, position.y) == (aim.x, aim.y):
@@ -129,9 +135,9 @@ def require_true_pose(
     )
 
 
-def _require_true_steps(goal: Goal, claimed: int, what: str, at: float) -> None:
+def _require_true_steps(goal: Goal, claimed: int, what: str, at: float, now: Sequence[ev.RobotTruth]) -> None:
     """Require the steps since the goal began: what robot_state said a moment ago, less what it said then."""
-    before, now = goal.run.robot_at(goal.sent.t), _recent(goal, at, DELIVERY)
+    before = goal.run.robot_at(goal.sent.t)
     # A robot that stands takes no step until the goal moves it; one that walks may take some before the goal begins.
     was_walking = before.mode == RobotState.WALKING
     latest = goal.run.robot_at(goal.accepted_at + TAKING_OVER) if was_walking else before

@@ -111,10 +111,21 @@ def prefixes(transcript, places):
 
 
 def ended_prefixes(transcript, places):
-    """As if the scenario had ended there."""
+    """As if the program had left there by itself, and the scenario had ended with it."""
     for what, prefix in prefixes(transcript, places):
         events = [event for event in prefix.events if event.kind != "scenario_ended"]
-        yield what, replace(prefix, events=[*events, ev.ScenarioEnded(t=events[-1].t if events else 0.0)])
+        t = events[-1].t if events else 0.0
+        if is_its_own_choice(prefix):
+            what += ", where it leaves"
+            events.append(ev.NodeExited(t=t, returncode=0))
+        yield what, replace(prefix, events=[*events, ev.ScenarioEnded(t=t)])
+
+
+def is_its_own_choice(run) -> bool:
+    """Whether a program may leave now: it has begun, nobody has ended it, and the robot has done what it was told."""
+    commands = len(run.all(ev.CommandSent)), len(run.all(ev.RobotCommanded))
+    ends = any(map(run.first, (ev.NodeExited, ev.NodeSignalled)))
+    return run.first(ev.NodeStarted) is not None and not ends and commands[0] == commands[1]
 
 
 def cut(transcript, number) -> Transcript:
@@ -216,6 +227,17 @@ def test_a_flood_or_a_record_that_breaks_off_never_passes(exercise):
         assert broken_off
         for what, judged in (*broken_off, *changed(case, flooded)):
             assert judged.status != "passed", what
+
+
+@pytest.mark.parametrize("exercise", EXERCISES)
+def test_a_program_that_leaves_at_any_moment_is_judged(exercise):
+    for case in recorded(exercise):
+        for what, judged in changed(case, ended_prefixes):
+            if "where it leaves" in what and judged.status == "error":
+                assert "nothing showed whether" in judged.help, (
+                    what,
+                    judged.help,
+                )  # which is a failure in the end
 
 
 @pytest.mark.parametrize("exercise", EXERCISES)
