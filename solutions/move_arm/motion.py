@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from autograder.authoring import events as ev
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
-from autograder.authoring.missing import unseen
+from autograder.authoring.missing import not_shown
 from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking import life as goals
 
@@ -102,7 +102,7 @@ def stops_by_an_empty_trajectory(goal: Goal) -> str | None:
     run, until = goals.run_of(goal), goals.next_sent(goal, asked)
     published = [each for each in run.heard("joint_trajectory") if each.t <= until]
     if not published:
-        raise unseen(run, "nobody heard anything on joint_trajectory")
+        raise not_shown(run, "an empty trajectory stops the arm")
     last = published[-1]
     expect(
         last.t >= asked and not last.message.points,

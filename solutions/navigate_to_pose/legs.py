@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from autograder.authoring import events as ev
 from autograder.authoring.feedback import require_feedback
 from autograder.authoring.goal import SUCCEEDED, Goal
-from autograder.authoring.missing import not_shown, unseen
+from autograder.authoring.missing import not_shown
 from autograder.authoring.sequence import STEPS
 from autograder.authoring.walking import life
 from autograder.authoring.walking.planar import error, target
@@ -65,7 +65,7 @@ def led_astray(goal: Goal) -> tuple[float, float] | None:
     taken, given = run.told("take_over", velocity=[-0.2, 0.0, 0.0]), run.told("take_over", velocity=None)
     off = off_the_way(run.robot_at(given.t), goal)
     if off < OFF_ITS_WAY:
-        raise unseen(run, f"the robot was only {off:.1f} rad off its way when it was given back")
+        raise not_shown(run, f"the robot, {off:.1f} rad off its way when it was given back, finds back")
     return taken.t, given.t
 
 

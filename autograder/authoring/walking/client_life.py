@@ -14,7 +14,7 @@ from action_msgs.msg import GoalStatus
 from autograder.authoring import events as ev
 from autograder.authoring.client_checks import SLACK, require_one_goal, why_it_left
 from autograder.authoring.failure import Failure
-from autograder.authoring.missing import unseen
+from autograder.authoring.missing import not_shown
 from autograder.authoring.scripted_goal import ScriptedGoal
 from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.client_record import require_record
@@ -114,7 +114,7 @@ class ClientLife:
         """When its node appeared."""
         ready = self.run.first(ev.NodeReady)
         if ready is None:
-            raise unseen(self.run, "the program's node never appeared")
+            raise not_shown(self.run, "its node appears")
         return ready.t
 
     @property

@@ -8,7 +8,7 @@ from geometry_msgs.msg import Twist
 
 from autograder.authoring.failure import Failure
 from autograder.authoring.goal import SUCCEEDED, Goal
-from autograder.authoring.missing import unseen
+from autograder.authoring.missing import not_shown
 from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.truth import require_accepted, require_standing
 
@@ -25,7 +25,7 @@ def require_final_zero(run: Transcript, goal: Goal, until: float = math.inf) -> 
     result = require_accepted(goal).require_result(SUCCEEDED)
     velocities = [each for each in run.heard("cmd_vel") if each.t < until]
     if not velocities:
-        raise unseen(run, "nobody heard anything on cmd_vel")
+        raise not_shown(run, "the last Twist before a success is zero")
     before = [each for each in velocities if goal.sent.t <= each.t <= result.t]
     if not before or not is_zero(before[-1].message):
         raise Failure(

@@ -9,7 +9,7 @@ from autograder.authoring.failure import expect
 from autograder.authoring.falls import fall_after
 from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.goal_endings import why_rclpy_aborted
-from autograder.authoring.missing import unseen
+from autograder.authoring.missing import not_shown
 from autograder.authoring.walking import life, reports
 from autograder.authoring.walking.motion import require_reached
 from autograder.authoring.walking.planar import error
@@ -114,7 +114,7 @@ def tells_a_fall(goal: Goal) -> str | None:
         return None
     fallen = fall_after(goal.run, down.t)
     if fallen is None:
-        raise unseen(goal.run, "the robot did not fall")
+        raise not_shown(goal.run, "a robot without power, or pushed over, falls")
     if goal.result is None and life.left_alone(goal):
         return None
     if goal.result and goal.status == SUCCEEDED and goal.result.t <= fallen.t:

@@ -1,0 +1,115 @@
+"""Only the machine leads to "not graded": each place that can say so, with the test in which a program leads there.
+
+That program is judged: it loses the points. A new place needs a row here.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+PROJECT = Path(__file__).parents[3]
+SAYING = ("CannotBeJudged", "NotGraded", "NoOccasion", "unseen", "not_shown", "held_up", "not_graded")
+
+# What the grader itself writes down is not there: the program left, was ended or held the robot up before.
+LEAVES = "arena/autograder/test_evidence.py::test_a_program_that_leaves_at_any_moment_is_judged"
+HOLDS_UP = "fast/autograder/test_missing.py::test_a_submission_that_holds_the_robot_up_fails"
+LATE = "fast/autograder/test_missing.py::test_a_command_that_took_effect_late_is_the_fault_of_who_held_the_robot_up"
+FLOODS = (
+    "fast/autograder/test_bounds.py::test_a_flooded_graph_is_told_in_its_own_words_cut_to_a_readable_length"
+)
+# The program alone decides whether it does what a check looks at.
+NEVER_SHOWS = (
+    "fast/autograder/test_missing.py::"
+    "test_what_the_submission_alone_decides_and_does_not_show_costs_it_the_points_in_the_end"
+)
+NO_OCCASION = (
+    "fast/autograder/test_obligations.py::"
+    "test_a_submission_that_never_gives_occasion_has_failed_and_is_not_ungraded"
+)
+# It takes what there is of memory, processors or time, or sends what nobody can read.
+FILLS = "arena/isolation/test_student_sandbox.py::test_a_memory_bomb_ends_the_arena_and_names_the_cause"
+STARVES = "fast/arena/test_lost_time.py::test_twelve_busy_processes_that_share_a_processor_lose_nothing"
+UNREADABLE = (
+    "fast/arena/test_spinning.py::test_messages_that_cannot_be_read_are_counted_and_the_next_one_is_taken"
+)
+BUILDS = "fast/autograder/test_interfaces_exercise.py::test_what_the_build_refuses_is_told_with_what_to_write"
+BAD_FILE = (
+    "fast/batch/test_runner.py::test_infrastructure_failures_are_not_graded_and_bad_submissions_are_zero"
+)
+
+AUTHORING, ENGINE = "autograder/authoring", "autograder/engine"
+PLACES = {
+    LEAVES: (
+        f"{AUTHORING}/client_checks.py require_one_goal started_at",
+        f"{AUTHORING}/falls.py require_knocked_over",
+        f"{AUTHORING}/goal.py require_silence_afterwards",
+        f"{AUTHORING}/missing.py _exception_for",
+        f"{AUTHORING}/obligation.py _require_sent",
+        f"{AUTHORING}/readiness.py require_ready require_started",
+        f"{AUTHORING}/robot_record.py _require_samples told",
+        f"{AUTHORING}/robot_topic.py known_messages",
+        f"{AUTHORING}/server_checks.py require_clean_exit",
+        f"{AUTHORING}/walking/client_record.py _require_acts require_record",
+        f"{AUTHORING}/walking/life.py accepted",
+        "solutions/balance_controller/record.py gains_at_first",
+        "solutions/battery_guard/life.py guards",
+        "solutions/calibration/heartbeat.py require_heartbeat",
+        "solutions/calibration/truth.py _status",
+        "solutions/compute_ik/model.py lengths_are_parameters moves_the_real_hand",
+        "solutions/low_battery_fetch/fetching.py _require_whole_lives",
+        "solutions/low_battery_fetch/turns.py _not_made",
+        "solutions/move_arm/truth.py joints_at",
+        "solutions/pick_and_place/truth.py reports",
+        "solutions/stand_up/truth.py bodies",
+    ),
+    HOLDS_UP: (f"{ENGINE}/wholeness.py _require_the_robots_time require_whole",),
+    LATE: (f"{ENGINE}/wholeness.py _require_effects",),
+    FLOODS: (f"{ENGINE}/bounds.py _require_nothing_dropped",),
+    NEVER_SHOWS: (
+        f"{AUTHORING}/missing.py not_shown",
+        f"{AUTHORING}/walking/client_life.py started",
+        f"{AUTHORING}/walking/halt.py require_final_zero",
+        f"{AUTHORING}/walking/motion.py require_limited_velocity",
+        f"{AUTHORING}/walking/obligations/ends.py tells_a_fall",
+        "solutions/move_arm/motion.py stops_by_an_empty_trajectory",
+        "solutions/navigate_to_pose/legs.py of led_astray under_way",
+        "solutions/navigate_to_pose/phases.py names_its_phases",
+        "solutions/navigate_to_pose/recoveries.py counts_the_detour",
+    ),
+    NO_OCCASION: (f"{AUTHORING}/obligation.py judge", "solutions/calibration/hidden.py _calibrates"),
+    FILLS: (f"{ENGINE}/arena_run.py run_in_arena",),
+    STARVES: (f"{ENGINE}/grading.py _run",),
+    UNREADABLE: (f"{ENGINE}/arena_run.py _transcript read_events",),
+    BUILDS: ("solutions/interfaces/judging.py _built _part _report require_built",),
+    BAD_FILE: ("autograder/batch/crew.py _lost", "autograder/batch/job.py _graded"),
+}
+
+
+def said_in(node: ast.AST, function: str = "") -> Iterator[str]:
+    """Yield the functions in which something is called that ends in "not graded"."""
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.Call):
+            called = getattr(child.func, "id", getattr(child.func, "attr", ""))
+            if called in SAYING:
+                yield function
+        yield from said_in(child, child.name if isinstance(child, ast.FunctionDef) else function)
+
+
+def test_each_place_that_can_say_not_graded_is_listed() -> None:
+    found = {
+        f"{path.relative_to(PROJECT)} {function}"
+        for folder in ("autograder", "solutions")
+        for path in (PROJECT / folder).rglob("*.py")
+        if not {"known", "audit"} & set(path.parts)
+        for function in said_in(ast.parse(path.read_text()))
+    }
+    listed = [row.split() for rows in PLACES.values() for row in rows]
+    assert found == {f"{path} {function}" for path, *functions in listed for function in functions}
+
+
+def test_each_has_a_test_in_which_a_program_leads_there_and_is_judged() -> None:
+    for test in PLACES:
+        path, name = test.split("::")
+        assert f"def {name}(" in (PROJECT / "tests" / path).read_text(), test
