@@ -15,7 +15,6 @@ NEVER_ALONE = {
         "feedback_ends_with_the_goal",
         "stops_in_any_phase_of_the_gait",
         "stops_when_canceled",
-        "walks_again_after_a_cancel",
         "cancels_at_the_start",
         "survives_two_cancels",
     },
