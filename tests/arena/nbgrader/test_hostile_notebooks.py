@@ -85,6 +85,26 @@ def runs_something(notebook):
             cell.source = "open('ran_in_the_grader', 'w').close()"
 
 
+def of_the_third_format(notebook):
+    old = nbformat.convert(copy.deepcopy(notebook), 3)
+    notebook.clear()
+    notebook.update(old)
+
+
+def one_id_for_all(notebook):
+    for cell in notebook.cells:
+        cell.id = "same"
+
+
+def in_two_cells(notebook):
+    first, second = (
+        "%%writefile battery_service.py\nimport rclpy\n",
+        "%%writefile -a battery_service.py\nx = 1\n",
+    )
+    solution_of(notebook).source = first
+    notebook.cells.append(new_code_cell(second))
+
+
 HOSTILE = [
     duplicated_solution,
     unknown_schema,
@@ -97,6 +117,9 @@ HOSTILE = [
     enormous_source,
     escapes_in_source,
     runs_something,
+    of_the_third_format,
+    one_id_for_all,
+    in_two_cells,
 ]
 
 
