@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
-from autograder.audit.known_submission import known_submission
+from autograder.classroom.audit.known_submission import known_submission
 from autograder.engine.arena_run import ArenaRun, run_in_arena
 from autograder.engine.clock_scale import highest_scale
 from autograder.engine.exercise import Exercise, load_exercise

@@ -1,7 +1,7 @@
 """The commands of `course`; a command's module is imported only when that command runs.
 
 Exit status of every command: 0 success, 1 failure, 2 unusable arguments.
-To add a command, write course_cli/commands/<name>.py and a line in COMMANDS.
+To add a command, write <name>.py with a function of that name into its folder, and a line in COMMANDS.
 """
 
 from __future__ import annotations
@@ -22,26 +22,24 @@ HELP = "Learn ROS 2 services and actions on a humanoid that really balances."
 FORWARDING = {"ignore_unknown_options": True, "allow_extra_args": True}
 
 
+FOR_EVERYBODY, FOR_INSTRUCTORS = "course_cli.commands", "autograder.classroom.commands"
+
+
 @dataclass(frozen=True)
 class Command:
     """A command before its module is imported.
 
     Attributes:
-        target: "module:name" of a function written for Typer, or of a typer.Typer with subcommands.
         summary: its line in `course --help`.
+        folder: the package that has its module; that of instructors is not in a student's archive.
         forwards_arguments: it passes unknown arguments, in typer.Context.args, to another program.
         forwards_help: it passes --help to that program, too.
     """
 
-    target: str
     summary: str
+    folder: str = FOR_EVERYBODY
     forwards_arguments: bool = False
     forwards_help: bool = True
-
-    @property
-    def module(self) -> str:
-        """The module in which the command is."""
-        return self.target.partition(":")[0]
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -50,57 +48,44 @@ class Command:
             return {}
         return FORWARDING | ({"help_option_names": []} if self.forwards_help else {})
 
-    def load(self) -> Any:
-        """Import the module and return what `target` names in it."""
-        return getattr(import_module(self.module), self.target.partition(":")[2])
-
 
 COMMANDS: dict[str, Command] = {
-    "demo": Command(
-        "course_cli.commands.demo:demo", "See it all work: a walk, a cancel, three graded submissions."
-    ),
-    "lab": Command(
-        "course_cli.commands.lab:lab",
-        "Open the chapters and exercises.",
-        forwards_arguments=True,
-        forwards_help=False,
-    ),
-    "check": Command("course_cli.commands.check:check", "Check your own solution of an exercise."),
-    "sim": Command("course_cli.commands.sim:sim", "The robot node alone.", forwards_arguments=True),
+    "demo": Command("See it all work: a walk, a cancel, three graded submissions.", FOR_INSTRUCTORS),
+    "lab": Command("Open the chapters and exercises.", forwards_arguments=True, forwards_help=False),
+    "check": Command("Check your own solution of an exercise."),
+    "sim": Command("The robot node alone.", forwards_arguments=True),
     "ros": Command(
-        "course_cli.commands.ros:ros",
-        "The ros2 commands: topic, service, action, node, param, interface.",
-        forwards_arguments=True,
+        "The ros2 commands: topic, service, action, node, param, interface.", forwards_arguments=True
     ),
-    "collect": Command(
-        "course_cli.commands.collect:collect", "Read submissions from what a platform lets you download."
-    ),
-    "grade": Command("course_cli.commands.grade:grade", "Grade a batch of submissions."),
-    "replay": Command(
-        "course_cli.commands.replay:replay", "Show a recorded arena: in the web view, as a film, as text."
-    ),
-    "merge": Command("course_cli.commands.merge:merge", "Join the parts of a class that were graded apart."),
-    "export": Command("course_cli.commands.export:export", "Write the grades for another platform."),
-    "package": Command(
-        "course_cli.commands.package:package", "Make an autograder that another platform runs."
-    ),
-    "gradescope": Command(
-        "course_cli.commands.gradescope:gradescope", "In Gradescope's container: grade the upload."
-    ),
-    "new": Command("course_cli.commands.new:new", "Make the folder of a new exercise."),
-    "release": Command("course_cli.commands.release:release", "Write the students' archive."),
-    "audit": Command("course_cli.commands.audit:audit", "Grade submissions with known faults."),
-    "book": Command(
-        "course_cli.commands.book:book", "Make chapters, exercises and docs into a site for readers."
-    ),
-    "bench": Command("course_cli.commands.bench:bench", "Print the performance table."),
+    "collect": Command("Read submissions from what a platform lets you download.", FOR_INSTRUCTORS),
+    "grade": Command("Grade a batch of submissions.", FOR_INSTRUCTORS),
+    "replay": Command("Show a recorded arena: in the web view, as a film, as text."),
+    "merge": Command("Join the parts of a class that were graded apart.", FOR_INSTRUCTORS),
+    "export": Command("Write the grades for another platform.", FOR_INSTRUCTORS),
+    "package": Command("Make an autograder that another platform runs.", FOR_INSTRUCTORS),
+    "gradescope": Command("In Gradescope's container: grade the upload.", FOR_INSTRUCTORS),
+    "new": Command("Make the folder of a new exercise.", FOR_INSTRUCTORS),
+    "release": Command("Write the students' archive.", FOR_INSTRUCTORS),
+    "audit": Command("Grade submissions with known faults.", FOR_INSTRUCTORS),
+    "book": Command("Make chapters, exercises and docs into a site for readers.", FOR_INSTRUCTORS),
+    "bench": Command("Print the performance table.", FOR_INSTRUCTORS),
     "test": Command(
-        "course_cli.commands.test:run_tests",
-        "Run the tests, all or by tier.",
-        forwards_arguments=True,
-        forwards_help=False,
+        "Run the tests, all or by tier.", FOR_INSTRUCTORS, forwards_arguments=True, forwards_help=False
     ),
 }
+
+
+def is_here(name: str) -> bool:
+    """Return whether this copy of the course has the module of a command."""
+    try:
+        return find_spec(f"{COMMANDS[name].folder}.{name}") is not None
+    except ModuleNotFoundError:  # of the folder
+        return False
+
+
+def load(name: str) -> Any:
+    """Import the module of a command, and return what it has under the command's name: a function, or a typer.Typer."""
+    return getattr(import_module(f"{COMMANDS[name].folder}.{name}"), name)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -126,9 +111,9 @@ def app(chosen: str | None) -> typer.Typer:
         help=HELP, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False
     )
     for name, command in COMMANDS.items():
-        if find_spec(command.module) is None:
+        if not is_here(name):
             continue
-        target = command.load() if name == chosen else _listed_only(command.summary)
+        target = load(name) if name == chosen else _listed_only(command.summary)
         if isinstance(target, typer.Typer):
             course.add_typer(target, name=name, help=command.summary)
         else:

@@ -7,8 +7,8 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from autograder.audit.known_submission import known_submission
-from autograder.audit.residue import residue
+from autograder.classroom.audit.known_submission import known_submission
+from autograder.classroom.audit.residue import residue
 from autograder.engine.exercise import Exercise, load_exercise
 from autograder.engine.grading import grade
 from autograder.engine.submission import Submission

@@ -12,10 +12,10 @@ from typing import Any, NamedTuple
 import nbformat
 from hypothesis import strategies as st
 
-from autograder.batch.collection import NoSubmissions, collect
+from autograder.classroom.batch.collection import NoSubmissions, collect
+from autograder.classroom.nbgrader_bridge.rebuild_submission import rebuild_submission
 from autograder.engine.exercise import file_names
 from autograder.engine.submission import MAX_BYTES, UnusableSubmission, read_submission
-from autograder.nbgrader_bridge.rebuild_submission import rebuild_submission
 from fuzz import strategies as odd
 from fuzz.fuzzer import Fuzzer
 from ros_runtime.project import PROJECT

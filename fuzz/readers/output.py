@@ -14,13 +14,13 @@ from rich.console import Console
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.authoring.transcript import Transcript
+from autograder.classroom.pages.pages import write_pages
 from autograder.engine.arena_run import read_events
 from autograder.engine.exercise import load_exercise
 from autograder.engine.judging import judge
 from autograder.engine.verdict import LENGTH_NOTE, LONGEST, CheckVerdict, Grade
 from autograder.isolation.captured_output import CapturedOutput, OutputLine
 from autograder.report.class_table import class_table
-from autograder.report.classroom.pages import write_pages
 from autograder.report.table import grade_table, print_verdict
 from fuzz import strategies as odd
 from fuzz.fuzzer import Fuzzer

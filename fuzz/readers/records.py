@@ -11,21 +11,21 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from autograder.batch.batch_record import BATCH, BatchRecord, Row, read_batch
-from autograder.batch.cache import GradeCache, Known
-from autograder.batch.collection import Work
-from autograder.batch.effort import Effort
-from autograder.batch.records import GRADES, UnusableRecord, read_grades
-from autograder.batch.runner import Graded
-from autograder.batch.seeds import Seeds
-from autograder.batch.shards import SHARD, CannotMerge, Shard, merge_shards, write_shard
+from autograder.classroom.batch.batch_record import BATCH, BatchRecord, Row, read_batch
+from autograder.classroom.batch.cache import GradeCache, Known
+from autograder.classroom.batch.collection import Work
+from autograder.classroom.batch.effort import Effort
+from autograder.classroom.batch.records import GRADES, UnusableRecord, read_grades
+from autograder.classroom.batch.runner import Graded
+from autograder.classroom.batch.seeds import Seeds
+from autograder.classroom.batch.shards import SHARD, CannotMerge, Shard, merge_shards, write_shard
+from autograder.classroom.pages.drawings import Drawings
 from autograder.engine.exercise import load_exercise
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_spec import Kind
 from autograder.isolation.availability import Isolation
 from autograder.report.class_table import class_table
-from autograder.report.classroom.drawings import Drawings
 from fuzz import strategies as odd
 from fuzz.fuzzer import Fuzzer
 

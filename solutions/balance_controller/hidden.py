@@ -7,10 +7,10 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from autograder.authoring import standard_hidden
 from autograder.authoring.checks import Scenario, in_order, program
 from autograder.authoring.obligation import check_of
 from autograder.authoring.sequence import shuffled
+from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
 from .gains import ABOVE, HIGHEST, NAMES, TOPPLE, sound_gains

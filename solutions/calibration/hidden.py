@@ -6,12 +6,12 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from autograder.authoring import standard_hidden
 from autograder.authoring.checks import RESTING, Scenario, in_order
 from autograder.authoring.failure import NoOccasion
 from autograder.authoring.obligation import check_of
 from autograder.authoring.sequence import shuffled
 from autograder.authoring.transcript import Transcript
+from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model, truth
 from .checks import ASKS, BIASES, GROUPS, KNOWS_NOTHING, MEASURED, SETTLE, WAITS

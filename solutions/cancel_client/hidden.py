@@ -5,8 +5,9 @@ from __future__ import annotations
 from autograder.authoring.checks import program
 from autograder.authoring.obligation import check_of
 from autograder.authoring.walking import client_scenarios as scene
-from autograder.authoring.walking import every_client, every_client_hidden
+from autograder.authoring.walking import every_client
 from autograder.authoring.walking.client_obligations import follows
+from autograder.classroom.hidden_checks import every_client_hidden
 
 from . import checks, model
 from .checks import AGREED_AND_OVER, ARRIVES

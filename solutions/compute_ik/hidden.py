@@ -6,9 +6,9 @@ import math
 from random import Random
 from typing import Any
 
-from autograder.authoring import standard_hidden
 from autograder.authoring.checks import Scenario, in_order
 from autograder.authoring.obligation import check_of
+from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
 from .two_link_arm import DEFAULT, TwoLinkArm

@@ -6,10 +6,10 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from autograder.authoring import standard_hidden
 from autograder.authoring.checks import Scenario, in_order
 from autograder.authoring.obligation import check_of
 from autograder.authoring.sequence import shuffled
+from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
 from .checks import ITS_JOINTS, KNOWS_NOTHING, SOME_JOINTS, STRANGERS, UNPLUGGED, UNPLUGGED_ROBOT

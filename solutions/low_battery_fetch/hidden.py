@@ -8,9 +8,9 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from autograder.authoring import standard_hidden
 from autograder.authoring.checks import Scenario
 from autograder.authoring.obligation import check_of
+from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
 from .sequences import CHARGED, LONG, Part, cancel, drop, fetch, in_order, levels, preempt, scenario

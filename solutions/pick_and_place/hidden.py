@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from autograder.authoring.checks import RESTING, Scenario, check
-from autograder.authoring.standard_hidden import works_in_any_namespace as _works_in_any_namespace
 from autograder.authoring.transcript import Transcript
+from autograder.classroom.hidden_checks.standard_hidden import (
+    works_in_any_namespace as _works_in_any_namespace,
+)
 
 from .checks import (
     TABLE,

@@ -7,7 +7,7 @@ import json
 import pytest
 from rich.console import Console
 
-from autograder.audit.known_submission import known_submission
+from autograder.classroom.audit.known_submission import known_submission
 from bench import overview
 from bench.arena import arena_costs, tables
 from bench.arena.arena_costs import ArenaCost, Cost, Costs, SubmissionCost, measure

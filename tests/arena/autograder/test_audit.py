@@ -14,13 +14,13 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from autograder.audit.known_submission import known_submissions
-from autograder.audit.proof import enough_to_catch, enough_to_prove
-from autograder.audit.run import audit_one
-from autograder.audit.shared_arenas import SharedArenas
+from autograder.classroom.audit.known_submission import known_submissions
+from autograder.classroom.audit.proof import enough_to_catch, enough_to_prove
+from autograder.classroom.audit.run import audit_one
+from autograder.classroom.audit.shared_arenas import SharedArenas
+from autograder.classroom.commands.test import LOST_POINTS
 from autograder.engine.exercise import exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
-from course_cli.commands.test import LOST_POINTS
 
 ARENAS_AT_A_TIME = 3  # two processors: an arena waits for its own clock two thirds of the time
 EXERCISES = {name: load_exercise(name, hidden=True) for name in exercise_names()}

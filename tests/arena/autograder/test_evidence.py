@@ -15,11 +15,11 @@ from zlib import crc32
 
 import pytest
 
-from autograder.audit.known_submission import known_submissions
-from autograder.audit.recorded import FOLDER, Case, cases
 from autograder.authoring import events as ev
 from autograder.authoring.root_cause import ALLOWED_LOAD, STARTING
 from autograder.authoring.transcript import Transcript
+from autograder.classroom.audit.known_submission import known_submissions
+from autograder.classroom.audit.recorded import FOLDER, Case, cases
 from autograder.engine.exercise import exercise_names, load_exercise
 from autograder.engine.judging import judge
 from autograder.engine.verdict import CheckVerdict

@@ -3,8 +3,8 @@
 import pytest
 from rich.console import Console
 
-from autograder.audit.audit_record import AuditRecord
-from autograder.audit.generated.run import audit_generated
+from autograder.classroom.audit.audit_record import AuditRecord
+from autograder.classroom.audit.generated.run import audit_generated
 from autograder.engine.exercise import load_exercise
 from autograder.isolation.availability import available_isolation
 

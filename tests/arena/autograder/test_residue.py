@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from autograder.audit.known_submission import KnownSubmission, known_submission
-from autograder.audit.residue import residue
-from autograder.audit.run import audit_one
+from autograder.classroom.audit.known_submission import KnownSubmission, known_submission
+from autograder.classroom.audit.residue import residue
+from autograder.classroom.audit.run import audit_one
 from autograder.engine.exercise import Exercise, load_exercise
 from autograder.isolation.availability import available_isolation
 from ros_runtime.ros_domain import ReservedDomain

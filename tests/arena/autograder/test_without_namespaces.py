@@ -5,7 +5,7 @@ from __future__ import annotations
 import socket
 from contextlib import ExitStack
 
-from autograder.audit.known_submission import known_submission
+from autograder.classroom.audit.known_submission import known_submission
 from autograder.engine.exercise import load_exercise
 from autograder.engine.grading import grade
 from autograder.isolation.arena_process import Kind

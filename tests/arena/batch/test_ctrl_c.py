@@ -13,7 +13,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from autograder.audit.residue import residue
+from autograder.classroom.audit.residue import residue
 from autograder.isolation.availability import available_isolation
 
 FILE = "walk_client.py"

@@ -29,10 +29,10 @@ KILLS = [
 # Python tells what it is about to do (audit events); what is written as a whole appears by a rename.
 RUNS = """
 import fnmatch, json, os, signal, sys
-from autograder.batch import job
+from autograder.classroom.batch import job
 from autograder.engine.verdict import CheckVerdict, Grade
 from course_cli.app import main
-import course_cli.commands.grade
+import autograder.classroom.commands.grade
 
 folder, kills = sys.argv[1], json.loads(sys.argv[2])
 

@@ -20,7 +20,7 @@ EXERCISE = "battery_service"
 JUDGE = """
 import sys, time
 from pathlib import Path
-from autograder.batch import job
+from autograder.classroom.batch import job
 from autograder.engine.stop import Stopped
 from autograder.engine.verdict import CheckVerdict, Grade
 

@@ -13,8 +13,8 @@ from typing import Any
 
 import pytest
 
+from autograder.classroom.archives.gradescope_package import TOP, write_package
 from autograder.engine.exercise import exercises_folder, load_exercise
-from course_cli.gradescope_package import TOP, write_package
 
 ROOT = Path(__file__).resolve().parents[3]
 CONTAINER = Path(__file__).with_name("in_container.py")

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from made_up_grades import SOLUTIONS
 
-from autograder.nbgrader_bridge.course_folder import open_course
-from autograder.nbgrader_bridge.gradebook import CourseGradebook
+from autograder.classroom.nbgrader_bridge.course_folder import open_course
+from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook
 
 
 @pytest.fixture(scope="session")

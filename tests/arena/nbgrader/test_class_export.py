@@ -11,12 +11,12 @@ from pathlib import Path
 from made_up_grades import FAILED, grade_of
 from nbgrader.api import Gradebook
 
-from autograder.export.grades_csv import row_of, table_text
-from autograder.export.published import publish
-from autograder.nbgrader_bridge.gradebook import Entry
+from autograder.classroom.export.grades_csv import row_of, table_text
+from autograder.classroom.export.published import publish
+from autograder.classroom.nbgrader_bridge.gradebook import Entry
 
 SOURCES = {"battery_service.py": "print('a program')\n"}
-EXPORTER = "--exporter=autograder.nbgrader_bridge.class_export.ClassExport"
+EXPORTER = "--exporter=autograder.classroom.nbgrader_bridge.class_export.ClassExport"
 
 
 def nbgrader(course: Path, *arguments: str) -> str:

@@ -10,10 +10,10 @@ import pytest
 from made_up_grades import SOLUTIONS, grade_of
 from nbgrader.api import Gradebook
 
+from autograder.classroom.nbgrader_bridge.class_export import ClassExport
+from autograder.classroom.nbgrader_bridge.course_folder import call, open_course
+from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook, Entry
 from autograder.engine.essay import left_to_a_person, load_essay
-from autograder.nbgrader_bridge.class_export import ClassExport
-from autograder.nbgrader_bridge.course_folder import call, open_course
-from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
 
 NAME = "arm_architecture"
 ESSAY = load_essay(NAME)

@@ -15,7 +15,7 @@ import pytest
 from made_up_grades import FAILED, grade_of
 from nbgrader.api import Gradebook
 
-from autograder.nbgrader_bridge.gradebook import Entry
+from autograder.classroom.nbgrader_bridge.gradebook import Entry
 
 TOKEN = "let-me-in"
 PATIENCE = 90.0  # s for Jupyter to start on a busy machine

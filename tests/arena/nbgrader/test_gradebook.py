@@ -16,10 +16,15 @@ from made_up_grades import FAILED, SOLUTIONS, grade_of
 from nbgrader.api import Gradebook, MissingEntry
 from traitlets.config import PyFileConfigLoader
 
+from autograder.classroom.nbgrader_bridge import course_folder, generated_cells
+from autograder.classroom.nbgrader_bridge.course_folder import (
+    NbgraderError,
+    StudentCodeWouldRun,
+    call,
+    open_course,
+)
+from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook, Entry, record
 from autograder.engine.exercise import load_exercise
-from autograder.nbgrader_bridge import course_folder, generated_cells
-from autograder.nbgrader_bridge.course_folder import NbgraderError, StudentCodeWouldRun, call, open_course
-from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry, record
 
 SOURCES = {"battery_service.py": "print('a program')\n"}
 EXERCISE = load_exercise("battery_service", hidden=True)

@@ -12,9 +12,9 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_output
 from nbgrader.api import Gradebook
 from nbgrader.utils import is_grade, is_solution
 
-from autograder.batch.collection import collect
+from autograder.classroom.batch.collection import collect
+from autograder.classroom.nbgrader_bridge.gradebook import Entry
 from autograder.engine.submission import UnusableSubmission
-from autograder.nbgrader_bridge.gradebook import Entry
 
 MOST_BYTES = 2_000_000  # of a page, whatever was handed in
 ATTACK = "<img src=x onerror=alert('owned')>"

@@ -15,7 +15,13 @@ import nbformat
 import pytest
 import yaml
 
-from course_cli.student_bundle import TOP, Leak, hidden_check_ids, require_no_leak, write_bundle
+from autograder.classroom.archives.student_bundle import (
+    TOP,
+    Leak,
+    hidden_check_ids,
+    require_no_leak,
+    write_bundle,
+)
 
 ROOT = Path(__file__).resolve().parents[3]
 

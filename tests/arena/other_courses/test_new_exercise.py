@@ -9,7 +9,7 @@ import pytest
 from course_command import COURSE, course
 from page import carry_out, steps
 
-from autograder.new_exercise.make import KINDS
+from autograder.classroom.new_exercise.make import KINDS
 
 ROOT = Path(__file__).resolve().parents[3]
 

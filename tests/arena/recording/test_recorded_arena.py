@@ -12,9 +12,9 @@ from typing import Any
 import pytest
 from rosbags.highlevel import AnyReader
 
-from autograder.audit.known_submission import known_submission
-from autograder.audit.proof import enough_to_catch
 from autograder.authoring.transcript import Transcript
+from autograder.classroom.audit.known_submission import known_submission
+from autograder.classroom.audit.proof import enough_to_catch
 from autograder.engine.exercise import load_exercise
 from autograder.engine.grading import grade
 from autograder.engine.verdict import CheckVerdict, Grade

@@ -20,7 +20,7 @@ from nbformat.v4 import new_code_cell, new_notebook
 from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
-from course_cli.student_bundle import TOP, write_bundle
+from autograder.classroom.archives.student_bundle import TOP, write_bundle
 
 TIMEOUT = 90.0  # s, for each thing a busy machine has to do
 PICTURE = ".jp-OutputArea .widget-image"

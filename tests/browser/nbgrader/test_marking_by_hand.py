@@ -13,8 +13,8 @@ import pytest
 from chromium import CHROMIUM, OFFLINE, needs_chromium
 from playwright.sync_api import Page, sync_playwright
 
+from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook, Entry
 from autograder.engine.essay import left_to_a_person, load_essay
-from autograder.nbgrader_bridge.gradebook import CourseGradebook, Entry
 
 TIMEOUT = 90.0  # s, for each thing a busy machine has to do
 SOLUTIONS = Path(__file__).resolve().parents[3] / "solutions"

@@ -9,8 +9,8 @@ import pytest
 from chromium import CHROMIUM, OFFLINE, needs_chromium
 from playwright.sync_api import Page, sync_playwright
 
+from autograder.classroom.pages.pages import write_class_page, write_submission_pages
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.report.classroom.pages import write_class_page, write_submission_pages
 from ros_runtime.drawing.line_plot import Plot, plot_svg
 
 HOSTILE = "<img src=x onerror=document.title='run'>"

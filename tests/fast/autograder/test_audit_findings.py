@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from autograder.audit.kill_matrix import figures, kill_matrix
-from autograder.audit.known_submission import HeaderError, known_submissions, read_known_submission
-from autograder.audit.proof import enough_to_catch, enough_to_prove
-from autograder.audit.run import AuditedRun, audit, checks_without_a_killer
 from autograder.authoring.checks import Scenario, check
+from autograder.classroom.audit.kill_matrix import figures, kill_matrix
+from autograder.classroom.audit.known_submission import HeaderError, known_submissions, read_known_submission
+from autograder.classroom.audit.proof import enough_to_catch, enough_to_prove
+from autograder.classroom.audit.run import AuditedRun, audit, checks_without_a_killer
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise
 from autograder.engine.verdict import CheckVerdict, Grade
 
@@ -175,7 +175,7 @@ def test_what_could_not_be_graded_is_graded_once_more_at_the_end(folder, exercis
         busy = known.kind == "correct" and gradings.count("correct") == 1
         return run_of(known, answers="error" if busy else "passed")
 
-    monkeypatch.setattr("autograder.audit.run.audit_one", busy_at_first)
+    monkeypatch.setattr("autograder.classroom.audit.run.audit_one", busy_at_first)
     reported = []
     known = [read(where, "correct"), read(where, "faulty")]
     runs = audit(known, exercise, jobs=1, report=reported.append)

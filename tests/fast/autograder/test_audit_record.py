@@ -6,9 +6,9 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from autograder.audit.audit_record import AuditRecord, UnusableAuditRecord, read_runs
-from autograder.audit.known_submission import known_submissions
-from autograder.audit.run import AuditedRun, for_any_fault
+from autograder.classroom.audit.audit_record import AuditRecord, UnusableAuditRecord, read_runs
+from autograder.classroom.audit.known_submission import known_submissions
+from autograder.classroom.audit.run import AuditedRun, for_any_fault
 from autograder.engine.exercise import load_exercise
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_process import Kind
@@ -131,10 +131,10 @@ def test_an_interrupted_audit_says_how_to_go_on_and_then_grades_only_what_is_lef
         if len(printed) == 2:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr("autograder.audit.run.audit_one", audit_one)
+    monkeypatch.setattr("autograder.classroom.audit.run.audit_one", audit_one)
     command = ["audit", "battery_service", "--only", "correct/*", "--json", str(path)]
     with monkeypatch.context() as patch:
-        patch.setattr("course_cli.commands.audit.print_progress", interrupted)
+        patch.setattr("autograder.classroom.commands.audit.print_progress", interrupted)
         ran = CliRunner().invoke(app("audit"), command)
     assert ran.exit_code == 1
     assert "add --resume to go on" in " ".join(ran.output.split())

@@ -12,9 +12,10 @@ from rich.console import Console
 from typer.testing import CliRunner
 
 from autograder.authoring.rubric import Criterion, criteria_in
-from autograder.batch.cache import GradeCache
-from autograder.batch.collection import collect
-from autograder.batch.runner import BatchRunner
+from autograder.classroom.batch.cache import GradeCache
+from autograder.classroom.batch.collection import collect
+from autograder.classroom.batch.runner import BatchRunner
+from autograder.classroom.nbgrader_bridge.criterion_cells import with_criterion_cells
 from autograder.engine.essay import left_to_a_person, load_essay
 from autograder.engine.exercise import (
     UnknownExercise,
@@ -27,7 +28,6 @@ from autograder.engine.exercise import (
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
-from autograder.nbgrader_bridge.criterion_cells import with_criterion_cells
 from autograder.report.class_table import class_table, progress_line
 from course_cli.app import app
 

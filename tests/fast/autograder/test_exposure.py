@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 import typer
 
+from autograder.classroom.class_grading import setting
+from autograder.classroom.commands import grade
 from autograder.engine.exposure import HiddenChecksRefused, require_hidden
 from autograder.isolation.arena_spec import Kind
 from autograder.isolation.availability import Isolation
-from course_cli.class_grading import setting
-from course_cli.commands import grade
 from ros_runtime.project import PROJECT
 
 

@@ -3,8 +3,8 @@
 import pytest
 from typer.testing import CliRunner
 
-from autograder.audit.fault_patch import PatchError, as_patch, whole_program
-from autograder.audit.known_submission import known_submission, known_submissions
+from autograder.classroom.audit.fault_patch import PatchError, as_patch, whole_program
+from autograder.classroom.audit.known_submission import known_submission, known_submissions
 from autograder.engine.exercise import FOLDER_VARIABLE, exercise_names
 from course_cli.app import app
 

@@ -9,16 +9,16 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from autograder.audit.generated import first_look as first_look_module
-from autograder.audit.generated import mutant as mutant_module
-from autograder.audit.generated import selection
-from autograder.audit.generated.first_look import Judged, as_fault, first_look
-from autograder.audit.generated.mistakes import OPERATORS
-from autograder.audit.generated.pattern import filled, match, parsed
-from autograder.audit.generated.run import figures, survivors
-from autograder.audit.generated.selection import equivalents, is_one_of, selected
-from autograder.audit.known_submission import HeaderError
-from autograder.audit.run import AuditedRun
+from autograder.classroom.audit.generated import first_look as first_look_module
+from autograder.classroom.audit.generated import mutant as mutant_module
+from autograder.classroom.audit.generated import selection
+from autograder.classroom.audit.generated.first_look import Judged, as_fault, first_look
+from autograder.classroom.audit.generated.mistakes import OPERATORS
+from autograder.classroom.audit.generated.pattern import filled, match, parsed
+from autograder.classroom.audit.generated.run import figures, survivors
+from autograder.classroom.audit.generated.selection import equivalents, is_one_of, selected
+from autograder.classroom.audit.known_submission import HeaderError
+from autograder.classroom.audit.run import AuditedRun
 from autograder.engine.exercise import exercise_names, load_exercise
 from autograder.engine.judging import verdict_on
 from autograder.engine.verdict import CheckVerdict, Grade

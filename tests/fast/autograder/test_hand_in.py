@@ -9,7 +9,7 @@ import pytest
 from nbformat.v4 import new_code_cell, new_notebook, writes
 
 from autograder import self_check as module
-from autograder.batch.collection import collect, files_of_exercises
+from autograder.classroom.batch.collection import collect, files_of_exercises
 from autograder.engine.hand_in import Names
 from autograder.engine.verdict import Grade
 from course_cli.commands import check as command

@@ -2,7 +2,7 @@
 
 import pytest
 
-from autograder.audit.known_submission import known_submissions, require_known_checks
+from autograder.classroom.audit.known_submission import known_submissions, require_known_checks
 from autograder.engine.exercise import exercise_names, load_exercise
 
 EXERCISES = {name: load_exercise(name, hidden=True) for name in exercise_names()}

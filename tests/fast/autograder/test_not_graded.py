@@ -83,7 +83,7 @@ PLACES = {
     STARVES: (f"{ENGINE}/grading.py _run",),
     UNREADABLE: (f"{ENGINE}/arena_run.py _transcript read_events",),
     BUILDS: ("solutions/interfaces/judging.py _built _part _report require_built",),
-    BAD_FILE: ("autograder/batch/crew.py _lost", "autograder/batch/job.py _graded"),
+    BAD_FILE: ("autograder/classroom/batch/crew.py _lost", "autograder/classroom/batch/job.py _graded"),
 }
 
 

@@ -11,12 +11,12 @@ import pytest
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
-from autograder.batch.collection import collect
+from autograder.classroom.batch.collection import collect
+from autograder.classroom.nbgrader_bridge.rebuild_submission import rebuild_submission
+from autograder.classroom.nbgrader_bridge.source_notebook import read_source
 from autograder.engine.exercise import UnusableExercise, file_names
 from autograder.engine.notebook import written_by
 from autograder.engine.submission import UnusableSubmission, read_submission
-from autograder.nbgrader_bridge.rebuild_submission import rebuild_submission
-from autograder.nbgrader_bridge.source_notebook import read_source
 from ros_runtime.project import PROJECT
 
 NAME = "battery_service"

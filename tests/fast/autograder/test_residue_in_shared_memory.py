@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from autograder.audit.residue import residue
+from autograder.classroom.audit.residue import residue
 
 SHARED_MEMORY = Path("/dev/shm")
 MAPS = """

@@ -7,13 +7,13 @@ import io
 import pytest
 from rich.console import Console
 
-from autograder.batch.collection import Work
-from autograder.batch.effort import Effort
-from autograder.batch.job import GradingJob, Outcome
-from autograder.batch.pace import Pace, in_words
-from autograder.batch.runner import Graded
+from autograder.classroom.batch.collection import Work
+from autograder.classroom.batch.effort import Effort
+from autograder.classroom.batch.job import GradingJob, Outcome
+from autograder.classroom.batch.pace import Pace, in_words
+from autograder.classroom.batch.runner import Graded
+from autograder.classroom.class_grading.progress import MOST_SHOWN, PERIOD, BatchProgress
 from autograder.engine.verdict import CheckVerdict, Grade
-from course_cli.class_grading.progress import MOST_SHOWN, PERIOD, BatchProgress
 
 VERDICT = CheckVerdict("id", "title", "passed", 1, 1)
 

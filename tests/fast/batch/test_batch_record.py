@@ -8,11 +8,11 @@ from dataclasses import replace
 
 import pytest
 
-from autograder.batch.batch_record import BATCH, BatchRecord, merged_record, read_batch, write_batch
-from autograder.batch.collection import Work
-from autograder.batch.effort import Effort
-from autograder.batch.runner import Graded
-from autograder.batch.version import checks_version
+from autograder.classroom.batch.batch_record import BATCH, BatchRecord, merged_record, read_batch, write_batch
+from autograder.classroom.batch.collection import Work
+from autograder.classroom.batch.effort import Effort
+from autograder.classroom.batch.runner import Graded
+from autograder.classroom.batch.version import checks_version
 from autograder.engine.exercise import exercises_folder
 from autograder.engine.verdict import CheckVerdict, Grade
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from autograder.batch import version as module
-from autograder.batch.cache import GradeCache, Known
-from autograder.batch.effort import Effort
-from autograder.batch.version import checks_version
+from autograder.classroom.batch import version as module
+from autograder.classroom.batch.cache import GradeCache, Known
+from autograder.classroom.batch.effort import Effort
+from autograder.classroom.batch.version import checks_version
 from autograder.engine.exercise import load_exercise
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import CheckVerdict, Grade

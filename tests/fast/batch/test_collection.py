@@ -8,7 +8,7 @@ import os
 import pytest
 from nbformat.v4 import new_code_cell, new_notebook
 
-from autograder.batch.collection import NoSubmissions, collect
+from autograder.classroom.batch.collection import NoSubmissions, collect
 from autograder.engine.exercise import all_names
 from autograder.engine.submission import UnusableSubmission
 

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from autograder.batch.crew import Crew, Workers, threads
-from autograder.batch.job import GradingJob, Outcome
-from autograder.batch.special_grades import not_graded
+from autograder.classroom.batch.crew import Crew, Workers, threads
+from autograder.classroom.batch.job import GradingJob, Outcome
+from autograder.classroom.batch.special_grades import not_graded
 from autograder.engine.verdict import CheckVerdict, Grade
 
 

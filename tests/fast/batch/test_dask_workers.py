@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 from distributed import LocalCluster
 
-from autograder.batch import dask_workers as module
-from autograder.batch.crew import Crew
-from autograder.batch.dask_workers import NoCluster, dask_cluster
-from autograder.batch.job import GradingJob, Outcome, carry_out
+from autograder.classroom.batch import dask_workers as module
+from autograder.classroom.batch.crew import Crew
+from autograder.classroom.batch.dask_workers import NoCluster, dask_cluster
+from autograder.classroom.batch.job import GradingJob, Outcome, carry_out
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation

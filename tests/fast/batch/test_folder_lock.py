@@ -8,9 +8,9 @@ import sys
 
 import pytest
 
-from autograder.batch.folder_lock import FolderInUse, locked
+from autograder.classroom.batch.folder_lock import FolderInUse, locked
 
-HOLD = "import sys; from pathlib import Path; from autograder.batch.folder_lock import locked\n"
+HOLD = "import sys; from pathlib import Path; from autograder.classroom.batch.folder_lock import locked\n"
 HOLD += "with locked(Path(sys.argv[1])): print('held', flush=True); sys.stdin.read()"
 
 

@@ -15,7 +15,7 @@ from distributed import Client, LocalCluster
 PRELOADED = """
 import time
 from pathlib import Path
-from autograder.batch import job
+from autograder.classroom.batch import job
 
 FOLDER = Path({folder!r})
 

@@ -7,10 +7,10 @@ from contextlib import closing
 
 import pytest
 
-from autograder.batch import job as module
-from autograder.batch.cache import GradeCache
-from autograder.batch.collection import Work
-from autograder.batch.runner import BatchRunner
+from autograder.classroom.batch import job as module
+from autograder.classroom.batch.cache import GradeCache
+from autograder.classroom.batch.collection import Work
+from autograder.classroom.batch.runner import BatchRunner
 from autograder.engine.exercise import load_exercise
 from autograder.engine.hand_in import candidate_at
 from autograder.engine.stop import Stopped

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from autograder.batch.collection import Work
-from autograder.batch.records import read_grades, write_grades
-from autograder.batch.seeds import Seeds
-from autograder.batch.selection import NothingSelected, OtherSeed, require_seed, select, with_others
+from autograder.classroom.batch.collection import Work
+from autograder.classroom.batch.records import read_grades, write_grades
+from autograder.classroom.batch.seeds import Seeds
+from autograder.classroom.batch.selection import NothingSelected, OtherSeed, require_seed, select, with_others
 from autograder.engine.verdict import CheckVerdict, Grade
 
 WORKS = [Work(student, exercise) for student in ("anna", "bert") for exercise in ("patterns", "walk_to")]

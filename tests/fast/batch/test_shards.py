@@ -6,10 +6,10 @@ import json
 
 import pytest
 
-from autograder.batch.collection import Work
-from autograder.batch.runner import Graded
-from autograder.batch.seeds import ONE_FOR_ALL, Seeds
-from autograder.batch.shards import SHARD, CannotMerge, Shard, merge_shards, write_shard
+from autograder.classroom.batch.collection import Work
+from autograder.classroom.batch.runner import Graded
+from autograder.classroom.batch.seeds import ONE_FOR_ALL, Seeds
+from autograder.classroom.batch.shards import SHARD, CannotMerge, Shard, merge_shards, write_shard
 from autograder.engine.verdict import CheckVerdict, Grade
 
 WORKS = [

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from autograder.batch.collection import Work
-from autograder.batch.runner import Graded
-from autograder.batch.source_files import write_base_code, write_sources
+from autograder.classroom.batch.collection import Work
+from autograder.classroom.batch.runner import Graded
+from autograder.classroom.batch.source_files import write_base_code, write_sources
 from autograder.engine.verdict import Grade
 from ros_runtime.project import PROJECT
 

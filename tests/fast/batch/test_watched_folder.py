@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from autograder.batch.folder_lock import FolderInUse
-from autograder.batch.watched_folder import WatchedFolder, only_watcher
+from autograder.classroom.batch.folder_lock import FolderInUse
+from autograder.classroom.batch.watched_folder import WatchedFolder, only_watcher
 
 
 @pytest.fixture

@@ -20,7 +20,7 @@ from downloads import (
 )
 from typer.testing import CliRunner, Result
 
-from autograder.batch.collection import collect
+from autograder.classroom.batch.collection import collect
 from course_cli.app import app
 from ros_runtime.project import PROJECT
 

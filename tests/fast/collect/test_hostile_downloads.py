@@ -11,7 +11,7 @@ import pytest
 from downloads import GRADESCOPE, METADATA, PROGRAM, notebook, unpacked, with_link, zipped
 from test_collect_downloads import course, programs, said
 
-from autograder.collect import download
+from autograder.classroom.collect import download
 from autograder.engine.submission import MAX_BYTES, MAX_NOTEBOOK_BYTES
 
 GOOD = {"lee_1_5_battery_service.py": PROGRAM}

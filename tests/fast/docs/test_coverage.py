@@ -9,7 +9,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
-from autograder.audit.known_submission import HeaderError, known_submission
+from autograder.classroom.audit.known_submission import HeaderError, known_submission
 from autograder.engine.essay import load_essay
 from autograder.engine.exercise import essay_names, load_exercise
 

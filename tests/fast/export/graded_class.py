@@ -6,9 +6,9 @@ from dataclasses import replace
 from datetime import datetime, timezone
 from pathlib import Path
 
-from autograder.batch.records import GRADES, write_grades
+from autograder.classroom.batch.records import GRADES, write_grades
+from autograder.classroom.export.options import Options
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.export.options import Options
 
 SECRETS = (
     "a secret title",

@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 from graded_class import ANNA, BERT, CLASS, CLEO, DORA, HOSTILE, OPTIONS, SECRETS, grade, visible
 
+from autograder.classroom.export.formats import Export, export
+from autograder.classroom.export.published import UnusableBatch
+from autograder.classroom.export.tables import text_cell
 from autograder.engine.verdict import Grade
-from autograder.export.formats import Export, export
-from autograder.export.published import UnusableBatch
-from autograder.export.tables import text_cell
 
 CANVAS = """Student,ID,SIS User ID,SIS Login ID,Section,battery_service (4711),Other (1)
     Points Possible,,,,,5,10

@@ -9,7 +9,7 @@ import pytest
 from graded_class import ANNA, BERT, CLEO, DORA, graded_folder
 from typer.testing import CliRunner, Result
 
-from autograder.export.formats import FORMATS
+from autograder.classroom.export.formats import FORMATS
 from course_cli.app import app
 
 

@@ -12,9 +12,9 @@ from graded_class import ANNA, BERT, CLASS, CLEO, DORA, EMIL, OPTIONS, SECRETS, 
 from jsonschema import ValidationError, validate
 from platform_schemas import SCHEMAS
 
+from autograder.classroom.export.formats import PER_SUBMISSION, export
+from autograder.classroom.export.published import UnusableBatch
 from autograder.engine.verdict import Grade
-from autograder.export.formats import PER_SUBMISSION, export
-from autograder.export.published import UnusableBatch
 
 WITHOUT_SCORE = [CLEO, EMIL, grade("fred", reason="no arena could start")]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from course_cli.commands import test as command
+from autograder.classroom.commands import test as command
 from fuzz import finding, rounds
 
 SOUND = "import sys; [print('begins', name) for name in sys.argv[3:]]"

@@ -11,14 +11,14 @@ from hypothesis import strategies as st
 
 pytest.importorskip("rclpy")
 
-from autograder.batch.collection import Work, collect
-from autograder.batch.records import GRADES, UnusableRecord, read_grades
-from autograder.batch.shards import SHARD, CannotMerge, merge_shards
+from autograder.classroom.batch.collection import Work, collect
+from autograder.classroom.batch.records import GRADES, UnusableRecord, read_grades
+from autograder.classroom.batch.shards import SHARD, CannotMerge, merge_shards
+from autograder.classroom.pages.drawings import Drawings
 from autograder.engine.arena_run import NotGraded, read_events
 from autograder.engine.hand_in import candidate_at
 from autograder.engine.submission import UnusableSubmission
 from autograder.engine.verdict import Grade
-from autograder.report.classroom.drawings import Drawings
 from fuzz.fuzzer import Fuzzer
 from fuzz.readers import records
 from fuzz.readers.all import CHANNELS, READERS

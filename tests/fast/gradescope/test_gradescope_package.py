@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
+from autograder.classroom.archives.gradescope_package import TOP
+from autograder.classroom.archives.student_bundle import hidden_check_ids
 from course_cli.app import app
-from course_cli.gradescope_package import TOP
-from course_cli.student_bundle import hidden_check_ids
 
 
 def course(*arguments: object) -> Result:

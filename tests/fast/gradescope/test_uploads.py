@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from autograder.classroom.export.gradescope import Results
+from autograder.classroom.on_gradescope.container import Container
+from autograder.classroom.on_gradescope.grading import grade_upload
 from autograder.engine.exercise import load_exercise
-from autograder.export.gradescope import Results
 from autograder.isolation.arena_spec import Kind
 from autograder.isolation.availability import Isolation
-from autograder.on_gradescope.container import Container
-from autograder.on_gradescope.grading import grade_upload
 from course_cli.app import app
 
 SOMEHOW = Isolation(Kind.ANOTHER_USER, "no arena is started here")
@@ -92,7 +92,7 @@ def test_an_error_of_the_grader_is_no_score(container: Container, monkeypatch: p
     def fail() -> Isolation:
         raise RuntimeError("a broken image")
 
-    monkeypatch.setattr("course_cli.commands.gradescope.isolation_here", fail)
+    monkeypatch.setattr("autograder.classroom.commands.gradescope.isolation_here", fail)
     done = CliRunner().invoke(app("gradescope"), ["gradescope", "--root", str(container.root)])
     assert done.exit_code == 1
     assert "score" not in json.loads(container.results.read_text())

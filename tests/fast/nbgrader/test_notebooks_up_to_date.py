@@ -12,15 +12,15 @@ import pytest
 from nbgrader.nbgraderformat import MetadataValidator
 from nbgrader.utils import is_grade, is_solution, is_task
 
-from autograder.engine.essay import load_essay
-from autograder.engine.exercise import all_names, essay_names, exercise_names, file_names, load_exercise
-from autograder.nbgrader_bridge.release import (
+from autograder.classroom.archives.student_bundle import require_no_leak, visible_checks
+from autograder.classroom.nbgrader_bridge.release import (
     bring_up_to_date,
     generate_release,
     out_of_date,
     source_notebooks,
 )
-from course_cli.student_bundle import require_no_leak, visible_checks
+from autograder.engine.essay import load_essay
+from autograder.engine.exercise import all_names, essay_names, exercise_names, file_names, load_exercise
 
 ROOT = Path(__file__).resolve().parents[3]
 SOLUTIONS = ROOT / "solutions"

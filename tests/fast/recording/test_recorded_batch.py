@@ -11,13 +11,13 @@ import pytest
 from falls import exercise, judged, walk
 from typer.testing import CliRunner
 
-from autograder.batch import job as module
-from autograder.batch import runner as runner_module
-from autograder.batch.cache import GradeCache
-from autograder.batch.collection import Work
-from autograder.batch.crew import Workers
-from autograder.batch.job import GradingJob, Outcome
-from autograder.batch.runner import BatchRunner
+from autograder.classroom.batch import job as module
+from autograder.classroom.batch import runner as runner_module
+from autograder.classroom.batch.cache import GradeCache
+from autograder.classroom.batch.collection import Work
+from autograder.classroom.batch.crew import Workers
+from autograder.classroom.batch.job import GradingJob, Outcome
+from autograder.classroom.batch.runner import BatchRunner
 from autograder.engine.hand_in import candidate_at
 from autograder.engine.verdict import Grade
 from autograder.isolation.arena_process import Kind
@@ -47,7 +47,7 @@ def works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[Work]:
     for each in (module, runner_module):
         monkeypatch.setattr(each, "load_exercise", lambda name, hidden: exercise())
         monkeypatch.setattr(each, "checks_version", lambda folder: "1")
-    monkeypatch.setattr("autograder.batch.cache.checks_version", lambda folder: "1")
+    monkeypatch.setattr("autograder.classroom.batch.cache.checks_version", lambda folder: "1")
     monkeypatch.setattr(module, "available_isolation", lambda: ISOLATED)
     asked.clear()
     for student in ("anna", "bert"):

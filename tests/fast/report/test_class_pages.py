@@ -10,9 +10,9 @@ from urllib.parse import unquote
 import pytest
 from bs4 import BeautifulSoup, Tag
 
+from autograder.classroom.nbgrader_bridge.cell_names import HIDDEN_HELP
+from autograder.classroom.pages.pages import write_pages, write_submission_pages
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.nbgrader_bridge.cell_names import HIDDEN_HELP
-from autograder.report.classroom.pages import write_pages, write_submission_pages
 
 MARKUP = "<img src=x onerror=alert(1)>"
 HOSTILE = f'o\'neil, {MARKUP} & "co" #1 100%'

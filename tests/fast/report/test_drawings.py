@@ -9,9 +9,9 @@ from geometry_msgs.msg import PoseStamped
 
 from autograder.authoring import events as ev
 from autograder.authoring.transcript import Transcript
+from autograder.classroom.pages.drawings import Drawings, drawing_into
+from autograder.classroom.pages.motion import motion_svgs
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.report.classroom.drawings import Drawings, drawing_into
-from autograder.report.classroom.motion import motion_svgs
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.drawing.line_plot import Flag, Plot, plot_svg

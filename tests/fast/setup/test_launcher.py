@@ -11,8 +11,8 @@ from types import ModuleType
 
 import pytest
 
-from course_cli import gradescope_package, student_bundle
-from course_cli.student_bundle import files_of
+from autograder.classroom.archives import gradescope_package, student_bundle
+from autograder.classroom.archives.student_bundle import files_of
 
 ROOT = Path(__file__).resolve().parents[3]
 WHAT_DECIDES = (
@@ -218,7 +218,7 @@ def test_every_other_rclpy_of_apt_is_used(clone: Path, tmp_path: Path, version: 
 
 @pytest.mark.parametrize("archive", [student_bundle, gradescope_package], ids=["students", "gradescope"])
 def test_an_archive_holds_what_the_environment_is_made_from(tmp_path: Path, archive: ModuleType) -> None:
-    for path in files_of(ROOT, archive.PARTS, archive.KEPT_BACK):
+    for path in files_of(ROOT, archive.PARTS):
         name = path.relative_to(ROOT)
         if name.parts[0] in (*WHAT_DECIDES, "LICENSE"):
             (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)

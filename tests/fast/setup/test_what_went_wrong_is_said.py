@@ -7,10 +7,10 @@ import sqlite3
 
 import pytest
 
+from autograder.classroom.commands.demo import DemoFailed, _require_expected
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.table import summary
 from course_cli import app
-from course_cli.commands.demo import DemoFailed, _require_expected
 
 NOT_JUDGED = CheckVerdict(
     "walks", "It walks", "error", 0, 1, help="Not graded: the machine was too busy.\nMore."
@@ -32,7 +32,7 @@ def test_a_full_disk(monkeypatch: pytest.MonkeyPatch, error: Exception) -> None:
         except Exception as cause:
             raise RuntimeError("the gradebook could not be written") from cause
 
-    monkeypatch.setattr(app.Command, "load", lambda command: fail)
+    monkeypatch.setattr(app, "load", lambda name: fail)
     with pytest.raises(SystemExit, match=r"^course: the disk is full\.(.|\n)*Next: make room"):
         app.main(["bench"])
 

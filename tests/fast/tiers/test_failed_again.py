@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from course_cli.commands.test import pass_alone, run_pytest
+from autograder.classroom.commands.test import pass_alone, run_pytest
 
 FAILS_AT_FIRST = """
 from pathlib import Path
@@ -20,7 +20,7 @@ def test_at_first():
     assert len(Path("tries").read_text()) >= {needed}
 """
 OF_A_CORRECT_ONE = """
-from course_cli.commands.test import LOST_POINTS
+from autograder.classroom.commands.test import LOST_POINTS
 
 def test_verdict(request):
     first = request.config.cache.get("seen", None) is None

@@ -1,0 +1,1 @@
+"""The archives that leave the clone: the students', and the one for Gradescope."""

@@ -1,0 +1,58 @@
+"""The zip that Gradescope takes as an autograder: its two scripts, and the part of the course that grades there.
+
+It holds visible checks alone: a student's program shares a container with them.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from autograder.classroom.archives.archive import write_archive
+from autograder.classroom.archives.student_bundle import files_of, require_no_leak, visible_checks
+
+TOP = "humanoid-course"  # the folder of /autograder/source in which the course lies
+PARTS = (
+    "LICENSE",
+    "course",
+    "pyproject.toml",
+    "requirements.lock",
+    "setup",
+    "humanoid_interfaces",
+    "ros_runtime",
+    "robot_sim",
+    "autograder/*.py",
+    *(f"autograder/{room}" for room in ("arena", "authoring", "engine", "isolation", "recording", "report")),
+    *(f"autograder/classroom/{part}" for part in ("*.py", "export", "on_gradescope")),
+    *(f"autograder/classroom/commands/{name}.py" for name in ("__init__", "gradescope")),
+    *(
+        f"autograder/classroom/batch/{name}.py"
+        for name in ("__init__", "collection", "records", "special_grades")
+    ),
+    *(f"course_cli/{name}.py" for name in ("__init__", "app", "ending", "exercises_option", "jobs_option")),
+    *(f"course_cli/commands/{name}.py" for name in ("__init__", "check")),
+)
+_SETUP = f"""#!/usr/bin/env bash
+# Gradescope runs this once, as root, when it builds the image: the launcher makes the course's environment.
+export DEBIAN_FRONTEND=noninteractive
+exec "${{GRADESCOPE_ROOT:-/autograder}}/source/{TOP}/course" --help
+"""
+_RUN = f"""#!/usr/bin/env bash
+# Gradescope runs this for every upload, as root: the launcher grades what lies in submission/.
+root=${{GRADESCOPE_ROOT:-/autograder}}
+exec "$root/source/{TOP}/course" gradescope --root "$root"
+"""
+
+
+def write_package(root: Path, archive: Path, exercise: str = "") -> int:
+    """Write the package of the clone at `root`, for one exercise or for all; return how many files it holds.
+
+    Raises `Leak` when a file contains a solution or a hidden check.
+    """
+    files = {path.relative_to(root).as_posix(): path for path in files_of(root, PARTS)}
+    files |= {name: path for name, path in visible_checks() if exercise in ("", path.parent.name)}
+    require_no_leak(files)
+    run = _RUN.rstrip("\n") + (f" --exercise {exercise}" if exercise else "") + "\n"
+    content: dict[str, Path | str] = {f"{TOP}/{name}": path for name, path in files.items()}
+    content |= {"setup.sh": _SETUP, "run_autograder": run}
+    write_archive(archive, content)
+    return len(content)

@@ -1,0 +1,122 @@
+"""The file of `course audit --json`: whole after every run, so that an audit that was interrupted goes on from it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from autograder.atomic_file import write_atomically
+from autograder.classroom.audit.known_submission import KnownSubmission
+from autograder.classroom.audit.run import AuditedRun, for_any_fault
+from autograder.classroom.batch.cache import grade_key
+from autograder.engine.exercise import Exercise
+from autograder.engine.verdict import Grade
+from autograder.isolation.availability import Isolation
+
+_Place = tuple[str, str, int | None]  # exercise, submission, seed: there is one run of each
+
+
+class UnusableAuditRecord(Exception):
+    """The file cannot be gone on with."""
+
+
+class AuditRecord:
+    """The runs of an audit, by exercise, one a line. It also has what it was given, until that is graded again.
+
+    A run of an earlier audit counts when nothing that its verdict depends on has changed: the submission, the checks
+    and the engine, the robot, the seed, the clock's scale, the isolation. One that was not graded never does, and none
+    whose submission was edited while it was graded.
+    """
+
+    def __init__(
+        self,
+        path: Path | None,
+        *,
+        isolation: Isolation,
+        scale: float | None = None,
+        earlier: Iterable[dict[str, Any]] = (),
+    ) -> None:
+        """`path`: None keeps no record. `earlier`: what `read_runs` found."""
+        self._path = path
+        self._isolation = isolation
+        self._scale = scale
+        self._runs = {_place(run): json.dumps(run) for run in earlier}
+        self._keys: dict[_Place, str] = {}  # of what is graded, before it is
+
+    def earlier_run(
+        self, known: KnownSubmission, exercise: Exercise, repetition: int, seed: int
+    ) -> AuditedRun | None:
+        """Return the run with the inputs of `seed` that is still true, as this repetition; None if there is none.
+
+        Ask before the grading begins, so that `add` can tell whether it was of this submission.
+        """
+        place = known.exercise, known.name, seed
+        key = self._keys[place] = self._key(known, exercise, seed)
+        earlier = json.loads(self._runs.get(place, "{}"))
+        if earlier.get("key") != key:
+            return None
+        grade = Grade.from_json(earlier["grade"])
+        run = AuditedRun(known, repetition, grade, earlier["seconds"], for_any_fault(exercise))
+        if run.grade.status != "graded":
+            return None
+        self._put(run, exercise)  # its header may expect something else now
+        return run
+
+    def add(self, run: AuditedRun, exercise: Exercise) -> None:
+        """Write the file with this run, in the place of an earlier one of the same submission and seed."""
+        self._put(run, exercise)
+        self.write()
+
+    def write(self) -> None:
+        """Write the file, if there is one."""
+        if self._path:
+            write_atomically(self._path, self._text())
+
+    def _put(self, run: AuditedRun, exercise: Exercise) -> None:
+        entry = run.to_json()
+        place = _place(entry)
+        known_key = self._keys.get(place)
+        if known_key and known_key == self._key(run.known, exercise, entry["grade"]["seed"]):
+            entry["key"] = known_key
+        self._runs[place] = json.dumps(entry)
+
+    def _key(self, known: KnownSubmission, exercise: Exercise, seed: int) -> str:
+        return grade_key(known.read(), exercise, seed, self._isolation, self._scale)
+
+    def _text(self) -> str:
+        by_exercise: dict[str, list[str]] = {}
+        for (exercise, _, _), line in self._runs.items():
+            by_exercise.setdefault(exercise, []).append(line)
+        lists = [f"{json.dumps(name)}: [\n{_joined(lines)}\n]" for name, lines in by_exercise.items()]
+        return f"{{\n{_joined(lists)}\n}}\n"
+
+
+def read_runs(path: Path) -> list[dict[str, Any]]:
+    """Return the runs in the file of an earlier audit; none, if it is not there.
+
+    Raises:
+        UnusableAuditRecord: it is no such file.
+    """
+    if not path.exists():
+        return []
+    try:
+        runs = [run for of_one in json.loads(path.read_text(encoding="utf-8")).values() for run in of_one]
+        for run in runs:
+            Grade.from_json(run["grade"])
+            _place(run), float(run["seconds"])
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise UnusableAuditRecord(
+            f"{path} is no file of course audit --json ({type(error).__name__}: {error}); name another one, "
+            "or leave out --resume to write it anew"
+        ) from error
+    return runs
+
+
+def _place(run: dict[str, Any]) -> _Place:
+    return run["grade"]["exercise"], run["submission"], run["grade"]["seed"]
+
+
+def _joined(lines: Iterable[str]) -> str:
+    return ",\n".join(lines)

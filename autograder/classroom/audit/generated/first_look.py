@@ -1,0 +1,110 @@
+"""A mutant as an audit grades it: only until it is plain which checks notice it."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+
+from autograder.classroom.audit.generated.mutant import Mutant
+from autograder.classroom.audit.known_submission import KnownSubmission
+from autograder.classroom.audit.run import AuditedRun
+from autograder.engine.exercise import Exercise, file_names
+from autograder.engine.grading import grade
+from autograder.engine.judging import verdict_on
+from autograder.engine.stop import Stop
+from autograder.engine.submission import Submission
+from autograder.engine.submission_arenas import SubmissionArenas
+from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.isolation.availability import available_isolation
+
+
+@dataclass(frozen=True)
+class GeneratedFault(KnownSubmission):
+    """A submission that no file holds; it may fail any check, and must fail one."""
+
+    mutant: Mutant = field(kw_only=True)
+
+    @property
+    def name(self) -> str:
+        """Its name in the record."""
+        return self.mutant.name
+
+    def read(self) -> Submission:
+        """Return the submission."""
+        (file_name,) = file_names(self.exercise)
+        return Submission(self.exercise, self.name, {file_name: self.mutant.source})
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A mutant with its grading."""
+
+    mutant: Mutant
+    run: AuditedRun
+
+    @property
+    def is_graded(self) -> bool:
+        """Whether there is a verdict."""
+        return self.run.grade.status == "graded"
+
+    @property
+    def noticed_by(self) -> CheckVerdict | None:
+        """The first check that failed, a visible one before any hidden one."""
+        failed = [check for check in self.run.grade.checks if check.status == "failed" and self.is_graded]
+        return min(failed, key=lambda check: check.hidden, default=None)
+
+
+class _Plain(Exception):
+    """Nothing more is to be known of this mutant."""
+
+
+def as_fault(mutant: Mutant, exercise: Exercise) -> GeneratedFault:
+    """Return what the audit grades; these faults share arenas, as the faulty submissions do."""
+    ids = tuple(check.id for check in exercise.checks)
+    return GeneratedFault(
+        exercise.name, "faulty", mutant.base, mutant.sentence, also_fails=ids, mutant=mutant
+    )
+
+
+def first_look(
+    known: KnownSubmission,
+    exercise: Exercise,
+    repetition: int = 0,
+    seed: int = 0,
+    scale: float | None = None,
+    arenas: SubmissionArenas | None = None,
+    stop: Stop | None = None,
+) -> AuditedRun:
+    """Grade a mutant until a visible check fails; a hidden one ends it when all visible ones are judged.
+
+    One failure counts, since no points can be lost. Checks that were not judged until then are “not run”.
+    """
+    started = time.monotonic()
+    verdicts: dict[str, CheckVerdict] = {}
+    visible = {check.id for check in exercise.checks if not check.hidden}
+
+    def report(verdict: CheckVerdict) -> None:
+        verdicts[verdict.id] = verdict
+        failed = [one for one in verdicts.values() if one.status == "failed"]
+        if any(not one.hidden for one in failed) or (failed and visible <= verdicts.keys()):
+            raise _Plain
+
+    try:
+        result = grade(
+            known.read(),
+            exercise,
+            seed=seed + repetition,
+            jobs=1,
+            scale=scale,
+            report=report,
+            at_first_look=[check.id for check in exercise.checks],
+            arenas=arenas,
+            stop=stop,
+            shortens=False,
+        )
+    except _Plain:
+        settled = {one.id: one for one in verdicts.values() if one.status != "error"}
+        checks = [settled.get(check.id) or verdict_on(check, "not run") for check in exercise.checks]
+        isolation = available_isolation().label
+        result = Grade(exercise.name, known.name, isolation, checks, seed=seed + repetition)
+    return AuditedRun(known, repetition, result, time.monotonic() - started)

@@ -1,0 +1,93 @@
+"""A correct program as a tree, of which some nodes can be given another source."""
+
+from __future__ import annotations
+
+import ast
+import copy
+from collections.abc import Iterator
+from typing import TypeVar
+
+from autograder.classroom.audit.generated.interfaces import Interfaces
+
+Named = ast.FunctionDef | ast.AsyncFunctionDef
+Function = Named | ast.Lambda
+Edits = dict[ast.AST, str]  # nodes of a program with the source that takes the place of each
+
+_Node = TypeVar("_Node", bound=ast.AST)
+
+
+class Program:
+    """A program whose nodes know what they are in."""
+
+    def __init__(self, source: str) -> None:
+        """Raises SyntaxError when the source is no Python."""
+        self.tree = ast.parse(source)
+        self.interfaces = Interfaces(self.tree)
+        self._parents = {child: node for node in ast.walk(self.tree) for child in ast.iter_child_nodes(node)}
+
+    def every(self, kind: type[_Node], inside: ast.AST | None = None) -> Iterator[_Node]:
+        """Yield the nodes of a kind in the order of the text."""
+        node = inside or self.tree
+        if isinstance(node, kind):
+            yield node
+        for child in ast.iter_child_nodes(node):
+            yield from self.every(kind, child)
+
+    def above(self, node: ast.AST) -> Iterator[ast.AST]:
+        """Yield what a node is in, from the inside to the module."""
+        while node in self._parents:
+            node = self._parents[node]
+            yield node
+
+    def parent(self, node: ast.AST) -> ast.AST:
+        """Return what a node is directly in."""
+        return self._parents[node]
+
+    def statement(self, node: ast.AST) -> ast.stmt:
+        """Return the innermost statement that a node is in or is."""
+        return next(one for one in (node, *self.above(node)) if isinstance(one, ast.stmt))
+
+    def functions(self, node: ast.AST) -> list[Function]:
+        """Return the functions around a node, the innermost first."""
+        return [one for one in self.above(node) if isinstance(one, Function)]
+
+    def function_name(self, node: ast.AST) -> str:
+        """Name the innermost named function around a node; "module" if there is none."""
+        return next((one.name for one in self.functions(node) if isinstance(one, Named)), "module")
+
+    def without(self, element: ast.AST) -> Edits:
+        """Take an element out of a list, a keyword out of a call, a condition out of `and` or `or`."""
+        parent = self.parent(element)
+        smaller = copy.copy(parent)
+        for name, value in ast.iter_fields(parent):
+            if isinstance(value, list) and element in value:
+                setattr(smaller, name, [one for one in value if one is not element])
+        if isinstance(smaller, ast.BoolOp) and len(smaller.values) == 1:
+            smaller = smaller.values[0]
+        return {parent: ast.unparse(smaller)}
+
+    def begun_with(self, function: Named, statements: str) -> Edits:
+        """Put statements at the beginning of a function, below its docstring."""
+        first = function.body[1 if ast.get_docstring(function) and len(function.body) > 1 else 0]
+        return {first: f"{statements}\n{ast.unparse(first)}"}
+
+    def changed(self, edits: Edits, inside: ast.AST | None = None) -> str:
+        """Return the source with the edits made, of the whole program or of one node."""
+        new = {id(node): _parsed(source, node) for node, source in edits.items()}
+        return ast.unparse(
+            copy.deepcopy(inside or self.tree, new)
+        )  # which takes what it finds there for a copy
+
+
+def last_name(node: ast.AST | None) -> str:
+    """Return the last part of a dotted name or of the name of what is called: "sleep" of time.sleep; "" of others."""
+    if isinstance(node, ast.Call):
+        return last_name(node.func)
+    if isinstance(node, ast.Attribute):
+        return node.attr
+    return node.id if isinstance(node, ast.Name) else ""
+
+
+def _parsed(source: str, node: ast.AST) -> ast.AST:
+    """Parse what takes the place of a node; of a statement it is a module, which may hold several."""
+    return ast.parse(source) if isinstance(node, ast.stmt) else ast.parse(source, mode="eval").body

@@ -1,0 +1,105 @@
+"""The kill matrix: one row for each submission, one column for each check."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rich.console import Console, Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from autograder.classroom.audit.run import AuditedRun, checks_without_a_killer
+from autograder.engine.exercise import Exercise
+from autograder.report.table import MARKS
+
+KILL = ("✗", "bold green")  # failed as its header says it must
+CONSEQUENCE = ("✗", "cyan")  # failed as its header says it may
+SURPRISE = "bold white on red"
+
+
+def print_progress(console: Console, run: AuditedRun, *, earlier: bool = False) -> None:
+    """Print one finished run, with each difference from the expected verdict; `earlier`: it is from a record."""
+    surprises = run.surprises()
+    mark, colour = ("✗", "red") if surprises else ("✓", "green")
+    score = run.grade.score if run.grade.score is not None else "not graded"
+    facts = f"{score}/{run.grade.max_score}  {run.seconds:.0f} s{'  (kept)' if earlier else ''}"
+    console.print(Text.assemble((f"{mark} ", colour), f"{run.known.name}  ", (facts, "dim")))
+    for surprise in surprises:
+        console.print(Text(f"    {surprise}", colour))
+
+
+def kill_matrix(runs: Sequence[AuditedRun], exercise: Exercise) -> RenderableType:
+    """Return the matrix of one exercise, with its legend and figures."""
+    table = Table(
+        title=f"Kill matrix of {exercise.name}", title_justify="left", show_edge=False, padding=(0, 1, 0, 0)
+    )
+    table.add_column("submission", no_wrap=True)
+    for number in range(1, len(exercise.checks) + 1):
+        table.add_column(str(number), justify="center", no_wrap=True)
+    table.add_column("s", justify="right")
+    kind = ""
+    for run in sorted(runs, key=_order):
+        if kind and run.known.kind != kind:
+            table.add_section()
+        kind = run.known.kind
+        name = run.known.name + (f" #{run.repetition + 1}" if run.repetition else "")
+        table.add_row(name, *(_cell(run, check.id) for check in exercise.checks), f"{run.seconds:.0f}")
+    return Group(table, Text(), _legend(runs, exercise), Text(), *map(Text, figures(runs, exercise)))
+
+
+def figures(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:
+    """Return the figures of the audit, each as a line."""
+    faulty = [run for run in runs if run.known.kind == "faulty"]
+    killed = [run for run in faulty if not run.missed()]
+    correct = [run for run in runs if run.known.kind == "correct"]
+    others = [run for run in runs if run.known.kind != "correct"]
+    lines = [
+        f"kills: {len(killed)} of {len(faulty)} faulty submissions ({_percent(killed, faulty)})",
+        f"false failures: {_unexpected(correct)} in {len(correct)} runs of correct submissions",
+        f"unexpected failures: {_unexpected(others)} in {len(others)} runs of faulty and hostile ones",
+        f"not graded: {sum(run.grade.status == 'not graded' for run in runs)} of {len(runs)}",
+    ]
+    if unproved := checks_without_a_killer(runs, exercise):
+        lines.append(f"checks without a killer: {', '.join(unproved)}")
+    return lines
+
+
+def _order(run: AuditedRun) -> tuple[int, str, int]:
+    return ("correct", "faulty", "hostile").index(run.known.kind), run.known.name, run.repetition
+
+
+def _cell(run: AuditedRun, check_id: str) -> Text:
+    status = run.status(check_id)
+    mark, colour = MARKS[status]
+    if status == "error" or check_id in run.unexpected() or check_id in run.missed():
+        return Text(mark, SURPRISE)
+    if check_id in run.known.caught_by:
+        return Text(*KILL)
+    if status == "failed":
+        return Text(*CONSEQUENCE)
+    return Text(mark, f"dim {colour}")
+
+
+def _legend(runs: Sequence[AuditedRun], exercise: Exercise) -> RenderableType:
+    legend = Table.grid(padding=(0, 2, 0, 0))
+    for number, check in enumerate(exercise.checks, start=1):
+        killers = {run.known.name for run in runs if check.id in run.known.caught_by}
+        legend.add_row(str(number), check.id, "hidden" if check.hidden else "", f"named by {len(killers)}")
+    key = Text.assemble(
+        "✓ passed  ",
+        ("✗", KILL[1]),
+        " caught it  ",
+        ("✗", CONSEQUENCE[1]),
+        " consequence  – not run  ! not judged  ",
+        (" red ", SURPRISE),
+        " not as known",
+    )
+    return Group(legend, key)
+
+
+def _unexpected(runs: Sequence[AuditedRun]) -> int:
+    return sum(len(run.unexpected()) for run in runs)
+
+
+def _percent(part: Sequence[object], whole: Sequence[object]) -> str:
+    return f"{100 * len(part) / len(whole):.0f} %" if whole else "none"

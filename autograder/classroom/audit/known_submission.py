@@ -1,0 +1,170 @@
+"""A submission whose verdict is known beforehand: the header in its first docstring states it.
+
+The header of a patch is the text before the diff; that of a folder is its about.md.
+
+correct:  Style: how it is written
+faulty:   Fault: the mistake (M2)            the number of the misconception, where it has one
+          Caught by: check_id, check_id      each must fail
+          Also fails: check_id               may fail as a consequence of the same fault
+hostile:  Attack: what it tries
+          Outcome: what happens
+          Caught by: …, Also fails: …        as above, or
+          Passes: nothing it did not do      it solves the task and attacks; the attack must change nothing
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatch
+from pathlib import Path
+from typing import Literal, get_args
+
+from autograder.classroom.audit.fault_patch import DOCSTRING, SUFFIX, header_of, whole_program
+from autograder.engine.exercise import exercises_folder, file_names
+from autograder.engine.submission import Submission, read_submission
+
+KNOWN = "known"  # their folder, in an exercise's
+ABOUT = "about.md"
+
+Kind = Literal["correct", "faulty", "hostile"]
+
+_KEY = re.compile(r"(Style|Fault|Attack|Outcome|Caught by|Also fails|Passes): *(.*)")
+_HEADLINE: Mapping[Kind, str] = {"correct": "Style", "faulty": "Fault", "hostile": "Attack"}
+
+
+class HeaderError(Exception):
+    """The docstring of a known submission does not say what the audit needs."""
+
+
+@dataclass(frozen=True)
+class KnownSubmission:
+    """A submission and the checks that must (`caught_by`) and may (`also_fails`) fail for it."""
+
+    exercise: str
+    kind: Kind
+    path: Path
+    about: str
+    caught_by: tuple[str, ...] = ()
+    also_fails: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """Its name in tables, such as faulty/no_cancel_callback."""
+        return f"{self.kind}/{self.path.stem}"
+
+    def read(self) -> Submission:
+        """Return the whole submission; raises `PatchError` when a patch does not apply."""
+        if self.path.suffix == SUFFIX:
+            (file_name,) = file_names(self.exercise)
+            return Submission(self.exercise, self.name, {file_name: whole_program(self.path)})
+        return read_submission(self.path, self.exercise, student=self.name)
+
+
+def known_submissions(exercise: str, *, only: str = "*") -> list[KnownSubmission]:
+    """Read the submissions in <exercise>/known/<kind>/; `only` is a glob on kind/stem or stem.
+
+    Each is a program, a patch, or a folder where students of the exercise write several files.
+    """
+    folders = [exercises_folder() / exercise / KNOWN / kind for kind in get_args(Kind)]
+    return [
+        read_known_submission(path)
+        for place in folders
+        for path in sorted(place.glob("[!_]*"))
+        if (path.is_dir() or path.suffix in (".py", SUFFIX))
+        and (fnmatch(path.stem, only) or fnmatch(f"{path.parent.name}/{path.stem}", only))
+    ]
+
+
+def known_submission(exercise: str, name: str) -> KnownSubmission:
+    """Return the submission of this name, such as faulty/sleeps; raises `HeaderError` unless there is exactly one."""
+    kind, _, stem = name.rpartition("/")
+    found = known_submissions(exercise, only=name)
+    if len(found) != 1:
+        names = ", ".join(known.name for known in found) or "none"
+        raise HeaderError(f"expected one submission of {exercise} called {kind or '*'}/{stem}; found {names}")
+    return found[0]
+
+
+def read_known_submission(path: Path) -> KnownSubmission:
+    """Read the header of <exercise>/known/<kind>/<name>; raises `HeaderError`."""
+    kind, exercise = _kind(path), path.parents[2].name
+    header = _parse(_header_text(path))
+    headline = _HEADLINE[kind]
+    if not header.get(headline):
+        raise HeaderError(f'{_header_place(path)} must have a line "{headline}: …"')
+    known = KnownSubmission(
+        exercise, kind, path, header[headline], _ids(header, "Caught by"), _ids(header, "Also fails")
+    )
+    _require_an_expectation(known, header)
+    return known
+
+
+def require_known_checks(known: KnownSubmission, check_ids: Sequence[str]) -> None:
+    """Raise `HeaderError` when a header names a check that the exercise does not have."""
+    named = {*known.caught_by, *known.also_fails}
+    if unknown := sorted(named - set(check_ids)):
+        raise HeaderError(
+            f"{known.path} names {', '.join(unknown)}; "
+            f"the checks of {known.exercise} are {', '.join(check_ids)}"
+        )
+
+
+def _header_text(path: Path) -> str:
+    if path.is_dir():
+        about = path / ABOUT
+        return about.read_text(encoding="utf-8") if about.exists() else ""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == SUFFIX:
+        return header_of(text)
+    found = DOCSTRING.match(text)
+    return found[1] if found else ""
+
+
+def _header_place(path: Path) -> str:
+    if path.is_dir():
+        return f"{ABOUT} in {path}"
+    return f"the beginning of {path}" if path.suffix == SUFFIX else f"the first docstring of {path}"
+
+
+def _kind(path: Path) -> Kind:
+    for kind in get_args(Kind):
+        if path.parent.name == kind:
+            return kind
+    raise HeaderError(f"{path} lies in {path.parent.name!r}; expected one of {', '.join(get_args(Kind))}")
+
+
+def _parse(docstring: str) -> dict[str, str]:
+    """Return the text after each key; a text may run over several lines, up to an empty one."""
+    header: dict[str, str] = {}
+    key = ""
+    for line in map(str.strip, docstring.splitlines()):
+        if match := _KEY.fullmatch(line):
+            key = match[1]
+            header[key] = match[2]
+        elif not line:
+            key = ""
+        elif key:
+            header[key] = f"{header[key]} {line}".strip()
+    return header
+
+
+def _ids(header: Mapping[str, str], key: str) -> tuple[str, ...]:
+    return tuple(word.strip() for word in header.get(key, "").split(",") if word.strip())
+
+
+def _require_an_expectation(known: KnownSubmission, header: Mapping[str, str]) -> None:
+    if known.kind == "correct":
+        if known.caught_by or known.also_fails:
+            raise HeaderError(f"{known.path} is said to be correct, and to fail a check")
+    elif known.kind == "faulty" and not known.caught_by:
+        raise HeaderError(f'{known.path} needs a line "Caught by: check_id"')
+    elif known.kind == "hostile" and not header.get("Outcome"):
+        raise HeaderError(f'{known.path} needs a line "Outcome: …"')
+    elif known.kind == "hostile" and bool(known.caught_by) == ("Passes" in header):
+        raise HeaderError(
+            f'{known.path} needs either "Caught by: check_id" or "Passes: nothing it did not do"'
+        )
+    if overlap := set(known.caught_by) & set(known.also_fails):
+        raise HeaderError(f"{known.path} names {', '.join(sorted(overlap))} twice")

@@ -1,0 +1,58 @@
+"""Selects known submissions and checks that prove every check once, for an audit that takes minutes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from autograder.classroom.audit.known_submission import KnownSubmission
+from autograder.engine.exercise import Exercise
+
+_MISCONCEPTION = re.compile(r"\(M\d+\)")
+
+
+def enough_to_prove(
+    submissions: Sequence[KnownSubmission], of_each: int | None = None
+) -> list[KnownSubmission]:
+    """Return few faulty submissions that together name every check and misconception, and correct and hostile ones.
+
+    The first `of_each` correct and hostile ones are taken, by default all. The faulty ones are a greedy set cover.
+    """
+    chosen = {
+        known.path
+        for kind in ("correct", "hostile")
+        for known in [known for known in submissions if known.kind == kind][:of_each]
+    }
+    left = {known: _proves(known) for known in submissions if known.kind == "faulty"}
+    proved: set[str] = set()
+    while left:
+        best = max(left, key=lambda known: len(left[known] - proved))
+        if not left[best] - proved:
+            break
+        proved |= left.pop(best)
+        chosen.add(best.path)
+    return [known for known in submissions if known.path in chosen]
+
+
+def enough_to_catch(known: KnownSubmission, exercise: Exercise) -> Exercise:
+    """Return the exercise with only the checks that tell whether a faulty or hostile submission is caught.
+
+    For a faulty one these are the checks that it must fail, without those they need, which it passes. For a hostile
+    one they are those it must or may fail, with what they need: where its effect shows first depends on the machine.
+    Every check stays for one that must fail none.
+    """
+    checks = {check.id: check for check in exercise.checks}
+    if known.kind == "faulty":
+        alone = [replace(checks[check_id], needs=()) for check_id in checks if check_id in known.caught_by]
+        return replace(exercise, checks=alone)
+    if not known.caught_by:
+        return exercise
+    wanted = [*known.caught_by, *known.also_fails]
+    for check_id in wanted:  # grows as it goes
+        wanted += [need for need in checks[check_id].needs if need not in wanted]
+    return replace(exercise, checks=[check for check in exercise.checks if check.id in wanted])
+
+
+def _proves(known: KnownSubmission) -> set[str]:
+    return {*known.caught_by, *_MISCONCEPTION.findall(known.about)}

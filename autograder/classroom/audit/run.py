@@ -1,0 +1,181 @@
+"""Grades known submissions with every check and compares the verdicts with the expected ones."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Collection, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+from typing import Any
+
+from autograder.classroom.audit.known_submission import KnownSubmission, require_known_checks
+from autograder.classroom.audit.shared_arenas import SharedArenas
+from autograder.engine.exercise import Exercise
+from autograder.engine.grading import grade
+from autograder.engine.stop import Stop
+from autograder.engine.submission_arenas import SubmissionArenas
+from autograder.engine.verdict import CheckStatus, Grade
+
+
+@dataclass(frozen=True)
+class AuditedRun:
+    """One grading of a known submission; `seconds` is its wall time.
+
+    `for_any_fault` are the checks (ids) that any faulty submission may fail: they judge sequences that are drawn.
+    """
+
+    known: KnownSubmission
+    repetition: int
+    grade: Grade
+    seconds: float
+    for_any_fault: Collection[str] = ()
+
+    def status(self, check_id: str) -> CheckStatus:
+        """Return the verdict of one check."""
+        return next(check.status for check in self.grade.checks if check.id == check_id)
+
+    def failed(self) -> list[str]:
+        """Return the ids of the checks that failed."""
+        return [check.id for check in self.grade.checks if check.status == "failed"]
+
+    def missed(self) -> list[str]:
+        """Return the checks that had to fail and did not.
+
+        A hostile one may fail a check of its "Also fails" first, so that the check which catches it is not run. That
+        counts as caught: when the effect of a flood shows depends on the machine.
+        """
+        failed = ["failed"]
+        if self.known.kind == "hostile" and set(self.failed()) & set(self.known.also_fails):
+            failed.append("not run")
+        return [check_id for check_id in self.known.caught_by if self.status(check_id) not in failed]
+
+    def unexpected(self) -> list[str]:
+        """Return the checks that failed although the header does not name them: false failures, if it is correct."""
+        named = {*self.known.caught_by, *self.known.also_fails}
+        if self.known.caught_by:
+            named.update(self.for_any_fault)
+        return [check_id for check_id in self.failed() if check_id not in named]
+
+    def surprises(self) -> list[str]:
+        """Describe each difference from the expected verdict; empty if there is none."""
+        words = [f"{check_id} did not catch it ({self.status(check_id)})" for check_id in self.missed()]
+        for check in self.grade.checks:
+            if check.status == "error" and "was not graded" not in check.help:  # the first cause only
+                words.append(f"{check.id} could not be judged: {check.help.splitlines()[0]}")
+            elif check.id in self.unexpected():
+                words.append(f"{check.id} failed: expected {check.expected}; observed {check.observed}")
+        if self.grade.status == "not graded" and not words:
+            words.append(f"not graded: {self.grade.reason}")
+        if self.known.kind == "correct" and not self.grade.all_passed and not words:
+            words.append("not every check passed")
+        return words
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what `course audit --json` writes of this run."""
+        return {
+            "submission": self.known.name,
+            "about": self.known.about,
+            "repetition": self.repetition,
+            "seconds": round(self.seconds, 2),
+            "caught_by": list(self.known.caught_by),
+            "also_fails": list(self.known.also_fails),
+            "surprises": self.surprises(),
+            "grade": self.grade.to_json(),
+        }
+
+
+def audit(
+    submissions: Sequence[KnownSubmission],
+    exercise: Exercise,
+    *,
+    jobs: int = 2,
+    repeat: int = 1,
+    seed: int = 0,
+    scale: float | None = None,
+    earlier: Callable[[KnownSubmission, int], AuditedRun | None] = lambda known, repetition: None,
+    report: Callable[[AuditedRun], None] = lambda run: None,
+    grade_one: Callable[..., AuditedRun] | None = None,
+) -> list[AuditedRun]:
+    """Grade each submission `repeat` times, in `jobs` arenas in parallel, and what could not be graded then once alone.
+
+    The faulty ones share arenas, one after another; each other one, and each that is graded alone, has its own.
+    The scenarios' inputs are those of `seed`, and of the seeds that follow it for the repetitions. Ctrl-C ends the
+    running arenas at once.
+    `earlier` returns the run of a submission and repetition that need not be done again, or None.
+    `report` gets each run when it is done; all are returned, those of `earlier` too, in the order of the submissions.
+    `grade_one` grades a submission; None: `audit_one`.
+    """
+    grade_one = grade_one or audit_one
+    for known in submissions:
+        require_known_checks(known, [check.id for check in exercise.checks])
+    wanted = [(repetition, known) for repetition in range(repeat) for known in submissions]
+    runs = {(repetition, known): run for repetition, known in wanted if (run := earlier(known, repetition))}
+    left = [one for one in wanted if one not in runs]
+    stop = Stop()
+    with SharedArenas(known for _, known in left) as shared, ThreadPoolExecutor(jobs) as pool:
+
+        def audit_in_shared(known: KnownSubmission, repetition: int) -> AuditedRun:
+            with shared.lent_to(known, exercise) as arenas:
+                return grade_one(known, exercise, repetition, seed, scale, arenas=arenas, stop=stop)
+
+        futures = {
+            pool.submit(audit_in_shared, known, repetition): (repetition, known) for repetition, known in left
+        }
+        try:
+            for future in as_completed(futures):
+                run = future.result()
+                if run.grade.status != "not graded":
+                    runs[futures[future]] = run
+                    report(run)
+        except BaseException:
+            stop.set()
+            pool.shutdown(cancel_futures=True)
+            raise
+    for repetition, known in left:
+        if (repetition, known) not in runs:
+            runs[repetition, known] = grade_one(known, exercise, repetition, seed, scale)
+            report(runs[repetition, known])
+    return [runs[one] for one in wanted]
+
+
+def audit_one(
+    known: KnownSubmission,
+    exercise: Exercise,
+    repetition: int = 0,
+    seed: int = 0,
+    scale: float | None = None,
+    at_first_look: Collection[str] = (),
+    arenas: SubmissionArenas | None = None,
+    stop: Stop | None = None,
+) -> AuditedRun:
+    """Grade one submission, one arena at a time.
+
+    `at_first_look`: the checks that need not fail twice. `arenas`: those of `SharedArenas`; None: its own.
+    `stop`: ends them at once when it is set.
+    """
+    started = time.monotonic()
+    result = grade(
+        known.read(),
+        exercise,
+        seed=seed + repetition,
+        jobs=1,
+        scale=scale,
+        at_first_look=at_first_look,
+        arenas=arenas,
+        stop=stop,
+        shortens=False,
+    )
+    return AuditedRun(known, repetition, result, time.monotonic() - started, for_any_fault(exercise))
+
+
+def for_any_fault(exercise: Exercise) -> frozenset[str]:
+    """Return the ids of the checks that any faulty submission may fail."""
+    return frozenset(check.id for check in exercise.checks if check.meets_any_fault)
+
+
+def checks_without_a_killer(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:
+    """Return the checks that failed for none of the submissions that name them, so that nothing proves their use."""
+    proved = {
+        check_id for run in runs for check_id in run.known.caught_by if run.status(check_id) == "failed"
+    }
+    return [check.id for check in exercise.checks if check.id not in proved]

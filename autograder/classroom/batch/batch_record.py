@@ -1,0 +1,211 @@
+"""batch.json: what was graded when, with what, and what it took. With grades.json it lets a grade be defended later."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import TypeAdapter
+
+from autograder.atomic_file import write_atomically
+from autograder.classroom.batch.effort import utc_now
+from autograder.classroom.batch.records import UNREADABLE
+from autograder.classroom.batch.runner import Graded
+from autograder.classroom.batch.seeds import Seeds
+from autograder.classroom.batch.version import checks_version
+from autograder.engine.exercise import exercises_folder
+from autograder.engine.verdict import Grade
+
+BATCH = "batch.json"
+
+State = Literal["running", "ended", "interrupted"]
+
+
+@dataclass(frozen=True)
+class Row:
+    """One graded submission.
+
+    Attributes:
+        program: SHA-256 of each file as the grader read it, by its name; empty when it could not be read.
+        version: of the exercise's checks and the engine, as `batch.version` computes it.
+        began, ended, host, processor_seconds, arenas, scenarios: of the run that gave the grade, which may be an
+            earlier one; "" and 0 if the worker was lost.
+    """
+
+    student: str
+    exercise: str
+    status: str
+    score: float | None
+    max_score: int
+    seed: int | None
+    isolation: str
+    version: str
+    program: Mapping[str, str]
+    handed_in: str = ""
+    began: str = ""
+    ended: str = ""
+    host: str = ""
+    processor_seconds: float = 0.0
+    arenas: int = 0
+    scenarios: int = 0
+
+    @classmethod
+    def of(cls, result: Graded) -> Row:
+        """Return the row of a result."""
+        grade, effort = result.grade, result.effort
+        return cls(
+            student=grade.student,
+            exercise=grade.exercise,
+            status=grade.status,
+            score=grade.score,
+            max_score=grade.max_score,
+            seed=grade.seed,
+            isolation=grade.isolation,
+            version=checks_version(exercises_folder() / grade.exercise),
+            program={
+                name: hashlib.sha256(text.encode()).hexdigest()
+                for name, text in (result.sources or {}).items()
+            },
+            handed_in=result.work.timestamp,
+            **(asdict(effort) if effort else {}),
+        )
+
+
+@dataclass(frozen=True)
+class BatchRecord:
+    """A batch from its start to its end.
+
+    Attributes:
+        state: "running" in a file that nobody writes any more means that the batch was killed.
+        began, ended: UTC, ISO 8601, of the last run; `ended` is None until then.
+        seed, seed_per_student, seed_per_submission: what draws the inputs of hidden checks.
+        isolation: the tier that the machine or the cluster offered.
+        jobs: how many submissions were graded at a time.
+        cluster: address of the Dask scheduler, or "".
+        shard: "K/N", or "".
+        toolkit, course: commits of the clone and of exercises that are kept elsewhere.
+        rows: every submission that has a grade in `out`, also from earlier runs.
+        left_aside, refused: sentences on files that are no submission.
+    """
+
+    state: State
+    began: str
+    seed: int
+    seed_per_student: bool
+    seed_per_submission: bool
+    isolation: str
+    jobs: int
+    cluster: str = ""
+    shard: str = ""
+    toolkit: str = ""
+    course: str = ""
+    ended: str | None = None
+    rows: Sequence[Row] = ()
+    left_aside: Sequence[str] = ()
+    refused: Sequence[str] = ()
+
+    @property
+    def seeds(self) -> Seeds:
+        """The seeds of the batch."""
+        return Seeds(self.seed, self.seed_per_student, self.seed_per_submission)
+
+    @property
+    def hosts(self) -> list[str]:
+        """The machines that graded."""
+        return sorted({row.host for row in self.rows if row.host})
+
+    def with_results(self, results: Sequence[Graded]) -> BatchRecord:
+        """Return the record with the rows of these results in the place of what was there on the same submissions."""
+        rows = {(row.student, row.exercise): row for row in self.rows}
+        rows |= {(row.student, row.exercise): row for row in map(Row.of, results)}
+        return replace(self, rows=[rows[key] for key in sorted(rows)])
+
+    def with_points(self, grades: Sequence[Grade]) -> BatchRecord:
+        """Return the record with what the grades say now: a person may have given points for an essay."""
+        now = {(grade.student, grade.exercise): grade for grade in grades}
+        rows = [
+            replace(row, status=grade.status, score=grade.score)
+            if (grade := now.get((row.student, row.exercise)))
+            else row
+            for row in self.rows
+        ]
+        return replace(self, rows=rows)
+
+    def in_words(self) -> dict[str, str]:
+        """Return what the class page says of the batch."""
+        seconds = sum(row.processor_seconds for row in self.rows)
+        versions = sorted({f"{row.exercise} {row.version[:12]}" for row in self.rows})
+        return {
+            "last run": f"{self.began} to {self.ended or 'now'}",
+            "seed of hidden checks": self.seeds.in_words(),
+            "isolation": self.isolation,
+            "machines": ", ".join(self.hosts) or "none",
+            "what it took": f"{seconds:,.0f} processor-seconds in {sum(row.arenas for row in self.rows):,} arenas",
+            "toolkit": self.toolkit or "in no git repository",
+            **({"course": self.course} if self.course else {}),
+            "checks and engine": ", ".join(versions),
+        }
+
+    def closed(self, state: State) -> BatchRecord:
+        """Return the record of a batch that ends now."""
+        return replace(self, state=state, ended=utc_now())
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what is written: sums first, then what they are made of."""
+        record = asdict(self)
+        rows = record.pop("rows")
+        sums = {
+            "counts": dict(Counter(row.status for row in self.rows)),
+            "processor_seconds": round(sum(row.processor_seconds for row in self.rows), 1),
+            "arenas": sum(row.arenas for row in self.rows),
+            "scenarios": sum(row.scenarios for row in self.rows),
+            "hosts": self.hosts,
+            "host_count": len(self.hosts),
+            "versions": {row.exercise: row.version for row in self.rows},
+        }
+        return {**record, **sums, "submissions": rows}
+
+    @classmethod
+    def from_json(cls, record: Mapping[str, Any]) -> BatchRecord:
+        """Read back what `to_json` returned; raises ValueError or KeyError for anything else."""
+        return _RECORDS.validate_python({**record, "rows": record["submissions"]})
+
+
+_RECORDS = TypeAdapter(BatchRecord)
+
+
+def write_batch(folder: Path, record: BatchRecord) -> None:
+    """Write batch.json, whole or not at all."""
+    write_atomically(folder / BATCH, json.dumps(record.to_json(), indent=2) + "\n")
+
+
+def read_batch(folder: Path) -> BatchRecord | None:
+    """Read batch.json; None if there is none, or none of this version."""
+    try:
+        return BatchRecord.from_json(json.loads((folder / BATCH).read_text(encoding="utf-8")))
+    except (*UNREADABLE, TypeError, KeyError):
+        return None
+
+
+def merged_record(folders: Sequence[Path]) -> BatchRecord | None:
+    """Return the record of shards together; None if one of them has none."""
+    records = [record for record in map(read_batch, folders) if record]
+    if len(records) < len(folders):
+        return None
+    rows = {(row.student, row.exercise): row for record in records for row in record.rows}
+    return replace(
+        records[0],
+        state="ended",
+        began=min(record.began for record in records),
+        ended=max(record.ended or "" for record in records) or None,
+        jobs=sum(record.jobs for record in records),
+        shard="",
+        rows=[rows[key] for key in sorted(rows)],
+        left_aside=sorted({line for record in records for line in record.left_aside}),
+        refused=sorted({line for record in records for line in record.refused}),
+    )

@@ -1,0 +1,79 @@
+"""Workers of a Dask cluster. `distributed` is imported only here, and only when it is asked for."""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from autograder.classroom.batch.crew import Workers
+from autograder.isolation.availability import Isolation, available_isolation
+
+AT_A_TIME = 1000  # jobs the scheduler knows of, so that an adaptive cluster can grow
+_PATIENCE = 30.0  # s for the scheduler to answer and for a first worker
+
+
+class NoCluster(Exception):
+    """There is no cluster to work on; the message says why, and what to do."""
+
+
+@dataclass(frozen=True)
+class Cluster:
+    """The workers that may grade, the isolation they have, and a sentence on each that is left out."""
+
+    workers: Workers
+    isolation: Isolation
+    size: int
+    left_out: tuple[str, ...]
+
+
+@contextmanager
+def dask_cluster(address: str) -> Iterator[Cluster]:
+    """Connect to a scheduler and ask each worker for its isolation.
+
+    Where only some workers are isolated, only those grade. A worker that joins later is asked at each of its jobs.
+
+    Raises:
+        NoCluster: `distributed` is not installed, nobody answers, or no worker is there.
+    """
+    try:
+        from distributed import Client
+    except ImportError as error:
+        install = f"{sys.executable} -m uv pip install --python {sys.executable} -c requirements.lock dask distributed"
+        raise NoCluster(f"--dask needs the package distributed: {install}") from error
+    try:
+        client = Client(address, timeout=_PATIENCE, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise NoCluster(
+            f"no Dask scheduler answers at {address} ({error}); start one with: dask scheduler"
+        ) from error
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=_PATIENCE)
+        except (TimeoutError, asyncio.TimeoutError) as error:  # two classes before Python 3.11
+            raise NoCluster(
+                f"the scheduler at {address} has no worker; start one in a clone: .venv/bin/dask worker {address}"
+            ) from error
+        try:
+            found: dict[str, Isolation] = client.run(available_isolation)
+        except Exception as error:  # what a worker without this toolkit raises is for Dask to say
+            raise NoCluster(
+                f"a worker cannot run this toolkit ({type(error).__name__}: {error}); start every worker with the "
+                ".venv/bin/dask of a clone at the same commit"
+            ) from error
+        yield _cluster(client, found)
+
+
+def _cluster(client: object, found: dict[str, Isolation]) -> Cluster:
+    isolated = [worker for worker, isolation in found.items() if isolation.trusted]
+    chosen = isolated or list(found)
+    left_out = tuple(
+        f"the worker {worker} has no isolation and gets no work: {found[worker].reason}"
+        for worker in found
+        if worker not in chosen
+    )
+    only = {"workers": chosen} if left_out else {}
+    workers = Workers(lambda: client.get_executor(pure=False, **only), AT_A_TIME)  # type: ignore[attr-defined]
+    return Cluster(workers, found[chosen[0]], len(chosen), left_out)

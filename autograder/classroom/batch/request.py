@@ -1,0 +1,70 @@
+"""What a batch is asked to do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from autograder.classroom.batch.shards import Shard
+
+
+class UnusableRequest(ValueError):
+    """Options that do not go together; the message says which."""
+
+
+@dataclass(frozen=True)
+class BatchRequest:
+    """What to grade, how, and where the results go.
+
+    Attributes:
+        submitted: the folder of submissions.
+        out: where everything is written.
+        jobs: how many arenas run in parallel on this machine.
+        resume: keep the grades of an earlier run.
+        seed: of the inputs of hidden checks; None: that of the batch that goes on, or a new one.
+        seed_per_student: other inputs for each student.
+        students, exercises: the only ones to grade; the others keep their grades. Empty: all.
+        shard: the part of the class to grade here.
+        dask: address of a scheduler whose workers grade.
+        json_file: gets all verdicts, too.
+        watch: go on with what is handed in from now on.
+        record: keep an MCAP file of each scenario.
+    """
+
+    submitted: Path
+    out: Path
+    jobs: int = 1
+    resume: bool = False
+    seed: int | None = None
+    seed_per_student: bool = False
+    students: tuple[str, ...] = ()
+    exercises: tuple[str, ...] = ()
+    shard: Shard | None = None
+    dask: str | None = None
+    json_file: Path | None = None
+    watch: bool = False
+    record: bool = False
+
+    def __post_init__(self) -> None:
+        if self.shard and (self.students or self.exercises or self.json_file):
+            raise UnusableRequest(
+                "--shard takes a part of the whole class: leave out --student, --exercise and --json"
+            )
+        if self.shard and self.watch:
+            raise UnusableRequest("--watch grades what comes, and --shard a part of what is there: give one")
+
+    @property
+    def keeps_others(self) -> bool:
+        """Whether submissions that are not graded now keep the grades they have."""
+        return self.watch or bool(self.students or self.exercises)
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether this continues the batch that `out` holds, with its seed."""
+        return self.resume or self.keeps_others
+
+    def selects(self, student: str, exercise: str) -> bool:
+        """Whether a submission is among those to grade."""
+        return (not self.students or student in self.students) and (
+            not self.exercises or exercise in self.exercises
+        )

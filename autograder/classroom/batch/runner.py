@@ -1,0 +1,203 @@
+"""Grades many submissions in parallel; a failure of one does not stop the others."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence, Sized
+from dataclasses import dataclass
+from functools import lru_cache, partial
+from pathlib import Path
+
+from autograder.classroom.batch.cache import GradeCache, Known
+from autograder.classroom.batch.collection import Work
+from autograder.classroom.batch.crew import Crew, PutOff, Workers, threads
+from autograder.classroom.batch.effort import Effort, without_arena
+from autograder.classroom.batch.job import GradingJob, Live, carry_out
+from autograder.classroom.batch.seeds import ONE_FOR_ALL, Seeds
+from autograder.classroom.batch.special_grades import unreadable
+from autograder.classroom.batch.version import checks_version
+from autograder.classroom.pages.drawings import Drawings
+from autograder.engine.essay import left_to_a_person, load_essay
+from autograder.engine.exercise import FOLDER_VARIABLE, Exercise, essay_names, load_exercise
+from autograder.engine.grading import Report
+from autograder.engine.stop import Stop
+from autograder.engine.submission import UnusableSubmission
+from autograder.engine.verdict import Grade
+from autograder.isolation.availability import Isolation
+from autograder.recording.kept import keep
+
+PATIENCE = 0.5  # s to wait for results before it is looked again for new submissions
+
+Running = Callable[[Sequence[GradingJob]], None]
+
+
+@dataclass(frozen=True)
+class Graded:
+    """A submission with its grade. If it could not be read, `sources` is None and `problem` says why.
+
+    `effort` is what the grade took when it was given; None if a worker was lost.
+    """
+
+    work: Work
+    grade: Grade
+    sources: Mapping[str, str] | None
+    problem: str = ""
+    cached: bool = False
+    effort: Effort | None = None
+
+
+class BatchRunner:
+    """Grades submissions; without trusted isolation only with the visible checks.
+
+    Args:
+        cache: gets every grade as soon as there is one.
+        isolation: of the workers.
+        jobs: how many arenas run in parallel here.
+        seeds: of the scenarios' inputs.
+        resume: take grades from the cache.
+        report: gets each verdict as soon as it is known, on any thread; from other machines with the grade.
+        running: gets the jobs that run in this process, whenever they change, on any thread.
+        put_off: gets each job that could not be graded and is done again at the end, alone, with its first outcome.
+        drawings: keeps those of failed checks.
+        recordings: folder in which they are kept, each in <student>/<exercise>/; None: none are made.
+        workers: where the work is done; None: `jobs` threads of this process.
+    """
+
+    def __init__(
+        self,
+        cache: GradeCache,
+        isolation: Isolation,
+        *,
+        jobs: int,
+        seeds: Seeds = ONE_FOR_ALL,
+        resume: bool = False,
+        report: Report = lambda verdict: None,
+        running: Running = lambda jobs: None,
+        put_off: PutOff = lambda job, outcome: None,
+        drawings: Drawings | None = None,
+        recordings: Path | None = None,
+        workers: Workers | None = None,
+    ) -> None:
+        self._cache = cache
+        self._isolation = isolation
+        self._jobs = jobs
+        self._seeds = seeds
+        self._resume = resume
+        self._report = report
+        self._running = running
+        self._put_off = put_off
+        self._drawings = drawings
+        self._recordings = recordings
+        self._workers = workers
+        self._stop = Stop()
+        self._now_running: list[GradingJob] = []
+        self._lock = threading.Lock()
+        self.exercise = lru_cache(self._load)  # an exercise with the checks that this batch makes, by name
+
+    def count(self, name: str) -> int:
+        """Return how many verdicts this batch gives on a submission for an exercise."""
+        return len(load_essay(name).criteria if name in essay_names() else self.exercise(name).checks)
+
+    def run(self, works: Iterable[Work | None]) -> Generator[Graded, None, None]:
+        """Yield each submission as soon as it is graded, each once.
+
+        `works` may be endless: None says that there is nothing to grade at present, so that results are taken. A work
+        may come again when its result is there.
+
+        Leaving the loop early, for example by Ctrl-C, ends the running arenas at once; finished grades stay in the
+        cache.
+        """
+        at_a_time = len(works) if isinstance(works, Sized) else self._jobs
+        arenas = 1 if self._workers else max(1, self._jobs // max(1, at_a_time))
+        workers = self._workers or threads(max(1, self._jobs // arenas))
+        live = self._live() if workers.share_memory else None
+        crew = Crew(workers, partial(carry_out, live=live), self._put_off)
+        handed_over: dict[tuple[str, str], Work] = {}
+        try:
+            for work in works:
+                if work is None:
+                    if crew.is_busy:
+                        yield from self._finish(crew, handed_over, PATIENCE)
+                    continue
+                prepared = self._prepare(work, arenas)
+                if isinstance(prepared, Graded):
+                    for verdict in prepared.grade.checks:
+                        self._report(verdict)
+                    yield prepared
+                    continue
+                while not crew.has_room:
+                    yield from self._finish(crew, handed_over)
+                handed_over[work.student, work.exercise] = work
+                crew.give(prepared)
+            while crew.is_busy:
+                yield from self._finish(crew, handed_over)
+        finally:
+            self._stop.set()
+            crew.close()
+
+    def _load(self, name: str) -> Exercise:
+        return load_exercise(name, hidden=self._isolation.trusted)
+
+    def _prepare(self, work: Work, arenas: int) -> Graded | GradingJob:
+        """Return what needs no arena with its grade, and of the rest a job."""
+        try:
+            submission, problem = work.read(), ""
+        except UnusableSubmission as error:
+            submission, problem = None, str(error)
+        sources = submission.sources if submission else None
+        if (
+            work.exercise in essay_names()
+        ):  # of one that cannot be read a person decides, too, what it is worth
+            waiting = left_to_a_person(load_essay(work.exercise), work.student)
+            return Graded(work, waiting, sources, problem, effort=without_arena())
+        exercise, seed = self.exercise(work.exercise), self._seeds.of(work.student, sources or {})
+        if submission is None:
+            grade = unreadable(work.student, exercise, self._isolation.label, seed, problem)
+            return Graded(work, grade, None, problem, effort=without_arena())
+        if self._resume and (known := self._cache.get(submission, exercise, seed)):
+            return Graded(work, known.grade, sources, cached=True, effort=known.effort)
+        return GradingJob(
+            work.student,
+            work.exercise,
+            dict(submission.sources),
+            seed,
+            self._isolation.trusted,
+            checks_version(exercise.folder),
+            arenas,
+            os.environ.get(FOLDER_VARIABLE),
+            self._recordings is not None,
+        )
+
+    def _finish(
+        self, crew: Crew, handed_over: dict[tuple[str, str], Work], patience: float | None = None
+    ) -> Iterator[Graded]:
+        """Wait for outcomes, and cache them all before anybody can interrupt the loop."""
+        finished = []
+        for job, outcome in crew.wait(patience):
+            work = handed_over.pop((job.student, job.exercise))
+            if outcome.effort:
+                known = Known(outcome.grade, outcome.effort)
+                self._cache.put(job.submission, self.exercise(job.exercise), job.seed, known)
+            if self._drawings:
+                self._drawings.keep_all(outcome.grade, job.sources, outcome.drawn)
+            if self._recordings:
+                keep(self._recordings / job.student / job.exercise, outcome.recordings)
+            finished.append(Graded(work, outcome.grade, job.sources, effort=outcome.effort))
+            if self._workers and not self._workers.share_memory:
+                for verdict in outcome.grade.checks:
+                    self._report(verdict)
+        yield from finished
+
+    def _live(self) -> Live:
+        return Live(self._isolation, self._stop, self._report, self._begins, self._ends)
+
+    def _begins(self, job: GradingJob) -> None:
+        with self._lock:
+            self._now_running.append(job)
+            self._running(list(self._now_running))
+
+    def _ends(self, job: GradingJob) -> None:
+        with self._lock:
+            self._now_running.remove(job)
+            self._running(list(self._now_running))

@@ -1,0 +1,76 @@
+"""The seeds of a batch, drawn anew for each batch unless somebody gives one.
+
+What a student learns of the inputs of hidden checks in one batch is of no use in the next.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import secrets
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from autograder.classroom.batch.collection import Work
+
+_READ = 65536  # bytes of each file that go into a seed made of what was handed in
+
+
+@dataclass(frozen=True)
+class Seeds:
+    """What draws the inputs of scenarios: `batch` itself, or a number made of it and more.
+
+    Attributes:
+        batch: the number.
+        per_student: each student has a seed of their own, made of the name.
+        per_submission: each program has one, so that what a student learns from handing in is of no use when they
+            hand in again.
+    """
+
+    batch: int = 0
+    per_student: bool = False
+    per_submission: bool = False
+
+    def of(self, student: str, sources: Mapping[str, str]) -> int:
+        """Return a submission's seed, the same on every machine: 0 to 2³² - 1 where it is not the batch's own."""
+        if not (self.per_student or self.per_submission):
+            return self.batch
+        text = f"{self.batch} {student}"
+        if self.per_submission:
+            text += "".join(f"\0{name}\0{source}" for name, source in sorted(sources.items()))
+        return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big")
+
+    def in_words(self) -> str:
+        """Return them in words, for the instructor."""
+        if self.per_submission:
+            return f"{self.batch}, made into one for each submission"
+        return f"{self.batch}, made into one for each student" if self.per_student else str(self.batch)
+
+
+ONE_FOR_ALL = Seeds()
+
+
+def drawn_seed() -> int:
+    """Return a seed that nobody can know beforehand."""
+    return secrets.randbits(32)
+
+
+def seed_of_what_was_handed_in(works: Sequence[Work]) -> int:
+    """Return a seed made of all submissions: machines that share nothing else agree on it, and no student knows it."""
+    digest = hashlib.sha256()
+    for work in sorted(works, key=lambda work: (work.student, work.exercise)):
+        digest.update(f"{work.student}\0{work.exercise}\0".encode())
+        for path in work.files():
+            digest.update(_beginning(path))
+    return int.from_bytes(digest.digest()[:4], "big")
+
+
+def _beginning(path: Path) -> bytes:
+    """The size and the first bytes of an ordinary file."""
+    if path.is_symlink() or not path.is_file():
+        return b""
+    try:
+        with path.open("rb") as file:
+            return f"{path.stat().st_size} ".encode() + file.read(_READ)
+    except OSError:
+        return b""

@@ -1,0 +1,58 @@
+"""A part of a class: some students, some exercises; the grades of the others stay as they are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from autograder.classroom.batch.collection import Work
+from autograder.classroom.batch.seeds import Seeds
+from autograder.engine.verdict import Grade
+
+
+class OtherSeed(Exception):
+    """The grades that are to stay were given with another seed; the message says what to do."""
+
+
+class NothingSelected(Exception):
+    """A name selects no submission; the message says which names there are."""
+
+
+def select(works: Sequence[Work], students: Sequence[str], exercises: Sequence[str]) -> list[Work]:
+    """Return the works of these students for these exercises; none named: of all.
+
+    Raises:
+        NothingSelected: a name has no submission, or none of the students handed in one of the exercises.
+    """
+    for option, wanted, found in (
+        ("--student", students, {work.student for work in works}),
+        ("--exercise", exercises, {work.exercise for work in works}),
+    ):
+        if missing := sorted(set(wanted) - found):
+            names = ", ".join(sorted(found)[:20]) + (", …" if len(found) > 20 else "")
+            raise NothingSelected(f"{option} {missing[0]}: no submission of that name; there are {names}")
+    selected = [
+        work
+        for work in works
+        if (not students or work.student in students) and (not exercises or work.exercise in exercises)
+    ]
+    if not selected and (students or exercises):
+        raise NothingSelected(f"{', '.join(students)} handed in none of {', '.join(exercises)}")
+    return selected
+
+
+def require_seed(before: Sequence[Grade], seeds: Seeds) -> None:
+    """Require that grades that stay beside new ones were given with the same seeds; raises OtherSeed."""
+    if seeds.per_submission:
+        return
+    other = next((grade for grade in before if grade.seed not in (None, seeds.of(grade.student, {}))), None)
+    if other:
+        raise OtherSeed(
+            f"{other.student}'s {other.exercise} has a grade with seed {other.seed}, and this run gives it seed "
+            f"{seeds.of(other.student, {})}; give --seed and --seed-per-student as then, or grade the whole class"
+        )
+
+
+def with_others(grades: Sequence[Grade], before: Sequence[Grade]) -> list[Grade]:
+    """Return the new grades and those from before of other submissions, in order of student and exercise."""
+    merged = {(grade.student, grade.exercise): grade for grade in [*before, *grades]}
+    return [merged[key] for key in sorted(merged)]

@@ -1,0 +1,48 @@
+"""sources/: each graded program as the grader read it, laid out for tools that look for copies (JPlag, MOSS, Dolos).
+
+    sources/<exercise>/<student>/<exercise>.py   what the student wrote, without the given cells of the notebook
+    sources/_base/<exercise>/<exercise>.py       what everyone was given in that place, to be disregarded
+
+A student may be called _base, so the given code lies beside the exercises and not among their students.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+from autograder.atomic_file import write_atomically
+from autograder.classroom.batch.runner import Graded
+from autograder.engine.submission import UnusableSubmission, read_submission
+
+SOURCES, BASE = "sources", "_base"
+
+
+def write_sources(out: Path, results: Iterable[Graded]) -> None:
+    """Write the programs of these results; of one that could not be read nothing stays."""
+    for result in results:
+        _replace(out / SOURCES / result.work.exercise / result.work.student, result.sources or {})
+
+
+def write_base_code(out: Path, exercises: Sequence[str], releases: Path) -> None:
+    """Write what students were given, from the notebooks in releases/<exercise>/, where there are such."""
+    for exercise in sorted(set(exercises)):
+        notebook = releases / exercise / f"{exercise}.ipynb"
+        try:
+            given = read_submission(notebook, exercise).sources
+        except UnusableSubmission:
+            continue
+        _replace(out / SOURCES / BASE / exercise, given)
+
+
+def _replace(folder: Path, files: Mapping[str, str]) -> None:
+    kept = {name: text for name, text in files.items() if Path(name).name == name}
+    if not kept:
+        shutil.rmtree(folder, ignore_errors=True)
+        return
+    for path in folder.iterdir() if folder.is_dir() else ():
+        if path.name not in kept:
+            path.unlink()
+    for name, text in kept.items():
+        write_atomically(folder / name, text)

@@ -1,0 +1,84 @@
+"""What the commands that grade a class share: the gradebook, and what they print at the end."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from autograder.classroom.batch.records import GRADES
+from autograder.classroom.batch.runner import Graded
+from autograder.classroom.class_grading.entering import Entering
+from autograder.engine.verdict import Grade
+from autograder.recording.kept import FOLDER as RECORDINGS
+from autograder.report.class_table import class_table
+
+
+def enter_all(console: Console, results: Sequence[Graded], out: Path) -> tuple[list[str], list[Grade]]:
+    """Enter the grades into nbgrader's gradebook one by one.
+
+    Returns a sentence for each that failed, and the grades with what a person has given there.
+    """
+    entering = Entering(out)
+    grades: list[Grade] = []
+    with _bar(console) as progress:
+        for result in progress.track(results, description="gradebook"):
+            grades.append(entering.enter(result))
+    return entering.problems(), grades
+
+
+def sources_of(results: Sequence[Graded]) -> dict[tuple[str, str], Mapping[str, str] | None]:
+    """Return the programs of what was graded now, by student and exercise; None: it could not be read."""
+    return {(result.work.student, result.work.exercise): result.sources for result in results}
+
+
+def tell_the_end(
+    console: Console, grades: Sequence[Grade], unentered: Sequence[str], out: Path, page: Path
+) -> None:
+    """Print the table of the class, what is not in the gradebook, and where everything lies."""
+    console.print(class_table(grades))
+    for line in unentered:
+        console.print(f"not in the gradebook: {line}", style="red", markup=False)
+    to_mark = [grade for grade in grades if grade.status == "to mark"]
+    if to_mark:
+        console.print(
+            f"{len(to_mark)} to be marked by hand, in formgrader; then run this again with --resume, and {GRADES} has "
+            "the points",
+            style="cyan",
+        )
+    console.print(f"to read first: {page}", markup=False, soft_wrap=True)
+    console.print(f"{out / GRADES}, {out / 'gradebook.db'}, {out / 'feedback'}/", style="dim", markup=False)
+    jupyter = Path(sys.executable).with_name("jupyter")
+    console.print(
+        f"to look at them in nbgrader: cd {out} && {jupyter} lab, then Nbgrader > Formgrader", style="dim"
+    )
+
+
+def tell_of_recordings(console: Console, out: Path, results: Sequence[Graded]) -> None:
+    """Say where the recordings are, and of which grades there are none."""
+    console.print(
+        f"recordings: {out / RECORDINGS}/<student>/<exercise>/<scenario>.mcap, hidden checks included; look at one: "
+        "./course replay FILE",
+        style="dim",
+        markup=False,
+    )
+    cached = sum(result.cached for result in results)
+    if cached:
+        console.print(
+            f"{cached} grades are from an earlier run, and nothing was recorded of them now; to record them, grade "
+            "again without --resume, with the --seed that batch.json names",
+            style="yellow",
+        )
+
+
+def _bar(console: Console) -> Progress:
+    return Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(elapsed_when_finished=True),
+        console=console,
+    )

@@ -1,0 +1,147 @@
+"""What a batch shows while it runs: what is done, how long the rest will take, and what runs now."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Sequence
+from types import TracebackType
+
+from rich.console import Console, Group, RenderableType
+from rich.live import Live
+from rich.markup import escape
+from rich.progress_bar import ProgressBar
+from rich.table import Table
+from rich.text import Text
+
+from autograder.classroom.batch.job import GradingJob, Outcome
+from autograder.classroom.batch.pace import Pace, in_words
+from autograder.classroom.batch.runner import Graded
+from autograder.engine.verdict import CheckVerdict
+from autograder.report.class_table import progress_line
+
+MOST_SHOWN = 8  # of what runs
+PERIOD = 30.0  # s between two lines on the progress where there is no terminal
+BAR = 20  # characters
+
+
+class BatchProgress:
+    """Lines at the end of a terminal that are drawn again and again; elsewhere a line now and then.
+
+    Args:
+        console: where to.
+        elsewhere: how many workers on other machines grade; what runs there is not known here.
+        clock: s.
+    """
+
+    def __init__(
+        self,
+        console: Console,
+        *,
+        elsewhere: int = 0,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._console = console
+        self._submissions: int | None = None  # nobody knows while they come in
+        self._elsewhere = elsewhere
+        self._clock = clock
+        self._pace = Pace(0, clock)
+        self._graded = 0
+        self._began: dict[tuple[str, str], float] = {}  # what runs, and since when
+        self._said = clock()
+        self._lock = threading.Lock()
+        self._live = (
+            Live(get_renderable=self._picture, console=console, refresh_per_second=2, transient=True)
+            if console.is_terminal
+            else None
+        )
+
+    def __enter__(self) -> BatchProgress:
+        if self._live:
+            self._live.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._live:
+            self._live.stop()
+
+    def expect(self, checks: int, submissions: int) -> None:
+        """Say how many verdicts there will be, on how many submissions."""
+        self._pace.expect(checks)
+        self._submissions = submissions
+
+    def verdict(self, _verdict: CheckVerdict) -> None:
+        """Count a verdict; on any thread."""
+        with self._lock:
+            self._pace.add()
+        self._say_now_and_then()
+
+    def running(self, jobs: Sequence[GradingJob]) -> None:
+        """Take what runs now; on any thread."""
+        with self._lock:
+            now = self._clock()
+            self._began = {
+                key: self._began.get(key, now) for key in ((job.student, job.exercise) for job in jobs)
+            }
+        self._say_now_and_then()
+
+    def put_off(self, job: GradingJob, outcome: Outcome) -> None:
+        """Say that a job could not be graded, and is done again at the end."""
+        if not self._elsewhere:  # its verdicts were counted, and come again
+            self._pace.expect(len(outcome.grade.checks))
+        self._console.print(
+            f"{job.student} · {job.exercise}  not graded yet, once more at the end, alone: "
+            f"{outcome.grade.why_not_graded}",
+            style="magenta",
+            markup=False,
+            soft_wrap=True,
+        )
+
+    def graded(self, result: Graded, checks: int) -> None:
+        """Print the line of a result that should have as many verdicts as there are checks."""
+        given = len(result.grade.checks)
+        with self._lock:
+            self._graded += 1
+            self._pace.add(max(0, checks - given))
+            if result.cached or not (result.effort and result.effort.arenas):
+                self._pace.was_known(checks)
+        self._console.print(progress_line(result.grade, cached=result.cached))
+        self._say_now_and_then()
+
+    def _say_now_and_then(self) -> None:
+        if self._live or self._clock() - self._said < PERIOD:
+            return
+        self._said = self._clock()
+        running = f"; running: {', '.join(self._names())}" if self._began else ""
+        self._console.print(f"… {self._summary()}{running}", style="dim", markup=False, soft_wrap=True)
+
+    def _summary(self) -> str:
+        if self._submissions is None:
+            return f"{self._graded} graded"
+        left = in_words(self._pace.seconds_left())
+        return f"{self._graded} of {self._submissions} submissions graded, {left}"
+
+    def _names(self) -> list[str]:
+        names = [f"{student} · {exercise}" for student, exercise in list(self._began)]
+        return names[:MOST_SHOWN] + ([f"{len(names) - MOST_SHOWN} more"] if len(names) > MOST_SHOWN else [])
+
+    def _picture(self) -> RenderableType:
+        with self._lock:
+            rows, now = list(self._began.items()), self._clock()
+            first = Table.grid(padding=(0, 1))
+            if self._submissions is None:
+                first.add_row(Text(self._summary()))
+            else:
+                bar = ProgressBar(total=max(1, self._pace.expected), completed=self._pace.done, width=BAR)
+                first.add_row(bar, Text(self._summary()))
+        table = Table.grid(padding=(0, 2))
+        for (student, exercise), since in rows[:MOST_SHOWN]:
+            minutes, seconds = divmod(int(now - since), 60)
+            table.add_row("  running", escape(f"{student} · {exercise}"), f"{minutes}:{seconds:02}")
+        if len(rows) > MOST_SHOWN:
+            table.add_row("", f"and {len(rows) - MOST_SHOWN} more", "")
+        if self._elsewhere:
+            table.add_row("  running", f"on {self._elsewhere} workers of the cluster", "")
+        return Group(first, table)

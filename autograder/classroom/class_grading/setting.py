@@ -1,0 +1,121 @@
+"""What a batch works with: its output folder, which it holds, its isolation and workers, its seeds and its record."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass
+
+from rich.console import Console
+
+from autograder.classroom.batch.batch_record import BatchRecord, read_batch
+from autograder.classroom.batch.cache import GradeCache
+from autograder.classroom.batch.choose_seeds import choose_seeds
+from autograder.classroom.batch.collection import Work
+from autograder.classroom.batch.dask_workers import Cluster, dask_cluster
+from autograder.classroom.batch.effort import utc_now
+from autograder.classroom.batch.folder_lock import locked
+from autograder.classroom.batch.records import GRADES, read_grades
+from autograder.classroom.batch.request import BatchRequest
+from autograder.classroom.batch.runner import BatchRunner
+from autograder.classroom.batch.seeds import Seeds
+from autograder.classroom.batch.selection import require_seed
+from autograder.classroom.batch.toolkit_version import commit_of
+from autograder.classroom.class_grading.progress import BatchProgress
+from autograder.classroom.pages.drawings import Drawings
+from autograder.engine.exercise import exercises_folder
+from autograder.engine.exposure import require_hidden
+from autograder.engine.verdict import Grade
+from autograder.isolation.availability import Isolation, available_isolation
+from autograder.recording.kept import FOLDER as RECORDINGS
+from ros_runtime.project import PROJECT
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A prepared batch.
+
+    Attributes:
+        before: the grades in the output folder that stay where nothing is graded anew.
+        record: of the batch, as it begins.
+    """
+
+    console: Console
+    request: BatchRequest
+    isolation: Isolation
+    cluster: Cluster | None
+    seeds: Seeds
+    before: Sequence[Grade]
+    record: BatchRecord
+
+    def runner(self, progress: BatchProgress) -> BatchRunner:
+        """Return what grades, and tells `progress` about it."""
+        return BatchRunner(
+            GradeCache(self.request.out / "cache", self.isolation),
+            self.isolation,
+            jobs=self.request.jobs,
+            seeds=self.seeds,
+            resume=self.request.resume or self.request.watch,
+            workers=self.cluster.workers if self.cluster else None,
+            report=progress.verdict,
+            running=progress.running,
+            put_off=progress.put_off,
+            drawings=Drawings(self.request.out),
+            recordings=self.request.out / RECORDINGS if self.request.record else None,
+        )
+
+
+@contextmanager
+def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> Iterator[Setting]:
+    """Take the output folder and the workers, and say how they are isolated; `works` are those of the whole class.
+
+    Raises:
+        FolderInUse: another process grades into the output folder.
+        HiddenChecksRefused: students could read the checks here.
+        NoCluster: there is none at the address.
+        OtherSeed: grades that are to stay were given with another seed.
+        UnusableRecord: those grades cannot be read.
+    """
+    if not request.dask and available_isolation().trusted:  # otherwise they could read it anywhere
+        require_hidden([exercises_folder(), request.submitted, request.out])
+    with (
+        locked(request.out),
+        dask_cluster(request.dask) if request.dask else nullcontext() as cluster,
+    ):
+        record = read_batch(request.out)
+        needs_grades = request.keeps_others or (request.goes_on and not record)
+        there = read_grades(request.out / GRADES) if needs_grades else []
+        seeds = choose_seeds(request, record, there, works)
+        before = there if request.keeps_others else []
+        require_seed(before, seeds)
+        isolation = cluster.isolation if cluster else available_isolation()
+        _tell(console, isolation, cluster)
+        begun = BatchRecord(
+            state="running",
+            began=utc_now(),
+            seed=seeds.batch,
+            seed_per_student=seeds.per_student,
+            seed_per_submission=seeds.per_submission,
+            isolation=isolation.label,
+            jobs=cluster.size if cluster else request.jobs,
+            cluster=request.dask or "",
+            shard=f"{request.shard.number}/{request.shard.of}" if request.shard else "",
+            toolkit=commit_of(PROJECT),
+            course="" if exercises_folder().is_relative_to(PROJECT) else commit_of(exercises_folder()),
+            rows=record.rows if record and request.goes_on else (),
+        )
+        yield Setting(console, request, isolation, cluster, seeds, before, begun)
+
+
+def _tell(console: Console, isolation: Isolation, cluster: Cluster | None) -> None:
+    if cluster:
+        console.print(f"{cluster.size} workers, isolation: {isolation.label}", style="dim")
+        for line in cluster.left_out:
+            console.print(line, style="yellow", markup=False)
+    if not isolation.trusted:
+        console.print(
+            f"No isolation: {isolation.reason}. Only visible checks are made and the grades are marked untrusted; run "
+            "this only with submissions you trust.",
+            style="yellow",
+            markup=False,
+        )

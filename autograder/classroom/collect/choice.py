@@ -1,0 +1,54 @@
+"""Which of a student's files is for which exercise, and which counts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from autograder.classroom.batch.collection import files_of_exercises
+from autograder.classroom.collect.handed_in import Assignment, HandedIn
+from autograder.engine.hand_in import Candidate, Names, choose_work, merged
+
+
+@dataclass
+class Choice:
+    """What to keep, by student and exercise, and a sentence for each file that is left aside."""
+
+    works: dict[tuple[str, str], Candidate] = field(default_factory=dict)
+    left_aside: list[str] = field(default_factory=list)
+    timestamps: dict[tuple[str, str], str] = field(default_factory=dict)
+
+
+def choose(files: Sequence[HandedIn], assignment: Assignment) -> Choice:
+    """Assign every file to an exercise by its name, or to the download's exercise, and choose as every reader does."""
+    choice = Choice()
+    names = Names(files_of_exercises())
+    found: dict[tuple[str, str], list[Candidate]] = {}
+    for one in files:
+        only = one.exercise or assignment.exercise
+        folders = [home for part in one.file.path.parts[:-1] if (home := names.exercise_of(part))]
+        named = names.of(one.name) or (names.any_of(only, one.name) if only else None)
+        if not named:
+            choice.left_aside.append(f"{one.file.path} is of no exercise ({one.student})")
+        elif only and named.exercise != only:
+            choice.left_aside.append(f"{one.file.path} is of {named.exercise}, not of {only} ({one.student})")
+        elif folders and folders[-1] != named.exercise:
+            choice.left_aside.append(f"{one.file.path} lies in the folder of {folders[-1]} ({one.student})")
+        else:
+            depth = len(one.file.path.parts) - bool(folders)
+            candidate = Candidate(
+                named.exercise,
+                one.file.path,
+                {named.name: one.file},
+                one.turn,
+                depth,
+                one.file.changed,
+                named.copy,
+            )
+            key = one.student, named.exercise
+            found.setdefault(key, []).append(candidate)
+            choice.timestamps[key] = max(choice.timestamps.get(key, ""), one.timestamp)
+    for key, candidates in sorted(found.items()):
+        choice.works[key], others = choose_work(merged(candidates))
+        choice.left_aside += [f"{line} ({key[0]})" for line in others]
+    return choice

@@ -1,0 +1,57 @@
+"""Classroom 50's `gh teacher download`: a clone for each student, <classroom>-<assignment>-<user>/.
+
+Format: cli/gh-teacher/internal/download/download.go of https://github.com/foundation50/classroom50; it also writes
+scores.csv beside the folders, and result.json and results.json into them. Each part of a name may have hyphens of its
+own; what stands between is found because it is the exercise's name, or given.
+"""
+
+from __future__ import annotations
+
+import re
+
+from autograder.classroom.collect.download import Download, Refused
+from autograder.classroom.collect.handed_in import (
+    Assignment,
+    HandedIn,
+    Reading,
+    student_name,
+    without_wrapper,
+)
+from autograder.engine.exercise import all_names
+
+EXPECTED = "folders such as robotics-battery-service-anna"
+
+
+def read(download: Download, assignment: Assignment) -> Reading:
+    """Return every student's files."""
+    reading = Reading()
+    exercises = _by_slug(assignment)
+    slugs = "|".join(sorted(map(re.escape, exercises), key=len, reverse=True))
+    folder = re.compile(rf"(?P<classroom>.+?)-(?P<slug>{slugs})-(?P<user>[^/]+)", re.IGNORECASE)
+    strangers: set[str] = set()
+    for file, parts in without_wrapper(download, folder):
+        match = folder.fullmatch(parts[0])
+        if not match or len(parts) == 1:
+            strangers.add(parts[0])
+            continue
+        try:
+            student = student_name(match["user"])
+        except Refused as error:
+            reading.refused.append(str(error))
+            continue
+        exercise = exercises[match["slug"].lower()]
+        reading.files.append(HandedIn(student, parts[-1], file, exercise=exercise))
+    known = ", ".join(sorted(exercises))
+    reading.unknown = [
+        f"{name} is not called <classroom>-<assignment>-<user> with one of {known}"
+        for name in sorted(strangers)
+    ]
+    return reading
+
+
+def _by_slug(assignment: Assignment) -> dict[str, str]:
+    """The exercise by what stands in a folder's name."""
+    if assignment.slug:
+        return {assignment.slug.lower(): assignment.exercise}
+    names = [assignment.exercise] if assignment.exercise else all_names()
+    return {slug: name for name in names for slug in (name.lower(), name.lower().replace("_", "-"))}

@@ -1,0 +1,106 @@
+"""Gradescope's “Export Submissions”: folders submission_NUMBER, and submission_metadata.yml, which says whose they are.
+
+Format: https://help.gradescope.com, “Export submissions”; the metadata is YAML as Ruby writes it, in one form for all
+languages. A student's folder is called by their student id, else by their e-mail address. Work of a group goes to each
+of it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from datetime import date, datetime, timezone
+from typing import Any
+
+import yaml
+
+from autograder.classroom.collect.download import Download, Refused, UnusableDownload
+from autograder.classroom.collect.handed_in import (
+    Assignment,
+    HandedIn,
+    Reading,
+    student_name,
+    without_wrapper,
+)
+
+EXPECTED = "submission_metadata.yml, and folders such as submission_12345 beside it"
+METADATA = "submission_metadata.yml"
+MOST_BYTES = 100_000_000  # of the metadata, which repeats every test of every submission
+_FOLDER = re.compile(r"submission_(?P<number>\d{1,18})")
+
+
+class _Loader(yaml.CSafeLoader if hasattr(yaml, "CSafeLoader") else yaml.SafeLoader):  # type: ignore[misc]
+    """Reads plain data only; what Ruby marks as objects of its own are mappings or nothing."""
+
+
+def _plain(loader: yaml.SafeLoader, tag: str, node: yaml.Node) -> Any:
+    return loader.construct_mapping(node, deep=True) if isinstance(node, yaml.MappingNode) else None
+
+
+_Loader.add_multi_constructor("!ruby/", _plain)
+
+
+def read(download: Download, assignment: Assignment) -> Reading:
+    """Return every student's files; raises `UnusableDownload` without usable metadata."""
+    reading = Reading()
+    submissions = _metadata(download)
+    for file, parts in without_wrapper(download, _FOLDER):
+        if parts == (METADATA,):
+            continue
+        found = _FOLDER.fullmatch(parts[0])
+        about = submissions.get(parts[0])
+        if not found or len(parts) == 1 or not isinstance(about, Mapping):
+            reading.unknown.append(f"{file.path} belongs to no submission that {METADATA} lists")
+            continue
+        submitters = about.get(":submitters") or []
+        if not submitters:
+            reading.refused.append(f"{file.path}: {METADATA} does not say whose it is")
+        for submitter in submitters:
+            try:
+                reading.files.append(
+                    HandedIn(
+                        _name_of(submitter),
+                        file.path.name,
+                        file,
+                        int(found["number"]),
+                        timestamp=_timestamp(about.get(":created_at")),
+                    )
+                )
+            except Refused as error:
+                reading.refused.append(f"{file.path}: {error}")
+    return reading
+
+
+def _metadata(download: Download) -> Mapping[str, Any]:
+    places = [file for file, parts in without_wrapper(download, _FOLDER) if parts == (METADATA,)]
+    if not places:
+        raise UnusableDownload(
+            f"there is no {METADATA}; expected Gradescope's export of submissions: {EXPECTED}"
+        )
+    try:
+        read = yaml.load(places[0].read(MOST_BYTES), Loader=_Loader)
+    except (yaml.YAMLError, Refused, ValueError, RecursionError) as error:
+        raise UnusableDownload(f"{places[0].path} cannot be read: {error}") from error
+    if not isinstance(read, Mapping):
+        raise UnusableDownload(f"{places[0].path} is no list of submissions; expected {EXPECTED}")
+    return read
+
+
+def _name_of(submitter: Any) -> str:
+    known = submitter if isinstance(submitter, Mapping) else {}
+    for key in (":sid", ":email", ":name"):
+        if known.get(key):
+            return student_name(str(known[key]))
+    raise Refused(f"{METADATA} has neither id nor address of a submitter")
+
+
+def _timestamp(created: Any) -> str:
+    if isinstance(created, str):
+        try:
+            created = datetime.fromisoformat(created)
+        except ValueError:
+            return ""
+    if not isinstance(created, datetime):
+        return str(created) if isinstance(created, date) else ""
+    in_utc = created.astimezone(timezone.utc) if created.tzinfo else created
+    return f"{in_utc:%Y-%m-%d %H:%M:%S} UTC"

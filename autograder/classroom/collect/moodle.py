@@ -1,0 +1,43 @@
+"""Moodle's “Download all submissions”: Name_NUMBER_assignsubmission_file/file, or without the folder.
+
+Format: mod/assign/classes/downloader.php of https://github.com/moodle/moodle; before Moodle 4.1 the folder's name ended
+with one more underscore. The number is the participant's in this assignment, the same as in its grading worksheet; the
+name is the word for a participant where the assignment is anonymous. Where groups hand in, name and number are the
+group's, and those who are in no group have no number.
+"""
+
+from __future__ import annotations
+
+import re
+
+from autograder.classroom.collect.download import Download, Refused
+from autograder.classroom.collect.handed_in import (
+    Assignment,
+    HandedIn,
+    Reading,
+    student_name,
+    without_wrapper,
+)
+
+EXPECTED = "folders such as Anna Lee_12345_assignsubmission_file, or files whose names begin so"
+_MARK = "_assignsubmission_file"
+_NAME = re.compile(rf"(?P<name>.+?)(?:_(?P<user>\d+))?{_MARK}(?:_(?P<file>.*))?")
+
+
+def read(download: Download, assignment: Assignment) -> Reading:
+    """Return every student's files."""
+    reading = Reading()
+    for file, parts in without_wrapper(download, _NAME):
+        match = _NAME.fullmatch(parts[0])
+        name = match and (match["file"] if len(parts) == 1 else parts[-1])
+        if not match or not name:
+            reading.unknown.append(f"{file.path} is not called as Moodle calls a submitted file")
+            continue
+        if parts[0].count(_MARK) > 1:
+            reading.refused.append(f"{file.path} names two students: who handed it in cannot be told")
+            continue
+        try:
+            reading.files.append(HandedIn(student_name(match["name"], match["user"] or ""), name, file))
+        except Refused as error:
+            reading.refused.append(str(error))
+    return reading

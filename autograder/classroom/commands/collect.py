@@ -1,0 +1,97 @@
+"""`course collect`: put a platform's download into the folders that `course grade` reads."""
+
+from __future__ import annotations
+
+from enum import Enum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from autograder.classroom.collect.choice import choose
+from autograder.classroom.collect.download import UnusableDownload, open_download
+from autograder.classroom.collect.handed_in import Assignment, Reading
+from autograder.classroom.collect.placing import Placed, place
+from autograder.classroom.collect.platforms import PLATFORMS
+from autograder.engine.exercise import UnknownExercise, all_names
+from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.exercises_option import CourseOption
+
+PlatformName = Enum("PlatformName", {name: name for name in PLATFORMS}, type=str)  # type: ignore[misc]
+
+
+def collect(
+    download: Annotated[Path, typer.Argument(help="the zip file, or the folder it was unpacked to")],
+    platform: Annotated[PlatformName, typer.Option("--from", help="the platform it comes from")],
+    out: Annotated[Path, typer.Option(help="folder for <student>/<exercise>/")] = Path("submitted"),
+    exercise: Annotated[
+        str,
+        typer.Option(
+            help="the exercise of this download: a notebook or program of any name counts as its, and no other is taken"
+        ),
+    ] = "",
+    assignment: Annotated[
+        str,
+        typer.Option(
+            metavar="SLUG", help="what Classroom 50 calls the exercise, if not by its name; with --exercise"
+        ),
+    ] = "",
+    overwrite: Annotated[
+        bool,
+        typer.Option("--overwrite", help="replace work that is there already, such as an earlier hand-in"),
+    ] = False,
+    course: CourseOption = None,
+) -> None:
+    """Put a platform's download into the folders that `course grade` reads."""
+    console = Console(highlight=False)
+    try:
+        _require_usable(exercise, assignment)
+        told = Assignment(exercise, assignment)
+        with open_download(download) as opened:
+            source = PLATFORMS[platform.value]
+            reading = source.read(opened, told)
+            reading.refused += opened.refused
+            choice = choose(reading.files, told)
+            if not choice.works and not reading.refused:
+                aside = [*reading.unknown, *choice.left_aside]
+                found = f"found {aside[0]}" if aside else "it is empty"
+                raise UnusableDownload(
+                    f"{download} holds nothing to grade: expected {source.expected}; {found}"
+                    + (f", and {len(aside) - 1} more" if len(aside) > 1 else "")
+                )
+            placed = place(choice, out, overwrite=overwrite)
+    except (UnusableDownload, UnknownExercise) as error:
+        raise ended(console, error, UNUSABLE) from error
+    except OSError as error:
+        raise ended(console, f"{out} cannot be written: {error}", COULD_NOT) from error
+    for line in [*reading.unknown, *choice.left_aside]:
+        console.print(f"left aside: {line}", style="yellow", markup=False)
+    _tell(console, reading, placed, out)
+    raise typer.Exit(COULD_NOT if reading.refused or placed.refused else 0)
+
+
+def _require_usable(exercise: str, assignment: str) -> None:
+    if exercise and exercise not in all_names():
+        raise UnknownExercise(f"there is no exercise {exercise!r}; there are {', '.join(all_names())}")
+    if assignment and not exercise:
+        raise UnknownExercise(
+            "--assignment SLUG says what an exercise is called there: give --exercise NAME, too"
+        )
+
+
+def _tell(console: Console, reading: Reading, placed: Placed, out: Path) -> None:
+    for line in [*reading.refused, *placed.refused]:
+        console.print(f"refused: {line}", style="red", markup=False)
+    late = sorted({one.student for one in reading.files if one.late})
+    if late:
+        console.print(f"late, as the platform says: {', '.join(late)}", markup=False)
+    students = {student for student, _ in [*placed.written, *placed.unchanged]}
+    unchanged = f", {len(placed.unchanged)} were there already" if placed.unchanged else ""
+    console.print(
+        f"{len(placed.written)} submissions written to {out}{unchanged}; {len(students)} students in all",
+        markup=False,
+        soft_wrap=True,
+    )
+    if placed.written:
+        console.print(f"to grade them: ./course grade {out}", style="dim", markup=False)

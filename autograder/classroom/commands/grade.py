@@ -1,0 +1,130 @@
+"""`course grade`: grade the submissions of a class, up to gradebook and feedback pages."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from autograder.classroom.batch.collection import NoSubmissions
+from autograder.classroom.batch.dask_workers import NoCluster
+from autograder.classroom.batch.folder_lock import FolderInUse
+from autograder.classroom.batch.records import UnusableRecord
+from autograder.classroom.batch.request import BatchRequest, UnusableRequest
+from autograder.classroom.batch.selection import NothingSelected, OtherSeed
+from autograder.classroom.batch.shards import Shard
+from autograder.classroom.class_grading.once import grade_once
+from autograder.classroom.class_grading.watching import watch_and_grade
+from autograder.engine.exercise import UnusableExercise
+from autograder.engine.exposure import HiddenChecksRefused
+from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.exercises_option import CourseOption
+from course_cli.jobs_option import JobsOption
+
+
+def grade(
+    submitted: Annotated[
+        Path | None,
+        typer.Argument(help="nbgrader's submitted/<student>/<exercise>/ layout, or <student>/<exercise>.py"),
+    ] = None,
+    watch: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FOLDER", help="grade this folder, and go on with what is handed in there until Ctrl-C"
+        ),
+    ] = None,
+    out: Annotated[
+        Path, typer.Option(help="folder for grades.json, gradebook.db, batch.json, sources/ and feedback/")
+    ] = Path("graded"),
+    jobs: JobsOption = os.cpu_count() or 1,
+    resume: Annotated[bool, typer.Option("--resume", help="keep the grades of an earlier run")] = False,
+    seed: Annotated[
+        int | None,
+        typer.Option(
+            help="seed of the inputs of hidden checks, the same for all students (default: a new one for each batch)"
+        ),
+    ] = None,
+    seed_per_student: Annotated[
+        bool,
+        typer.Option(
+            "--seed-per-student", help="other inputs for each student, made of the seed and the name"
+        ),
+    ] = False,
+    json_file: Annotated[
+        Path | None, typer.Option("--json", help="write all verdicts to this file as well")
+    ] = None,
+    dask: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ADDRESS", help="grade on the workers of this Dask scheduler, such as tcp://10.0.0.1:8786"
+        ),
+    ] = None,
+    shard: Annotated[
+        str | None,
+        typer.Option(
+            metavar="K/N", help="grade part K of N, without a gradebook; `course merge` joins the parts"
+        ),
+    ] = None,
+    student: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--student", help="grade only this student's; repeat it for several. Others keep their grades"
+        ),
+    ] = None,
+    exercise: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--exercise", help="grade only this exercise; repeat it for several. Others keep their grades"
+        ),
+    ] = None,
+    record: Annotated[
+        bool,
+        typer.Option(
+            "--record", help="keep an MCAP file of each scenario in OUT/recordings (`course replay`)"
+        ),
+    ] = False,
+    course: CourseOption = None,
+) -> None:
+    """Grade a batch of submissions."""
+    console = Console(highlight=False)
+    try:
+        request = BatchRequest(
+            submitted=_one_folder(submitted, watch),
+            out=out,
+            jobs=jobs,
+            resume=resume,
+            seed=seed,
+            seed_per_student=seed_per_student,
+            students=tuple(student or ()),
+            exercises=tuple(exercise or ()),
+            shard=Shard.parse(shard) if shard else None,
+            dask=dask,
+            json_file=json_file,
+            watch=watch is not None,
+            record=record,
+        )
+    except ValueError as error:  # of a shard, or of options that do not go together
+        raise ended(console, error, UNUSABLE) from error
+    try:
+        status = watch_and_grade(console, request) if request.watch else grade_once(console, request)
+    except KeyboardInterrupt:
+        console.print("Interrupted. Add --resume to go on where it stopped.", style="yellow")
+        raise typer.Exit(COULD_NOT) from None
+    except (NoSubmissions, NothingSelected, OtherSeed, UnusableExercise, UnusableRecord) as error:
+        raise ended(console, error, UNUSABLE) from error
+    except (FolderInUse, HiddenChecksRefused, NoCluster) as error:
+        raise ended(console, error, COULD_NOT) from error
+    raise typer.Exit(status)
+
+
+def _one_folder(submitted: Path | None, watched: Path | None) -> Path:
+    """The folder to grade, which is given once."""
+    folder = watched or submitted
+    if folder is None or (watched and submitted):
+        raise UnusableRequest(
+            "give one folder of submissions: course grade FOLDER, or course grade --watch FOLDER"
+        )
+    return folder

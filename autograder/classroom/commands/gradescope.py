@@ -1,0 +1,50 @@
+"""`course gradescope`: what run_autograder calls in Gradescope's container."""
+
+from __future__ import annotations
+
+import traceback
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from autograder.classroom.on_gradescope.container import CannotGrade, Container, isolation_here
+from course_cli.ending import COULD_NOT, ended
+from ros_runtime.project import PROJECT
+
+
+def gradescope(
+    root: Annotated[Path, typer.Option(help="the folder with submission/ and results/")] = Path(
+        "/autograder"
+    ),
+    exercise: Annotated[
+        str, typer.Option(help="the assignment's exercise (default: the one whose file was uploaded)")
+    ] = "",
+) -> None:
+    """Grade the upload of a Gradescope container, with the visible checks, and write results.json.
+
+    If the container cannot grade, results.json has no score, and the exit status is 1.
+    """
+    console = Console(highlight=False)
+    from autograder.classroom.on_gradescope.grading import WITHOUT_SCORE, grade_upload
+
+    container = Container(root)
+    container.forget_results()
+    try:
+        container.close_to_others(PROJECT / "checks")
+        isolation = isolation_here()
+        console.print(f"isolation: {isolation.label} ({isolation.reason})", markup=False)
+        results = grade_upload(container, exercise, isolation)
+    except CannotGrade as error:
+        container.write(WITHOUT_SCORE)
+        raise ended(console, f"not graded: {error}", COULD_NOT) from error
+    except Exception as error:  # whatever it is, the student is not the reason
+        container.write(WITHOUT_SCORE)
+        traceback.print_exc()
+        raise typer.Exit(COULD_NOT) from error
+    container.write(results)
+    console.print(
+        f"{container.results}: {'no score' if results.score is None else f'{results.score:g} points'}"
+    )
+    raise typer.Exit(COULD_NOT if results.score is None else 0)

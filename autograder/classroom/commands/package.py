@@ -1,0 +1,51 @@
+"""`course package`: autograders that other platforms run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from autograder.classroom.archives.gradescope_package import write_package
+from autograder.classroom.archives.student_bundle import Leak
+from autograder.engine.exercise import UnusableExercise, essay_names, exercise_names
+from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.exercises_option import CourseOption
+from ros_runtime.project import PROJECT
+
+package = typer.Typer(no_args_is_help=True)
+
+
+@package.callback()
+def platforms() -> None:
+    """Make an autograder that another platform runs."""
+
+
+@package.command()
+def gradescope(
+    exercise: Annotated[
+        str, typer.Option(help="the assignment's exercise (default: the one whose file is uploaded)")
+    ] = "",
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE.zip", help="the archive (default: gradescope[_EXERCISE].zip)")
+    ] = None,
+    course: CourseOption = None,
+) -> None:
+    """Make the zip that Gradescope takes as an autograder: visible checks, made as another user than the grader."""
+    console = Console(highlight=False)
+    if exercise in essay_names():
+        raise ended(console, f"{exercise} has no checks: a person marks it", UNUSABLE)
+    if exercise and exercise not in exercise_names():
+        raise ended(
+            console, f"there is no exercise {exercise!r}; there are {', '.join(exercise_names())}", UNUSABLE
+        )
+    archive = out or Path(f"gradescope_{exercise}.zip" if exercise else "gradescope.zip")
+    try:
+        count = write_package(PROJECT, archive, exercise)
+    except UnusableExercise as error:
+        raise ended(console, error, UNUSABLE) from error
+    except (Leak, OSError) as error:
+        raise ended(console, error, COULD_NOT) from error
+    console.print(f"{archive}: {count} files, {archive.stat().st_size / 1e6:.1f} MB", markup=False)

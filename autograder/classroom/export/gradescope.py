@@ -1,0 +1,80 @@
+"""Gradescope's results.json for one submission.
+
+Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/, "Output Format". A file without a score, and
+without tests that have one, gives the submission no score.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict
+
+from autograder.classroom.export.options import Options
+from autograder.classroom.export.published import printable, publish, why_no_score, words_for_students
+from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.report.verdict_text import verdict_text
+
+Visibility = Literal["visible", "hidden", "after_due_date", "after_published"]
+FILE = "results.json"
+
+
+class Test(BaseModel):
+    """One entry of the list of tests. Its text is never read as HTML."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    score: float
+    max_score: float
+    status: Literal["passed", "failed"]
+    name: str
+    name_format: Literal["text"] = "text"
+    number: str
+    output: str
+    output_format: Literal["text"] = "text"
+    visibility: Visibility
+
+
+class Results(BaseModel):
+    """The whole file. What the run printed on stdout is for instructors: students' programs have no part in it."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    score: float | None = None
+    output: str = ""
+    output_format: Literal["text"] = "text"
+    visibility: Visibility = "visible"
+    stdout_visibility: Visibility = "hidden"
+    tests: list[Test] | None = None
+    extra_data: dict[str, Any] | None = None
+
+    def text(self) -> str:
+        """Return the file's content."""
+        return self.model_dump_json(exclude_none=True, indent=2) + "\n"
+
+
+def render(grade: Grade, options: Options) -> str:
+    """Return the file for a grade. Hidden checks keep their titles there, and only instructors see them."""
+    if why_no_score(grade):
+        return Results(output=words_for_students(grade)).text()
+    published = publish(grade, options.hidden)
+    tests = [_test(check, str(i), "visible") for i, check in enumerate(published.checks, start=1)]
+    tests += [_test(check, f"H{i}", "hidden") for i, check in enumerate(published.hidden, start=1)]
+    return Results(
+        score=published.score,
+        output=published.hidden_sum,
+        tests=tests,
+        extra_data={"isolation": grade.isolation},
+    ).text()
+
+
+def _test(check: CheckVerdict, number: str, visibility: Visibility) -> Test:
+    return Test(
+        score=check.points,
+        max_score=check.max_points,
+        status="passed" if check.points >= check.max_points else "failed",
+        name=printable(check.title),
+        number=number,
+        output=printable(verdict_text(check)),
+        visibility=visibility,
+    )

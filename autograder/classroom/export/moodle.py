@@ -1,0 +1,192 @@
+"""Moodle's gradebook import, or its grading worksheet where that is the roster; one file an exercise.
+
+Formats: https://docs.moodle.org, "Grade import" (mapped by useremail or useridnumber), and for the offline grading
+worksheet mod/assign/gradingtable.php and mod/assign/feedback/offline/importgradeslib.php of
+https://github.com/moodle/moodle. The worksheet's headings are in its user's language, and Moodle takes them back in no
+other; the order of the columns is the same in all. Moodle shows feedback as HTML, so ours is escaped.
+"""
+
+from __future__ import annotations
+
+import html
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from autograder.classroom.export.options import Options
+from autograder.classroom.export.published import Published, UnusableBatch, printable
+from autograder.classroom.export.tables import Table, csv_text, key_cell, read_number, read_table, text_cell
+from autograder.report.verdict_text import verdict_text
+
+EMAIL, ID_NUMBER = ("useremail", "email address", "email"), ("useridnumber", "id number", "idnumber")
+_PARTICIPANT = re.compile(r"(?P<word>.*\D)(?P<number>\d+)\s*")  # "Participant 123456", in any language
+_TIME = re.compile(r"-|.*\d\d?[:.hH]\d\d.*", re.DOTALL)  # "-" is a grade that was never changed
+_LONGEST_FEEDBACK = 1000  # characters of one check
+
+
+@dataclass(frozen=True)
+class Worksheet:
+    """Where the columns of an assignment's worksheet are; the one after `grade` has the most points there are.
+
+    `feedback` is None where Moodle asks for no feedback comments.
+    """
+
+    grade: int
+    feedback: int | None
+
+
+@dataclass(frozen=True)
+class ClassList:
+    """How Moodle finds a student: `key` is the column of its import; a worksheet is handed back filled in."""
+
+    key: str
+    roster: Table | None = None
+    worksheet: Worksheet | None = None
+
+    def row_of(self, student: str) -> Sequence[str]:
+        """Return a student's row of the roster; raises `CannotSay` if there is none."""
+        assert self.roster
+        index = self.roster.index
+        if not self.worksheet:
+            keys = [index("student"), index(*EMAIL), index(*ID_NUMBER), index("Full name")]
+            return self.roster.row_of(student, keys, None, [])
+        people = [*range(1, self.worksheet.grade), index("student")]
+        width = len(self.roster.heading)
+        people_and_numbers = [
+            [*row, match["number"], match["word"]]
+            for row in self.roster.rows
+            if (match := _PARTICIPANT.fullmatch(row[0]))
+        ]
+        numbered = Table([*self.roster.heading, "number of the participant", ""], people_and_numbers)
+        # An anonymous download calls everybody by the word before the number.
+        return numbered.row_of(student, [*people, width], width, [1, width + 1])[:width]
+
+    def notes(self, options: Options) -> list[str]:
+        """Say what Moodle may not get."""
+        found = self.roster.notes(options.roster) if self.roster else []
+        if self.worksheet and self.worksheet.feedback is None:
+            found.append(
+                f"{options.roster} has no column for feedback: Feedback comments is off in the assignment's settings"
+            )
+        return found
+
+
+def open_class(options: Options, students: Sequence[str]) -> ClassList:
+    """Find out how students are named.
+
+    Raises:
+        UnusableBatch: the roster names nobody in a way that Moodle knows, or the names are of two kinds.
+    """
+    if options.roster:
+        roster = read_table(options.roster)
+        if worksheet := _worksheet(roster):
+            return ClassList("", roster, worksheet)
+        email, id_number = roster.index(*EMAIL), roster.index(*ID_NUMBER)
+        if (email is None and id_number is None) or _has_participants(roster):
+            raise UnusableBatch(
+                f"{options.roster} has the columns {', '.join(roster.heading)}; expected useremail or useridnumber "
+                "(and student, if the folders are called otherwise), or the worksheet of a Moodle assignment that is "
+                "graded by points, with a column for grades and the maximum grade after it"
+            )
+        return ClassList("useridnumber" if email is None else "useremail", roster)
+    with_address = sum("@" in student for student in students)
+    if 0 < with_address < len(students):
+        raise UnusableBatch(
+            "some students are called by an e-mail address and some are not; give a --roster with student and useremail"
+        )
+    return ClassList("useremail" if with_address else "useridnumber")
+
+
+def _has_participants(roster: Table) -> bool:
+    """Whether a table begins as a worksheet does: one word and different numbers, and no heading of a map of names."""
+    words = {match["word"] if (match := _PARTICIPANT.fullmatch(cell)) else "" for cell in roster.column(0)}
+    return (
+        len(words) == 1
+        and words != {""}
+        and roster.heading[0].strip().lower() not in ("student", *EMAIL, *ID_NUMBER)
+    )
+
+
+def _worksheet(roster: Table) -> Worksheet | None:
+    """Find the columns of a worksheet by their contents; None if the table is another one, or graded on a scale."""
+    if not _has_participants(roster):
+        return None
+    grades = [
+        i for i in range(1, len(roster.heading) - 1) if _are_grades(roster.column(i), roster.column(i + 1))
+    ]
+    if not grades:
+        return None
+    times = [i for i in range(len(roster.heading)) if all(map(_TIME.fullmatch, roster.column(i)))]
+    last_change = max(times, default=len(roster.heading))
+    return Worksheet(grades[-1], last_change + 1 if last_change + 1 < len(roster.heading) else None)
+
+
+def _are_grades(grades: Sequence[str], most: Sequence[str]) -> bool:
+    """Whether a column can hold grades because the next one has the same most points in every row."""
+    points = {read_number(cell) for cell in most}
+    highest = points.pop()
+    if points or not highest:
+        return False
+    given = [read_number(cell) for cell in grades if cell]
+    return all(grade is not None and grade <= highest for grade in given)
+
+
+def heading_of(class_list: ClassList, exercise: str) -> list[str]:
+    """Return the columns of an exercise's file."""
+    if class_list.roster and class_list.worksheet:
+        return list(class_list.roster.heading)
+    return [class_list.key, exercise, f"{exercise} feedback"]
+
+
+def cells_of(class_list: ClassList, published: Published) -> list[str | float]:
+    """Return the row of a submission.
+
+    Raises:
+        CannotSay: Moodle does not know the student.
+        UnusableBatch: in Moodle the assignment has other points.
+    """
+    words = text_cell(feedback(published))
+    if class_list.roster is None:
+        return [key_cell(published.student), published.score, words]
+    row = class_list.row_of(published.student)
+    if worksheet := class_list.worksheet:
+        _require_points(class_list.roster.heading[worksheet.grade + 1], row[worksheet.grade + 1], published)
+        filled: list[str | float] = [text_cell(cell) for cell in row]
+        filled[worksheet.grade] = published.score
+        if worksheet.feedback is not None:
+            filled[worksheet.feedback] = words
+        return filled
+    column = class_list.roster.index(*(EMAIL if class_list.key == "useremail" else ID_NUMBER))
+    assert column is not None
+    return [key_cell(row[column].strip()), published.score, words]
+
+
+def table_text(class_list: ClassList, exercise: str, rows: Sequence[Sequence[str | float]]) -> str:
+    """Return the file's content for an exercise."""
+    return csv_text(heading_of(class_list, exercise), rows)
+
+
+def feedback(published: Published) -> str:
+    """Return what a student reads beside the points, as HTML: the checks that did not pass, and the hidden sum."""
+    lines = [
+        f"<b>{_escaped(check.title)}</b> ({check.points:g} of {check.max_points:g} points)<br>"
+        f"{_escaped(verdict_text(check, _LONGEST_FEEDBACK))}"
+        for check in published.checks
+        if check.points < check.max_points
+    ]
+    passed = len(published.checks) - len(lines)
+    lines.insert(0, f"{passed} of {len(published.checks)} visible checks passed.")
+    return "<br><br>".join([*lines, *filter(None, [published.hidden_sum])])
+
+
+def _require_points(heading: str, most: str, published: Published) -> None:
+    """A score of 8 out of 12 would be 8 out of 100 there."""
+    if read_number(most) != published.max_score:
+        raise UnusableBatch(
+            f"the worksheet's {heading} is {most} and {published.exercise} has {published.max_score} points: set "
+            "the assignment in Moodle to as many, and download the worksheet again"
+        )
+
+
+def _escaped(text: str) -> str:
+    return html.escape(printable(text)).replace("\n", "<br>")

@@ -1,0 +1,195 @@
+"""Tables for spreadsheets and gradebooks: written so that no cell is taken for a formula, read with bounds."""
+
+from __future__ import annotations
+
+import codecs
+import csv
+import io
+import re
+import unicodedata
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from difflib import SequenceMatcher
+from pathlib import Path
+
+from charset_normalizer import from_bytes
+
+from autograder.classroom.export.published import CannotSay, UnusableBatch, number, printable
+
+MOST_BYTES = 20_000_000  # of a roster
+_SEPARATOR_LINE = re.compile(
+    r"sep=([,;\t])\r?\n", re.IGNORECASE
+)  # which Excel takes, and some programs write
+# What begins a formula, also in the wide form that some spreadsheets take for the same.
+_FORMULA = (
+    *("=", "+", "-", "@"),
+    "\N{FULLWIDTH EQUALS SIGN}",
+    "\N{FULLWIDTH PLUS SIGN}",
+    "\N{FULLWIDTH HYPHEN-MINUS}",
+    "\N{FULLWIDTH COMMERCIAL AT}",
+)
+
+
+@dataclass(frozen=True)
+class Table:
+    """A heading and its rows, all as long as the heading; `encoding` is "" for UTF-8 and UTF-16, else a guess."""
+
+    heading: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    encoding: str = ""
+
+    def notes(self, path: Path | None) -> list[str]:
+        """Return a sentence on the encoding if it had to be guessed."""
+        if not self.encoding:
+            return []
+        return [
+            f"{path} is not UTF-8 and was read as {self.encoding}: if a heading or a name is wrong in the files "
+            "written, save it as “CSV UTF-8” and export again"
+        ]
+
+    def column(self, index: int) -> list[str]:
+        """Return the cells of a column, without the spaces around them."""
+        return [row[index].strip() for row in self.rows]
+
+    def index(self, *names: str) -> int | None:
+        """Return the first column that has one of these names, in any case; None if there is none."""
+        lowered = [title.strip().lower() for title in self.heading]
+        return next((lowered.index(name.lower()) for name in names if name.lower() in lowered), None)
+
+    def row_of(
+        self, student: str, columns: Iterable[int | None], numbers: int | None, names: Sequence[int | None]
+    ) -> Sequence[str]:
+        """Return the row in which one of the columns has the student's name.
+
+        `course collect` puts the platform's own number at the end of a name. It is looked for in the column `numbers`;
+        then the rest of the name has to be like that in a column of `names`, since a name may end so by chance.
+
+        Raises:
+            CannotSay: there is none, or more than one, or it is somebody else's.
+        """
+        wanted = [(column, student) for column in columns if column is not None]
+        name, its_number = _collected(student)
+        if its_number and numbers is not None:
+            wanted.append((numbers, its_number))
+        for column, value in wanted:
+            found = [row for row in self.rows if _cell_value(row[column]) == value]
+            if len(found) > 1:
+                raise CannotSay(
+                    f"{value} stands in {len(found)} rows of the roster, column {self.heading[column]}"
+                )
+            called = [found[0][column] for column in names if column is not None] if found else []
+            if called and value != student and not any(_alike(name, one) for one in called):
+                raise CannotSay(f"number {value} is {called[0]}'s in the roster: enter it by hand")
+            if found:
+                return found[0]
+        looked_in = ", ".join(dict.fromkeys(self.heading[column] for column, _ in wanted))
+        raise CannotSay(f"the roster has no such student (looked in {looked_in})")
+
+
+def read_table(path: Path) -> Table:
+    """Read a CSV file that a platform gave out.
+
+    Raises:
+        UnusableBatch: it is no such file.
+    """
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise UnusableBatch(
+                f"{path} has more than {MOST_BYTES // 1_000_000} MB; expected a table of a class"
+            )
+        text, encoding = _decoded(path.read_bytes())
+    except (OSError, UnicodeDecodeError) as error:
+        raise UnusableBatch(f"{path} cannot be read: {error}") from error
+    if text.startswith("PK\x03\x04"):
+        raise UnusableBatch(f"{path} is a workbook of a spreadsheet program: save it there as “CSV UTF-8”")
+    told = _SEPARATOR_LINE.match(text)
+    text = text[told.end() :] if told else text
+    try:
+        delimiter = told[1] if told else max(",;\t", key=lambda one: len(next(_cells(text, one), [])))
+        lines = [line for line in _cells(text, delimiter) if any(map(str.strip, line))]
+    except csv.Error as error:
+        raise UnusableBatch(f"{path} is not a CSV file: {error}") from error
+    if not lines:
+        raise UnusableBatch(f"{path} is empty; expected a heading and a row for each student")
+    width = len(lines[0])
+    return Table(lines[0], [(line + [""] * width)[:width] for line in lines[1:]], encoding)
+
+
+def _cells(text: str, delimiter: str) -> Iterator[list[str]]:
+    return csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)
+
+
+def _decoded(content: bytes) -> tuple[str, str]:
+    """Return the text, and its encoding if that is none of the two which a file tells by itself.
+
+    Platforms write UTF-8, and Excel's “Unicode Text” is UTF-16; its plain CSV is in the code page of its user's
+    language. That can be told for scripts other than Latin; for Latin it is taken to be Western European.
+    """
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return content.decode("utf-16"), ""
+    if content.startswith(b"PK\x03\x04"):
+        return content[:4].decode(), ""
+    try:
+        return content.decode("utf-8-sig"), ""
+    except UnicodeDecodeError:
+        guess = from_bytes(content).best()
+    if guess and any(one.isalpha() and "LATIN" not in unicodedata.name(one, "") for one in str(guess)):
+        return str(guess), guess.encoding
+    return content.decode("cp1252", errors="replace"), "cp1252"
+
+
+def csv_text(heading: Sequence[str], rows: Iterable[Sequence[str | float]]) -> str:
+    """Return a CSV file's content; every cell has been made by one of the functions below, or is a number."""
+    file = io.StringIO(newline="")
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(heading)
+    writer.writerows([[cell if isinstance(cell, str) else number(cell) for cell in row] for row in rows])
+    return file.getvalue()
+
+
+def text_cell(text: str) -> str:
+    """Return words that no spreadsheet takes for a formula: an apostrophe stands before such a one."""
+    words = printable(text)
+    return f"'{words}" if words.lstrip().startswith(_FORMULA) and words != "-" else words
+
+
+def key_cell(key: str) -> str:
+    """Return what a platform finds a student by, unchanged.
+
+    Raises:
+        CannotSay: a spreadsheet would take it for a formula, and changed it would be another key.
+    """
+    if text_cell(key) != key or "\n" in key:
+        raise CannotSay(
+            f"{key!r} would be a formula in a spreadsheet, and is needed as it is: enter it by hand"
+        )
+    return key
+
+
+def read_number(cell: str) -> float | None:
+    """Return the number in a cell, written as in any language: 1.000,50 and 1,000.50; None if there is none.
+
+    As in Canvas' import, the last comma or point stands before the decimals.
+    """
+    digits = re.sub(r"[\s'’]", "", cell).replace("٫", ",")
+    if not re.fullmatch(r"\d+([.,]\d*)*", digits):
+        return None
+    *whole, last = re.split("[.,]", digits)
+    return float(f"{''.join(whole)}.{last}" if whole else last)
+
+
+def _cell_value(cell: str) -> str:
+    """What stands in a cell, without what keeps Excel from counting with it."""
+    return cell.strip().removeprefix("'")
+
+
+def _collected(student: str) -> tuple[str, str]:
+    """Return the name and the platform's number of a student whom `course collect` called so; else "" twice."""
+    match = re.fullmatch(r"(.+)-(\d+)", student)
+    return (match[1], match[2]) if match else ("", "")
+
+
+def _alike(one: str, other: str) -> bool:
+    """Whether two ways to write a name have most of their letters in common, in any order."""
+    first, second = ("".join(sorted(filter(str.isalnum, name.casefold()))) for name in (one, other))
+    return SequenceMatcher(None, first, second).ratio() > 0.6

@@ -1,0 +1,1 @@
+"""Hidden checks that several exercises share."""

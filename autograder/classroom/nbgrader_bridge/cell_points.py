@@ -1,0 +1,90 @@
+"""The preprocessor that writes verdicts as cell outputs, in place of stock nbgrader's execution of a submission."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from nbformat import NotebookNode
+from nbformat.v4 import new_output
+from nbgrader.preprocessors import NbGraderPreprocessor
+from nbgrader.utils import is_grade, is_solution
+from traitlets import Unicode
+
+from autograder.classroom.nbgrader_bridge.cell_names import cell_names, hidden_help
+from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.report.verdict_text import verdict_text
+
+UNJUDGED = "unjudged_cells"  # resources["nbgrader"] key: grade_ids that have no verdict
+
+
+class NotGradedError(Exception):
+    """There is no grade to enter, through no fault of the student's; nbgrader must record no score."""
+
+
+class VerdictOutputs(NbGraderPreprocessor):
+    """Gives every grade cell one number as its output, the points, and the verdict on stdout.
+
+    nbgrader scores an error or output on stderr as 0 and a cell without a number as full marks. So each cell gets a
+    number; where there is none, this raises.
+    """
+
+    records = Unicode(help="folder with one JSON file for each student: a list of grades").tag(config=True)
+
+    def preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
+        """Write the outputs of one student's notebook; raises `NotGradedError`."""
+        names = resources["nbgrader"]
+        grade = read_grade(Path(self.records), names["student"], names["assignment"])
+        verdicts = verdicts_by_cell(grade)
+        names[UNJUDGED] = []
+        for count, cell in enumerate((cell for cell in nb.cells if cell.cell_type == "code"), start=1):
+            if not is_grade(cell) or is_solution(cell):
+                continue
+            cell.execution_count = count
+            verdict = verdicts.get(cell.metadata.nbgrader.grade_id)
+            if verdict is None:
+                names[UNJUDGED].append(cell.metadata.nbgrader.grade_id)
+            cell.outputs = outputs(verdict, float(cell.metadata.nbgrader.points), count)
+        return nb, resources
+
+
+def read_grade(records: Path, student: str, exercise: str) -> Grade:
+    """Return the grade that was recorded; raises `NotGradedError` when there is none."""
+    path = records / f"{student}.json"
+    try:
+        grades = [Grade.from_json(record) for record in json.loads(path.read_text())]
+    except FileNotFoundError:
+        raise NotGradedError(f"there is no {path}; grade with `course grade` first") from None
+    grade = next((grade for grade in grades if grade.exercise == exercise), None)
+    if grade is None:
+        raise NotGradedError(f"{path} has no grade for {exercise}; grade with `course grade` first")
+    if grade.status == "not graded":
+        raise NotGradedError(
+            f"{student}'s {exercise} was not graded: {grade.why_not_graded or 'see ' + str(path)}"
+        )
+    return grade
+
+
+def verdicts_by_cell(grade: Grade) -> dict[str, CheckVerdict]:
+    """Return the verdicts by the grade_id of their cells."""
+    names = cell_names(grade.checks)
+    return {names[verdict.id]: verdict for verdict in grade.checks}
+
+
+def outputs(verdict: CheckVerdict | None, max_points: float, count: int) -> list[NotebookNode]:
+    """Return two outputs: the text of the verdict, and the points, between 0 and `max_points`."""
+    points = min(max(float(verdict.points), 0.0), max_points) if verdict else 0.0
+    return [
+        new_output("stream", name="stdout", text=_text(verdict) + "\n"),
+        new_output("execute_result", data={"text/plain": str(points)}, execution_count=count),
+    ]
+
+
+def _text(verdict: CheckVerdict | None) -> str:
+    """What a student may see; of a hidden check only whether it passed, so that its inputs stay secret."""
+    if verdict is None:
+        return "Not checked automatically."
+    if verdict.hidden:
+        return "Passed." if verdict.status == "passed" else hidden_help(verdict.promise)
+    return verdict_text(verdict)

@@ -1,0 +1,158 @@
+"""nbgrader's configuration for a course folder, the same for our own calls and for people who open formgrader."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import sys
+import warnings
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from nbgrader.apps.api import NbGraderAPI
+from nbgrader.converters import Autograde, GenerateAssignment
+from nbgrader.preprocessors import SaveCells
+from traitlets.config import Config
+
+from autograder.atomic_file import write_atomically
+
+CONFIG_FILE = "nbgrader_config.py"
+RELEASE = "release"  # the folder of what students were given
+RECORDS = "records"  # the folder with one JSON file a student, which VerdictOutputs reads
+
+_BRIDGE = "autograder.classroom.nbgrader_bridge"
+# Stock nbgrader begins with Execute, which runs the student's cells with the grader's rights. Nothing here runs a cell.
+AUTOGRADE_PREPROCESSORS = [
+    f"{_BRIDGE}.cell_points.VerdictOutputs",
+    f"{_BRIDGE}.essay_pictures.EssayPictures",
+    "nbconvert.preprocessors.ClearMetadataPreprocessor",
+    "nbgrader.preprocessors.LimitOutput",
+    "nbgrader.preprocessors.SaveAutoGrades",
+    f"{_BRIDGE}.unjudged_cells.UnjudgedCells",
+    "nbgrader.preprocessors.AssignLatePenalties",
+    "nbgrader.preprocessors.CheckCellMetadata",
+]
+FEEDBACK_PREPROCESSORS = [
+    "nbgrader.preprocessors.GetGrades",
+    "nbconvert.preprocessors.CSSHTMLHeaderPreprocessor",
+    "nbconvert.preprocessors.sanitize.SanitizeHTML",
+]
+_OPTIONS: dict[str, Any] = {
+    "CourseDirectory.source_directory": "source",
+    "CourseDirectory.release_directory": RELEASE,
+    # Given back in place of nbgrader's NotImplementedError, so that the starter code runs and its checks can speak.
+    "ClearSolutions.code_stub": {"python": "# YOUR CODE HERE"},
+    "Autograde.autograde_preprocessors": AUTOGRADE_PREPROCESSORS,
+    "GenerateFeedback.preprocessors": FEEDBACK_PREPROCESSORS,
+    "GenerateFeedback.exporter_class": f"{_BRIDGE}.feedback_page.FeedbackPage",
+    "SanitizeHTML.enabled": True,
+    "ExportApp.plugin_class": f"{_BRIDGE}.class_export.ClassExport",
+}
+
+
+class NbgraderError(Exception):
+    """A call to nbgrader failed. The message is the last line of its log, `log` the whole."""
+
+    def __init__(self, message: str, log: str) -> None:
+        super().__init__(message)
+        self.log = log
+
+
+class StudentCodeWouldRun(Exception):
+    """nbgrader is configured to execute submissions, which is refused."""
+
+
+def open_course(folder: Path, *, gradebook: bool = True) -> NbGraderAPI:
+    """Return nbgrader's API for a course folder. It reads no configuration file of the machine or the user.
+
+    Without a gradebook it can only generate releases.
+
+    Raises `StudentCodeWouldRun` unless nbgrader autogrades with exactly AUTOGRADE_PREPROCESSORS.
+    """
+    root = folder.resolve()
+    options: dict[str, Any] = {
+        "CourseDirectory.root": str(root),
+        "VerdictOutputs.records": str(root / RECORDS),
+        # The exchange of a multi-user server is not used; an absent one keeps nbgrader from looking for it.
+        "Exchange.root": str(root / "exchange"),
+    }
+    if not gradebook:
+        options |= {
+            "GenerateAssignment.no_database": True,
+            "GenerateAssignment.preprocessors": _without_saving(),
+        }
+    config = Config()
+    for name, value in (_OPTIONS | options).items():
+        section, _, trait = name.partition(".")
+        config[section][trait] = value
+    _let_nbgrader_find_alembic()
+    api = NbGraderAPI(config=config)
+    api.log.propagate = False  # what went wrong is in the outcome of each call
+    _require_no_execution(api)
+    return api
+
+
+def call(action: Callable[..., dict[str, Any]], *names: str) -> None:
+    """Call a method of nbgrader's API; raises `NbgraderError` when it reports a failure."""
+    with warnings.catch_warnings():
+        # SQLAlchemy warns about how nbgrader links a new submission; the submission is stored all the same.
+        warnings.filterwarnings("ignore", "Object of type .* not in session")
+        outcome = action(*names, force=True)
+    if not outcome["success"]:
+        error, log = outcome.get("error", "").strip(), outcome.get("log", "")
+        if error.endswith("KeyboardInterrupt"):  # nbgrader takes Ctrl-C for a failure of its own
+            raise KeyboardInterrupt
+        raise NbgraderError(
+            f"nbgrader's {action.__name__}: {_last_error(log) or _last_error(error)}", f"{error}\n{log}"
+        )
+
+
+def write_config_file(folder: Path) -> None:
+    """Write a configuration with which `nbgrader` and its JupyterLab extension behave as our own calls do.
+
+    It holds plain values only: nbgrader ignores a configuration file that raises, and would then execute submissions.
+    """
+    options = _OPTIONS | {"VerdictOutputs.records": RECORDS}
+    lines = [f"c.{name} = {_python(value)}" for name, value in options.items()]
+    text = "\n".join(
+        [
+            "# Written by `course grade`. Start `jupyter lab` in this folder and open nbgrader's Formgrader.",
+            "# Autograding from there enters the verdicts in records/ again; it never runs a student's code.",
+            "c = get_config()  # noqa: F821",
+            *lines,
+        ]
+    )
+    write_atomically(folder / CONFIG_FILE, text + "\n")
+
+
+def _last_error(text: str) -> str:
+    """Return the last line that names an exception."""
+    lines = [line.strip() for line in text.splitlines() if re.match(r"\s*[\w.]*(Error|Exception)\b.*:", line)]
+    return lines[-1] if lines else ""
+
+
+def _python(value: Any) -> str:
+    return repr(value) if isinstance(value, bool) else json.dumps(value)
+
+
+def _without_saving() -> list[Any]:
+    stages: Sequence[Any] = GenerateAssignment().preprocessors
+    return [stage for stage in stages if stage is not SaveCells]
+
+
+def _let_nbgrader_find_alembic() -> None:
+    """Put this Python's programs on PATH: nbgrader makes a new gradebook with the program alembic."""
+    programs = str(Path(sys.executable).parent)
+    folders = os.environ.get("PATH", os.defpath).split(os.pathsep)
+    if programs not in folders:
+        os.environ["PATH"] = os.pathsep.join([programs, *folders])
+
+
+def _require_no_execution(api: NbGraderAPI) -> None:
+    listed: Sequence[Any] = Autograde(coursedir=api.coursedir, parent=api).autograde_preprocessors
+    if list(listed) != AUTOGRADE_PREPROCESSORS:
+        raise StudentCodeWouldRun(
+            f"nbgrader would autograde with {listed}; expected {AUTOGRADE_PREPROCESSORS}"
+        )

@@ -1,0 +1,173 @@
+"""Enters grades into nbgrader's gradebook and generates feedback pages, one at a time."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import nbformat
+
+from autograder.atomic_file import write_atomically
+from autograder.classroom.nbgrader_bridge.course_folder import (
+    RECORDS,
+    RELEASE,
+    NbgraderError,
+    call,
+    open_course,
+    write_config_file,
+)
+from autograder.classroom.nbgrader_bridge.generated_cells import with_generated_cells
+from autograder.classroom.nbgrader_bridge.hand_marks import ask_again, with_marks
+from autograder.classroom.nbgrader_bridge.rebuild_submission import rebuild_submission
+from autograder.classroom.nbgrader_bridge.source_notebook import read_source
+from autograder.engine.exercise import file_names
+from autograder.engine.verdict import Grade
+
+TIMESTAMP, SECRET = "timestamp.txt", "submission_secret.txt"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A grade and the submission it was given for. `sources` is None when the submission could not be read."""
+
+    grade: Grade
+    sources: Mapping[str, str] | None
+    problem: str = ""
+    timestamp: str = ""  # when it was handed in, as nbgrader writes it
+    secret: str = ""  # of what came by nbgrader's exchange: its feedback goes back by it
+
+
+class CourseGradebook:
+    """An nbgrader course folder: gradebook.db, feedback/, and what formgrader needs beside them."""
+
+    def __init__(self, folder: Path, solutions: Path) -> None:
+        self._folder = folder
+        self._solutions = solutions
+        folder.mkdir(parents=True, exist_ok=True)
+        self._is_new = not (folder / "gradebook.db").exists()
+        write_config_file(folder)
+        self._course = open_course(folder)
+        self._assigned: set[str] = set()
+
+    def enter(self, entry: Entry) -> Path | None:
+        """Record one grade and return its feedback page.
+
+        None for what was not graded, which leaves no score, and for an essay that a person has not marked completely.
+        A grade that is entered already is not entered again.
+
+        Raises `NbgraderError` when nbgrader fails.
+        """
+        grade = entry.grade
+        if grade.status == "not graded":
+            record(self._folder, grade)
+            return None
+        self._assign(grade.exercise)
+        page = self._folder / "feedback" / grade.student / grade.exercise / f"{grade.exercise}.html"
+        submission = self._submission(entry)
+        is_entered = not self._is_new and self._holds(grade, submission)
+        if grade.status == "to mark":
+            return self._leave_to_a_person(grade, submission, page, is_entered)
+        if is_entered and _is_whole(page):
+            return page
+        page.unlink(missing_ok=True)  # it would show a grade that is not entered completely
+        self._autograde(grade, submission)
+        call(self._course.generate_feedback, grade.exercise, grade.student)
+        return page
+
+    def as_marked(self, grade: Grade) -> Grade:
+        """Return a grade with what a person has given for it so far, if that is for a person to say."""
+        if grade.status != "to mark":
+            return grade
+        with self._course.gradebook as gradebook:
+            return with_marks(gradebook, grade)
+
+    def _leave_to_a_person(
+        self, grade: Grade, submission: dict[str, str], page: Path, is_entered: bool
+    ) -> Path | None:
+        """Enter an essay without points; its page is made of those that a person has given, when none is missing."""
+        page.unlink(missing_ok=True)
+        if not (is_entered and self._autograded(grade).exists()):
+            shutil.rmtree(self._autograded(grade), ignore_errors=True)
+            self._autograde(grade, submission)
+            with self._course.gradebook as gradebook:
+                ask_again(gradebook, grade)
+        if self.as_marked(grade).status != "graded":
+            return None
+        call(self._course.generate_feedback, grade.exercise, grade.student)
+        return page
+
+    def _autograde(self, grade: Grade, submission: dict[str, str]) -> None:
+        record(self._folder, grade)
+        self._submit(grade, submission)
+        call(self._course.autograde, grade.exercise, grade.student)
+
+    def _assign(self, exercise: str) -> None:
+        """Create the exercise's assignment in the gradebook, with the present points of its checks or criteria."""
+        if exercise in self._assigned:
+            return
+        folder = self._folder / "source" / exercise
+        folder.mkdir(parents=True, exist_ok=True)
+        source = read_source(self._solutions / exercise / f"{exercise}.ipynb")
+        nbformat.write(with_generated_cells(source, exercise), folder / f"{exercise}.ipynb")
+        try:
+            call(self._course.generate_assignment, exercise)
+        except NbgraderError as error:
+            advice = "a gradebook with submissions keeps the checks it began with; give another --out"
+            raise NbgraderError(f"{error} ({advice})", error.log) from error
+        self._assigned.add(exercise)
+
+    def _submission(self, entry: Entry) -> dict[str, str]:
+        """The files that nbgrader reads: the rebuilt notebook, and what it was handed in with."""
+        name = entry.grade.exercise
+        release = nbformat.read(self._folder / RELEASE / name / f"{name}.ipynb", as_version=4)
+        notebook = rebuild_submission(release, file_names(name), entry.sources, entry.problem)
+        files = {f"{name}.ipynb": nbformat.writes(notebook) + "\n"}
+        beside = {TIMESTAMP: entry.timestamp, SECRET: entry.secret}
+        return files | {name: text for name, text in beside.items() if text}
+
+    def _holds(self, grade: Grade, submission: dict[str, str]) -> bool:
+        """Whether the same grade of the same submission was entered before."""
+        folder = self._submitted(grade)
+        before = (
+            {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
+            if folder.is_dir()
+            else {}
+        )
+        return before == submission and grade.to_json() in _records(self._folder, grade.student)
+
+    def _submit(self, grade: Grade, submission: dict[str, str]) -> None:
+        folder = self._submitted(grade)
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        for name, text in submission.items():
+            write_atomically(folder / name, text)
+
+    def _submitted(self, grade: Grade) -> Path:
+        """Where nbgrader looks for submissions."""
+        return self._folder / "submitted" / grade.student / grade.exercise
+
+    def _autograded(self, grade: Grade) -> Path:
+        """Where nbgrader puts what it has read."""
+        return self._folder / "autograded" / grade.student / grade.exercise
+
+
+def _is_whole(page: Path) -> bool:
+    """Whether nbgrader came to the end of a page: it writes in place, and may have been killed."""
+    return page.exists() and page.read_bytes().rstrip().endswith(b"</html>")
+
+
+def record(folder: Path, grade: Grade) -> None:
+    """Write a grade to the student's JSON file; it replaces an earlier one for the same exercise."""
+    others = [record for record in _records(folder, grade.student) if record["exercise"] != grade.exercise]
+    grades = sorted([*others, grade.to_json()], key=lambda record: record["exercise"])
+    path = folder / RECORDS / f"{grade.student}.json"
+    write_atomically(path, json.dumps(grades, indent=2) + "\n")
+
+
+def _records(folder: Path, student: str) -> list[dict[str, Any]]:
+    path = folder / RECORDS / f"{student}.json"
+    return json.loads(path.read_text()) if path.exists() else []

@@ -1,0 +1,74 @@
+"""Gradescope's container: where things lie in it, and how results.json is kept from the students' programs.
+
+Layout: https://gradescope-autograders.readthedocs.io/en/latest/specs/, "File Hierarchy". The grader is root there, and
+what it grades runs as another user: only the grader can write the results, and read checks and uploads.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+from autograder.atomic_file import write_atomically
+from autograder.classroom.export.gradescope import FILE, Results
+from autograder.isolation.arena_spec import ISOLATION_VARIABLE, Kind
+from autograder.isolation.availability import Isolation, available_isolation, with_another_user
+
+
+class CannotGrade(Exception):
+    """The container cannot grade, through no fault of the student's; the message says why."""
+
+
+@dataclass(frozen=True)
+class Container:
+    """The folder /autograder, or what stands in its place."""
+
+    root: Path
+
+    @property
+    def submission(self) -> Path:
+        """What the student uploaded."""
+        return self.root / "submission"
+
+    @property
+    def results(self) -> Path:
+        """The file that Gradescope reads."""
+        return self.root / "results" / FILE
+
+    def forget_results(self) -> None:
+        """Remove what an earlier run left, so that no run is credited with another one's score."""
+        self.results.parent.mkdir(parents=True, exist_ok=True)
+        self.results.unlink(missing_ok=True)
+
+    def close_to_others(self, *more: Path) -> None:
+        """Let root alone into uploads, results, what Gradescope tells of the submitters, and `more`."""
+        for folder in (self.submission, self.results.parent, *more):
+            if folder.is_dir():
+                os.chmod(folder, 0o700)
+        metadata = (
+            self.root / "submission_metadata.json"
+        )  # names, addresses, and the results of earlier uploads
+        if metadata.is_file():
+            os.chmod(metadata, 0o600)
+
+    def write(self, results: Results) -> None:
+        """Write what Gradescope reads, whole or not at all."""
+        write_atomically(self.results, results.text())
+
+
+def isolation_here() -> Isolation:
+    """Return the best isolation of this container: namespaces, else another user.
+
+    Raises:
+        CannotGrade: there is neither, and a program with the grader's rights could write its own score.
+    """
+    best = available_isolation()
+    if best.kind is Kind.NONE and os.environ.get(ISOLATION_VARIABLE) != Kind.NONE:
+        why = best.reason
+        best = with_another_user()
+        if best.kind is Kind.NONE:
+            raise CannotGrade(f"{why}; {best.reason}")
+    if best.kind is Kind.NONE:
+        raise CannotGrade(best.reason)
+    return best

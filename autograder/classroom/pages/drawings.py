@@ -1,0 +1,95 @@
+"""Drawings of what failed checks were judged on, kept on disk while a class is graded."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from autograder.atomic_file import write_atomically
+from autograder.authoring.transcript import Transcript
+from autograder.classroom.pages.motion import motion_svgs
+from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.report.sequence import transcript_svg
+
+Sources = Mapping[str, str]
+
+FOLDER = Path("cache/drawings")
+DRAWN = ("failed", "error")
+MOST_RUNS = 3  # drawn of one check
+
+DrawnRuns = Mapping[str, Sequence[str]]  # SVG of the runs that a check was judged on, by the check's id
+
+
+@dataclass(frozen=True)
+class Drawings:
+    """Those in the output of a batch. Each belongs to one verdict on one program, so a cached grade has its own."""
+
+    batch: Path
+
+    def keep_all(self, grade: Grade, sources: Sources, drawn: DrawnRuns) -> None:
+        """Keep the drawings of a grade, by the check's id."""
+        for verdict in grade.checks:
+            if verdict.id in drawn:
+                self.keep(grade.exercise, sources, verdict, drawn[verdict.id])
+
+    def of(self, grade: Grade, sources: Sources | None) -> dict[str, list[str]]:
+        """Return the drawings (SVG) of a grade by the check's id, of those checks that have some."""
+        if sources is None:
+            return {}
+        paths = {
+            verdict.id: self._path(grade.exercise, sources, verdict)
+            for verdict in grade.checks
+            if verdict.status in DRAWN
+        }
+        return {check: svgs for check, path in paths.items() if path.exists() and (svgs := _read(path))}
+
+    def keep(self, exercise: str, sources: Sources, verdict: CheckVerdict, drawn: Sequence[str]) -> None:
+        """Keep the drawings (SVG) of one verdict."""
+        write_atomically(self._path(exercise, sources, verdict), json.dumps(drawn))
+
+    def _path(self, exercise: str, sources: Sources, verdict: CheckVerdict) -> Path:
+        key = json.dumps([dict(sources), asdict(verdict)], sort_keys=True)
+        return self.batch / FOLDER / exercise / f"{hashlib.sha256(key.encode()).hexdigest()}.json"
+
+
+def _read(path: Path) -> list[str]:
+    """Read drawings that were kept; none if the file is damaged, for they only help to understand a verdict."""
+    try:
+        svgs = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return []
+    sound = isinstance(svgs, list) and all(isinstance(svg, str) for svg in svgs)
+    return svgs if sound else []
+
+
+def drawing_into(
+    drawn: dict[str, Sequence[str]],
+) -> Callable[[CheckVerdict, Sequence[Transcript]], None]:
+    """Return what `grade` calls with each verdict and the transcripts it was judged on: it draws those that failed."""
+
+    def add(verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
+        if verdict.status not in DRAWN:
+            return
+        try:
+            drawn[verdict.id] = draw(transcripts)
+        except Exception:  # a drawing that fails may cost nobody a grade
+            logging.getLogger(__name__).exception("no drawing of %s", verdict.id)
+
+    return add
+
+
+def draw(transcripts: Sequence[Transcript]) -> list[str]:
+    """Draw runs as SVG: the sequence of messages, and what the robot did if it moved.
+
+    Raises:
+        ValueError: nothing happened in one.
+    """
+    drawn: list[str] = []
+    for transcript in transcripts[:MOST_RUNS]:
+        title = transcript.scenario.replace("_", " ")
+        drawn += [transcript_svg(transcript, title), *motion_svgs(transcript, title)]
+    return drawn

@@ -1,0 +1,162 @@
+"""Writes the pages of a graded class: class.html and instructor/ for the instructor, pages/ for the students."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from urllib.parse import quote
+
+from markupsafe import Markup
+
+from autograder.classroom.pages.drawings import Drawings, Sources
+from autograder.classroom.pages.figures import NEEDS_HELP, cause, exercise_figures, who_needs_help
+from autograder.classroom.pages.student_view import student_view
+from autograder.engine.verdict import Grade
+from autograder.report.rendering import drawn, write_html
+from ros_runtime.drawing.bars import bars_svg
+
+CLASS_PAGE = "class.html"
+INDEX = "index.html"  # of a student's exercises
+FOR_STUDENTS, FOR_INSTRUCTOR = "pages", "instructor"
+UP = "../.."  # from a submission's page to the folder of the class page
+
+DrawingsOf = Mapping[str, Sequence[str]]
+
+
+def write_class_page(
+    folder: Path,
+    grades: Sequence[Grade],
+    left_out: Sequence[str] = (),
+    batch: Mapping[str, str] | None = None,
+) -> Path:
+    """Write the page on the whole class.
+
+    `left_out` are sentences on what could not become a submission at all, `batch` says when and with what it was
+    graded.
+    """
+    students: dict[str, dict[str, Grade]] = {}
+    for grade in sorted(grades, key=lambda grade: grade.student):
+        students.setdefault(grade.student, {})[grade.exercise] = grade
+    exercises = exercise_figures(grades)
+    by_status = {
+        status: [grade for grade in grades if grade.status == status]
+        for status in ("graded", "not graded", "to mark")
+    }
+    path = folder / CLASS_PAGE
+    write_html(
+        path,
+        "class.html",
+        title="The class",
+        grades=grades,
+        graded=by_status["graded"],
+        not_graded=by_status["not graded"],
+        to_mark=by_status["to mark"],
+        left_out=left_out,
+        batch=batch or {},
+        needs_help=who_needs_help(grades),
+        threshold=NEEDS_HELP,
+        cause=cause,
+        exercises=exercises,
+        charts={
+            its.exercise: Markup(
+                bars_svg(
+                    its.bins,
+                    title=f"Scores of {its.exercise}",
+                    across="points, % of those there are",
+                    up="submissions",
+                )
+            )
+            for its in exercises
+            if its.graded
+        },
+        students=students,
+        link=lambda grade: _address(FOR_INSTRUCTOR, grade),
+        student_link=lambda grade: _address(FOR_STUDENTS, grade),
+        index_link=lambda name: f"{FOR_STUDENTS}/{quote(name, safe='')}/{INDEX}",
+    )
+    return path
+
+
+def write_student_page(folder: Path, student: str, grades: Sequence[Grade]) -> None:
+    """Write the page from which a student finds those of the exercises; `grades` are all of them."""
+    write_html(
+        folder / FOR_STUDENTS / student / INDEX,
+        "student.html",
+        title=f"Exercises of {student}",
+        student=student,
+        grades=sorted(map(student_view, grades), key=lambda grade: grade.exercise),
+        link=lambda grade: f"{quote(grade.exercise, safe='')}.html",
+    )
+
+
+def write_submission_pages(folder: Path, grade: Grade, drawings: DrawingsOf) -> None:
+    """Write the student's page, without anything on hidden checks but whether they passed, and the instructor's.
+
+    Raises:
+        ValueError: the student's name or the exercise's cannot be a folder.
+    """
+    _write(folder, grade, drawings, for_student=False)
+    visible = {check.id for check in grade.checks if not check.hidden}
+    seen = {check: svgs for check, svgs in drawings.items() if check in visible}
+    _write(folder, student_view(grade), seen, for_student=True)
+
+
+def write_pages(
+    folder: Path,
+    grades: Sequence[Grade],
+    sources: Mapping[tuple[str, str], Sources | None],
+    *,
+    batches: Sequence[Path] = (),
+    left_out: Sequence[str] = (),
+    batch: Mapping[str, str] | None = None,
+) -> Path:
+    """Write the pages of a batch into its output folder, and return the class page's path.
+
+    Args:
+        folder: the output folder.
+        grades: of the whole class.
+        sources: the programs of those that get pages anew, as do their students, by student and exercise; None: it
+            could not be read.
+        batches: the output folders where their drawings are; by default `folder`.
+        left_out: sentences on what could not become a submission at all.
+        batch: when and with what it was graded, in words.
+    """
+    for grade in grades:
+        if (key := (grade.student, grade.exercise)) in sources:
+            drawings: dict[str, Sequence[str]] = {}
+            for output in batches or (folder,):
+                drawings |= Drawings(output).of(grade, sources[key])
+            write_submission_pages(folder, grade, drawings)
+    of_student: dict[str, list[Grade]] = {}
+    for grade in grades:
+        of_student.setdefault(grade.student, []).append(grade)
+    for student in {student for student, _ in sources} & of_student.keys():
+        write_student_page(folder, student, of_student[student])
+    return write_class_page(folder, grades, left_out, batch)
+
+
+def _write(folder: Path, grade: Grade, drawings: DrawingsOf, *, for_student: bool) -> None:
+    _require_plain_names(grade)
+    top, other = (FOR_STUDENTS, FOR_INSTRUCTOR) if for_student else (FOR_INSTRUCTOR, FOR_STUDENTS)
+    write_html(
+        folder / top / grade.student / f"{grade.exercise}.html",
+        "submission.html",
+        title=f"{grade.exercise} · {grade.student}",
+        grade=grade,
+        drawn=drawn(grade, drawings),
+        for_student=for_student,
+        other_page=f"{UP}/{_address(other, grade)}",
+        class_page=f"{UP}/{CLASS_PAGE}",
+        index_page=INDEX,
+    )
+
+
+def _address(top: str, grade: Grade) -> str:
+    """Return the relative URL of a submission's page."""
+    return f"{top}/{quote(grade.student, safe='')}/{quote(grade.exercise, safe='')}.html"
+
+
+def _require_plain_names(grade: Grade) -> None:
+    for name in (grade.student, grade.exercise):
+        if name in ("", ".", "..") or "/" in name or "\0" in name:
+            raise ValueError(f"{name!r} cannot be the name of a folder; expected a name without / in it")
