@@ -2,271 +2,244 @@
 
 from __future__ import annotations
 
-from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario, check, expect
-from autograder.authoring.feedback import require_good_feedback_rate
-from autograder.authoring.transcript import Transcript
+import math
+from collections.abc import Sequence
+from typing import Any
 
-from .endings import require_aborted
-from .holding import require_force_kept, require_lifted
-from .placing import OPENED, require_filled_result, require_placed, require_withdrawn
-from .reports import (
-    require_rising_percentage,
-    require_stages_in_order,
-    require_true_stages,
-    require_true_values,
-)
-from .safe_ends import (
-    require_aborted_by_a_fall,
-    require_dropped,
-    require_grasp_failed,
-    require_left_alone,
-    require_nothing_moved,
-    require_preempted_or_rejected,
-    require_put_away,
-)
-from .truth import taken_from
+from autograder.authoring import standard
+from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.obligation import check_of
+
+from . import model
 
 TABLE = ("--scene", "table")
+AFTERWARDS = 1.5  # s after a result in which nothing more may happen
+PLACE = [0.35, -0.27]  # x, y m in odom
+HERE = [0.33, -0.25]
 
-FETCH = Scenario("fetch", {"place": [0.35, -0.27], "force": 10.0}, robot=TABLE)
-IMPOSSIBLE = Scenario("ask_for_the_impossible", robot=RESTING)
-UNKNOWN = Scenario("ask_for_the_unknown", {"objects": ["teapot"]}, robot=RESTING)
-FAR_PLACE = Scenario("ask_for_the_far", {"place": [0.75, -0.25]}, robot=TABLE)
-FAR_CUP = Scenario("ask_for_the_far", {"place": [0.34, -0.20], "cup": [0.57, 0.37]}, robot=TABLE)
-TAKEN = Scenario("take_away", robot=TABLE)
-SNATCHED = Scenario("snatch", {"way": 0.0}, robot=TABLE)
-CANCEL = Scenario("cancel_before_the_grasp", {"closing": False}, robot=TABLE)
-HOLDING = Scenario(
-    "cancel_while_holding", {"cup": [0.32, -0.10], "place": [0.34, -0.28], "way": 0.0}, robot=TABLE
+
+def at_the_table(*steps: Sequence[Any], **inputs: Any) -> Scenario:
+    """Return the scenario of steps with hand and cup watched, and some time more at the end."""
+    return Scenario("in_order", {"steps": [*steps, ["wait", AFTERWARDS]], **inputs}, robot=TABLE)
+
+
+def _resting(*steps: Sequence[Any]) -> Scenario:
+    return Scenario("in_order", {"steps": list(steps), "watched": []}, robot=RESTING)
+
+
+FETCH = at_the_table(["go", "fetch", PLACE], ["arrive", "fetch"])
+IMPOSSIBLE = _resting(
+    ["go", "wrong frame", HERE, 10.0, "cup", "map"],
+    ["go", "no frame", HERE, 10.0, "cup", ""],
+    ["go", "NaN place", [math.nan, -0.25]],
+    ["go", "infinite place", [0.33, -math.inf]],
+    *(["go", f"force {force}", HERE, force] for force in (math.nan, 0.0, -8.0, 40.0)),
+    ["wait", AFTERWARDS],
 )
-TWO = Scenario("ask_for_two", robot=TABLE)
-BLOCKED = Scenario("block", robot=TABLE)
-FALL = Scenario("fall", {"impulse": [0.0, 60.0, 0.0]}, robot=TABLE)
-INTERRUPT = Scenario("interrupt", robot=RESTING)
+UNKNOWN = _resting(["go", "unknown", HERE, 10.0, "teapot"], ["arrive", "unknown"])
+FAR_PLACE = at_the_table(["go", "far", [0.75, -0.25]], ["arrive", "far"], watched=["hand", "joints"])
+FAR_CUP = at_the_table(
+    ["put_cup", 0.57, 0.37], ["go", "far", [0.34, -0.20]], ["arrive", "far"], watched=["hand", "joints"]
+)
+TAKEN = at_the_table(["go", "fetch", PLACE], ["take_when", "closing"], ["arrive", "fetch"])
+SNATCHED = at_the_table(
+    *(["put_cup", 0.32, -0.10], ["go", "fetch", [0.34, -0.28]]),
+    *(["take_when", "carried", "fetch", 0.0], ["arrive", "fetch"]),
+)
+CANCEL = at_the_table(
+    ["go", "fetch", PLACE], ["wait_until", "near"], ["cancel", "fetch"], ["arrive", "fetch"]
+)
+HOLDING = at_the_table(
+    *(["put_cup", 0.32, -0.10], ["go", "fetch", [0.34, -0.28]]),
+    *(["wait_until", "carried", "fetch", 0.0], ["cancel", "fetch"], ["arrive", "fetch"]),
+)
+TWO = at_the_table(
+    *(["go", "first", PLACE], ["wait_until", "lifted"], ["go", "second", [0.34, -0.10]]),
+    *(["arrive", "first"], ["arrive", "second"]),
+)
+BLOCKED = at_the_table(
+    *(["go", "fetch", PLACE], ["wait_until", "above the table"], ["hold", "r_elbow"]),
+    *(["arrive", "fetch"], ["release", "r_elbow"]),
+)
+FALL = at_the_table(
+    *(["go", "fetch", PLACE], ["wait_until", "near"], ["knock_over", 0.0, 60.0, 0.0], ["end", "fetch"])
+)
+INTERRUPT = _resting(["interrupt"])
 
 LOOK = "07_cancel_and_preempt#conventions"
-EARLY, LATE = 0.8, 4.0  # s without a pose after which an object may be, and must be, unknown
-PATIENCE = 20.0  # s for a hand that does not arrive
 
 server_appears = standard.server_appears(
     "the action pick_and_place", on=INTERRUPT, see="07_cancel_and_preempt#fix-file", clauses=[21]
 )
-
-
-@check(on=FETCH, needs=server_appears, see="07_cancel_and_preempt#m2-why", clauses=[1])
-def accepts_a_goal(run: Transcript) -> None:
-    """It accepts a goal with a place in frame odom and a force of 10 N"""
-    run.goal("fetch").require_accepted()
-
-
-@check(points=3, on=FETCH, needs=accepts_a_goal, see="09_arms#careful-why", clauses=[2, 3, 4])
-def places_the_cup(run: Transcript) -> None:
-    """It SUCCEEDS, and the cup then stands within 0.03 m of place_pose, upright, at rest, with the hand off it"""
-    require_placed(run.goal("fetch"))
-
-
-@check(on=FETCH, needs=places_the_cup, see="09_arms#firm-why", clauses=[4])
-def lifts_the_cup(run: Transcript) -> None:
-    """It lifts the cup on its way, by 5 cm at least"""
-    require_lifted(run.goal("fetch"))
-
-
-@check(points=2, on=FETCH, needs=lifts_the_cup, see="09_arms#force-why", clauses=[5])
-def keeps_the_force(run: Transcript) -> None:
-    """While the cup is off the table the measured force is grasp_force, within 30 %"""
-    require_force_kept(run.goal("fetch"))
-
-
-@check(on=FETCH, needs=places_the_cup, see="06_walk_to_a_pose#late-why", clauses=[10])
-def fills_the_result(run: Transcript) -> None:
-    """The result tells where the cup is, and the largest force that was measured"""
-    require_filled_result(run.goal("fetch"))
-
-
-@check(on=FETCH, needs=accepts_a_goal, see=LOOK, clauses=[7])
-def feedback_keeps_its_rate(run: Transcript) -> None:
-    """Feedback comes at 5 Hz without a gap over 1 s"""
-    require_good_feedback_rate(run.goal("fetch"))
-
-
-@check(
+accepts_a_goal = check_of(
+    "accepts_a_goal",
+    model.accepts,
+    title="It accepts a goal with a place in frame odom and a force of 10 N",
+    on=FETCH,
+    needs=server_appears,
+    see="07_cancel_and_preempt#m2-why",
+)
+places_the_cup = check_of(
+    "places_the_cup",
+    model.places,
+    model.puts_down,
+    points=3,
+    on=FETCH,
+    needs=accepts_a_goal,
+    see="09_arms#careful-why",
+)
+lifts_the_cup = check_of("lifts_the_cup", model.lifts, on=FETCH, needs=places_the_cup, see="09_arms#firm-why")
+keeps_the_force = check_of(
+    "keeps_the_force", model.keeps_force, points=2, on=FETCH, needs=lifts_the_cup, see="09_arms#force-why"
+)
+fills_the_result = check_of(
+    "fills_the_result",
+    model.filled_result,
+    on=FETCH,
+    needs=places_the_cup,
+    see="06_walk_to_a_pose#late-why",
+)
+feedback_keeps_its_rate = check_of(
+    "feedback_keeps_its_rate", model.feedback_at_5_hz, on=FETCH, needs=accepts_a_goal, see=LOOK
+)
+names_its_stages = check_of(
+    "names_its_stages",
+    model.names_stages,
     on=FETCH,
     needs=places_the_cup,
     see="09_arms#phases-intro",
-    clauses=[6],
 )
-def names_its_stages(run: Transcript) -> None:
-    """The stage goes through approaching, grasping, lifting, moving, placing, retreating"""
-    require_stages_in_order(run.goal("fetch"))
-
-
-@check(on=FETCH, needs=[names_its_stages, lifts_the_cup], see="09_arms#phases-why", clauses=[6])
-def stages_are_true(run: Transcript) -> None:
-    """Each stage is named while it lasts"""
-    require_true_stages(run.goal("fetch"))
-
-
-@check(on=FETCH, needs=accepts_a_goal, see="09_arms#force-why", clauses=[8])
-def feedback_is_measured(run: Transcript) -> None:
-    """hand_pose, distance_to_object and grasp_force in the feedback are measured"""
-    require_true_values(run.goal("fetch"))
-
-
-@check(on=FETCH, needs=places_the_cup, see="08_navigation#zero-fix-why", clauses=[9])
-def percentage_rises(run: Transcript) -> None:
-    """percent_complete rises from 0 towards 100 and never falls"""
-    require_rising_percentage(run.goal("fetch"))
-
-
-feedback_ends_with_the_goal = standard.feedback_ends_with_the_goal(
-    "fetch", on=FETCH, needs=places_the_cup, clauses=[7]
+stages_are_true = check_of(
+    "stages_are_true",
+    model.true_stages,
+    on=FETCH,
+    needs=[names_its_stages, lifts_the_cup],
+    see="09_arms#phases-why",
 )
-
-
-@check(on=IMPOSSIBLE, needs=accepts_a_goal, see="09_arms#base-intro", clauses=[1])
-def rejects_a_wrong_place(run: Transcript) -> None:
-    """It rejects a place in another frame than odom, and one that holds NaN or infinity"""
-    for name, frame in (("wrong frame", "map"), ("no frame", "")):
-        run.goal(name).require_rejected(
-            because=f"place_pose is in frame {frame!r}",
-            help="Compare goal_request.place_pose.header.frame_id with 'odom' in goal_callback.",
-        )
-    for name in ("NaN place", "infinite place"):
-        run.goal(name).require_rejected(
-            because="a coordinate of place_pose is not a finite number",
-            help="Test x, y and z with math.isfinite() in goal_callback.",
-        )
-
-
-@check(on=IMPOSSIBLE, needs=accepts_a_goal, see="09_arms#force-why", clauses=[1])
-def rejects_a_wrong_force(run: Transcript) -> None:
-    """It rejects a grasp_force that is NaN, not more than 0 N, or more than 25 N"""
-    for name, force in (
-        ("NaN force", "NaN"),
-        ("no force", "0"),
-        ("negative force", "-8"),
-        ("too much force", "40"),
-    ):
-        run.goal(name).require_rejected(
-            because=f"no hand can hold with {force} N",
-            help="Write `if not 0.0 < goal_request.grasp_force <= 25.0`: every `<` and `>` with NaN is false.",
-        )
-
-
-@check(on=UNKNOWN, needs=accepts_a_goal, see="09_arms#phases-why", clauses=[11, 17])
-def knows_no_teapot(run: Transcript) -> None:
-    """An object whose pose nobody publishes ends the goal with UNKNOWN_OBJECT after 1 s"""
-    goal = run.goal("unknown 1")
-    result = require_aborted(
-        goal,
-        "UNKNOWN_OBJECT",
-        because="nothing comes on objects/teapot/pose",
-        help="Wait at most 1 s for the first message on objects/<object_id>/pose, then abort.",
-    )
-    took = result.t - goal.accepted_at
-    expect(
-        EARLY <= took <= LATE,
-        expected="the goal ABORTED after 1 s without a message",
-        observed=f"it was after {took:.1f} s",
-        help="Give the topic 1 s: its publisher sends 10 messages a second, but has to be found first.",
-        at=result.t,
-    )
-
-
-@check(on=FAR_PLACE, needs=accepts_a_goal, see="09_arms#conventions", clauses=[12, 17])
-def refuses_a_far_place(run: Transcript) -> None:
-    """A place out of reach ends the goal with UNREACHABLE before anything moves"""
-    _require_unreachable(run, "the place is beyond the arm's reach")
-
-
-@check(on=FAR_CUP, needs=accepts_a_goal, see="09_arms#conventions", clauses=[12, 17])
-def refuses_a_far_cup(run: Transcript) -> None:
-    """A cup out of reach ends the goal with UNREACHABLE before anything moves"""
-    _require_unreachable(run, "the cup is beyond the arm's reach")
-
-
-def _require_unreachable(run: Transcript, because: str) -> None:
-    goal = run.goal("far")
-    require_aborted(
-        goal,
-        "UNREACHABLE",
-        because=because,
-        help="Ask compute_arm_ik for the grasp and for the place before you move; abort unless error_code is SUCCESS "
-        "for both.",
-    )
-    require_nothing_moved(goal)
-
-
-@check(points=2, on=TAKEN, needs=places_the_cup, see="09_arms#force-why", clauses=[13, 17])
-def notices_an_empty_hand(run: Transcript) -> None:
-    """When the fingers close on nothing the goal ends with GRASP_FAILED"""
-    require_grasp_failed(run.goal("fetch"))
-
-
-@check(on=TAKEN, needs=notices_an_empty_hand, see="09_arms#force-why", clauses=[13])
-def withdraws_an_empty_hand(run: Transcript) -> None:
-    """After that the hand is open and withdrawn"""
-    result = require_grasp_failed(run.goal("fetch"))
-    require_withdrawn(run.goal("fetch"), result.t, taken_from(run.goal("fetch")), opened=OPENED)
-
-
-@check(points=2, on=SNATCHED, needs=lifts_the_cup, see="09_arms#slip-why", clauses=[15, 17])
-def notices_a_lost_cup(run: Transcript) -> None:
-    """When the cup is lost while it is lifted the goal ends with DROPPED"""
-    require_dropped(run.goal("fetch"))
-
-
-@check(on=BLOCKED, needs=places_the_cup, see="09_arms#phases-intro", clauses=[14, 17])
-def gives_up_when_blocked(run: Transcript) -> None:
-    """A hand that does not get to the cup ends the goal with GRASP_FAILED within 20 s"""
-    goal = run.goal("fetch")
-    held = run.told("hold_joint", joint="r_elbow").t
-    result = require_aborted(
-        goal,
-        "GRASP_FAILED",
-        because="the elbow was held, and the hand could not get to the cup",
-        help="Something waits without a limit for the hand to arrive. Give each stage a time in which it must be over.",
-    )
-    expect(
-        result.t - held <= PATIENCE,
-        expected=f"the goal ABORTED within {PATIENCE:.0f} s",
-        observed=f"it was after {result.t - held:.0f} s",
-        help="Give each stage a few seconds more than its trajectory takes.",
-        at=result.t,
-    )
-
-
-@check(points=2, on=CANCEL, needs=accepts_a_goal, see="07_cancel_and_preempt#m1-why", clauses=[18])
-def cancels_before_the_grasp(run: Transcript) -> None:
-    """A cancel on the way to the cup ends CANCELED, with the hand withdrawn and the cup where it was"""
-    require_left_alone(run.goal("fetch"))
-
-
-@check(
+feedback_is_measured = check_of(
+    "feedback_is_measured", model.measured, on=FETCH, needs=accepts_a_goal, see="09_arms#force-why"
+)
+percentage_rises = check_of(
+    "percentage_rises", model.percentage, on=FETCH, needs=places_the_cup, see="08_navigation#zero-fix-why"
+)
+feedback_ends_with_the_goal = check_of(
+    "feedback_ends_with_the_goal",
+    model.no_late_feedback,
+    on=FETCH,
+    needs=places_the_cup,
+    see="07_cancel_and_preempt#m13-why",
+)
+rejects_a_wrong_place = check_of(
+    "rejects_a_wrong_place",
+    model.rejects_frames,
+    model.rejects_not_finite,
+    title="It rejects a place in another frame than odom, and one that holds NaN or infinity",
+    on=IMPOSSIBLE,
+    needs=accepts_a_goal,
+    see="09_arms#base-intro",
+)
+rejects_a_wrong_force = check_of(
+    "rejects_a_wrong_force",
+    model.rejects_forces,
+    on=IMPOSSIBLE,
+    needs=accepts_a_goal,
+    see="09_arms#force-why",
+)
+knows_no_teapot = check_of(
+    "knows_no_teapot",
+    model.unknown_objects,
+    model.says_why_it_aborted,
+    on=UNKNOWN,
+    needs=accepts_a_goal,
+    see="09_arms#phases-why",
+)
+refuses_a_far_place = check_of(
+    "refuses_a_far_place",
+    model.out_of_reach,
+    model.says_why_it_aborted,
+    title="A place out of reach ends the goal with UNREACHABLE before anything moves",
+    on=FAR_PLACE,
+    needs=accepts_a_goal,
+    see="09_arms#conventions",
+)
+refuses_a_far_cup = check_of(
+    "refuses_a_far_cup",
+    model.out_of_reach,
+    model.says_why_it_aborted,
+    title="A cup out of reach ends the goal with UNREACHABLE before anything moves",
+    on=FAR_CUP,
+    needs=accepts_a_goal,
+    see="09_arms#conventions",
+)
+notices_an_empty_hand = check_of(
+    "notices_an_empty_hand",
+    model.empty_hand,
+    model.says_why_it_aborted,
+    points=2,
+    on=TAKEN,
+    needs=places_the_cup,
+    see="09_arms#force-why",
+)
+withdraws_an_empty_hand = check_of(
+    "withdraws_an_empty_hand",
+    model.withdraws_empty,
+    title="After that the hand is open and withdrawn",
+    on=TAKEN,
+    needs=notices_an_empty_hand,
+    see="09_arms#force-why",
+)
+notices_a_lost_cup = check_of(
+    "notices_a_lost_cup",
+    model.lost_object,
+    model.says_why_it_aborted,
+    title="When the cup is lost while it is lifted the goal ends with DROPPED",
+    points=2,
+    on=SNATCHED,
+    needs=lifts_the_cup,
+    see="09_arms#slip-why",
+)
+gives_up_when_blocked = check_of(
+    "gives_up_when_blocked",
+    model.gives_up_in_time,
+    model.says_why_it_aborted,
+    on=BLOCKED,
+    needs=places_the_cup,
+    see="09_arms#phases-intro",
+)
+cancels_before_the_grasp = check_of(
+    "cancels_before_the_grasp",
+    model.leaves_the_cup,
+    title="A cancel on the way to the cup ends CANCELED, with the hand withdrawn and the cup where it was",
+    points=2,
+    on=CANCEL,
+    needs=accepts_a_goal,
+    see="07_cancel_and_preempt#m1-why",
+)
+puts_the_cup_back = check_of(
+    "puts_the_cup_back",
+    model.puts_away,
+    model.puts_down,
+    title="A cancel soon after the cup was lifted puts it back where it stood, then ends CANCELED",
     points=3,
     on=HOLDING,
     needs=[lifts_the_cup, cancels_before_the_grasp],
     see="09_arms#lift-why",
-    clauses=[19],
 )
-def puts_the_cup_back(run: Transcript) -> None:
-    """A cancel soon after the cup was lifted puts it back where it stood, then ends CANCELED"""
-    require_put_away(run.goal("fetch"), taken_from(run.goal("fetch")), "where it stood")
-
-
-@check(points=2, on=TWO, needs=lifts_the_cup, see="07_cancel_and_preempt#preempt-why", clauses=[20])
-def has_one_hand(run: Transcript) -> None:
-    """Of two goals one has the hand: the second is rejected, or the first ends safely with PREEMPTED"""
-    require_preempted_or_rejected(run.goal("first"), run.goal("second"))
-
-
-@check(on=FALL, needs=accepts_a_goal, see="07_cancel_and_preempt#fall-why", clauses=[16])
-def aborts_when_the_robot_falls(run: Transcript) -> None:
-    """When the robot falls the goal is ABORTED with FELL"""
-    require_aborted_by_a_fall(run.goal("fetch"))
-
-
-ends_cleanly = standard.ends_cleanly(
-    on=INTERRUPT, needs=server_appears, see="07_cancel_and_preempt#conventions", clauses=[21]
+has_one_hand = check_of(
+    "has_one_hand",
+    model.one_hand,
+    model.places,
+    points=2,
+    on=TWO,
+    needs=lifts_the_cup,
+    see="07_cancel_and_preempt#preempt-why",
 )
+aborts_when_the_robot_falls = check_of(
+    "aborts_when_the_robot_falls",
+    model.tells_a_fall,
+    model.says_why_it_aborted,
+    on=FALL,
+    needs=accepts_a_goal,
+    see="07_cancel_and_preempt#fall-why",
+)
+ends_cleanly = standard.ends_cleanly(on=INTERRUPT, needs=server_appears, see=LOOK, clauses=[21])

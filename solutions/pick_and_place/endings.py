@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from autograder.authoring import events as ev
-from autograder.authoring.failure import Failure, expect
+from autograder.authoring.failure import Failure
 from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.goal_endings import why_rclpy_aborted
-from autograder.authoring.robot_record import RobotRecord
 from humanoid_interfaces.action import PickAndPlace
-from humanoid_interfaces.msg import RobotState
 
 _WHY_IT_GAVE_UP = {
     "UNKNOWN_OBJECT": "objects/cup/pose comes ten times a second. Is anything of your node served while execute "
@@ -23,7 +21,6 @@ _WHY_IT_GAVE_UP = {
     "FELL": "Move the hand slowly, 0.2 m/s at most: a long reach in a jerk topples the robot.",
 }
 CODES = ("NONE", "UNKNOWN_OBJECT", "UNREACHABLE", "GRASP_FAILED", "DROPPED", "FELL", "PREEMPTED")
-_FALLEN = RobotState.FALLEN
 
 
 def require_succeeded(goal: Goal) -> ev.ResultReceived:
@@ -49,18 +46,6 @@ def _code(goal: Goal) -> str:
     return next((name for name in CODES if getattr(PickAndPlace.Result, name) == code), "no constant")
 
 
-def require_robot_upright(run: RobotRecord, start: float, end: float) -> None:
-    """Require that the robot kept its balance."""
-    fallen = next((robot for robot in run.robot_between(start, end) if robot.mode == _FALLEN), None)
-    expect(
-        fallen is None,
-        expected="a robot that keeps its balance while it reaches",
-        observed="it fell",
-        help="Publish nothing on motor_power, and give the arm time: a long reach in a jerk topples the robot.",
-        at=fallen.t if fallen else None,
-    )
-
-
 def require_aborted(goal: Goal, code: str, *, because: str, help: str) -> ev.ResultReceived:
     """Require that a goal was ABORTED with an error_code and a reason, and return the result."""
     goal.require_accepted()
@@ -71,11 +56,5 @@ def require_aborted(goal: Goal, code: str, *, because: str, help: str) -> ev.Res
         because=f"{because}: {code}",
         help=why_rclpy_aborted(goal) or f"It ended with {_code(goal)}. {help}",
     )
-    expect(
-        bool(result.result.error_msg.strip()),
-        expected="error_msg with a reason for people",
-        observed="an empty one",
-        help="Fill result.error_msg before abort(): say what was tried, and what was seen instead.",
-        at=result.t,
-    )
+    goal.require_reason()
     return result

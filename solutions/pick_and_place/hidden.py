@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from autograder.authoring.checks import RESTING, Scenario, check
-from autograder.authoring.transcript import Transcript
-from autograder.classroom.hidden_checks.standard_hidden import (
-    works_in_any_namespace as _works_in_any_namespace,
-)
+from collections.abc import Callable
+from random import Random
+from typing import Any
 
+from autograder.authoring.checks import Scenario
+from autograder.authoring.obligation import check_of
+from autograder.authoring.walking.drawn import NUMBERS, rounded
+from autograder.classroom.hidden_checks import standard_hidden
+
+from . import model
 from .checks import (
+    AFTERWARDS,
+    HERE,
     TABLE,
     cancels_before_the_grasp,
     keeps_the_force,
@@ -17,133 +23,179 @@ from .checks import (
     places_the_cup,
     puts_the_cup_back,
 )
-from .endings import require_aborted
-from .holding import require_force_kept
-from .placing import require_placed
-from .safe_ends import require_dropped, require_left_alone, require_put_away
-from .truth import place_of
+
+NAMES = ("tea pot", "", "cup/", "7cups", "tasse-1")  # that no topic can have
 
 
-def _anywhere(random) -> dict:
-    """A cup and a place within easy reach, 8 cm apart at least, and a force."""
-    near, far = random.uniform(-0.15, -0.12), random.uniform(-0.27, -0.23)
-    first, second = random.sample((near, far), 2)
-    return {
-        "cup": [round(random.uniform(0.335, 0.365), 3), round(first, 3)],
-        "place": [round(random.uniform(0.335, 0.365), 3), round(second, 3)],
-        "force": round(random.uniform(13.0, 16.0), 1),
-    }
+def _near(random: Random) -> list[float]:
+    """Draw a place on the table near the body."""
+    return [random.uniform(0.335, 0.365), random.uniform(-0.15, -0.12)]
 
 
-def _gently(random) -> dict:
-    return {"place": [0.34, -0.26], "force": round(random.uniform(5.0, 6.5), 1)}
+def _aside(random: Random) -> list[float]:
+    """Draw a place farther to the right, 8 cm from any that is near at least."""
+    return [random.uniform(0.335, 0.365), random.uniform(-0.27, -0.23)]
 
 
-def _twice(random) -> dict:
-    """Two places, one after the other."""
-    return {
-        "places": [
-            [round(random.uniform(0.335, 0.365), 3), round(random.uniform(*span), 3)]
-            for span in ((-0.28, -0.24), (-0.15, -0.11))
+def _fetching(random: Random) -> list[Any]:
+    """Ask for what is not there and for what is impossible, then fetch twice, firmly and gently."""
+    first, second = random.sample((_near, _aside), 2)
+    wrong: list[list[Any]] = [
+        ["go", "no frame of ours", HERE, 10.0, "cup", random.choice(("map", "base_link", "", "ODOM"))],
+        [
+            "go",
+            "not finite",
+            random.choice(([random.choice(NUMBERS), -0.25], [0.33, random.choice(NUMBERS)])),
         ],
-        "force": 10.0,
-    }
+        ["go", "no force", HERE, random.choice((-0.1, 0.0, 25.5, *NUMBERS))],
+        ["go", "no name", HERE, 10.0, random.choice(NAMES)],
+        ["go", "unknown", HERE, 10.0, random.choice(("teapot", "cups"))],
+    ]
+    random.shuffle(wrong)
+    asked = [step for go in wrong for step in (go, ["arrive", go[1]])]
+    return [
+        *asked,
+        ["put_cup", *first(random)],
+        *(["go", "firm", second(random), random.uniform(13.0, 16.0)], ["arrive", "firm"]),
+        *(
+            ["wait", AFTERWARDS],
+            ["go", "gentle", first(random), random.uniform(5.0, 6.5)],
+            ["arrive", "gentle"],
+        ),
+    ]
 
 
-def _late(random) -> dict:
-    """A cancel when most of the way is over."""
-    return {"cup": [0.32, -0.10], "place": [0.34, -0.28], "way": round(random.uniform(0.7, 0.85), 2)}
+def _starting_over(random: Random) -> list[Any]:
+    """Cancel while the fingers close, put the cup elsewhere, and fetch it."""
+    return [
+        *(["put_cup", *_near(random)], ["go", "canceled", _aside(random)], ["wait_until", "touching"]),
+        *(["cancel", "canceled"], ["arrive", "canceled"], ["wait", AFTERWARDS]),
+        *(["put_cup", *_aside(random)], ["go", "fetch", _near(random)], ["arrive", "fetch"]),
+    ]
 
 
-ANYWHERE = Scenario("fetch", _anywhere, robot=TABLE)
-GENTLY = Scenario("fetch", _gently, robot=TABLE)
-TWICE = Scenario("fetch_twice", _twice, robot=TABLE)
-NO_NAMES = Scenario("ask_for_the_unknown", {"objects": ["tea pot", "", "teapot"]}, robot=RESTING)
-ON_THE_WAY = Scenario("snatch", {"way": 0.5}, robot=TABLE)
-CLOSING = Scenario("cancel_before_the_grasp", {"closing": True}, robot=TABLE)
-LATE = Scenario("cancel_while_holding", _late, robot=TABLE)
-AGAIN = Scenario("cancel_and_fetch_again", {"place": [0.35, -0.25], "force": 10.0}, robot=TABLE)
+def _on_the_way(random: Random) -> list[Any]:
+    """Cancel when most of the way is over, and take the cup away halfway."""
+    near, aside = [0.32, -0.10], [0.34, -0.28]
+    return [
+        *(["put_cup", *near], ["go", "late", aside, random.uniform(9.0, 11.0)]),
+        *(
+            ["wait_until", "carried", "late", random.uniform(0.7, 0.85)],
+            ["cancel", "late"],
+            ["arrive", "late"],
+        ),
+        *(["wait", AFTERWARDS], ["put_cup", *near], ["go", "lost", aside, random.uniform(9.0, 11.0)]),
+        *(["take_when", "carried", "lost", random.uniform(0.4, 0.55)], ["arrive", "lost"]),
+    ]
+
+
+def _drawn(steps: Callable[[Random], list[Any]]) -> Scenario:
+    return Scenario(
+        "in_order", lambda random: {"steps": rounded([*steps(random), ["wait", AFTERWARDS]])}, robot=TABLE
+    )
+
+
+FETCHING, STARTING_OVER, ON_THE_WAY = map(_drawn, (_fetching, _starting_over, _on_the_way))
 OTHER_NAMESPACE = Scenario(
-    "fetch", {"place": [0.35, -0.25], "force": 10.0}, robot=TABLE, namespace="/lab_7/robot"
+    "in_order",
+    {"steps": [["go", "fetch", [0.35, -0.25]], ["arrive", "fetch"], ["wait", AFTERWARDS]]},
+    robot=TABLE,
+    namespace="/lab_7/robot",
 )
 
-LOOK = "07_cancel_and_preempt#conventions"
+EVERY_GOAL = (  # what holds of it, however it ends
+    model.accepts,
+    model.puts_down,
+    model.names_stages,
+    model.true_stages,
+    model.feedback_at_5_hz,
+    model.no_late_feedback,
+    model.measured,
+    model.percentage,
+    model.keeps_order,
+)
 
-
-@check(points=2, on=ANYWHERE, needs=places_the_cup, see="09_arms#careful-why", clauses=[2, 3, 4])
-def fetches_from_anywhere(run: Transcript) -> None:
-    """It finds the cup wherever it stands, and puts it down wherever it has to stand"""
-    require_placed(run.goal("fetch"))
-
-
-@check(
+fetches_from_anywhere = check_of(
+    "fetches_from_anywhere",
+    model.rejects_frames,
+    model.rejects_not_finite,
+    model.rejects_forces,
+    *EVERY_GOAL,
+    model.places,
+    model.lifts,
+    model.filled_result,
+    title="It finds the cup wherever it stands, puts it down wherever it has to stand, and keeps every clause",
     points=2,
-    on=[ANYWHERE, GENTLY],
+    on=FETCHING,
+    needs=places_the_cup,
+    see="09_arms#careful-why",
+)
+obeys_any_force = check_of(
+    "obeys_any_force",
+    model.places,
+    model.keeps_force,
+    title="It holds the cup with whatever force is asked for, firm or gentle",
+    points=2,
+    on=FETCHING,
     needs=[keeps_the_force, fetches_from_anywhere],
     see="09_arms#force-why",
-    clauses=[3, 5],
 )
-def obeys_any_force(anywhere: Transcript, gently: Transcript) -> None:
-    """It holds the cup with whatever force is asked for, firm or gentle"""
-    for run in (anywhere, gently):
-        require_placed(run.goal("fetch"))
-        require_force_kept(run.goal("fetch"))
-
-
-@check(on=TWICE, needs=places_the_cup, see="09_arms#careful-why", clauses=[3])
-def fetches_twice(run: Transcript) -> None:
-    """After a goal it carries out another"""
-    run.goal("fetch 1").require_accepted()
-    require_placed(run.goal("fetch 2"))
-
-
-@check(on=NO_NAMES, needs=knows_no_teapot, see="09_arms#phases-why", clauses=[11, 17])
-def survives_a_name_that_is_none(run: Transcript) -> None:
-    """An object_id that cannot be part of a topic's name is an unknown object, too"""
-    for number, name in enumerate(run.params["objects"], start=1):
-        require_aborted(
-            run.goal(f"unknown {number}"),
-            "UNKNOWN_OBJECT",
-            because=f"there is no object {name!r}",
-            help="create_subscription() raises InvalidTopicNameException for a name with a space, or an empty one: "
-            "catch it, and abort with UNKNOWN_OBJECT.",
-        )
-
-
-@check(on=ON_THE_WAY, needs=notices_a_lost_cup, see="09_arms#slip-why", clauses=[15, 17])
-def notices_a_loss_on_the_way(run: Transcript) -> None:
-    """When the cup is lost on its way across the goal ends with DROPPED, too"""
-    require_dropped(run.goal("fetch"))
-
-
-@check(on=CLOSING, needs=cancels_before_the_grasp, see="09_arms#lift-why", clauses=[18])
-def cancels_while_closing(run: Transcript) -> None:
-    """A cancel while the fingers close opens them and leaves the cup where it is"""
-    require_left_alone(run.goal("fetch"))
-
-
-@check(points=2, on=LATE, needs=puts_the_cup_back, see="09_arms#put-down-gap", clauses=[19])
-def puts_the_cup_at_the_nearer_place(run: Transcript) -> None:
-    """A cancel when the cup is nearly there puts it at place_pose, then ends CANCELED"""
-    require_put_away(run.goal("fetch"), place_of(run.goal("fetch")), "place_pose, which is nearer")
-
-
-@check(
-    on=AGAIN,
+fetches_twice = check_of(
+    "fetches_twice",
+    model.accepts,
+    model.places_again,
+    title="After a goal it carries out another",
+    on=FETCHING,
+    needs=places_the_cup,
+    see="09_arms#careful-why",
+)
+survives_a_name_that_is_none = check_of(
+    "survives_a_name_that_is_none",
+    model.unknown_objects,
+    model.says_why_it_aborted,
+    title="An object_id that cannot be part of a topic's name is an unknown object, too",
+    on=FETCHING,
+    needs=knows_no_teapot,
+    see="09_arms#phases-why",
+)
+notices_a_loss_on_the_way = check_of(
+    "notices_a_loss_on_the_way",
+    model.lost_object,
+    model.says_why_it_aborted,
+    title="When the cup is lost on its way across the goal ends with DROPPED, too",
+    on=ON_THE_WAY,
+    needs=notices_a_lost_cup,
+    see="09_arms#slip-why",
+)
+cancels_while_closing = check_of(
+    "cancels_while_closing",
+    model.leaves_the_cup,
+    model.answers_cancels,
+    title="A cancel while the fingers close opens them and leaves the cup where it is",
+    on=STARTING_OVER,
+    needs=cancels_before_the_grasp,
+    see="09_arms#lift-why",
+)
+puts_the_cup_at_the_nearer_place = check_of(
+    "puts_the_cup_at_the_nearer_place",
+    model.puts_away,
+    *EVERY_GOAL,
+    model.keeps_force,
+    title="A cancel when the cup is nearly there puts it at place_pose, then ends CANCELED",
+    points=2,
+    on=ON_THE_WAY,
+    needs=puts_the_cup_back,
+    see="09_arms#put-down-gap",
+)
+fetches_after_a_cancel = check_of(
+    "fetches_after_a_cancel",
+    model.accepts,
+    model.places_after_a_cancel,
+    title="After a cancel it carries out another goal",
+    on=STARTING_OVER,
     needs=[cancels_before_the_grasp, places_the_cup],
     see="07_cancel_and_preempt#fix-intro",
-    clauses=[3],
 )
-def fetches_after_a_cancel(run: Transcript) -> None:
-    """After a cancel it carries out another goal"""
-    run.goal("canceled").require_canceled()
-    require_placed(run.goal("fetch"))
-
-
-works_in_any_namespace = _works_in_any_namespace(
-    "fetches the cup",
-    lambda run: require_placed(run.goal("fetch")),
-    on=OTHER_NAMESPACE,
-    needs=places_the_cup,
-    clauses=[21],
+works_in_any_namespace = standard_hidden.works_in_any_namespace(
+    "fetches the cup", model.places, clauses=[21], on=OTHER_NAMESPACE, needs=places_the_cup
 )

@@ -1,34 +1,34 @@
-"""Judges how the cup was held while it was off the table."""
+"""How the cup is held while it is off the table."""
 
 from __future__ import annotations
 
+import math
+
 from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
-from autograder.authoring.goal import Goal
+from autograder.authoring.goal import SUCCEEDED, Goal
 from autograder.authoring.goal_endings import why_rclpy_aborted
+from autograder.authoring.walking.life import ended_at, phase
 
-from .endings import require_succeeded
-from .truth import (
-    Grip,
-    carried,
-    reports,
-    taken_from,
-)
+from .life import canceled_at, holds_at, is_for_the_cup, robbed_at
+from .objections import MOST_FORCE
+from .truth import carried, reports, taken_from
 
 HIGH = 0.05  # m
 BAND = 0.30  # of the force that was asked for
-MOST_FORCE = 25.0  # N
-HOLDING = 1.0  # N
 GLITCHES = 0.02  # of the samples
+ENOUGH = 5  # samples
+GENTLE, FIRM = 7.0, 12.0  # N
 
 
-def require_lifted(goal: Goal) -> None:
-    """Require that the cup was lifted on its way."""
-    result = require_succeeded(goal)
+def lifts(goal: Goal) -> str | None:
+    """It lifts the cup on its way, by 5 cm at least."""
+    result = goal.result
+    if result is None or result.status != SUCCEEDED:
+        return None
     height = taken_from(goal)[2]
-    top = (
-        max(cup.position[2] for cup in reports(goal.run, ev.ObjectTruth, goal.accepted_at, result.t)) - height
-    )
+    cups = reports(goal.run, ev.ObjectTruth, goal.accepted_at, result.t)
+    top = max(cup.position[2] for cup in cups) - height
     expect(
         top >= HIGH,
         expected=f"the cup lifted by at least {HIGH:.2f} m on its way",
@@ -36,14 +36,27 @@ def require_lifted(goal: Goal) -> None:
         help="Close the hand, move it straight up by 0.12 m, then across, then down.",
         at=result.t,
     )
+    return phase(goal)
 
 
-def require_force_kept(goal: Goal) -> None:
-    """Require that the force was within 30 % of what was asked for while the cup was off the table."""
-    result = require_succeeded(goal)
+def keeps_the_force_asked_for(goal: Goal) -> str | None:
+    """While the cup is off the table the measured force is grasp_force, within 30 %."""
+    if not is_for_the_cup(goal):
+        return None
+    until = min(ended_at(goal), robbed_at(goal) or math.inf, goal.run.end)
+    held = carried(goal, until)
+    if goal.status == SUCCEEDED:
+        expect(
+            len(held) >= ENOUGH,
+            expected="the cup off the table for a while",
+            observed="it never was",
+            help="Close the hand around the cup and lift it.",
+            at=until,
+        )
+    if len(held) < ENOUGH:
+        return None
     wanted = goal.request.grasp_force
     low, high = wanted * (1 - BAND), min(MOST_FORCE, wanted * (1 + BAND))
-    held = _require_carried(goal, result.t)
     outside = [grip for grip in held if not low <= grip.force <= high or grip.strongest > MOST_FORCE]
     worst = max(held, key=lambda grip: abs(grip.force - wanted))
     expect(
@@ -55,26 +68,14 @@ def require_force_kept(goal: Goal) -> None:
         "lift.",
         at=worst.t,
     )
-
-
-def _require_carried(goal: Goal, until: float) -> list[Grip]:
-    """Return hand and cup while the cup was off the table, which it must have been."""
-    held = carried(goal, until)
-    expect(
-        len(held) >= 5,
-        expected="the cup off the table for a while",
-        observed="it never was",
-        help="Close the hand around the cup and lift it.",
-        at=until,
-    )
-    return held
+    how = "firm" if wanted > FIRM else "gentle" if wanted < GENTLE else "as usual"
+    return how if canceled_at(goal) is None else f"{how}, canceled"
 
 
 def require_held_when(goal: Goal, t: float) -> None:
     """Require that the cup hung in the hand at a time (s); otherwise the scenario has not tested anything."""
-    held = carried(goal, t)
     expect(
-        bool(held) and held[-1].t >= t - 0.3 and held[-1].force >= HOLDING,
+        holds_at(goal, t),
         expected="the cup off the table, in the hand, by then",
         observed="it is not",
         help=why_rclpy_aborted(goal) or "Grasp the cup and lift it before anything else is done with it.",

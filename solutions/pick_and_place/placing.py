@@ -1,28 +1,22 @@
-"""Judges where the cup and the hand are in the end."""
+"""Where the cup and the hand are in the end."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
-from autograder.authoring.goal import Goal
+from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring.walking.life import ended_at, phase
 from autograder.authoring.walking.reports import require_error_code
+from humanoid_interfaces.msg import RobotState
 
-from .endings import require_robot_upright, require_succeeded
-from .truth import (
-    LIFTED,
-    as_tuple,
-    carried,
-    cup_at,
-    grip_at,
-    grips,
-    place_of,
-    reports,
-    taken_from,
-)
+from .endings import require_succeeded
+from .life import commanded, ends_by_itself, is_for_the_cup, is_possible, robbed_at, watched_until
+from .truth import LIFTED, as_tuple, carried, cup_at, grip_at, grips, place_of, reports, taken_from
 
+LONGEST, SLACK = 60.0, 1.0  # s
 PLACED = 0.03  # m
 HEIGHT = 0.02  # m above or below
 UPRIGHT = 0.98
@@ -32,16 +26,24 @@ WITHDRAWN = 0.08  # m from the pads' middle to the cup's, or to where it was
 OPENED = 0.065  # m; the cup has 6 cm
 LOOSE = 0.3  # N
 SAMPLES = 2  # of the simulator's 50 a second that are no accident
+_FALLEN = RobotState.FALLEN
 
 
-def require_placed(goal: Goal) -> None:
-    """Require that the goal SUCCEEDED with the cup upright and at rest at its place, and the hand off it."""
+def places(goal: Goal) -> str | None:
+    """It SUCCEEDS, and the cup then stands within 0.03 m of place_pose, upright, at rest, with the hand off it."""
+    if not ends_by_itself(goal) or not is_possible(goal):
+        return None
     result = require_succeeded(goal)
-    require_standing(
-        goal, place_of(goal), result.t, "place_pose", lesson=_advice_on_the_place(goal, result.t)
+    require_standing(goal, place_of(goal), "place_pose", lambda: _advice_on_the_place(goal, result.t))
+    took = result.t - goal.accepted_at
+    expect(
+        took <= LONGEST + SLACK,
+        expected=f"a goal of at most {LONGEST:.0f} s",
+        observed=f"it took {took:.0f} s",
+        help="Move the hand at 0.1 to 0.2 m/s, and wait for what is measured instead of a fixed time.",
+        at=result.t,
     )
-    require_put_down(goal)
-    require_robot_upright(goal.run, goal.accepted_at, result.t)
+    return phase(goal)
 
 
 def _advice_on_the_place(goal: Goal, t: float) -> str:
@@ -58,10 +60,17 @@ def _advice_on_the_place(goal: Goal, t: float) -> str:
     )
 
 
-def require_standing(goal: Goal, place: Sequence[float], since: float, name: str, lesson: str) -> None:
-    """Require that the cup stands at a place from `since` (s) to the end, upright and at rest, with no hand on it."""
-    run = goal.run
-    cups = reports(run, ev.ObjectTruth, since, run.end)
+def require_standing(goal: Goal, place: Sequence[float], name: str, lesson: Callable[[], str]) -> None:
+    """Require that the cup stands at a place from the goal's end on, upright and at rest, with no hand on it.
+
+    Args:
+        goal: which has ended.
+        place: x, y and z in odom (m).
+        name: of the place.
+        lesson: what to do if the cup is elsewhere.
+    """
+    since = ended_at(goal)
+    cups = reports(goal.run, ev.ObjectTruth, since, watched_until(goal))
     off, worst = max(
         ((math.dist(cup.position[:2], place[:2]), cup) for cup in cups), key=lambda pair: pair[0]
     )
@@ -69,7 +78,7 @@ def require_standing(goal: Goal, place: Sequence[float], since: float, name: str
         off <= PLACED,
         expected=f"the cup within {PLACED:.2f} m of {name} (x {place[0]:.2f}, y {place[1]:.2f} m) at the end",
         observed=f"{off:.2f} m away in the simulator (x {worst.position[0]:.2f}, y {worst.position[1]:.2f} m)",
-        help=lesson,
+        help=lesson() if off > PLACED else "",
         at=worst.t,
     )
     tilted = min(cups, key=lambda cup: cup.up)
@@ -91,9 +100,13 @@ def require_standing(goal: Goal, place: Sequence[float], since: float, name: str
     require_withdrawn(goal, since, place)
 
 
-def require_put_down(goal: Goal) -> None:
-    """Require that the cup was never let go in the air."""
-    loose = [grip for grip in carried(goal, goal.run.end) if grip.force < LOOSE]
+def puts_down(goal: Goal) -> str | None:
+    """The object is put down, not dropped, and the robot keeps its balance."""
+    if not is_for_the_cup(goal) or robbed_at(goal) or commanded(goal, "push"):
+        return None
+    until = watched_until(goal)
+    held = carried(goal, until)
+    loose = [grip for grip in held if grip.force < LOOSE]
     expect(
         len(loose) < SAMPLES,
         expected="the cup put down, not dropped",
@@ -101,11 +114,22 @@ def require_put_down(goal: Goal) -> None:
         help="Lower it until objects/cup/pose says that it stands, and only then open the hand.",
         at=loose[0].t if loose else None,
     )
+    fallen = next(
+        (each for each in goal.run.robot_between(goal.accepted_at, until) if each.mode == _FALLEN), None
+    )
+    expect(
+        fallen is None,
+        expected="a robot that keeps its balance while it reaches",
+        observed="it fell",
+        help="Publish nothing on motor_power, and give the arm time: a long reach in a jerk topples the robot.",
+        at=fallen.t if fallen else None,
+    )
+    return "lifted" if held else "left on the table"
 
 
 def require_withdrawn(goal: Goal, since: float, place: Sequence[float], *, opened: float = 0.0) -> None:
-    """Require that the hand was off the cup and its place from `since` (s) to the end, and open by `opened` (m)."""
-    for grip in grips(goal.run, since, goal.run.end):
+    """Require that the hand was off the cup and its place from `since` (s) on, and open by `opened` (m)."""
+    for grip in grips(goal.run, since, watched_until(goal)):
         near = min(grip.distance, math.dist(grip.hand, place))
         expect(
             near >= WITHDRAWN and grip.opening >= opened,
@@ -117,9 +141,11 @@ def require_withdrawn(goal: Goal, since: float, place: Sequence[float], *, opene
         )
 
 
-def require_filled_result(goal: Goal) -> None:
-    """Require that the result tells where the cup is, and the largest force."""
-    result = require_succeeded(goal)
+def fills_the_result_in(goal: Goal) -> str | None:
+    """The result tells where the cup is, and the largest force that was measured."""
+    result = goal.result
+    if result is None or result.status != SUCCEEDED:
+        return None
     require_error_code(goal, "NONE", because="the cup is at its place")
     goal.expect(
         "error_msg", "", because="nothing went wrong", help="Fill error_msg only when the goal is aborted."
@@ -144,3 +170,4 @@ def require_filled_result(goal: Goal) -> None:
         help="Keep the largest force.y of r_gripper/wrench since the goal began, not the one that was asked for.",
         at=result.t,
     )
+    return phase(goal)

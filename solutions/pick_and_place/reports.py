@@ -1,4 +1,4 @@
-"""Compares what the server says in its feedback with what hand and cup did."""
+"""What the server says in its feedback, beside what hand and cup did."""
 
 from __future__ import annotations
 
@@ -8,12 +8,16 @@ from itertools import pairwise
 
 from autograder.authoring import events as ev
 from autograder.authoring.failure import expect
-from autograder.authoring.feedback import end_of_feedback, require_feedback
+from autograder.authoring.feedback import end_of_feedback, require_feedback, require_good_feedback_rate
 from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring.walking.life import accepted, ended_at, interrupted, left_alone
 from humanoid_interfaces.action import PickAndPlace
+from ros_runtime.message_constants import GoalStatus, name_of
 
+from .life import canceled_at, commanded, is_for_the_cup, robbed_at
 from .truth import Grip, around, as_tuple, grips, taken_from
 
+LONG = 3.0  # s; a goal of less tells little about its feedback
 AGE = 0.7  # s that what feedback tells may be old
 AHEAD = 0.3  # s that a stage may be named before it begins
 PLACE_SLACK = 0.04  # m
@@ -30,10 +34,18 @@ STAGES = (
 )
 
 
-def require_stages_in_order(goal: Goal) -> None:
-    """Require that a goal that SUCCEEDED went through all stages, in the order of the constants, each once."""
-    require_feedback(goal)
-    goal.require_result(SUCCEEDED)
+def feedback_at_5_hz(goal: Goal) -> str | None:
+    """Feedback comes at 5 Hz without a gap over 1 s."""
+    if not _is_worth_telling(goal):
+        return None
+    require_good_feedback_rate(goal)
+    return _how_it_ended(goal)
+
+
+def names_stages_in_order(goal: Goal) -> str | None:
+    """The stage goes through approaching, grasping, lifting, moving, placing, retreating."""
+    if not accepted(goal) or not goal.feedback:
+        return None
     named = [event.feedback.stage for event in goal.feedback]
     unknown = next((stage for stage in named if stage not in STAGES), None)
     expect(
@@ -42,6 +54,8 @@ def require_stages_in_order(goal: Goal) -> None:
         observed=f"{unknown!r}",
         help="Use the constants of PickAndPlace.Feedback: they are written in small letters.",
     )
+    if goal.status != SUCCEEDED:
+        return _how_it_ended(goal)
     order = [named[0], *(after for before, after in pairwise(named) if after != before)]
     expect(
         order == list(STAGES),
@@ -51,12 +65,13 @@ def require_stages_in_order(goal: Goal) -> None:
         "for the hand, the fingers or an answer.",
         at=goal.feedback[0].t,
     )
+    return _how_it_ended(goal)
 
 
-def require_true_stages(goal: Goal) -> None:
-    """Require that hand and cup did what the stage says, at about that time."""
-    require_feedback(goal)
-    end_of_feedback(goal)
+def stages_are_true_at(goal: Goal) -> str | None:
+    """Each stage is named while it lasts."""
+    if not _is_worth_telling(goal):
+        return None
     height = taken_from(goal)[2]
     signs: dict[str, tuple[str, Callable[[Grip], bool]]] = {
         _FEEDBACK.APPROACHING: ("nothing between the fingers", lambda grip: grip.force < FELT),
@@ -64,10 +79,10 @@ def require_true_stages(goal: Goal) -> None:
         _FEEDBACK.MOVING: ("the cup off the table", lambda grip: grip.cup[2] > height + ABOVE),
         _FEEDBACK.RETREATING: ("nothing between the fingers any more", lambda grip: grip.force < FELT),
     }
-    whole = _seen_by(goal)
+    whole, cut = _seen_by(goal), min(canceled_at(goal) or math.inf, robbed_at(goal) or math.inf)
     for event in goal.feedback:
         stage = event.feedback.stage
-        if stage not in signs:
+        if stage not in signs or event.t > cut:
             continue
         what, is_so = signs[stage]
         seen = around(whole, event.t - AGE, event.t + AHEAD)
@@ -78,12 +93,13 @@ def require_true_stages(goal: Goal) -> None:
             help="Set the stage when it begins, not when it is over.",
             at=event.t,
         )
+    return _how_it_ended(goal)
 
 
-def require_true_values(goal: Goal) -> None:
-    """Require that hand_pose, distance_to_object and grasp_force are those measured at about that time."""
-    require_feedback(goal)
-    end_of_feedback(goal)
+def values_are_measured(goal: Goal) -> str | None:
+    """hand_pose, distance_to_object and grasp_force in the feedback are measured."""
+    if not _is_worth_telling(goal):
+        return None
     whole = _seen_by(goal)
     for event in goal.feedback:
         seen = around(whole, event.t - AGE, event.t)
@@ -104,6 +120,28 @@ def require_true_values(goal: Goal) -> None:
             "N",
             "It is wrench.force.y of the last r_gripper/wrench, not what the goal asks for.",
         )
+    return _how_it_ended(goal)
+
+
+def _is_worth_telling(goal: Goal) -> bool:
+    """Return whether there was a cup to tell of, and no fall or Ctrl-C ended it; then there has to be feedback."""
+    if (
+        not accepted(goal)
+        or left_alone(goal)
+        or interrupted(goal)
+        or not is_for_the_cup(goal)
+        or commanded(goal, "push")
+    ):
+        return False
+    if ended_at(goal) < goal.accepted_at + LONG:
+        return False
+    require_feedback(goal)
+    end_of_feedback(goal)
+    return True
+
+
+def _how_it_ended(goal: Goal) -> str:
+    return name_of(GoalStatus, goal.status or GoalStatus.UNKNOWN)
 
 
 def _seen_by(goal: Goal) -> list[Grip]:
@@ -113,8 +151,8 @@ def _seen_by(goal: Goal) -> list[Grip]:
 
 def _require_true_hand(event: ev.FeedbackReceived, seen: Sequence[Grip]) -> None:
     said = event.feedback.hand_pose
-    off = min(math.dist(as_tuple(said.pose.position), grip.hand) for grip in seen)
-    x, y, z = seen[-1].hand
+    (x, y, z), claimed = seen[-1].hand, as_tuple(said.pose.position)
+    off = min(math.dist(claimed, grip.hand) for grip in seen)
     expect(
         said.header.frame_id == "odom" and off <= PLACE_SLACK,
         expected=f"feedback.hand_pose in frame odom near x {x:.2f}, y {y:.2f}, z {z:.2f} m",
@@ -138,11 +176,12 @@ def _require_between(
     )
 
 
-def require_rising_percentage(goal: Goal) -> None:
-    """Require that percent_complete stays within 0 to 100, never falls, and has come far at the end."""
-    require_feedback(goal)
-    goal.require_result(SUCCEEDED)
-    said = [(event.t, float(event.feedback.percent_complete)) for event in goal.feedback]
+def percentage_never_falls(goal: Goal) -> str | None:
+    """percent_complete rises from 0 towards 100 and never falls."""
+    if not _is_worth_telling(goal):
+        return None
+    cut = canceled_at(goal) or math.inf
+    said = [(event.t, float(event.feedback.percent_complete)) for event in goal.feedback if event.t < cut]
     for t, percent in said:
         expect(
             0.0 <= percent <= 100.0 + ROUNDING,
@@ -159,6 +198,8 @@ def require_rising_percentage(goal: Goal) -> None:
             help="Give each stage its own share of the 100 percent: the second begins where the first one ends.",
             at=t,
         )
+    if goal.status != SUCCEEDED:
+        return _how_it_ended(goal)
     last_t, last = said[-1]
     expect(
         last >= MUCH,
@@ -167,3 +208,4 @@ def require_rising_percentage(goal: Goal) -> None:
         help="It is a percentage, 0 to 100, of the whole task.",
         at=last_t,
     )
+    return _how_it_ended(goal)

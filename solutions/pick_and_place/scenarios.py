@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from geometry_msgs.msg import PoseStamped
 
 from autograder.arena import events as ev
-from autograder.arena.stage import ActionClient, Stage
+from autograder.arena.sequence import Steps, carry_out
+from autograder.arena.stage import Goal, Stage
 from humanoid_interfaces.action import PickAndPlace
 
 Place = Sequence[float]  # x, y m in odom; the height is that of a cup on the table
+Condition = Callable[[ev.HandTruth, ev.ObjectTruth], bool]
 
 SETTLING = 1.0  # s for the robot's topics to arrive, and for a moved cup to stand
-AFTERWARDS = 1.5  # s after a result in which nothing more may happen
 WHOLE = 60.0  # s for a goal
+SOON = 15.0  # s for a goal that something has ended, and for every one when another was waited for in vain
 STARTING = 40.0  # s until the hand has come somewhere
 ON_THE_TABLE = 0.755  # m, the height of the cup's centre
 ASIDE = (0.50, 0.30, ON_THE_TABLE)  # m, out of the right hand's way
@@ -28,195 +30,112 @@ JOINTS = [
 ]
 
 
-def fetch(stage: Stage, place: Place, force: float, cup: Place | None = None) -> None:
-    """Have the cup put down at a place, held with so much force (N); `cup`: where it stands at first."""
-    goal = _open(stage, cup).send_and_wait(_goal(place, force), as_="fetch")
-    goal.wait_for_result(WHOLE)
-    stage.wait(AFTERWARDS)
+def in_order(stage: Stage, steps: Steps, watched: Sequence[str] = ("hand",)) -> None:
+    """Send goals, wait for the hand, ask to cancel, take the cup away: in the order of the steps.
 
-
-def fetch_twice(stage: Stage, places: Sequence[Place], force: float) -> None:
-    """Have the cup put down at two places, one after the other: goals 'fetch 1' and 'fetch 2'."""
-    server = _open(stage)
-    for number, place in enumerate(places, start=1):
-        goal = server.send_and_wait(_goal(place, force), as_=f"fetch {number}")
-        if not goal.wait_for_result(WHOLE):
-            return
-    stage.wait(AFTERWARDS)
-
-
-def ask_for_the_impossible(stage: Stage) -> None:
-    """Send goals with something wrong in each, by name."""
-    server = _open(stage, watched=False)
-    here = (0.33, -0.25)
-    wrong = {
-        "wrong frame": _goal(here, frame="map"),
-        "no frame": _goal(here, frame=""),
-        "NaN place": _goal((math.nan, -0.25)),
-        "infinite place": _goal((0.33, -math.inf)),
-        "NaN force": _goal(here, math.nan),
-        "no force": _goal(here, 0.0),
-        "negative force": _goal(here, -8.0),
-        "too much force": _goal(here, 40.0),
-    }
-    for name, goal in wrong.items():
-        server.send_and_wait(goal, as_=name)
-    stage.wait(AFTERWARDS)
-
-
-def ask_for_the_unknown(stage: Stage, objects: Sequence[str]) -> None:
-    """Ask for objects that are not there, one after the other: goals 'unknown 1', 'unknown 2', …"""
-    server = _open(stage, watched=False)
-    for number, name in enumerate(objects, start=1):
-        goal = server.send_and_wait(_goal((0.33, -0.25), name=name), as_=f"unknown {number}")
-        if not goal.wait_for_result(WHOLE):
-            return
-
-
-def ask_for_the_far(stage: Stage, place: Place, cup: Place | None = None) -> None:
-    """Ask for a place, or for a cup, beyond the hand's reach."""
-    server = _open(stage, cup)
-    stage.robot.report_joints(JOINTS)
-    stage.robot.wait_for_commands()
-    goal = server.send_and_wait(_goal(place), as_="far")
-    goal.wait_for_result(WHOLE)
-    stage.wait(AFTERWARDS)
-
-
-def take_away(stage: Stage, cup: Place | None = None) -> None:
-    """Take the cup away when the hand begins to close around it."""
-    goal = _open(stage, cup).send_and_wait(_goal((0.35, -0.27)), as_="fetch")
-    if stage.robot.wait_for_hand(_closes, STARTING):
-        stage.mark("taken")
-        stage.robot.move_object("cup", ASIDE)
-    goal.wait_for_result(WHOLE)
-    stage.wait(AFTERWARDS)
-
-
-def snatch(stage: Stage, way: float) -> None:
-    """Take the cup out of the hand when it has been lifted, and carried so much (0..1) of its way."""
-    cup, place = (0.32, -0.10), (0.34, -0.28)
-    goal = _open(stage, cup).send_and_wait(_goal(place), as_="fetch")
-    if _let_it_carry(stage, cup, place, way):
-        stage.mark("taken")
-        stage.robot.move_object("cup", ASIDE)
-    goal.wait_for_result(WHOLE)
-    stage.wait(AFTERWARDS)
-
-
-def cancel_before_the_grasp(stage: Stage, closing: bool) -> None:
-    """Cancel when the hand comes near the cup, or when its fingers have just touched it."""
-    goal = _open(stage).send_and_wait(_goal((0.35, -0.27)), as_="fetch")
-    stage.robot.wait_for_hand(_touches if closing else _approaches, STARTING)
-    goal.cancel().wait()
-    goal.wait_for_result(WHOLE)
-    stage.wait(AFTERWARDS)
-
-
-def cancel_while_holding(stage: Stage, cup: Place, place: Place, way: float) -> None:
-    """Cancel when the cup has been lifted, and carried so much (0..1) of its way."""
-    goal = _open(stage, cup).send_and_wait(_goal(place), as_="fetch")
-    _let_it_carry(stage, cup, place, way)
-    goal.cancel().wait()
-    goal.wait_for_result(WHOLE)
-    stage.wait(AFTERWARDS)
-
-
-def cancel_and_fetch_again(stage: Stage, place: Place, force: float) -> None:
-    """Cancel a goal before the grasp, then send another."""
-    server = _open(stage)
-    canceled = server.send_and_wait(_goal((0.35, -0.27)), as_="canceled")
-    stage.robot.wait_for_hand(_approaches, STARTING)
-    canceled.cancel().wait()
-    canceled.wait_for_result(WHOLE)
-    server.send_and_wait(_goal(place, force), as_="fetch").wait_for_result(WHOLE)
-    stage.wait(AFTERWARDS)
-
-
-def ask_for_two(stage: Stage) -> None:
-    """Send a second goal while the cup hangs in the hand."""
-    server = _open(stage)
-    first = server.send_and_wait(_goal((0.35, -0.27)), as_="first")
-    stage.robot.wait_for_hand(_is_lifted, STARTING)
-    second = server.send_and_wait(_goal((0.34, -0.10)), as_="second")
-    first.wait_for_result(WHOLE)
-    if second.accepted:
-        second.wait_for_result(WHOLE)
-    stage.wait(AFTERWARDS)
-
-
-def block(stage: Stage) -> None:
-    """Hold the elbow from when the hand is above the table, until the goal has ended."""
-    goal = _open(stage).send_and_wait(_goal((0.35, -0.27)), as_="fetch")
-    stage.robot.wait_for_hand(lambda hand, cup: hand.position[2] > ON_THE_TABLE - 0.03, STARTING)
-    stage.robot.hold_joint("r_elbow")
-    goal.wait_for_result(WHOLE)
-    stage.robot.release_joint("r_elbow")
-    stage.wait(AFTERWARDS)
-
-
-def fall(stage: Stage, impulse: tuple[float, float, float]) -> None:
-    """Knock the robot over (N·s in odom) while it reaches for the cup."""
-    goal = _open(stage).send_and_wait(_goal((0.35, -0.27)), as_="fetch")
-    stage.robot.wait_for_hand(_approaches, STARTING)
-    stage.robot.knock_over(impulse)
-    goal.wait_for_result(15.0)
-
-
-def interrupt(stage: Stage) -> None:
-    """Press Ctrl-C while no goal is active."""
-    _open(stage, watched=False)
-    stage.interrupt_node()
-
-
-def _open(stage: Stage, cup: Place | None = None, *, watched: bool = True) -> ActionClient:
-    """Open the stage, with the cup at a place of its own; `watched`: record what hand and cup do."""
-    server = stage.action("pick_and_place", PickAndPlace)
+    Args:
+        stage: the arena.
+        steps: each a verb of `_Table` with its arguments.
+        watched: what to record of the robot: its "hand" and the cup, the "joints" of its arm.
+    """
+    table = _Table(stage)
     stage.open()
-    if watched:
-        _watch(stage, cup)
-    stage.wait(SETTLING)
-    return server
-
-
-def _watch(stage: Stage, cup: Place | None) -> None:
-    stage.robot.report_hand("r")
-    stage.robot.report_object("cup")
-    if cup is not None:
-        stage.robot.move_object("cup", (*cup, ON_THE_TABLE))
+    if "hand" in watched:
+        stage.robot.report_hand("r")
+        stage.robot.report_object("cup")
+    if "joints" in watched:
+        stage.robot.report_joints(JOINTS)
     stage.robot.wait_for_commands()
+    stage.wait(SETTLING)
+    carry_out(stage, steps, table.vocabulary())
 
 
-def _goal(place: Place, force: float = 10.0, frame: str = "odom", name: str = "cup") -> PickAndPlace.Goal:
-    pose = PoseStamped()
-    pose.header.frame_id = frame
-    pose.pose.position.x, pose.pose.position.y = place
-    pose.pose.position.z = ON_THE_TABLE
-    return PickAndPlace.Goal(object_id=name, place_pose=pose, grasp_force=force)
+class _Table:
+    """Sends goals, by name, and does things to them, to the robot, and to the cup."""
 
+    def __init__(self, stage: Stage) -> None:
+        self._stage = stage
+        self._action = stage.action("pick_and_place", PickAndPlace)
+        self._goals: dict[str, Goal] = {}
+        self._places: dict[str, Place] = {}
+        self._waited_in_vain = False
 
-def _approaches(hand: ev.HandTruth, cup: ev.ObjectTruth) -> bool:
-    return math.dist(hand.position, cup.position) < 0.06
+    def vocabulary(self) -> dict[str, Callable[..., object]]:
+        robot = self._stage.robot
+        return {
+            "go": self.go,
+            "arrive": self.arrive,
+            "end": lambda name: self._goals[name].wait_for_result(SOON),
+            "cancel": lambda name: self._goals[name].cancel().wait(),
+            "wait_until": self.wait_until,
+            "take_when": self.take_when,
+            "put_cup": self.put_cup,
+            "hold": robot.hold_joint,
+            "release": robot.release_joint,
+            "knock_over": lambda *impulse: robot.knock_over(impulse),
+            "wait": self._stage.wait,
+            "interrupt": self._stage.interrupt_node,
+        }
 
+    def go(
+        self, name: str, place: Place, force: float = 10.0, thing: str = "cup", frame: str = "odom"
+    ) -> None:
+        """Send a goal, with a force in N, and wait for its answer."""
+        pose = PoseStamped()
+        pose.header.frame_id = frame
+        pose.pose.position.x, pose.pose.position.y = place
+        pose.pose.position.z = ON_THE_TABLE
+        self._places[name] = place
+        goal = PickAndPlace.Goal(object_id=thing, place_pose=pose, grasp_force=force)
+        self._goals[name] = self._action.send_and_wait(goal, as_=name)
 
-def _closes(hand: ev.HandTruth, cup: ev.ObjectTruth) -> bool:
-    return math.dist(hand.position, cup.position) < 0.05 and hand.opening < OPEN
+    def arrive(self, name: str) -> None:
+        """Wait for the end of a goal: so long as it may take, unless another has kept the scenario waiting in vain."""
+        goal = self._goals[name]
+        if goal.accepted and not goal.wait_for_result(SOON if self._waited_in_vain else WHOLE):
+            self._waited_in_vain = True
 
+    def wait_until(self, what: str, name: str = "", way: float = 0.0) -> bool:
+        """Wait until the hand has come so far; 'carried': with the cup, so much (0..1) of a goal's way."""
+        condition = self._carried(name, way) if what == "carried" else _CONDITIONS[what]
+        has_come = self._stage.robot.wait_for_hand(condition, SOON if self._waited_in_vain else STARTING)
+        self._waited_in_vain = self._waited_in_vain or not has_come
+        return True
 
-def _touches(hand: ev.HandTruth, cup: ev.ObjectTruth) -> bool:
-    return min(hand.forces) > TOUCHED
+    def take_when(self, what: str, name: str = "", way: float = 0.0) -> bool:
+        """Take the cup away when the hand has come so far; return whether it has."""
+        self.wait_until(what, name, way)
+        if not self._waited_in_vain:
+            self._stage.robot.move_object("cup", ASIDE)
+        return not self._waited_in_vain
+
+    def put_cup(self, x: float, y: float) -> None:
+        """Put the cup somewhere (m in odom) on the table."""
+        self._stage.robot.move_object("cup", (x, y, ON_THE_TABLE))
+        self._stage.robot.wait_for_commands()
+        self._stage.wait(SETTLING)
+
+    def _carried(self, name: str, way: float) -> Condition:
+        """Return when the cup has been lifted, and carried so much of the way that there is from here."""
+        place = self._places[name]
+        lengths: list[float] = []
+
+        def is_there(hand: ev.HandTruth, cup: ev.ObjectTruth) -> bool:
+            left = math.dist(cup.position[:2], place)
+            lengths.append(left)
+            return _is_lifted(hand, cup) and left <= (1.0 - way) * lengths[0] + 0.02
+
+        return is_there
 
 
 def _is_lifted(hand: ev.HandTruth, cup: ev.ObjectTruth) -> bool:
     return cup.position[2] > ON_THE_TABLE + 0.04
 
 
-def _let_it_carry(stage: Stage, cup: Place, place: Place, way: float) -> bool:
-    """Wait until the cup has been lifted, and carried so much (0..1) of its way; return whether it was."""
-    length = math.dist(cup, place)
-
-    def is_there(hand: ev.HandTruth, thing: ev.ObjectTruth) -> bool:
-        left = math.dist(thing.position[:2], place)
-        return _is_lifted(hand, thing) and left <= (1.0 - way) * length + 0.02
-
-    return stage.robot.wait_for_hand(is_there, STARTING)
+_CONDITIONS: dict[str, Condition] = {
+    "near": lambda hand, cup: math.dist(hand.position, cup.position) < 0.06,
+    "closing": lambda hand, cup: math.dist(hand.position, cup.position) < 0.05 and hand.opening < OPEN,
+    "touching": lambda hand, cup: min(hand.forces) > TOUCHED,
+    "lifted": _is_lifted,
+    "above the table": lambda hand, cup: hand.position[2] > ON_THE_TABLE - 0.03,
+}

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from geometry_msgs.msg import Point
 
@@ -20,8 +19,7 @@ LIFTED = 0.02  # m above where it stood: the table carries nothing of it
 E = TypeVar("E", ev.HandTruth, ev.ObjectTruth, ev.JointsTruth)
 
 
-@dataclass(frozen=True)
-class Grip:
+class Grip(NamedTuple):
     """A hand and the cup at one time.
 
     Attributes:
@@ -48,10 +46,9 @@ class Grip:
 def reports(run: RobotRecord, kind: type[E], start: float, end: float) -> Sequence[E]:
     """Return the simulator's reports of one kind from `start` to `end` (s); there must be some from end to end."""
     found = run.all(kind)
-    times = [report.t for report in found]
-    if not times or times[0] > start + LONGEST_GAP or times[-1] < end - LONGEST_GAP:
+    if not found or found[0].t > start + LONGEST_GAP or found[-1].t < end - LONGEST_GAP:
         raise unseen(run, f"nothing is known of hand and cup at {end:.1f} s")
-    first, last = bisect_left(times, start), bisect_right(times, end)
+    first, last = bisect_left(found, start, key=_time), bisect_right(found, end, key=_time)
     return found[first:last] or [found[max(0, last - 1)]]
 
 
@@ -89,8 +86,8 @@ def around(seen: Sequence[Grip], start: float, end: float) -> Sequence[Grip]:
     return seen[first:last] or seen[max(0, last - 1) : max(1, last)]
 
 
-def _time(grip: Grip) -> float:
-    return grip.t
+def _time(seen: Grip | E) -> float:
+    return seen.t
 
 
 def carried(goal: Goal, until: float) -> list[Grip]:

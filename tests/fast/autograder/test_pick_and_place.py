@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -178,10 +177,7 @@ def aborted(code: int, *more: Any, **change: Any) -> Transcript:
     return fetched(more=more, status=GoalStatus.STATUS_ABORTED, result=result, **change)
 
 
-TAKEN = [
-    ev.Mark(t=7.0, name="taken"),
-    *commanded(7.01, do="move_object", name="cup", position=[0.5, 0.3, TABLE]),
-]
+TAKEN = commanded(7.01, do="move_object", name="cup", position=[0.5, 0.3, TABLE])
 
 
 def lost(t: float) -> tuple[float, float, float]:
@@ -193,7 +189,7 @@ def test_a_lost_cup_ends_with_its_code() -> None:
     wrong = aborted(PickAndPlace.Result.GRASP_FAILED, *TAKEN, cup=lost)
     assert "DROPPED" in failure_of(CHECKS["notices_a_lost_cup"].run, [wrong]).expected
     silent = aborted(PickAndPlace.Result.DROPPED, *TAKEN, cup=lost, result={"error_msg": " "})
-    assert "a reason for people" in failure_of(CHECKS["notices_a_lost_cup"].run, [silent]).expected
+    assert "why the goal was ABORTED" in failure_of(CHECKS["notices_a_lost_cup"].run, [silent]).expected
     happy = fetched(more=TAKEN, cup=lost)
     assert (
         "look at r_gripper/wrench in every round"
@@ -217,23 +213,12 @@ def test_a_server_that_gives_up_is_asked_about_its_own_reason(code: int, words: 
 
 
 def test_a_cup_that_was_never_taken_away_says_nothing_of_the_server() -> None:
-    never = aborted(PickAndPlace.Result.DROPPED, TAKEN[0])
+    never = aborted(PickAndPlace.Result.DROPPED)
     with pytest.raises(CannotBeJudged):
         CHECKS["notices_a_lost_cup"].run([never])
 
 
 def test_nothing_may_move_before_a_goal_is_known_to_be_possible() -> None:
     run = aborted(PickAndPlace.Result.UNREACHABLE)
-    run = Transcript.from_events(
-        "any",
-        {},
-        [
-            event if getattr(event, "goal", "") != "fetch" else _named(event, "far")
-            for event in (*run.events, *run.ground_truth)
-        ],
-    )
+    run.goal("fetch").request.place_pose.pose.position.x = 0.75
     assert "r_elbow moved by" in failure_of(CHECKS["refuses_a_far_place"].run, [run]).observed
-
-
-def _named(event: Any, goal: str) -> Any:
-    return replace(event, goal=goal)

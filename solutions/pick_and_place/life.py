@@ -1,0 +1,107 @@
+"""The life of a goal of pick_and_place: what the scenario did to cup, arm and robot in it."""
+
+from __future__ import annotations
+
+import math
+
+from autograder.authoring import events as ev
+from autograder.authoring.goal import Goal
+from autograder.authoring.walking.life import accepted, ended_at, granted, interrupted, next_sent, others
+from autograder.authoring.walking.life import requests_to_cancel as _requests
+
+from .objections import is_sound
+from .truth import carried, cup_at, place_of, taken_from
+
+CUP = "cup"  # the object on the table
+SHOULDER = (0.0, -0.17)  # m in odom
+NEAR, FAR = 0.45, 0.65  # m from the shoulder: surely within reach, surely beyond it
+HUNG = 0.3  # s that the last look at the cup may be old
+HOLDING = 1.0  # N
+
+
+def commanded(goal: Goal, do: str) -> float | None:
+    """Return when (s) the scenario did something to the robot while the goal was active, first."""
+    end = min(ended_at(goal), goal.run.end)
+    commands = [each for each in goal.run.all(ev.RobotCommanded) if each.command.get("do") == do]
+    return next((each.t for each in commands if goal.sent.t < each.t < end), None)
+
+
+def robbed_at(goal: Goal) -> float | None:
+    """Return when (s) the cup was taken away while the goal was active."""
+    return commanded(goal, "move_object")
+
+
+def is_for_the_cup(goal: Goal) -> bool:
+    """Return whether it was accepted, asks for the object that is there, and nothing speaks against it."""
+    return accepted(goal) and is_sound(goal) and bool(goal.request.object_id == CUP)
+
+
+def is_far(goal: Goal) -> bool | None:
+    """Return whether the cup or its place is out of reach; None: nobody can tell."""
+    away = [math.dist(place[:2], SHOULDER) for place in (taken_from(goal), place_of(goal))]
+    return True if max(away) > FAR else None if max(away) > NEAR else False
+
+
+def rivals(goal: Goal) -> list[Goal]:
+    """Return the other goals that were active when it came, or came while it was active; accepted or not."""
+    return [
+        other
+        for other in others(goal)
+        if (accepted(other) and other.sent.t < goal.sent.t < ended_at(other))
+        or (accepted(goal) and goal.sent.t < other.sent.t < ended_at(goal))
+    ]
+
+
+def successor(goal: Goal) -> Goal | None:
+    """Return the goal that came while it was active and was accepted."""
+    later = (other for other in rivals(goal) if other.sent.t > goal.sent.t)
+    return next((other for other in later if accepted(other)), None)
+
+
+def canceled_at(goal: Goal) -> float | None:
+    """Return when (s) it was first asked to cancel it while it was active."""
+    times = [cancel.sent.t for cancel in _requests(goal) if accepted(goal)]
+    return min((t for t in times if goal.accepted_at <= t < ended_at(goal)), default=None)
+
+
+def is_possible(goal: Goal) -> bool:
+    """Return whether it asks for the cup within reach, and nothing was done to cup, arm or robot."""
+    if not is_for_the_cup(goal) or is_far(goal) is not False:
+        return False
+    return not any(commanded(goal, do) for do in ("move_object", "hold_joint", "push"))
+
+
+def ends_by_itself(goal: Goal) -> bool:
+    """Return whether it was accepted, and no cancel, other goal or Ctrl-C ended it."""
+    cut = granted(goal) or successor(goal) or interrupted(goal) or canceled_at(goal) is not None
+    return accepted(goal) and is_sound(goal) and not cut
+
+
+def watched_until(goal: Goal) -> float:
+    """Return until when (s) what it left behind can be looked at: the next goal, or somebody takes the cup."""
+    taken = [
+        each.t
+        for each in goal.run.all(ev.RobotCommanded)
+        if each.command.get("do") == "move_object" and each.t > ended_at(goal)
+    ]
+    return min([next_sent(goal, max(goal.sent.t, min(ended_at(goal), goal.run.end))), *taken])
+
+
+def holds_at(goal: Goal, t: float) -> bool:
+    """Return whether the cup hung in the hand at a time (s)."""
+    held = carried(goal, t)
+    return bool(held) and held[-1].t >= t - HUNG and held[-1].force >= HOLDING
+
+
+def was_carried(goal: Goal, t: float) -> bool:
+    """Return whether the cup had been off the table before a time (s)."""
+    return bool(carried(goal, t))
+
+
+def nearer_place(goal: Goal, t: float, alike: float) -> str | None:
+    """Return which is nearer to the cup, 'where it stood' or 'place_pose'; None if they are about (m) alike."""
+    cup = cup_at(goal.run, t).position[:2]
+    back, there = math.dist(cup, taken_from(goal)[:2]), math.dist(cup, place_of(goal)[:2])
+    if abs(back - there) < alike:
+        return None
+    return "where it stood" if back < there else "place_pose"

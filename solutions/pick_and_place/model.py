@@ -1,0 +1,72 @@
+"""What must hold of every goal of pick_and_place, clause by clause."""
+
+from __future__ import annotations
+
+from autograder.authoring.goal import CANCELED, SUCCEEDED, Goal
+from autograder.authoring.obligation import Obligation, goals, obligation
+from autograder.authoring.walking.life import accepted, others, phase
+from autograder.authoring.walking.objections import rejects
+from autograder.authoring.walking.obligations import tells
+from autograder.authoring.walking.obligations.cancels import answers_every_cancel
+from autograder.authoring.walking.obligations.ends import status_in_order
+
+from . import holding, placing, reports, safe_ends
+from .life import rivals
+from .objections import FORCE, FRAME, MOST_FORCE, NOT_FINITE, is_sound
+
+
+@obligation(1, of=goals)
+def accepts(goal: Goal) -> str | None:
+    """It accepts a place in frame odom and a force of the hand's, whatever came before, when no goal is under way."""
+    if not is_sound(goal) or rivals(goal):
+        return None
+    if any(accepted(other) and other.sent.t < goal.sent.t for other in others(goal)):
+        goal.require_accepted(
+            help=f"Nothing speaks against it: a finite place in odom, {goal.request.grasp_force:g} N of at most "
+            f"{MOST_FORCE:g} N, and no goal under way any more. Does `finally` free the hand, however execute ends?"
+        )
+    goal.require_accepted()
+    return phase(goal)
+
+
+rejects_frames, rejects_not_finite, rejects_forces = (rejects(1, each) for each in (FRAME, NOT_FINITE, FORCE))
+places = obligation(2, 3, of=goals)(placing.places)
+lifts = obligation(4, of=goals)(holding.lifts)
+puts_down = obligation(4, of=goals)(placing.puts_down)
+keeps_force = obligation(5, of=goals)(holding.keeps_the_force_asked_for)
+names_stages = obligation(6, of=goals)(reports.names_stages_in_order)
+true_stages = obligation(6, of=goals)(reports.stages_are_true_at)
+feedback_at_5_hz = obligation(7, of=goals)(reports.feedback_at_5_hz)
+no_late_feedback = obligation(7, of=goals)(tells.feedback_ends_with_the_goal)
+measured = obligation(8, of=goals)(reports.values_are_measured)
+percentage = obligation(9, of=goals)(reports.percentage_never_falls)
+filled_result = obligation(10, of=goals)(placing.fills_the_result_in)
+unknown_objects = obligation(11, of=goals)(safe_ends.knows_what_is_unknown)
+out_of_reach = obligation(12, of=goals)(safe_ends.refuses_what_is_out_of_reach)
+empty_hand = obligation(13, of=goals)(safe_ends.notices_what_it_does_not_hold)
+withdraws_empty = obligation(13, of=goals)(safe_ends.withdraws_what_is_empty)
+gives_up_in_time = obligation(14, of=goals)(safe_ends.gives_up_in_time)
+lost_object = obligation(15, of=goals)(safe_ends.notices_what_it_loses)
+tells_a_fall = obligation(16, of=goals)(safe_ends.tells_a_fall)
+says_why_it_aborted = obligation(17, of=goals)(tells.says_why_it_aborted)
+leaves_the_cup = obligation(18, of=goals)(safe_ends.leaves_the_cup)
+puts_away = obligation(19, of=goals)(safe_ends.puts_away)
+answers_cancels = obligation(18, 19, of=goals)(answers_every_cancel)
+keeps_order = obligation(18, 19, of=goals)(status_in_order)
+one_hand = obligation(20, of=goals)(safe_ends.gives_the_hand_to_one)
+
+
+# -- a goal after others ----------------------------------------------------------------------------------------------
+
+
+def _places_after(status: int, sentence: str) -> Obligation:
+    def require(goal: Goal) -> str | None:
+        earlier = [other for other in others(goal) if other.sent.t < goal.sent.t]
+        return placing.places(goal) if any(other.status == status for other in earlier) else None
+
+    require.__doc__ = sentence
+    return obligation(3, of=goals)(require)
+
+
+places_again = _places_after(SUCCEEDED, "After a goal it carries out another")
+places_after_a_cancel = _places_after(CANCELED, "After a cancel it carries out another goal")
