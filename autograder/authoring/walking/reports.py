@@ -23,6 +23,7 @@ FINAL_AGE = (
 )
 FINAL_SLACK = 0.015  # m by which final_pose may be off: odom's period, and rounding to centimetres
 TRUTH_LATE = 0.5  # s that the simulator's word may come after a report that is made of it
+UNIT_SLACK = 0.02  # by which the length of a reported quaternion may differ from 1
 TAKING_OVER = 2.0  # s in which a goal that preempts another may begin
 
 
@@ -124,6 +125,14 @@ def require_true_pose(
         help=help
         or f"Fill {what} from the latest odom message before it is sent; the terminal call sends nothing that "
         "is set after it.",
+        at=at,
+    )
+    length = math.hypot(*(getattr(stamped.pose.orientation, axis) for axis in "xyzw"))
+    expect(
+        abs(length - 1.0) <= UNIT_SLACK,
+        expected=f"{what} with an orientation of length 1",
+        observed=f"{length:.2f}",
+        help=help or "Copy the whole orientation of odom's pose: x, y, z and w.",
         at=at,
     )
     expect(
