@@ -9,13 +9,13 @@ import ipywidgets
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
-from lab import topics
-from lab.commands import walking
-from lab.connection import connection
-from lab.live_view import stop_watching, watch_robot
-from lab.robot import robot_process, start_robot
-from lab.session import stop_everything
-from lab.waiting import wait_until
+from lab.client import topics
+from lab.client.commands import walking
+from lab.client.connection import connection
+from lab.client.waiting import wait_until
+from lab.pictures.live_view import stop_watching, watch_robot
+from lab.running.robot import robot_process, start_robot
+from lab.running.session import stop_everything
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 CIRCLE = {"forward": 0.2, "turn": 0.3}  # m/s, rad/s: every picture differs

@@ -15,7 +15,7 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
 from nbformat.v4 import new_code_cell
 
-from lab.gap_cells import fill_gaps
+from lab.learning.gap_cells import fill_gaps
 from ros_cli.real_ros2 import path_with_ros2
 
 # s; building interfaces takes ten seconds alone, and minutes on a machine that everybody uses

@@ -12,7 +12,7 @@ from nbformat.v4 import new_markdown_cell, new_output
 from book import still_questions
 from book.links import Links
 from book.still_widgets import VIEW, Models, models_of, still
-from lab.question import Question, read_question
+from lab.learning.question import Question, read_question
 
 ASKS = re.compile(r'(?P<name>\w+) = lab\.(?P<way>predict|quiz)\("(?P<chapter>\w+)", (?P<number>\d+)\)')
 KINDS = {"predict": "PREDICTIONS", "quiz": "QUESTIONS"}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lab.question import Question, in_html
+from lab.learning.question import Question, in_html
 
 
 def prediction(number: int, question: Question) -> str:

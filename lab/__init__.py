@@ -13,11 +13,15 @@ import os
 
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
 
-from lab.commands import publish, walking
-from lab.connection import node
-from lab.curves_plot import plot_curves
-from lab.design import check_design, draw_design
-from lab.diagram import draw_sequence
+from lab.client.commands import publish, walking
+from lab.client.connection import node
+from lab.client.formatting import describe
+from lab.client.goals import Goal, send_goal
+from lab.client.graph import list_graph, nodes_in_graph
+from lab.client.outcomes import CancelAnswer, Outcome
+from lab.client.services import call, service_is_ready
+from lab.client.topics import Pose, battery, mode, odometry, pose, robot_state
+from lab.client.waiting import wait_until
 from lab.errors import (
     LabError,
     NoAnswerError,
@@ -26,31 +30,27 @@ from lab.errors import (
     NoServerError,
     NotInTimeError,
 )
-from lab.film import film_robot
-from lab.formatting import describe
-from lab.gap import GapError
-from lab.goals import Goal, send_goal
-from lab.graph import list_graph, nodes_in_graph
-from lab.graph_drawing import draw_graph
-from lab.interfaces import build_interfaces, export_package
-from lab.live_view import stop_watching, watch_robot
-from lab.means_plot import plot_means
-from lab.outcomes import CancelAnswer, Outcome
-from lab.pattern_choice import PatternChoice, choose_pattern
-from lab.picture import show_robot
-from lab.prediction import Prediction, predict
-from lab.programs import Program, run_program, start_program
-from lab.progress_table import show_progress
-from lab.quiz import Quiz, quiz
-from lab.recording import Recording, record_robot
-from lab.robot import restart_robot, start_robot, stop_robot
-from lab.services import call, service_is_ready
-from lab.session import stop_everything
-from lab.student_nodes import StudentNode, run_node, stop_nodes
-from lab.thread_plot import draw_threads
-from lab.timeline import draw_timeline
-from lab.topics import Pose, battery, mode, odometry, pose, robot_state
-from lab.waiting import wait_until
+from lab.learning.design import check_design, draw_design
+from lab.learning.gap import GapError
+from lab.learning.pattern_choice import PatternChoice, choose_pattern
+from lab.learning.prediction import Prediction, predict
+from lab.learning.progress_table import show_progress
+from lab.learning.quiz import Quiz, quiz
+from lab.pictures.curves_plot import plot_curves
+from lab.pictures.diagram import draw_sequence
+from lab.pictures.film import film_robot
+from lab.pictures.graph_drawing import draw_graph
+from lab.pictures.live_view import stop_watching, watch_robot
+from lab.pictures.means_plot import plot_means
+from lab.pictures.picture import show_robot
+from lab.pictures.recording import Recording, record_robot
+from lab.pictures.thread_plot import draw_threads
+from lab.pictures.timeline import draw_timeline
+from lab.running.interfaces import build_interfaces, export_package
+from lab.running.programs import Program, run_program, start_program
+from lab.running.robot import restart_robot, start_robot, stop_robot
+from lab.running.session import stop_everything
+from lab.running.student_nodes import StudentNode, run_node, stop_nodes
 
 __all__ = [
     "CancelAnswer",

@@ -33,6 +33,7 @@ PARTS = (
     "chapters/*.ipynb",
     "chapters/README.md",
     "chapters/images",
+    "chapters/support",
     "start_here.ipynb",
     "docs/any_machine.md",
     "docs/cheat_sheet.md",

@@ -13,7 +13,7 @@ from book.kept_runs import KeptRuns
 from book.links import Links
 from book.reader_copy import HIDDEN_INPUT, reader_copy
 from book.still_widgets import LIVE, STATE, VIEW, still
-from lab.question import read_question
+from lab.learning.question import read_question
 
 PAGES = {PurePosixPath(page) for page in ("docs/glossary.md", "docs/robot.md", "chapters/01_a.ipynb")}
 LINKS = Links(PurePosixPath("docs/glossary.md"), PAGES)
@@ -27,10 +27,10 @@ LINKS = Links(PurePosixPath("docs/glossary.md"), PAGES)
             "[1: `x`](../chapters/01_a.ipynb#cell-id=why)",
             '<a class="reference internal" href="../chapters/01_a.html#why">1: `x`</a>',
         ),
-        ("[the code](../lab/film.py), [a folder](../lab)", "the code, a folder"),
+        ("[the code](../lab/pictures/film.py), [a folder](../lab)", "the code, a folder"),
         ("[out](https://docs.ros.org/x) [here](#below)", "[out](https://docs.ros.org/x) [here](#below)"),
         ("![a picture](images/x.png)", "![a picture](images/x.png)"),
-        ("```\n[code](../lab/film.py)\n```", "```\n[code](../lab/film.py)\n```"),
+        ("```\n[code](../lab/pictures/film.py)\n```", "```\n[code](../lab/pictures/film.py)\n```"),
     ],
 )
 def test_links_lead_to_pages_of_the_book_or_nowhere(text: str, rewritten: str) -> None:

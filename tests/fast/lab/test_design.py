@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import lab
-from lab import design as module
+from lab.learning import design as module
 
 HALF = """
 camera -> finder : topic sensor_msgs/msg/Image

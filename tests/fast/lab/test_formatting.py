@@ -9,7 +9,7 @@ from std_srvs.srv import Trigger
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.srv import AddTwoInts
 from lab import describe
-from lab.formatting import describe_briefly
+from lab.client.formatting import describe_briefly
 
 
 def test_numbers_are_short_and_nan_is_said() -> None:

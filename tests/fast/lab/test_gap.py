@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 import lab
-from lab import gap as gap_module
-from lab.gap import Gap, expect, find_gap, write_and_check
-from lab.gap_cells import fill, gaps_of, solution
-from lab.progress_file import kept
+from lab.learning import gap as gap_module
+from lab.learning.gap import Gap, expect, find_gap, write_and_check
+from lab.learning.gap_cells import fill, gaps_of, solution
+from lab.learning.progress_file import kept
 
 PROGRAM = """def double(x):
     # YOUR CODE HERE: return twice x

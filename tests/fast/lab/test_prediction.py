@@ -10,15 +10,15 @@ import ipywidgets
 import pytest
 
 import lab
-from lab import questions
-from lab.prediction import Prediction
-from lab.progress_file import FILE
-from lab.question import Choice, Question
+from chapters.support import questions
+from lab.learning.prediction import Prediction
+from lab.learning.progress_file import FILE
+from lab.learning.question import Choice, Question
 
 ALL = [
     (module.name, number)
     for module in pkgutil.iter_modules(questions.__path__)
-    for number in range(1, len(import_module(f"lab.questions.{module.name}").PREDICTIONS) + 1)
+    for number in range(1, len(import_module(f"chapters.support.questions.{module.name}").PREDICTIONS) + 1)
 ]
 EXAMPLE = Question(
     "What is 2 + 2?",

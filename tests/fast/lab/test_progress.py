@@ -9,11 +9,11 @@ import nbformat
 import pytest
 
 import lab
-from lab import progress
-from lab.contents import read_contents
-from lab.gap import read_gaps
-from lab.prediction import predict
-from lab.progress_file import keep
+from lab.learning import progress
+from lab.learning.contents import read_contents
+from lab.learning.gap import read_gaps
+from lab.learning.prediction import predict
+from lab.learning.progress_file import keep
 from ros_runtime.self_checks import FILE, LastCheck, keep_check, last_checks
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -35,7 +35,7 @@ def row(number: str) -> progress.ChapterProgress:
 
 def read_chapter(name: str) -> None:
     """Do all of a chapter: predictions, quiz and gaps."""
-    questions = __import__(f"lab.questions.{name}", fromlist=["QUESTIONS"])
+    questions = __import__(f"chapters.support.questions.{name}", fromlist=["QUESTIONS"])
     for number in range(1, len(questions.PREDICTIONS) + 1):
         predict(name, number).choose("a")
     for question in questions.QUESTIONS:

@@ -9,15 +9,15 @@ from pathlib import Path
 import pytest
 
 import lab
-from lab import questions
-from lab.question import Choice, Question
-from lab.quiz import Quiz
+from chapters.support import questions
+from lab.learning.question import Choice, Question
+from lab.learning.quiz import Quiz
 
 CHAPTERS = [module.name for module in pkgutil.iter_modules(questions.__path__)]
 ALL = [
     (chapter, number)
     for chapter in CHAPTERS
-    for number in range(1, len(import_module(f"lab.questions.{chapter}").QUESTIONS) + 1)
+    for number in range(1, len(import_module(f"chapters.support.questions.{chapter}").QUESTIONS) + 1)
 ]
 EXAMPLE = Question("2 + 2?", (Choice("4", "Count.", right=True), Choice("5", "One too many.")))
 

@@ -13,10 +13,10 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import BatteryState, JointState
 
 from humanoid_interfaces.msg import RobotState
-from lab.curves_plot import plot_curves
 from lab.errors import LabError
-from lab.means_plot import plot_means
-from lab.recording import Recording
+from lab.pictures.curves_plot import plot_curves
+from lab.pictures.means_plot import plot_means
+from lab.pictures.recording import Recording
 from ros_runtime.record.client_events import CancelAnswered, CancelSent, FeedbackReceived, ResultReceived
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from lab.errors import LabError
-from lab.thread_plot import NO_THREAD, Span, draw_threads, read_steps, spans_of
+from lab.pictures.thread_plot import NO_THREAD, Span, draw_threads, read_steps, spans_of
 
 
 def node(log: str, ended: float | None = 20.0) -> Any:

@@ -8,11 +8,11 @@ import pytest
 from drawings import read
 
 from lab.errors import LabError
-from lab.flags import rows_of, text_width
-from lab.life import Life
-from lab.marks import Mark
-from lab.processes import Process
-from lab.timeline import draw_timeline
+from lab.pictures.flags import rows_of, text_width
+from lab.pictures.marks import Mark
+from lab.pictures.timeline import draw_timeline
+from lab.running.life import Life
+from lab.running.processes import Process
 
 
 @dataclass(frozen=True)

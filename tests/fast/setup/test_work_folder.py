@@ -70,7 +70,7 @@ def test_progress_is_kept_and_read_in_the_work_folder(tmp_path: Path) -> None:
     (tmp_path / "exercises/patterns").mkdir(parents=True)
     code = (
         "from ros_runtime.self_checks import keep_check; keep_check('patterns', 3, 4)\n"
-        "from lab.contents import CHAPTERS; print(CHAPTERS)"
+        "from lab.learning.contents import CHAPTERS; print(CHAPTERS)"
     )
     printed = subprocess.run(
         [sys.executable, "-c", code],

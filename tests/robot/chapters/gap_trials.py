@@ -9,7 +9,7 @@ import pytest
 from execution import CHAPTERS
 from kernels import CellError, Kernel
 
-from lab.gap_cells import MAGIC, fill, fill_gaps, gaps_of
+from lab.learning.gap_cells import MAGIC, fill, fill_gaps, gaps_of
 
 WRITEFILE = "%%writefile "
 

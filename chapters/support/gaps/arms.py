@@ -1,0 +1,187 @@
+"""Chapter 9: arms."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+from lab.learning.gap import Gap, expect
+from lab.learning.gap_checks import asked, read_program
+
+
+def judges_by_both_tolerances() -> str:
+    """Ask for the verdict in one situation after the other."""
+    program = read_program("tolerances.py")
+    go_on, off_path, there, missed = (program[name] for name in ("GO_ON", "OFF_PATH", "THERE", "MISSED"))
+    situations = (
+        (
+            0.02,
+            2.0,
+            go_on,
+            "a small error on the way only says that the joint follows: ask whether `left` is over",
+        ),
+        (0.02, 0.1, go_on, "there is time left: the joint has not arrived before its last point is due"),
+        (0.4, 2.0, go_on, "0.4 rad is within PATH_TOLERANCE: GOAL_TOLERANCE counts only at the end"),
+        (0.7, 2.0, off_path, "an error over PATH_TOLERANCE ends the goal on the way, too"),
+        (0.02, -0.1, there, "the time is over and the error is within GOAL_TOLERANCE"),
+        (
+            0.02,
+            -1.2,
+            there,
+            "a late arrival counts until you have given up: ask for the arrival before MISSED",
+        ),
+        (0.3, -0.2, go_on, "the joint has PATIENCE seconds more to arrive"),
+        (0.3, -1.2, missed, "PATIENCE is over and the error is not within GOAL_TOLERANCE: left < -PATIENCE"),
+        (0.7, -0.2, off_path, "the path tolerance holds after the last point, too: ask for it first"),
+    )
+    for error, left, wanted, reason in situations:
+        got = asked(partial(program["judge"], error, left), "tolerances.py")
+        expect(
+            got == wanted,
+            seen=f"{got!r} for an error of {error} rad with {left} s left",
+            expected=repr(wanted),
+            next="end each path with `return` and a verdict" if got is None else reason,
+        )
+    return f"the right verdict in {len(situations)} situations"
+
+
+def puts_the_cup_down() -> str:
+    """Cancel with a hand that can put the cup down, and with one that cannot."""
+    _cancel(stands=True)
+    _cancel(stands=False)
+    return "the hand put the cup down, opened, and then the goal was CANCELED; where the cup hung, the hand kept it"
+
+
+def _cancel(*, stands: bool) -> None:
+    """End a cancelled goal by the student's function, with a hand whose cup then `stands`, or not."""
+    did: list[str] = []
+    hand, goal_handle, result = _Hand(did, stands=stands), _GoalHandle(did), object()
+    end_canceled = read_program("put_down.py")["end_canceled"]
+    returned = asked(partial(end_canceled, hand, goal_handle, result), "put_down.py")
+    seen = f"{', then '.join(did) or 'nothing'}; lower() returned {stands}"
+    ends = [each for each in did if each in _GoalHandle.ENDS]
+    expect(
+        "lower()" in did,
+        seen=seen,
+        expected="a cup that is put down",
+        next="call hand.lower() first: it brings the cup back to where it stood",
+    )
+    expect(
+        "open()" not in did or did.index("lower()") < did.index("open()"),
+        seen=seen,
+        expected="lower(), then open()",
+        next="lower the hand before you open it: what it holds falls",
+    )
+    if stands:
+        expect(
+            "open()" in did,
+            seen=seen,
+            expected="a hand that lets go of the cup, because it stands",
+            next="call hand.open() when hand.lower() has returned True",
+        )
+    else:
+        expect(
+            "open()" not in did,
+            seen=seen,
+            expected="a hand that stays closed: the cup doesn't stand",
+            next="open only `if hand.lower():`",
+        )
+    expect(
+        ends == ["canceled()"],
+        seen=seen,
+        expected="canceled(), once",
+        next="call goal_handle.canceled() after the hand is done: without it rclpy aborts the goal"
+        if not ends
+        else "end the goal with goal_handle.canceled(), once, and with no other call",
+    )
+    expect(
+        did[-1] == "canceled()",
+        seen=seen,
+        expected="canceled() as the last of them",
+        next="call goal_handle.canceled() when the hand is done: CANCELED says that the robot is safe",
+    )
+    expect(
+        returned is result,
+        seen=f"{returned!r} returned",
+        expected="the result",
+        next="end with `return result`",
+    )
+
+
+class _Hand:
+    """A hand that holds a cup and writes down what it is told."""
+
+    def __init__(self, did: list[str], *, stands: bool) -> None:
+        self.force = 7.0  # N
+        self._did, self._stands = did, stands
+
+    def lower(self) -> bool:
+        self._did.append("lower()")
+        return self._stands
+
+    def open(self) -> None:
+        self._did.append("open()")
+        self.force = 0.0
+
+
+class _GoalHandle:
+    """A goal handle that writes down how the goal is ended."""
+
+    ENDS = ("canceled()", "succeed()", "abort()")
+    is_cancel_requested = True
+
+    def __init__(self, did: list[str]) -> None:
+        self._did = did
+
+    def canceled(self) -> None:
+        self._did.append("canceled()")
+
+    def succeed(self) -> None:
+        self._did.append("succeed()")
+
+    def abort(self) -> None:
+        self._did.append("abort()")
+
+
+def waits_until_it_lasts() -> str:
+    """Show two conditions at different times, one of them from time 0 on."""
+    make = read_program("steady.py")["Steady"]
+    one, other = (asked(partial(make, seconds), "steady.py") for seconds in (0.5, 0.2))
+    moments: tuple[tuple[Any, float, bool, bool, str], ...] = (
+        (one, 0.0, True, False, "it has only just begun"),
+        (one, 0.3, True, False, "it is so for 0.3 s, not for 0.5 s"),
+        (other, 0.35, False, False, "this is another condition, which is false"),
+        (one, 0.55, True, True, "it is so for 0.55 s, since 0.0: 0.0 is a time, so ask `self.since is None`"),
+        (one, 0.9, True, True, "it still is: keep the first moment"),
+        (one, 1.0, False, False, "it is no longer so"),
+        (one, 1.1, True, False, "it has just begun again: a break sets self.since back to None"),
+        (one, 1.4, False, False, "it is not so"),
+        (other, 1.45, False, False, "this is another condition, which is still false"),
+        (one, 1.5, True, False, "0.4 s ago it was so, but not without a break"),
+        (other, 1.5, True, False, "each object has a moment of its own: keep it in self"),
+        (one, 1.8, True, False, "since 1.5 it is so, for 0.3 s"),
+        (
+            other,
+            1.75,
+            True,
+            True,
+            "it is so for 0.25 s, and this one asks for 0.2 s: compare with self.seconds",
+        ),
+        (one, 2.05, True, True, "it is so for 0.55 s without a break"),
+    )
+    for steady, now, is_so, wanted, reason in moments:
+        got = asked(partial(steady.lasts, is_so, now), "steady.py")
+        expect(
+            got == wanted,
+            seen=f"{got!r} at {now} s from Steady({0.5 if steady is one else 0.2}), with is_so {is_so}",
+            expected=repr(wanted),
+            next="end each path with `return` and True or False" if got is None else reason,
+        )
+    return "it told what lasts from what only comes by"
+
+
+GAPS = (
+    Gap("tolerances.py", judges_by_both_tolerances),
+    Gap("put_down.py", puts_the_cup_down),
+    Gap("steady.py", waits_until_it_lasts),
+)

@@ -1,0 +1,87 @@
+"""Chapter 3b: clients in bad company."""
+
+from __future__ import annotations
+
+import re
+
+from chapters.support import harness
+from lab.learning.gap import Gap, expect
+from lab.running.programs import Program, run_program
+from lab.running.student_nodes import run_node
+
+SERVER = f"{harness.__path__[0]}/trigger_server.py"
+
+
+def reads_the_answer() -> str:
+    """Run forward_fixed.py with a server that refuses, then with one that does not."""
+    run_node(SERVER, "forward", "refuses")
+    refused = run_program("forward_fixed.py")
+    _require_no_traceback(refused)
+    expect(
+        not refused.stdout.strip(),
+        seen=f"the server refused, and stdout says: {refused.stdout.strip()}",
+        expected="nothing on stdout",
+        next="when response.success is false, return before that line is printed",
+    )
+    expect(
+        refused.exit_status == 1,
+        seen=f"the server refused, and the exit status is {refused.exit_status}",
+        expected="exit status 1",
+        next="return 1 when response.success is false",
+    )
+    expect(
+        "forward refuses" in refused.stderr,
+        seen=f"stderr says: {refused.stderr.strip() or 'nothing'}",
+        expected="the server's message, 'forward refuses', on stderr",
+        next="print response.message with file=sys.stderr",
+    )
+    run_node(SERVER, "forward", "grants")
+    granted = run_program("forward_fixed.py")
+    _require_no_traceback(granted)
+    expect(
+        granted.exit_status == 0 and "walks" in granted.stdout,
+        seen=f"the server said success=True: {granted!r}, {granted.stdout.strip() or 'nothing on stdout'}",
+        expected="exit status 0 and the line on stdout",
+        next="return 1 only when response.success is false",
+    )
+    return "a refusal is exit status 1 and the server's reason on stderr; a success is 0"
+
+
+def sends_a_request_of_its_own() -> str:
+    """Run sum_fixed.py beside the adder."""
+    run_node("adder.py")
+    program = run_program("sum_fixed.py", "2", "3")
+    _require_no_traceback(program)
+    sums = re.findall(r"(-?\d+) \+ (-?\d+) = (-?\d+)", program.stdout)
+    told = "; ".join(f"{a} + {b} = {total}" for a, b, total in sums) or "no sums"
+    expect(
+        all(int(a) + int(b) == int(total) for a, b, total in sums),
+        seen=told,
+        expected="2 + 3 = 5; 20 + 30 = 50",
+        next="make an AddTwoInts.Request for each call: the second call has overwritten the first request",
+    )
+    expect(
+        [total for *_, total in sums] == ["5", "50"],
+        seen=told,
+        expected="2 + 3 = 5; 20 + 30 = 50",
+        next="append (request, future) to `sent` twice: with a and b, and with 10 * a and 10 * b",
+    )
+    return told
+
+
+def _require_no_traceback(program: Program) -> None:
+    expect(
+        "Traceback" not in program.stderr,
+        seen=(program.stderr.strip().splitlines() or [""])[-1],
+        expected="no exception",
+        next="mend what this error names",
+    )
+    expect(
+        not program.stopped,
+        seen=repr(program),
+        expected="a program that ends by itself",
+        next="do not wait without a limit",
+    )
+
+
+GAPS = (Gap("forward_fixed.py", reads_the_answer), Gap("sum_fixed.py", sends_a_request_of_its_own))

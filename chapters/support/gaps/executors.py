@@ -1,0 +1,175 @@
+"""What the student's lines in chapter 5 are checked for."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from itertools import pairwise
+from typing import Any
+
+from std_msgs.msg import Empty
+from std_srvs.srv import Trigger
+
+from lab.client.connection import connection
+from lab.errors import NoAnswerError, NoServerError
+from lab.learning.gap import Gap, expect, not_yet
+from lab.client.services import call
+from lab.running.student_nodes import StudentNode, run_node
+from lab.client.waiting import comes_true
+
+LOOK = 3.0  # s that look_around takes
+LONGEST_GAP = 1.0  # s between two heartbeats, also on a busy machine; a blocked one waits for LOOK
+TO_BEAT = 5.0  # s until the first heartbeats have come
+TO_ASK = 3.0  # s for a report; its question has a limit of 1 s
+TO_MEET = 15.0  # s until a new server and its client have found each other
+TO_END = 1.0  # s; a node that an exception ends is gone by then
+POSITION = "x 1.00 m, y 0.00 m"
+
+
+def heart_beats_beside_the_sleep() -> str:
+    """Ask two_groups.py to look around, and listen to its heartbeat."""
+    gap, _ = _look_around(run_node("two_groups.py"))
+    expect(
+        gap < LONGEST_GAP,
+        seen=f"a gap of {gap:.1f} s between two heartbeats while look_around slept",
+        expected=f"less than {LONGEST_GAP} s",
+        next="give super().__init__() a group for beat_group in which look_around is not: "
+        "None is the default group, and one exclusive group for both is no better",
+    )
+    return f"it looked around, and the longest gap between two heartbeats was {gap:.2f} s"
+
+
+def waits_without_a_thread() -> str:
+    """Ask awaiting.py to look around, twice, on its only thread."""
+    node = run_node("awaiting.py")
+    for _ in range(2):
+        gap, took = _look_around(node)
+        expect(
+            gap < LONGEST_GAP,
+            seen=f"a gap of {gap:.1f} s between two heartbeats",
+            expected=f"less than {LONGEST_GAP} s",
+            next="await a Future that a timer completes: what blocks keeps the only thread",
+        )
+        expect(
+            took > LOOK - 0.3,
+            seen=f"the answer after {took:.1f} s",
+            expected=f"after {LOOK:g} s",
+            next="await the future before you return; the timer's period is `seconds`",
+        )
+    return f"it looked around twice on one thread; the longest gap between two heartbeats was {gap:.2f} s"
+
+
+def reports_or_says_why_not() -> str:
+    """Ask for a report without a where_am_i, with one, and without one again."""
+    node = run_node("report_fixed.py")
+    _expect_refusal(node, "nobody offers where_am_i")
+    with _where_am_i():
+        if not comes_true(lambda: _report(node).success, TO_MEET):
+            raise not_yet(
+                "success=False, although where_am_i answers",
+                f"the position, {POSITION!r}",
+                "let ask() return what `await future` gives you",
+            )
+        answer = _report(node).message
+        expect(
+            POSITION in answer,
+            seen=f"the report {answer!r}",
+            expected=f"one with the position {POSITION!r}",
+            next="let ask() return the response of where_am_i, which `await future` gives you",
+        )
+    _expect_refusal(node, "where_am_i has gone")
+    return "it reported the position, and said so twice when nobody could tell it"
+
+
+def _look_around(node: StudentNode) -> tuple[float, float]:
+    """Return the longest gap between two heartbeats while the node looks around, and how long that took, in s."""
+    beats: list[float] = []
+    ear = connection().node.create_subscription(
+        Empty, "heartbeat", lambda _: beats.append(time.monotonic()), 10
+    )
+    try:
+        if not comes_true(lambda: len(beats) > 3 or not node.is_running, TO_BEAT) or not node.is_running:
+            raise not_yet(f"no heartbeat{_complaint(node)}", "ten a second", "call super().__init__(…)")
+        asked = time.monotonic()
+        try:
+            call("look_around", Trigger, timeout=2 * LOOK)
+        except (NoAnswerError, NoServerError):
+            raise _no_answer(node) from None
+        took = time.monotonic() - asked
+        seen = len(beats)
+        comes_true(lambda: len(beats) > seen + 1, LOOK)  # the beat after a gap ends it
+    finally:
+        connection().node.destroy_subscription(ear)
+    return max(later - earlier for earlier, later in pairwise(beats)), took
+
+
+def _no_answer(node: StudentNode) -> Exception:
+    ended = comes_true(lambda: not node.is_running, TO_END)
+    complaint = _complaint(node) if ended else ""
+    advice = (
+        "asyncio's event loop doesn't run here: await an rclpy Future"
+        if "event loop" in complaint
+        else "mend what this error names"
+        if ended
+        else "let a timer complete the future, and give the timer callback_group=self.waiting: "
+        "the default group stays closed while look_around awaits"
+    )
+    return not_yet(f"no answer from look_around{complaint}", f"an answer after {LOOK:g} s", advice)
+
+
+def _expect_refusal(node: StudentNode, why: str) -> None:
+    answer = _report(node)
+    expect(
+        not answer.success,
+        seen=f"{why}, and the report says {answer.message!r}",
+        expected="success=False",
+        next="let ask() return None when the time is up: `await future` gives it to you",
+    )
+
+
+def _report(node: StudentNode) -> Any:
+    try:
+        return call("report", Trigger, timeout=TO_ASK)
+    except (NoAnswerError, NoServerError):
+        pass
+    if comes_true(lambda: not node.is_running, TO_END):
+        raise not_yet(f"no report{_complaint(node)}", "a report", "mend what this error names")
+    raise not_yet(
+        f"no report within {TO_ASK:g} s; the node still runs",
+        "a report within 1 s or so, also when nobody answers where_am_i",
+        "let a timer call future.cancel after `seconds`, and give the timer callback_group=self.asking: "
+        "the default group stays closed while on_request awaits",
+    )
+
+
+@contextmanager
+def _where_am_i() -> Iterator[None]:
+    """Play the server that knows the position."""
+
+    def answer(_: Any, response: Any) -> Any:
+        response.success, response.message = True, POSITION
+        return response
+
+    service = connection().node.create_service(Trigger, "where_am_i", answer)
+    try:
+        yield
+    finally:
+        connection().node.destroy_service(service)
+
+
+def _complaint(node: StudentNode) -> str:
+    """Return the last error in the log of a node that has ended, to put behind what was seen."""
+    if node.is_running:
+        return ""
+    lines = node.log().strip().splitlines() or ["it printed nothing"]
+    errors = [line for line in lines if re.match(r"[\w.]*(Error|Exception)\b", line)]
+    return f"; the node has ended: {(errors or lines)[-1]}"
+
+
+GAPS = (
+    Gap("two_groups.py", heart_beats_beside_the_sleep),
+    Gap("awaiting.py", waits_without_a_thread),
+    Gap("report_fixed.py", reports_or_says_why_not),
+)

@@ -1,0 +1,238 @@
+"""Chapter 3a: a bounded call."""
+
+from lab.learning.question import Choice, Question
+
+QUESTIONS = (
+    Question(
+        "spin_until_future_complete(node, future, timeout_sec=2.0) has returned. What do you do next?",
+        (
+            Choice(
+                "Read future.result(): without an answer, rclpy would have raised an exception.",
+                "Sensible, because many libraries do raise one. rclpy doesn't: it returns, result() is "
+                "None, and the next line fails.",
+            ),
+            Choice(
+                "Ask future.done(); if it isn't done, remove the request and treat the outcome as unknown.",
+                "The function only limits the wait. You look whether there is an answer.",
+                right=True,
+            ),
+            Choice(
+                "Call it again until the future is done.",
+                "That is waiting forever, in slices of two seconds. A dead server never answers.",
+            ),
+        ),
+    ),
+    Question(
+        "The server is killed while it has your request. What does your client see?",
+        (
+            Choice(
+                "The future gets an exception: connection lost.",
+                "With TCP you might see one. A ROS service has no connection that could be lost: the "
+                "future just isn't done.",
+            ),
+            Choice(
+                "service_is_ready() turns false at once, so the client can stop waiting.",
+                "A server that dies tells nobody. With Fast DDS it looks ready for up to 20 s more, with "
+                "Cyclone DDS for up to 10 s.",
+            ),
+            Choice(
+                "Nothing: the same silence as with a slow server or a lost message.",
+                "So your own time limit is the only protection.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "A client has 10 s for two calls, two tries each, 2 s a try. Finding the servers took 5 s, the first "
+        "call 4 s. How long may it wait for the first try of the second call?",
+        (
+            Choice(
+                "2 s, as for every try.",
+                "Then it ends after 11 s, and a second try makes it 13. 2 s is the most that a try may "
+                "take; the deadline leaves less.",
+            ),
+            Choice(
+                "1 s.",
+                "min(2.0, deadline - now): 10 - 5 - 4 leaves 1 s. Then nothing is left for another try.",
+                right=True,
+            ),
+            Choice(
+                "0.5 s, so that the second try gets as much.",
+                "A fair idea, and a different rule. The one of this chapter gives each step what is left, "
+                "up to its own limit.",
+            ),
+        ),
+    ),
+    Question(
+        "A client computes its deadline with time.time(). While it waits, the robot's clock is set back by a "
+        "minute, because it found a time server. What happens?",
+        (
+            Choice(
+                "Nothing: both times come from the same clock.",
+                "They do, but the clock was changed between the two.",
+            ),
+            Choice(
+                "The client may wait a minute longer.",
+                "deadline - now has grown by 60 s. time.monotonic() only ever goes forward, whatever "
+                "anybody sets.",
+                right=True,
+            ),
+            Choice(
+                "The client gives up at once.",
+                "That is what happens when the clock is set forward.",
+            ),
+        ),
+    ),
+    Question(
+        "main() returns 1 on failure. The last lines of the file are: if __name__ == '__main__': main(). What "
+        "does the script see that started it?",
+        (
+            Choice(
+                "Exit status 1, since main() returned 1.",
+                "In C it would be so. Python ignores what main() returns unless you hand it on: "
+                "sys.exit(main()).",
+            ),
+            Choice(
+                "Exit status 0, as if all had gone well.",
+                "Without sys.exit(main()), a Python program that ends without an exception ends with 0.",
+                right=True,
+            ),
+            Choice(
+                "No exit status at all.",
+                "Every process has one. Without sys.exit() Python sets it to 0.",
+            ),
+        ),
+    ),
+    Question(
+        "The answer has arrived and says success=False. What is the right exit status of the client?",
+        (
+            Choice(
+                "0, because the call itself worked.",
+                "The call did work, and ros2 service call sees it so, too. But whoever started your client "
+                "wants to know whether the job is done. It isn't.",
+            ),
+            Choice(
+                "1, and the server's message on stderr.",
+                "0 is for success only, and the message tells a person why it failed.",
+                right=True,
+            ),
+            Choice(
+                "None: the client should ask until success is true.",
+                "The server has understood and refused. If you ask again you get the same refusal, and the "
+                "client never ends.",
+            ),
+        ),
+    ),
+)
+
+PREDICTIONS = (
+    Question(
+        "The client of the textbooks runs twice. 1: nobody started the server. 2: the server is killed while "
+        "it has the request. How do the two runs end?",
+        (
+            Choice(
+                "Both give up with an error after a few seconds.",
+                "A sensible guess: most network programs have a time limit from the start. But rclpy has none "
+                "unless you pass one, so both clients wait until the lab stops them.",
+            ),
+            Choice(
+                "The first waits forever; the second gets an error, because its server is gone.",
+                "A sensible guess: a broken TCP connection does raise an error. But a ROS service has no "
+                "connection, and a killed server tells nobody. The second client waits forever, too.",
+            ),
+            Choice(
+                "Neither ends by itself.",
+                "No wait in it has a limit, and nobody tells a client that its server has died.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "The server takes 2.5 s, and the client waits 1 s. How does ask_half.py end?",
+        (
+            Choice(
+                "With a time-out error.",
+                "A sensible guess: many libraries raise one. But spin_until_future_complete raises "
+                "nothing. It returns, future.result() is None, and None has no message.",
+            ),
+            Choice(
+                "With an AttributeError.",
+                "When the time is up, spin_until_future_complete simply returns. future.result() is None "
+                "then, and None has no message.",
+                right=True,
+            ),
+            Choice(
+                'It prints "The robot is at" without a position.',
+                "A sensible guess: there's no position to print. But Python reads "
+                "future.result().message before it prints. The result is None, and None has no message, "
+                "so that line raises.",
+            ),
+        ),
+    ),
+    Question(
+        "ask_for.py gets a time limit of -0.1 s, and the server doesn't answer for 30 s. What does it do?",
+        (
+            Choice(
+                "It prints None at once: the time is up.",
+                "A sensible guess: you would want that, and rclpy does it with 0.0. But it takes a negative "
+                "limit for no limit, so the client waits.",
+            ),
+            Choice(
+                "It ends with a ValueError: a time can't be negative.",
+                "A sensible guess: that would be kinder. But rclpy accepts a negative limit without a word and "
+                "takes it for no limit, so the client waits.",
+            ),
+            Choice(
+                "It waits without a limit.",
+                "To spin_until_future_complete a negative limit means no limit, like None. So compute "
+                "max(0.0, what is left).",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "The fourth server dies while it has the request. A try takes 2 s at most, and there are two. What "
+        "does ask.py say?",
+        (
+            Choice(
+                '"where_am_i is not there", after a try.',
+                "A sensible guess: the process is gone. But it couldn't say goodbye, so Fast DDS takes it "
+                "for ready for up to 20 s more. The client tries twice and gets no answer.",
+            ),
+            Choice(
+                '"where_am_i looks ready and does not answer", after two tries.',
+                "Nobody has announced that the server is gone. It looks ready, each try waits its 2 s, and "
+                "then the client gives up.",
+                right=True,
+            ),
+            Choice(
+                '"The robot is at …": the second try is answered.',
+                "A sensible guess: that's what happened with the slow server. But this one is dead, and nobody "
+                "starts another.",
+            ),
+        ),
+    ),
+    Question(
+        "The server dies with the first request, and another is started. The client keeps its client object "
+        "and tries again every 2 s. What happens?",
+        (
+            Choice(
+                "The new server answers the first request when it is up.",
+                "A sensible guess: the client still exists, so the middleware could send the request again. "
+                "But services keep nothing for servers that come later. The request died with its server, "
+                "and a retry gets the answer.",
+            ),
+            Choice(
+                "No answer: the client belongs to the server that died.",
+                "A sensible guess: a TCP connection would be gone. But a ROS client belongs to a name. It "
+                "discovers the new server, and a retry gets the answer.",
+            ),
+            Choice(
+                "The first request is lost, and a retry is answered.",
+                "A client asks whoever offers the name. The request died with the old server; the new one "
+                "answers the next try.",
+                right=True,
+            ),
+        ),
+    ),
+)

@@ -1,0 +1,229 @@
+"""Chapter 5: executors, threads, groups."""
+
+from lab.learning.question import Choice, Question
+
+PREDICTIONS = (
+    Question(
+        "The node runs on one thread. While look_around sleeps for 3 s, how long is the longest gap between two "
+        "heartbeats?",
+        (
+            Choice(
+                "0.1 s: a timer has a clock of its own.",
+                "A sensible guess: the timer does become ready ten times a second. But the executor has to call its "
+                "callback, and the executor's only thread sleeps in look_around.",
+            ),
+            Choice(
+                "3 s, and then the 30 missed beats come at once.",
+                "A sensible guess: messages in a queue would come like that. But a timer has no queue. rclpy calls it "
+                "once when the thread is free, and goes on from there.",
+            ),
+            Choice(
+                "3 s, and the missed beats never come.",
+                "The only thread sleeps in look_around, so nobody calls beat. A timer has no queue: the missed beats "
+                "are gone.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "The same node, now on a MultiThreadedExecutor with four threads. How long is the longest gap?",
+        (
+            Choice(
+                "0.1 s: one thread sleeps, three are free.",
+                "A sensible guess: the threads are free. But both callbacks are in the node's default group, which "
+                "is mutually exclusive: it lets in one callback at a time, on however many threads.",
+            ),
+            Choice(
+                "About 1 s: the executor shares the time between the callbacks.",
+                "A sensible guess: operating systems share time like that. But an executor never interrupts a "
+                "callback. Either the group lets beat in beside look_around, or beat waits to the end.",
+            ),
+            Choice(
+                "3 s again.",
+                "Both callbacks are in the node's default group. It lets in one callback at a time, on however many "
+                "threads.",
+                right=True,
+            ),
+        ),
+    ),
+    Question(
+        "look_around becomes `async def` and still calls time.sleep(3.0). The heartbeat has a group of its own, and "
+        "there is one thread. How long is the longest gap?",
+        (
+            Choice(
+                "0.1 s: an async callback doesn't block.",
+                "A sensible guess: that is what the word suggests. But a coroutine gives its thread back only where "
+                "it awaits. time.sleep awaits nothing and keeps the thread.",
+            ),
+            Choice(
+                "3 s.",
+                "A coroutine gives its thread back only at an `await`. There is none here, so time.sleep keeps the "
+                "only thread.",
+                right=True,
+            ),
+            Choice(
+                "There are no heartbeats at all: rclpy refuses async callbacks.",
+                "A sensible guess: some libraries do. But rclpy takes coroutines as callbacks. It runs "
+                "them until they await, and this one never does.",
+            ),
+        ),
+    ),
+    Question(
+        "report calls where_am_i with client.call() inside its callback. This time it has four threads. What does its "
+        "client get?",
+        (
+            Choice(
+                "The position: another thread takes in the response.",
+                "A sensible guess: there are free threads. But the client is in the node's default group, beside the "
+                "callback that waits. The group doesn't let the response in.",
+            ),
+            Choice(
+                "No response: it is a deadlock, as on one thread.",
+                "The client is in the same group as the callback that waits for it. Free threads don't open a group.",
+                right=True,
+            ),
+            Choice(
+                "An exception: rclpy sees the deadlock.",
+                "A sensible guess: it would help a lot. But rclpy can't know that you wait for a response that "
+                "is kept out by your own callback. Nothing is printed.",
+            ),
+        ),
+    ),
+    Question(
+        "The simulation is paused, and the node is started with use_sim_time. look_around commands the head and calls "
+        "time.sleep(3.0). What do you get?",
+        (
+            Choice(
+                "No answer: time.sleep waits for the paused clock.",
+                "A sensible guess: use_sim_time sounds as if it held for everything. But time.sleep is Python's, and "
+                "it has never heard of /clock.",
+            ),
+            Choice(
+                "After 3 s the answer “looked left and right”, and the head has not moved.",
+                "time.sleep counts seconds of the system clock. The robot's time stood still, so nothing moved, and "
+                "the node says that it did.",
+                right=True,
+            ),
+            Choice(
+                "After 3 s the answer, and the head has moved.",
+                "A sensible guess: the command was sent. But a paused simulation makes no step, so no joint moves.",
+            ),
+        ),
+    ),
+)
+
+QUESTIONS = (
+    Question(
+        "A node has a timer and a slow service, and rclpy.spin(node) runs it. You want the timer to stay punctual. "
+        "What is enough?",
+        (
+            Choice(
+                "A MultiThreadedExecutor.",
+                "More threads alone change nothing: the default group still lets in one callback at a time.",
+            ),
+            Choice(
+                "A MultiThreadedExecutor, and a callback group of its own for the timer.",
+                "One thread can sleep while another beats, and no group keeps them apart.",
+                right=True,
+            ),
+            Choice(
+                "A callback group of its own for the timer.",
+                "The group would let the timer in, but the only thread sleeps in the service.",
+            ),
+        ),
+    ),
+    Question(
+        "An async callback awaits a future. The timer that completes this future is in the same mutually exclusive "
+        "group. What happens?",
+        (
+            Choice(
+                "The timer completes the future, because an awaiting callback doesn't count.",
+                "It holds no thread, but it counts as running: its group stays closed until it returns.",
+            ),
+            Choice(
+                "It awaits forever.",
+                "The group is closed while the callback runs, and awaiting is running. The timer never gets in.",
+                right=True,
+            ),
+            Choice(
+                "rclpy raises an exception.",
+                "rclpy doesn't look for such circles. Nothing is printed, and the node looks alive.",
+            ),
+        ),
+    ),
+    Question(
+        "await asyncio.sleep(1.0) in an rclpy callback raises “no running event loop”. Why?",
+        (
+            Choice(
+                "asyncio is not installed.",
+                "It is part of Python. Its sleep asks for the event loop of the thread, and the thread has none.",
+            ),
+            Choice(
+                "rclpy's executor resumes coroutines by itself, without asyncio's event loop.",
+                "So you await rclpy's futures: those of clients, or one that a timer completes.",
+                right=True,
+            ),
+            Choice(
+                "The callback has to be declared with `async def` for that.",
+                "It is declared so, or `await` would be a syntax error.",
+            ),
+        ),
+    ),
+    Question(
+        "A program calls rate.sleep() from create_rate(10) in a loop in main, and nothing else. How often does the "
+        "loop run?",
+        (
+            Choice(
+                "Ten times a second.",
+                "The rate is a timer of the node, and nobody spins the node. So the timer never wakes the loop.",
+            ),
+            Choice(
+                "Once.",
+                "rate.sleep() waits for a timer of the node, and only a spinning executor calls timers.",
+                right=True,
+            ),
+            Choice(
+                "As fast as it can.",
+                "rate.sleep() does wait; what it waits for never comes.",
+            ),
+        ),
+    ),
+    Question(
+        "A node with use_sim_time has to wait for two seconds of the robot's time. What does it use?",
+        (
+            Choice(
+                "time.sleep(2.0)",
+                "That waits for two seconds of the system clock: too short when the simulation is slow or paused.",
+            ),
+            Choice(
+                "A timer of the node.",
+                "create_timer takes the node's clock, and that clock follows /clock.",
+                right=True,
+            ),
+            Choice(
+                "get_clock().sleep_for() in the callback of a single-threaded node.",
+                "It never returns: the /clock message that would end it waits for the thread that sleeps.",
+            ),
+        ),
+    ),
+    Question(
+        "calibrate_imu takes 3 s. Is a service right for it?",
+        (
+            Choice(
+                "No: whatever takes longer than a second has to be an action.",
+                "No rule names a number. ROS's guide does keep services for what is quick, so you need a reason: does "
+                "anybody want to watch it, or to cancel it?",
+            ),
+            Choice(
+                "Yes: nobody wants to watch it or cancel it, and its answer is all that counts.",
+                "A client can wait for 3 s with a time limit of, say, 5 s. The node has to stay alive meanwhile: that "
+                "is your task.",
+                right=True,
+            ),
+            Choice(
+                "Yes, because it moves nothing.",
+                "A move can be a service too, if nobody needs to stop it half way. Cancel and progress decide.",
+            ),
+        ),
+    ),
+)

@@ -1,0 +1,137 @@
+"""The notebook's own node, spun by a background thread."""
+
+from __future__ import annotations
+
+import threading
+import traceback
+import weakref
+from collections.abc import Callable, Hashable
+from typing import Any, TypeVar
+
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node, NodeNameNonExistentError
+from rclpy.signals import SignalHandlerOptions
+
+from lab.client.interaction_log import conversation
+from lab.client.network import join_ros_domain
+from lab.client.waiting import comes_true
+from ros_runtime.notebook_domains import expect_node, forget_node
+from ros_runtime.recorded_client.service_client import ServiceClient
+
+NAMESPACE = "/robot"
+OF_EVERY_NODE = (
+    "describe_parameters",
+    "get_parameter_types",
+    "get_parameters",
+    "get_type_description",
+    "list_parameters",
+    "set_parameters",
+    "set_parameters_atomically",
+)
+OF_EVERY_ACTION = ("cancel_goal", "get_result")  # besides send_goal, which has the goal's type
+
+T = TypeVar("T")
+
+_connection: Connection | None = None
+
+
+def connection() -> Connection:
+    """The kernel's connection to the ROS graph, made at the first call."""
+    global _connection
+    if _connection is None:
+        _connection = Connection()
+    return _connection
+
+
+def node() -> Node:
+    """The notebook's own rclpy node, for what `lab` has no function for. The lab spins it."""
+    return connection().node
+
+
+def disconnect() -> None:
+    """Leave the ROS graph; the next `connection()` makes a new node."""
+    global _connection
+    if _connection is not None:
+        _connection.close()
+        _connection = None
+
+
+class Connection:
+    """A node in the robot's namespace, with its publishers, subscriptions and clients."""
+
+    def __init__(self) -> None:
+        self.domain_id = join_ros_domain().domain_id
+        self._context = Context()
+        rclpy.init(
+            args=[],
+            context=self._context,
+            domain_id=self.domain_id,
+            signal_handler_options=SignalHandlerOptions.NO,  # interrupting a cell must not end the node
+        )
+        self.node = Node(
+            "notebook", namespace=NAMESPACE, context=self._context, start_parameter_services=False
+        )
+        expect_node(self.node.get_fully_qualified_name())
+        self._cache: dict[Hashable, Any] = {}
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+        self._thread = threading.Thread(target=self._spin, name="lab spin", daemon=True)
+        self._thread.start()
+
+    def once(self, key: Hashable, make: Callable[[Node], T]) -> T:
+        """Return `make(node)`, called only the first time for each key."""
+        if key not in self._cache:
+            self._cache[key] = make(self.node)
+        return self._cache[key]
+
+    def client(self, service_type: Any, name: str) -> ServiceClient:
+        """The client of a service. It replaces one of another type, because a node can have only one of a name."""
+        key = ("client", name)
+        if key in self._cache and self._cache[key].type is not service_type:
+            self._drop_client(self._cache.pop(key).endpoint)
+        return self.once(key, lambda node: ServiceClient(node, name, service_type, conversation))
+
+    def _drop_client(self, client: Any) -> None:
+        """Destroy a client and wait until the spinning thread has let go of it."""
+        handle = weakref.ref(client.handle)
+        self.node.destroy_client(client)
+        del client
+        comes_true(lambda: handle() is None, 1.0)
+
+    def servers(self) -> dict[str, str]:
+        """The services and actions of other nodes, full name → type, without the services that every node has."""
+        found: dict[str, str] = {}
+        for name, namespace in self.node.get_node_names_and_namespaces():
+            if name != self.node.get_name():
+                found |= self._servers_of(name, namespace)
+        return found
+
+    def _servers_of(self, name: str, namespace: str) -> dict[str, str]:
+        try:
+            services = self.node.get_service_names_and_types_by_node(name, namespace)
+        except NodeNameNonExistentError:  # it has just left
+            return {}
+        return {
+            service.partition("/_action/")[0]: types[0].removesuffix("_SendGoal")
+            for service, types in services
+            if service.rpartition("/")[2] not in (*OF_EVERY_NODE, *OF_EVERY_ACTION)
+        }
+
+    def close(self) -> None:
+        """Stop spinning and destroy the node."""
+        forget_node(self.node.get_fully_qualified_name())
+        self._context.try_shutdown()
+        self._executor.shutdown(timeout_sec=2.0)
+        self._thread.join(2.0)
+        self.node.destroy_node()
+
+    def _spin(self) -> None:
+        while self._context.ok():
+            try:
+                self._executor.spin()
+            except ExternalShutdownException:
+                return
+            except Exception:  # a listener of the notebook's failed: say so and go on
+                traceback.print_exc()

@@ -1,0 +1,127 @@
+"""Send a goal to an action server, follow it, cancel it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from lab.client.connection import connection
+from lab.client.exchange import give_up, no_answer, require_server
+from lab.client.formatting import describe
+from lab.client.interaction_log import conversation, log
+from lab.client.outcomes import CancelAnswer, Outcome, read_cancel_answer
+from lab.errors import LabError
+from ros_runtime.message_constants import GoalStatus, name_of
+from ros_runtime.record.client_events import Unanswered
+from ros_runtime.recorded_client.action_client import ActionClient
+from ros_runtime.recorded_client.goal import Goal as SentGoal
+
+
+def send_goal(action: str, action_type: Any, goal: Any, *, timeout: float = 5.0) -> Goal:
+    """Send a goal and wait until the server has accepted or rejected it.
+
+    Args:
+        action: its name, relative to the robot's namespace.
+        action_type: such as `humanoid_interfaces.action.WalkTo`.
+        goal: an `action_type.Goal`.
+        timeout: s, for finding the server and for its answer, each.
+
+    Raises:
+        NoServerError: nobody offers the action.
+        NoAnswerError: the server has neither accepted nor rejected in time.
+    """
+    if not isinstance(goal, action_type.Goal):
+        wanted = f"{action_type.__name__}.Goal"
+        raise LabError(f"the goal is a {type(goal).__name__}; {action} takes a {wanted}(…)")
+    here = connection()
+    client = here.once(
+        ("action", action, action_type), lambda node: ActionClient(node, action, action_type, conversation)
+    )
+    require_server(lambda: not client.unmatched(here.node.count_publishers), action, action_type, timeout)
+    sent = client.send(goal)
+    if not sent.wait_for_answer(timeout):
+        raise give_up(
+            sent,
+            timeout,
+            f"{action} has neither accepted nor rejected the goal within {timeout:g} s. "
+            "Is its goal callback or its only thread busy?",
+        )
+    return Goal(action, sent)
+
+
+class Goal:
+    """A goal that an action server has accepted or rejected."""
+
+    def __init__(self, action: str, sent: SentGoal) -> None:
+        self._action = action
+        self._sent = sent
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the server accepted it; a rejected goal has no status and no result."""
+        return bool(self._sent.accepted)
+
+    @property
+    def feedback(self) -> list[Any]:
+        """The feedback messages so far."""
+        return self._sent.feedback
+
+    @property
+    def status(self) -> str:
+        """The name of its status, as last published on the status topic or returned with the result."""
+        return name_of(GoalStatus, self._sent.status)
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the result has arrived, or will not because the goal was rejected."""
+        return not self.accepted or self._sent.has_ended
+
+    def result(self, timeout: float = 60.0, *, show_feedback: bool = True) -> Outcome:
+        """Wait until the goal has ended and return status and result. Prints feedback, at most once a second.
+
+        Raises:
+            NoAnswerError: the goal has not ended in time; it continues, and you may call this again.
+        """
+        if not self.accepted:
+            raise LabError(f"{self._action} rejected this goal, so it has no result")
+        deadline = time.monotonic() + timeout
+        while not self._sent.result:
+            left = deadline - time.monotonic()
+            if left <= 0:
+                log.append(Unanswered(what="result", id=self._sent.name, waited=timeout))
+                raise no_answer(
+                    f"no result from {self._action} within {timeout:g} s; the goal's status is {self.status}. "
+                    "Call result() again to wait longer, or cancel()."
+                )
+            count = len(self.feedback)
+            log.wait_until(lambda: self.is_over, min(1.0, left))
+            if show_feedback and len(self.feedback) > count:
+                since = time.monotonic() - self._sent.sent_at
+                print(f"{since:5.1f} s  feedback: {describe(self.feedback[-1])}")
+        return Outcome(name_of(GoalStatus, self._sent.result.status), self._sent.result.result)
+
+    def cancel(self, timeout: float = 5.0) -> CancelAnswer:
+        """Ask the server to cancel this goal and return its answer. Accepting a cancel does not end the goal yet.
+
+        Raises:
+            NoAnswerError: the server has not answered in time.
+        """
+        asked = self._sent.cancel()
+        asked.wait(timeout)
+        if asked.answer is None:
+            raise give_up(
+                asked,
+                timeout,
+                f"{self._action} has not answered the request to cancel within {timeout:g} s: "
+                "a server whose only thread is busy cannot.",
+            )
+        return read_cancel_answer(asked.answer, self._sent.name)
+
+    def on_change(self, listener: Callable[[Goal], object]) -> None:
+        """Call `listener(goal)` after each feedback, each change of status and the result, on a thread of the lab."""
+        self._sent.listeners.append(lambda: listener(self))
+
+    def __repr__(self) -> str:
+        state = self.status if self.accepted else "rejected"
+        return f"<goal of {self._action}: {state}, {len(self.feedback)} feedback messages>"

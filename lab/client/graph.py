@@ -1,0 +1,125 @@
+"""The live ROS graph: topics, their publishers and their subscribers.
+
+Nodes whose names begin with "_" are hidden, as for `ros2 node list`: a `ros2` command is such a node, for a moment.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from rclpy.node import Node
+from rclpy.qos import (
+    DurabilityPolicy,
+    QoSCompatibility,
+    QoSProfile,
+    ReliabilityPolicy,
+    qos_check_compatible,
+)
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+from lab.client.connection import connection
+from lab.errors import LabError
+from lab.running.student_nodes import NOT_YET_KNOWN
+
+OF_EVERY_NODE = ("/parameter_events", "/rosout")
+HIDDEN = "_"  # begins the names of nodes that only look, or live for a moment
+
+
+@dataclass(frozen=True)
+class Endpoint:
+    """A publisher or subscription of a topic: full name of its node, QoS offered (publisher) or requested."""
+
+    node: str
+    qos: QoSProfile
+
+    def qos_in_words(self) -> str:
+        """Its QoS in words: reliability and durability."""
+        reliable = self.qos.reliability == ReliabilityPolicy.RELIABLE
+        latched = self.qos.durability == DurabilityPolicy.TRANSIENT_LOCAL
+        return ("reliable" if reliable else "best effort") + (", transient local" if latched else "")
+
+
+@dataclass(frozen=True)
+class Topic:
+    """A topic with its publishers and subscriptions."""
+
+    name: str
+    type: str
+    publishers: tuple[Endpoint, ...]
+    subscriptions: tuple[Endpoint, ...]
+
+    def incompatible_with(self, subscription: Endpoint) -> list[Endpoint]:
+        """The publishers whose QoS is incompatible: they offer less than the subscription requests."""
+        return [
+            publisher
+            for publisher in self.publishers
+            if qos_check_compatible(publisher.qos, subscription.qos)[0] == QoSCompatibility.ERROR
+        ]
+
+
+def topics_in_graph(*names: str) -> list[Topic]:
+    """The topics of these names, sorted by name; without names all, except those that every node has.
+
+    A name without a slash in front is relative to the robot's namespace.
+    Raises LabError for a topic without publishers and subscriptions; its message lists the existing topics.
+    """
+    node = connection().node
+    types = dict(node.get_topic_names_and_types())
+    wanted = [node.resolve_topic_name(name) for name in names]
+    missing = [name for name in wanted if name not in types]
+    if missing:
+        raise LabError(f"nobody has the topic {', '.join(missing)}; there are: {', '.join(sorted(types))}")
+    return [
+        Topic(
+            name,
+            types[name][0],
+            _endpoints(node.get_publishers_info_by_topic(name)),
+            _endpoints(node.get_subscriptions_info_by_topic(name)),
+        )
+        for name in sorted(wanted or types.keys() - set(OF_EVERY_NODE))
+    ]
+
+
+def list_graph(*names: str) -> None:
+    """Print topics with type, publishers, subscribers, and where incompatible QoS keeps messages away.
+
+    Without names it lists all topics except /rosout and /parameter_events, which every node has.
+    """
+    for topic in topics_in_graph(*names):
+        print(f"{topic.name}  {topic.type}")
+        for publisher in topic.publishers:
+            print(f"    from {publisher.node}: {publisher.qos_in_words()}")
+        for subscription in topic.subscriptions:
+            print(f"    to   {subscription.node}: {subscription.qos_in_words()}")
+            for publisher in topic.incompatible_with(subscription):
+                print(
+                    f"         receives nothing from {publisher.node}, which offers only {publisher.qos_in_words()}"
+                )
+
+
+def nodes_in_graph() -> list[str]:
+    """The full names of all nodes but hidden ones, sorted."""
+    node: Node = connection().node
+    return sorted(
+        _full_name(namespace, name)
+        for name, namespace in node.get_node_names_and_namespaces()
+        if _is_shown(name)
+    )
+
+
+def _endpoints(infos: Iterable[TopicEndpointInfo]) -> tuple[Endpoint, ...]:
+    ends = (
+        Endpoint(_full_name(info.node_namespace, info.node_name), info.qos_profile)
+        for info in infos
+        if not info.node_name.startswith(HIDDEN)
+    )
+    return tuple(sorted(ends, key=lambda end: end.node))
+
+
+def _is_shown(name: str) -> bool:
+    return name != NOT_YET_KNOWN and not name.startswith(HIDDEN)
+
+
+def _full_name(namespace: str, name: str) -> str:
+    return f"{namespace.rstrip('/')}/{name}"

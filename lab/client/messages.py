@@ -1,0 +1,98 @@
+"""Events as the arrows of a sequence diagram."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from lab.client.events import GaveUp, ModeChanged
+from lab.client.formatting import describe_briefly
+from lab.client.outcomes import read_cancel_answer
+from ros_runtime.drawing.sequence_diagram import Arrow
+from ros_runtime.message_constants import GoalStatus, RobotMode, name_of
+from ros_runtime.record.client_events import (
+    CancelAnswered,
+    CancelSent,
+    FeedbackReceived,
+    GoalAnswered,
+    GoalSent,
+    ResultReceived,
+    ServiceAnswered,
+    ServiceCalled,
+    StatusSeen,
+)
+from ros_runtime.record.event import Event
+
+NOTEBOOK, ROBOT = "notebook", "robot"
+
+
+@dataclass(frozen=True)
+class Message(Arrow):
+    """An arrow; `repeats`: it is one of a stream, of which the diagram shows only some."""
+
+    repeats: bool = False
+
+
+class Messages:
+    """Puts events into words; remembers the last status of each goal and what each cancel request is about."""
+
+    def __init__(self) -> None:
+        self._statuses: dict[str, int] = {}
+        self._cancels: dict[str, str] = {}
+
+    def of(self, event: Event) -> Iterator[Message]:
+        """Yield the messages that an event was."""
+        t = event.t
+        match event:
+            case ServiceCalled(call=call, service=service, request=request):
+                content = describe_briefly(request)
+                yield _request(t, call, service if content == "empty" else f"{service}: {content}")
+            case ServiceAnswered(call=call, response=response):
+                yield _answer(t, call, describe_briefly(response))
+            case GoalSent(goal=goal, request=request):
+                yield _request(t, goal, f"send_goal: {describe_briefly(request)}")
+            case GoalAnswered(goal=goal, accepted=False):
+                yield _answer(t, goal, "goal rejected")
+            case GoalAnswered(goal=goal):
+                self._has_changed(goal, max(self._statuses.get(goal, 0), GoalStatus.ACCEPTED))
+                yield _answer(t, goal, "goal accepted")
+                yield _request(t, goal, "get_result")
+            case FeedbackReceived(goal=goal, feedback=feedback):
+                yield _published(t, goal, f"feedback: {describe_briefly(feedback)}", repeats=True)
+            case StatusSeen(goal=goal, status=status) if self._has_changed(goal, status):
+                yield _published(t, goal, f"status: {name_of(GoalStatus, status)}")
+            case CancelSent(cancel=cancel, goal=goal):
+                self._cancels[cancel] = goal
+                yield _request(t, goal, "cancel_goal")
+            case CancelAnswered(cancel=cancel):
+                goal = self._cancels.pop(cancel)
+                yield _answer(t, goal, f"cancel {read_cancel_answer(event, goal)}")
+            case ResultReceived(goal=goal, status=status, result=result):
+                self._has_changed(goal, status)
+                yield _answer(t, goal, f"{name_of(GoalStatus, status)}, {describe_briefly(result)}")
+            case ModeChanged(mode=mode):
+                yield Message(t, ROBOT, ROBOT, name_of(RobotMode, mode))
+            case GaveUp(timeout=timeout):
+                yield Message(t, NOTEBOOK, NOTEBOOK, f"no answer after {timeout:g} s")
+
+    def _has_changed(self, goal: str, status: int) -> bool:
+        before = self._statuses.get(goal)
+        self._statuses[goal] = status
+        return status != before
+
+
+def _request(t: float, id: str, label: str) -> Message:
+    return Message(t, NOTEBOOK, _server(id), label, "request")
+
+
+def _answer(t: float, id: str, label: str) -> Message:
+    return Message(t, _server(id), NOTEBOOK, label, "answer")
+
+
+def _published(t: float, id: str, label: str, *, repeats: bool = False) -> Message:
+    return Message(t, _server(id), NOTEBOOK, label, "message", repeats)
+
+
+def _server(id: str) -> str:
+    """The server of a call or goal, which is named after its service or action and has a number."""
+    return f"{id.rpartition(' ')[0]} server"

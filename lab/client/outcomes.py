@@ -1,0 +1,33 @@
+"""What a goal's end and a cancel request's answer are for a notebook."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from lab.client.formatting import describe
+from ros_runtime.record.client_events import CancelAnswered
+
+
+class Outcome(NamedTuple):
+    """How a goal ended: the name of its status in action_msgs/GoalStatus, and the result message."""
+
+    status: str
+    result: Any
+
+    def __repr__(self) -> str:
+        return f"{self.status} ({describe(self.result)})"
+
+
+class CancelAnswer(NamedTuple):
+    """The answer to a cancel request; `accepted` if the server lists the goal in `goals_canceling`."""
+
+    accepted: bool
+    return_code: int
+
+    def __repr__(self) -> str:
+        return f"{'accepted' if self.accepted else 'not accepted'}, return_code {self.return_code}"
+
+
+def read_cancel_answer(answer: CancelAnswered, goal: str) -> CancelAnswer:
+    """Return what an answer says of the goal that was to be cancelled; `goal` is its name in the log."""
+    return CancelAnswer(goal in answer.canceling, answer.return_code)

@@ -1,0 +1,1 @@
+"""Questions, gaps, designs, and what a student has done of them."""

@@ -1,0 +1,61 @@
+"""The chapters and their exercises, as chapters/README.md lists them."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from ros_runtime.project import WORK
+
+CHAPTERS = WORK / "chapters"
+_ROW = re.compile(
+    r"^\| (?P<title>\w+ \[.+?\])\((?P<file>\w+\.ipynb)\) \| (?P<minutes>\d+) \| (?P<exercises>.*) \|$"
+)
+_EXERCISE = re.compile(r"\[(?P<name>\w+)\]\(\S+\) \((?P<minutes>\d+)\)")
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """An exercise of a chapter, and about how many minutes it takes."""
+
+    name: str
+    minutes: int
+
+    @property
+    def notebook(self) -> Path:
+        """Where students work on it."""
+        return WORK / "exercises" / self.name / f"{self.name}.ipynb"
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """A chapter, such as "1 The robot and its graph", and about how many minutes it takes."""
+
+    title: str
+    notebook: Path
+    minutes: int
+    exercises: tuple[Exercise, ...]
+
+    @property
+    def name(self) -> str:
+        """The name of its modules in chapters/support/questions and chapters/support/gaps."""
+        return self.notebook.stem.partition("_")[2]
+
+
+def read_contents(page: Path = CHAPTERS / "README.md") -> list[Chapter]:
+    """Return the chapters in the order of the page's table."""
+    rows = map(_ROW.match, page.read_text(encoding="utf-8").splitlines())
+    return [
+        Chapter(
+            title=re.sub(r"[\[\]]", "", row["title"]),
+            notebook=CHAPTERS / row["file"],
+            minutes=int(row["minutes"]),
+            exercises=tuple(
+                Exercise(found["name"], int(found["minutes"]))
+                for found in _EXERCISE.finditer(row["exercises"])
+            ),
+        )
+        for row in rows
+        if row
+    ]

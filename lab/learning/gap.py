@@ -1,0 +1,115 @@
+"""A gap in a program of a chapter: you write a few lines, and `%%gap` saves the file and checks it at once."""
+
+from __future__ import annotations
+
+import pkgutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from IPython.core.getipython import get_ipython
+from IPython.core.magic import register_cell_magic
+
+from chapters.support import gaps
+from lab.errors import LabError
+from lab.learning.gap_cells import is_empty, is_python, placeholder
+from lab.learning.progress_file import keep
+from lab.running.programs import stop_programs
+from lab.running.student_nodes import stop_nodes
+
+
+class GapError(LabError):
+    """The lines in a gap do not do yet what is asked for."""
+
+
+@dataclass(frozen=True)
+class Gap:
+    """A file with a gap.
+
+    Attributes:
+        file: its name, which no other gap of the course has.
+        check: runs the file, and returns a sentence that says what it did; raises a LabError when that is not enough.
+    """
+
+    file: str
+    check: Callable[[], str]
+
+
+def expect(condition: object, *, seen: object, expected: str, next: str) -> None:
+    """Go on when the condition holds.
+
+    Raises GapError otherwise; it says what was seen, what was expected and what to do next.
+    """
+    if not condition:
+        raise not_yet(seen, expected, next)
+
+
+def not_yet(seen: object, expected: str, next: str) -> GapError:
+    """Return the error for lines that do not do yet what is asked for."""
+    return GapError(f"not yet.\n  seen:     {seen}\n  expected: {expected}\n  next:     {next}")
+
+
+def read_gaps(chapter: str) -> tuple[Gap, ...]:
+    """Return the gaps of a chapter, such as `read_gaps("services")`, in the order of the chapter."""
+    return import_module(f"chapters.support.gaps.{chapter}").GAPS
+
+
+def find_gap(file: str) -> Gap:
+    """Return the gap of a file.
+
+    Raises LabError when no chapter has one.
+    """
+    known = {
+        gap.file: gap for module in pkgutil.iter_modules(gaps.__path__) for gap in read_gaps(module.name)
+    }
+    if file not in known:
+        raise LabError(
+            f"%%gap {file}: no chapter has a gap in a file of this name; there are {', '.join(known)}"
+        )
+    return known[file]
+
+
+def write_and_check(file: str, program: str) -> None:
+    """Save the program or definition and print what its check saw. What ran before is stopped.
+
+    Raises:
+        GapError: there are no lines yet, they are not Python, or they do not do what is asked for.
+        LabError: the file has no gap, or its program did not run.
+    """
+    file = file.strip()
+    gap = find_gap(file)
+    Path(file).write_text(program, encoding="utf-8")
+    if is_empty(program):
+        raise GapError(
+            f"{file}: nothing is written yet. Replace `{placeholder(file)}` by your lines and run this cell again; "
+            "the solution is folded below it"
+        )
+    if is_python(file):
+        _require_python(file, program)
+    stop_nodes()
+    stop_programs()
+    try:
+        saw = gap.check()
+    except GapError as problem:
+        raise GapError(f"{file}: {problem}") from None
+    finally:
+        stop_nodes()
+        stop_programs()
+    keep("gaps", file, datetime.now().isoformat(timespec="seconds"))
+    print(f"✓ {file}: {saw}")
+
+
+def _require_python(file: str, program: str) -> None:
+    try:
+        compile(program, file, "exec")
+    except SyntaxError as problem:
+        line = (problem.text or "").strip()
+        raise GapError(f"{file}, line {problem.lineno}: {problem.msg}: {line}") from None
+
+
+if get_ipython() is not None:  # in a notebook
+    register: Any = register_cell_magic("gap")  # IPython's types know only methods of a shell
+    register(write_and_check)

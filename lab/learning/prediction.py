@@ -1,0 +1,99 @@
+"""Predictions: you choose before a cell is run, and your choice is answered after it."""
+
+from __future__ import annotations
+
+from html import escape
+from textwrap import fill
+
+import ipywidgets
+from IPython.display import display
+
+from lab.errors import LabError
+from lab.learning.kept_choices import keep_letter, kept_letter
+from lab.learning.question import Question, read_question
+
+WIDTH = 80  # characters; Jupyter breaks longer lines in mid-word
+
+
+def predict(chapter: str, number: int) -> Prediction:
+    """Return a prediction of a chapter, with the choice made earlier, to be shown before its experiment.
+
+        prediction_1 = lab.predict("services", 1)
+        prediction_1            # a cell that shows the question and its buttons
+        prediction_1.require()  # the first line of the experiment
+        prediction_1.reply()    # a cell after it
+
+    Raises LabError when the chapter has no prediction of that number.
+    """
+    return Prediction(number, read_question(chapter, "PREDICTIONS", number))
+
+
+class Prediction:
+    """A choice to make: click a letter, press it with Tab and Space, or call `choose("b")` where there are no widgets.
+
+    The choice is kept beside the notebook until it is changed or cleared, also when the kernel is restarted.
+    """
+
+    def __init__(self, number: int, question: Question) -> None:
+        self.number = number
+        self.question = question
+        self._buttons = question.buttons()
+        self._buttons.value = kept_letter("predictions", question)
+        self._buttons.observe(lambda change: keep_letter("predictions", question, change["new"]), "value")
+
+    @property
+    def letter(self) -> str | None:
+        """The choice as it is now, or None."""
+        return self._buttons.value
+
+    def choose(self, letter: str) -> None:
+        """Make or change the choice.
+
+        Raises LabError when there is no such letter.
+        """
+        self.question.choice(letter)
+        self._buttons.value = letter
+
+    def clear(self) -> None:
+        """Forget the choice."""
+        self._buttons.value = None
+
+    def require(self) -> None:
+        """Let the experiment run only when a choice has been made.
+
+        Raises LabError when there is none.
+        """
+        if self.letter is None:
+            raise LabError(self._wish())
+
+    def reply(self) -> None:
+        """Print what was sensible about the choice and what it missed; without a choice, ask for one."""
+        if self.letter is None:
+            print(self._wish())
+            return
+        choice = self.question.choice(self.letter)
+        print(f"You predicted {self.letter}: {choice.text}")
+        print(fill(f"{'Right.' if choice.right else 'It went differently.'} {choice.why}", WIDTH))
+
+    def _wish(self) -> str:
+        return (
+            f"Predict first: click {self.question.letters()} under Prediction {self.number}, "
+            f'or run prediction_{self.number}.choose("a") in a cell'
+        )
+
+    def _ipython_display_(self) -> None:
+        display(self.question.text_under(f"Prediction {self.number}"))
+        display(self._panel())
+
+    def _panel(self) -> ipywidgets.VBox:
+        note = ipywidgets.HTML()
+        clear = ipywidgets.Button(description="Clear", tooltip="Forget my prediction")
+        clear.on_click(lambda _: self.clear())
+
+        def tell(_: dict | None = None) -> None:
+            chosen = f"You predict {self.letter}. Run the next cell."
+            note.value = escape(chosen if self.letter else f"Choose {self.question.letters()}.")
+
+        self._buttons.observe(tell, "value")
+        tell()
+        return ipywidgets.VBox([ipywidgets.HBox([self._buttons, clear]), note])

@@ -1,0 +1,61 @@
+"""Quiz questions with immediate feedback and a reason for each choice."""
+
+from __future__ import annotations
+
+import ipywidgets
+from IPython.display import display
+
+from lab.learning.kept_choices import keep_letter, kept_letter
+from lab.learning.question import Question, in_html, read_question
+
+
+def quiz(chapter: str, number: int) -> Quiz:
+    """Return a question of a chapter, such as `quiz("services", 1)`.
+
+    Raises LabError when the chapter has no question of that number.
+    """
+    return Quiz(f"Question {number}", read_question(chapter, "QUESTIONS", number))
+
+
+class Quiz:
+    """A question in a notebook: click a button, or call `answer("b")` where there are no widgets.
+
+    The last answer is kept beside the notebook.
+    """
+
+    def __init__(self, title: str, question: Question) -> None:
+        self.title = title
+        self.question = question
+
+    def answer(self, letter: str) -> None:
+        """Print whether this choice is right, and why; "" is no answer yet."""
+        if not letter:
+            print(f"Not answered yet: choose {self.question.letters()}.")
+            return
+        print(self.mark(letter))
+        keep_letter("questions", self.question, letter)
+
+    def mark(self, letter: str) -> str:
+        """Return the feedback on a choice as a sentence.
+
+        Raises LabError when there is no such letter.
+        """
+        choice = self.question.choice(letter)
+        return f"{letter}: {'Right.' if choice.right else 'Not this one.'} {choice.why}"
+
+    def _ipython_display_(self) -> None:
+        display(self.question.text_under(self.title))
+        display(self._buttons())
+
+    def _buttons(self) -> ipywidgets.VBox:
+        verdict = ipywidgets.HTML()
+
+        def mark(change: dict) -> None:
+            if change["new"]:
+                verdict.value = in_html(self.mark(change["new"]))
+                keep_letter("questions", self.question, change["new"])
+
+        buttons = self.question.buttons()
+        buttons.observe(mark, "value")
+        buttons.value = kept_letter("questions", self.question)
+        return ipywidgets.VBox([buttons, verdict])

@@ -1,0 +1,1 @@
+"""Draws what happened: robot, graph, sequences, plots."""

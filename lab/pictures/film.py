@@ -1,0 +1,128 @@
+"""A film of the robot, stored in the notebook: from now on, or of what was recorded."""
+
+from __future__ import annotations
+
+import io
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from geometry_msgs.msg import PoseStamped
+from IPython.display import HTML
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import JointState
+
+from lab.client import topics
+from lab.pictures.picture import HEIGHT, WIDTH, as_mujoco, figure, take_present_posture
+from robot_sim.humanoid import Humanoid
+from robot_sim.views.film import Reel
+from ros_runtime.workarounds.gl_backend import NoOpenGLError
+
+RATE = 12.5  # frames a second
+LONGEST = 60.0  # s, which are about 5 MB in the notebook
+
+
+def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: str = "track") -> HTML:
+    """Film the robot for `seconds` from now on, drawn from its own messages; also write it to `file`, a .webp.
+
+    It blocks that long, and the first frame comes a second or two after the call: start a long motion before it. To
+    film what is short, such as a fall, use `record_robot()` and then the recording's `film()`. Without OpenGL you get
+    the caption of the film and the reason why there is none.
+
+    Raises:
+        NoRobotError: no robot is running.
+        ValueError: the duration is not between 0 and 60 s, or there is no such camera.
+    """
+    words = f"The robot for {seconds:g} s, from {topics.pose()}"
+
+    def postures(body: Humanoid) -> Iterator[None]:
+        began = time.monotonic()
+        for frame in range(_frames(seconds)):
+            time.sleep(max(0.0, began + frame / RATE - time.monotonic()))
+            take_present_posture(body)
+            yield
+
+    return _film(postures, words, lambda: f"{words}, to {topics.pose()}", camera, file, topics.scene())
+
+
+def film_of_messages(
+    odometry: Sequence[tuple[float, Odometry]],
+    joints: Sequence[tuple[float, JointState]],
+    objects: Mapping[str, Sequence[tuple[float, PoseStamped]]],
+    seconds: float,
+    *,
+    scene: str,
+    slow_motion: float,
+    camera: str,
+    file: str | Path | None,
+) -> HTML:
+    """Film the robot from 0 to `seconds` as messages tell, each with its time in s; between two it is interpolated.
+
+    Raises ValueError when the film would last longer than 60 s, or there is no such camera.
+    """
+    count = _frames(seconds * slow_motion)
+    words = f"The robot{''.join(f' and the {name}' for name in objects)} for {seconds:.1f} s"
+    if slow_motion != 1.0:
+        words += f", {slow_motion:g} times as slow as it was"
+
+    def postures(body: Humanoid) -> Iterator[None]:
+        at = np.arange(count) / RATE / slow_motion
+        poses = _interpolated(at, [(t, as_mujoco(message.pose.pose)) for t, message in odometry])
+        angles = _interpolated(at, [(t, message.position) for t, message in joints])
+        places = [body.model.joint(name).qposadr[0] for name in joints[0][1].name]
+        moves = {
+            name: _interpolated(at, [(t, as_mujoco(message.pose)) for t, message in messages])
+            for name, messages in objects.items()
+            if messages
+        }
+        for frame, (pose, positions) in enumerate(zip(poses, angles, strict=True)):
+            body.data.qpos[:7], body.data.qpos[places] = pose, positions
+            for name, places_of_it in moves.items():
+                body.data.joint(name).qpos[:] = places_of_it[frame]
+            mujoco.mj_forward(body.model, body.data)  # which also makes the quaternion a unit again
+            yield
+
+    return _film(postures, words, lambda: words, camera, file, scene)
+
+
+def _frames(seconds: float) -> int:
+    if not 0 < seconds <= LONGEST:
+        raise ValueError(f"the film would last {seconds:g} s; expected more than 0, at most {LONGEST:g}")
+    return max(1, round(seconds * RATE))
+
+
+def _film(
+    postures: Callable[[Humanoid], Iterator[None]],
+    words: str,
+    caption: Callable[[], str],
+    camera: str,
+    file: str | Path | None,
+    scene: str,
+) -> HTML:
+    """Draw a frame for each posture that a body is brought into; `caption` is asked for at the end."""
+    body = Humanoid(scene)
+    try:
+        reel = Reel(body, WIDTH, HEIGHT, camera=camera, rate=RATE)
+    except NoOpenGLError as error:
+        return HTML(f"<p>{escape(words)}. No film: {escape(str(error))}</p>")
+    webp = io.BytesIO()
+    try:
+        for _ in postures(body):
+            reel.add()
+        reel.save(webp)
+    finally:
+        reel.close()
+    if file is not None:
+        Path(file).write_bytes(webp.getvalue())
+    return figure(webp.getvalue(), "webp", words, caption())
+
+
+def _interpolated(at: np.ndarray, samples: Sequence[tuple[float, Any]]) -> np.ndarray:
+    """The samples, each with its time, at other times: a row for each."""
+    times = [t for t, _ in samples]
+    columns = np.array([values for _, values in samples]).T
+    return np.stack([np.interp(at, times, column) for column in columns], axis=1)

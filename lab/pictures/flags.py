@@ -1,0 +1,47 @@
+"""Labels at moments of a time axis, in rows, so that none covers another or is crossed by another's line."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from functools import cache
+
+from lab.pictures.marks import Mark
+
+FONT_SIZE = 9.0  # points
+ROW = 0.19  # inches
+GAP = 0.12  # inches, between a label and the next line on its right
+
+
+def rows_of(marks: Sequence[Mark], inches_per_second: float) -> list[int]:
+    """The row of each label, 0 at the top; marks are in order of time, and each label stands right of its line.
+
+    A label whose line runs through an earlier one stands in a lower row: its line begins below that.
+    """
+    rows: list[int] = []
+    for mark in marks:
+        covering = [
+            row
+            for row, earlier in zip(rows, marks, strict=False)
+            if (mark.time - earlier.time) * inches_per_second < text_width(earlier.label) + GAP
+        ]
+        rows.append(max(covering, default=-1) + 1)
+    return rows
+
+
+@cache
+def text_width(text: str) -> float:
+    """The width of a label, in inches."""
+    from matplotlib.textpath import TextPath  # takes a while to import, and most notebooks draw nothing
+
+    if not text.strip():
+        return 0.0
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # a letter that the font lacks is measured as a box
+        return TextPath((0, 0), text.replace("$", r"\$"), size=FONT_SIZE).get_extents().width / 72
+
+
+def overhang(marks: Sequence[Mark], end: float, inches_per_second: float) -> float:
+    """How far labels reach beyond `end` (s) of the axis, in inches; at least 0."""
+    ends = [(mark.time - end) * inches_per_second + text_width(mark.label) + GAP for mark in marks]
+    return max(0.0, *ends) if ends else 0.0

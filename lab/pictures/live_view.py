@@ -1,0 +1,112 @@
+"""A live view of the robot in the notebook."""
+
+from __future__ import annotations
+
+import io
+import threading
+import time
+
+import ipywidgets
+from PIL import Image
+
+from lab.client import topics
+from lab.errors import NoRobotError
+from lab.pictures.picture import HEIGHT, WIDTH, take_present_posture
+from robot_sim.humanoid import Humanoid
+from robot_sim.views.view import View
+from ros_runtime.workarounds.gl_backend import NoOpenGLError
+
+FRAMES = 12.0  # a second, at most
+SHARE = 0.4  # of the time, at most, that is spent drawing: the rest belongs to the notebook
+FIRST_FRAME_WITHIN = 20.0  # s
+
+_running: _LiveView | None = None
+
+
+def watch_robot(camera: str = "track") -> ipywidgets.Image | ipywidgets.Label:
+    """Show a live view of the robot below this cell until `stop_watching()`; a second call moves the view there.
+
+    It is drawn in the notebook's process from the robot's own messages, so watching does not slow the robot down.
+    `camera` is "track", "side" or "front". Without OpenGL you get a text that says why there is no picture.
+
+    Raises:
+        NoRobotError: no robot is running.
+        ValueError: there is no such camera.
+    """
+    global _running
+    stop_watching()
+    topics.odometry()  # raises at once when there is no robot
+    view = _LiveView(camera)
+    try:
+        view.begin()
+    except NoOpenGLError as error:
+        return ipywidgets.Label(f"No picture: {error}")
+    _running = view
+    return view.widget
+
+
+def stop_watching() -> None:
+    """End the live view; its last frame stays."""
+    global _running
+    if _running is not None:
+        _running.end()
+        _running = None
+
+
+class _LiveView:
+    """A widget and the thread that draws into it: an OpenGL context belongs to one thread."""
+
+    def __init__(self, camera: str) -> None:
+        self.widget = ipywidgets.Image(format="jpeg", width=WIDTH, height=HEIGHT)
+        self._camera = camera
+        self._stop = threading.Event()
+        self._begun = threading.Event()
+        self._problem: Exception | None = None
+        self._thread = threading.Thread(target=self._draw_until_stopped, name="live view", daemon=True)
+
+    def begin(self) -> None:
+        """Return when the first frame is there; raises what kept it from being drawn."""
+        self._thread.start()
+        if not self._begun.wait(FIRST_FRAME_WITHIN):
+            self._problem = NoOpenGLError(f"nothing was drawn within {FIRST_FRAME_WITHIN:g} s")
+        if self._problem is not None:
+            self._stop.set()
+            raise self._problem
+
+    def end(self) -> None:
+        self._stop.set()
+        self._thread.join()
+
+    def _draw_until_stopped(self) -> None:
+        body = Humanoid(topics.scene())
+        try:
+            view = View(body, WIDTH, HEIGHT, shadows=False)
+        except NoOpenGLError as error:
+            self._problem = error
+            self._begun.set()
+            return
+        try:
+            self._draw(body, view)
+        finally:
+            view.close()
+
+    def _draw(self, body: Humanoid, view: View) -> None:
+        while not self._stop.is_set():
+            began = time.monotonic()
+            try:
+                take_present_posture(body)
+                self.widget.value = _jpeg(view.picture(self._camera))
+            except NoRobotError:  # it may come back
+                pass
+            except ValueError as error:
+                self._problem = error
+                self._stop.set()
+            self._begun.set()
+            spent = time.monotonic() - began
+            self._stop.wait(max(1 / FRAMES - spent, spent * (1 / SHARE - 1)))
+
+
+def _jpeg(pixels) -> bytes:  # (height, width, 3) uint8
+    buffer = io.BytesIO()
+    Image.fromarray(pixels).save(buffer, "JPEG", quality=85)
+    return buffer.getvalue()

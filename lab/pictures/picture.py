@@ -1,0 +1,77 @@
+"""A picture of the robot in its present posture, and of what is around it."""
+
+from __future__ import annotations
+
+import base64
+import io
+from functools import cache
+from html import escape
+
+import mujoco
+from geometry_msgs.msg import Pose
+from IPython.display import HTML
+from nav_msgs.msg import Odometry
+from PIL import Image
+from sensor_msgs.msg import JointState
+
+from lab.client import topics
+from robot_sim.humanoid import Humanoid
+from robot_sim.views.view import snapshot
+from ros_runtime.workarounds.gl_backend import NoOpenGLError
+
+WIDTH, HEIGHT = 480, 360  # px
+
+
+def show_robot(camera: str = "track") -> HTML:
+    """Draw the robot from its own messages, odom and joint_states; camera "track", "side" or "front".
+
+    Without OpenGL you get the caption of the picture and the reason why there is none.
+    """
+    words = f"The robot: {topics.mode()} at {topics.pose()}"
+    body = _body(topics.scene())
+    take_present_posture(body)
+    try:
+        pixels = snapshot(body, WIDTH, HEIGHT, camera=camera)
+    except NoOpenGLError as error:
+        return HTML(f"<p>{escape(words)}. No picture: {escape(str(error))}</p>")
+    png = io.BytesIO()
+    Image.fromarray(pixels).save(png, "PNG")
+    return figure(png.getvalue(), "png", words, words)
+
+
+def figure(image: bytes, kind: str, words: str, caption: str = "", *, width: int = WIDTH) -> HTML:
+    """Embed an image ("png", "webp", "svg+xml") in the notebook, `width` px wide, with an alternative text."""
+    data = base64.b64encode(image).decode()
+    below = f"<figcaption>{escape(caption)}</figcaption>" if caption else ""
+    return HTML(
+        f'<figure><img src="data:image/{kind};base64,{data}" width="{width}" alt="{escape(words)}">'
+        f"{below}</figure>"
+    )
+
+
+@cache
+def _body(scene: str) -> Humanoid:
+    """A humanoid for rendering only: it is never stepped."""
+    return Humanoid(scene)
+
+
+def take_present_posture(body: Humanoid) -> None:
+    """Set the pose and joints of a humanoid, and its objects, from the last messages.
+
+    Raises NoRobotError when there are none.
+    """
+    odometry: Odometry = topics.odometry()
+    joints: JointState = topics.latest("joint_states")
+    body.data.qpos[:7] = as_mujoco(odometry.pose.pose)
+    for name, position in zip(joints.name, joints.position, strict=True):
+        body.data.joint(name).qpos[0] = position
+    for name, message in topics.object_poses().items():
+        if name in body.object_poses():
+            body.data.joint(name).qpos[:] = as_mujoco(message.pose)
+    mujoco.mj_forward(body.model, body.data)
+
+
+def as_mujoco(pose: Pose) -> tuple[float, ...]:
+    """Position and orientation, as MuJoCo has them: w first."""
+    p, q = pose.position, pose.orientation
+    return p.x, p.y, p.z, q.w, q.x, q.y, q.z

@@ -1,0 +1,204 @@
+"""A recording of the robot: what its topics said while something happened, and when the notebook did what."""
+
+from __future__ import annotations
+
+import time
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from IPython.display import HTML
+
+from lab.client import topics
+from lab.client.interaction_log import log
+from lab.client.waiting import comes_true
+from lab.errors import LabError
+from lab.pictures.film import film_of_messages
+from lab.pictures.marks import Mark, label_of
+from lab.pictures.quantities import quantity_named
+from lab.pictures.time_plot import Curve, draw_panels
+from ros_runtime.message_constants import RobotMode, name_of
+from ros_runtime.record.event import Event
+
+LAST_MESSAGES_WITHIN = 1.0  # s from the end of the block; odom comes twenty times a second
+
+
+@contextmanager
+def record_robot() -> Iterator[Recording]:
+    """Record the robot as long as the `with` block lasts: its topics, and what the notebook calls, sends and cancels.
+
+        with lab.record_robot() as recording:
+            ...
+        recording.plot("speed", "height")
+
+    Raises NoRobotError when no robot is running.
+    """
+    before = {topic: topics.latest(topic) for topic in topics.TOPICS}
+    recording = Recording()
+    for topic, message in before.items():
+        recording.keep(topic, message)
+    with topics.listening(recording.keep):
+        with log.listening(recording.note):
+            try:
+                yield recording
+            finally:
+                recording.end()
+        comes_true(recording.has_all_messages, LAST_MESSAGES_WITHIN)
+
+
+class Recording:
+    """What the robot published, and what the notebook did meanwhile. All times are s since the recording began.
+
+    A message has the time of its stamp, an interaction the time at which the notebook sent or received it; both are
+    of this machine's clock.
+    """
+
+    def __init__(self) -> None:
+        self._start = time.monotonic()
+        self._start_of_stamps = time.time()
+        self._seconds: float | None = None
+        self._messages: defaultdict[str, list[tuple[float, Any]]] = defaultdict(list)
+        self._marks: list[Mark] = []
+
+    @property
+    def seconds(self) -> float:
+        """How long it lasted, or has lasted until now, in s."""
+        return time.monotonic() - self._start if self._seconds is None else self._seconds
+
+    def mark(self, label: str) -> None:
+        """Note that something happens now: plots show it with its label."""
+        self._marks.append(Mark(self.seconds, label))
+
+    def time_of(self, label: str) -> float:
+        """When something happened for the first time, in s since the beginning.
+
+            recording.time_of("result: CANCELED") - recording.time_of("cancel requested")
+
+        `label` is what a plot shows; "STANDING" is the first change of the mode to that.
+
+        Raises LabError, which lists the labels, when there is no such label.
+        """
+        moments = sorted([*self._marks, *self._mode_changes()])
+        for mark in moments:
+            if mark.label == label or mark.label.endswith(f"→ {label}"):
+                return mark.time
+        seen = "; ".join(f'"{mark.label}" at {mark.time:.2f} s' for mark in moments) or "nothing"
+        raise LabError(f'"{label}" did not happen while the robot was recorded; there is: {seen}')
+
+    def values(self, quantity: str) -> tuple[np.ndarray, np.ndarray]:
+        """The times of a quantity, in s since the beginning, and its values.
+
+        There are "speed" (m/s, forwards, in base_link), "turn rate" (rad/s, left is positive), "x" and "y" (m, of the
+        pelvis in frame odom), "height" (m, of the pelvis above the floor), "heading" (rad, in frame odom),
+        "pitch" (rad, of the pelvis, forwards is positive), "tilt" (rad, of the pelvis from upright) and "power" (W, out
+        of the battery); in the scene "table" also "grip" (N, of the fingers of the right hand) and "cup height" (m, of
+        its centre above the floor). A joint's name, such as "l_elbow", stands for its position (rad; m for a finger).
+
+        Raises LabError when there is no such quantity, or nothing of it was recorded.
+        """
+        wanted = quantity_named(quantity)
+        pairs = [
+            (at, wanted.read(message))
+            for at, message in self._messages[wanted.topic]
+            if 0.0 <= at <= self.seconds
+        ]
+        if not pairs:
+            raise LabError(
+                f"no {quantity} was recorded: the block lasted {self.seconds:.2f} s, and no message on "
+                f"{wanted.topic} came in that time; let it last longer, and see that the robot runs"
+            )
+        times, values = np.array(pairs).T
+        return times, np.unwrap(values) if wanted.is_angle else values
+
+    def mean(self, quantity: str) -> float:
+        """The mean of a quantity, in its unit; `values` says which there are.
+
+        Raises LabError when there is no such quantity, or nothing of it was recorded.
+        """
+        return float(self.values(quantity)[1].mean())
+
+    def plot(
+        self,
+        *quantities: str,
+        title: str = "What the robot did",
+        compare: Mapping[str, Callable[[float], float]] | None = None,
+    ) -> HTML:
+        """Draw quantities over time, each in a panel of its own, with what the notebook did and changes of the mode.
+
+        Args:
+            quantities: which; `values` says which there are.
+            title: of the picture.
+            compare: curves to draw dashed in the first panel: name → function of the time in s.
+
+        Raises LabError when there is no such quantity, or nothing of it was recorded.
+        """
+        if not quantities:
+            raise LabError('say what to plot, for example recording.plot("speed", "height")')
+        kinds = [quantity_named(name) for name in quantities]
+        curves = [
+            Curve(name, kind.unit, kind.least_range, *self.values(name))
+            for name, kind in zip(quantities, kinds, strict=True)
+        ]
+        return draw_panels(
+            curves,
+            seconds=self.seconds,
+            marks=self._marks,
+            changes=self._mode_changes(),
+            compare=compare or {},
+            title=title,
+        )
+
+    def film(
+        self, file: str | Path | None = None, *, camera: str = "track", slow_motion: float = 1.0
+    ) -> HTML:
+        """Film what was recorded, drawn afterwards from the robot's messages; also write it to `file`, a .webp.
+
+        `camera` is "track", "side" or "front"; `slow_motion` 4 makes it last four times as long. Without OpenGL you
+        get the caption of the film and the reason why there is none.
+
+        Raises:
+            LabError: nothing was recorded.
+            ValueError: the film would last longer than 60 s, or there is no such camera.
+        """
+        self.values("height")  # raises where there is no message
+        return film_of_messages(
+            self._messages["odom"],
+            self._messages["joint_states"],
+            {name: self._messages[topics.topic_of(name)] for name in topics.object_poses()},
+            self.seconds,
+            scene=topics.scene(),
+            slow_motion=slow_motion,
+            camera=camera,
+            file=file,
+        )
+
+    def keep(self, topic: str, message: Any) -> None:
+        """Add a message of one of the robot's topics."""
+        stamp = message.header.stamp
+        self._messages[topic].append((stamp.sec + stamp.nanosec * 1e-9 - self._start_of_stamps, message))
+
+    def note(self, event: Event) -> None:
+        """Add a request or an answer of the notebook; other events are not shown."""
+        label = label_of(event)
+        if label is not None:
+            self._marks.append(Mark(event.t - self._start, label))
+
+    def end(self) -> None:
+        """Fix the end: what comes later does not belong to the recording."""
+        self._seconds = self.seconds
+
+    def has_all_messages(self) -> bool:
+        """Whether a message from after the end has come, so that none from before is still on its way."""
+        return any(at > self.seconds for at, _ in self._messages["odom"][-1:])
+
+    def _mode_changes(self) -> list[Mark]:
+        states = [(at, state.mode) for at, state in self._messages["robot_state"] if at <= self.seconds]
+        return [
+            Mark(max(0.0, at), f"{name_of(RobotMode, before)} → {name_of(RobotMode, mode)}")
+            for (_, before), (at, mode) in pairwise(states)
+            if mode != before and at >= 0.0
+        ]

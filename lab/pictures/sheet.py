@@ -1,0 +1,52 @@
+"""The sheet that plots are drawn on: white, with fonts and colours that are alike in all of them."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from IPython.display import HTML
+
+from lab.pictures.flags import FONT_SIZE
+from lab.pictures.picture import figure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+PIXELS_PER_INCH = 96
+LEFT, TOP, BOTTOM = 0.85, 0.42, 0.5  # inches: y labels, title, x axis
+# Of Okabe and Ito, whose colours differ for every eye; the words on the sheet never rely on them.
+BLUE: str = "#0072B2"
+VERMILION: str = "#B34700"
+GREY: str = "#555555"
+
+_STYLE = {
+    "font.size": FONT_SIZE,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e6e6e6",
+    "svg.fonttype": "none",  # letters stay letters: they can be found, copied and enlarged
+}
+
+
+@contextmanager
+def sheet(width: float, height: float, title: str) -> Iterator[Figure]:
+    """A figure of so many inches with a title, in the style of the lab."""
+    import matplotlib
+    from matplotlib.figure import Figure  # takes a while to import, and most notebooks draw nothing
+
+    with matplotlib.rc_context(_STYLE):
+        page = Figure((width, height), facecolor="white")
+        page.text(0.12 / width, 1 - 0.1 / height, title, va="top", fontsize=FONT_SIZE + 2, fontweight="bold")
+        yield page
+
+
+def as_html(page: Figure, words: str) -> HTML:
+    """Embed a figure as SVG with an alternative text."""
+    drawn = io.BytesIO()
+    page.savefig(drawn, format="svg", metadata={"Date": None})
+    width = round(page.get_figwidth() * PIXELS_PER_INCH)
+    return figure(drawn.getvalue(), "svg+xml", words, width=width)

@@ -1,0 +1,186 @@
+"""Which callback ran on which thread from when to when, drawn from the lines that a program printed."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
+
+from IPython.display import HTML
+
+from lab.errors import LabError
+from lab.pictures.flags import text_width
+from lab.pictures.sheet import BLUE, BOTTOM, GREY, TOP, VERMILION, as_html, sheet
+from lab.running.student_nodes import StudentNode
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+WIDTH, LANE = 6.6, 0.42  # inches: of the time axis, and the height of a thread
+LEGEND = 0.25  # inches, above the lanes
+NO_THREAD = "awaiting, on no thread"
+COLOURS = (BLUE, VERMILION, "#007A5E", "#8A4F7D", GREY)
+TIME = "s since the first line (system clock)"
+_LINE = re.compile(
+    r"^(?P<time>\d+\.\d+) (?P<thread>\S+) (?P<callback>\S+) (?P<verb>begins|awaits|resumes|ends)$",
+    re.MULTILINE,
+)
+
+
+class Step(NamedTuple):
+    """A line of the program: at `time` (s) a callback begins, awaits, resumes or ends on a thread."""
+
+    time: float
+    thread: str
+    callback: str
+    verb: str
+
+
+@dataclass(frozen=True)
+class Span:
+    """A callback from `begin` to `end` (s), on the lane of its thread or, while it awaits, on `NO_THREAD`."""
+
+    lane: str
+    callback: str
+    begin: float
+    end: float
+    is_over: bool = True
+
+
+def draw_threads(node: StudentNode, *, title: str = "Which callback ran on which thread") -> HTML:
+    """Draw each thread of a node as a lane, with its callbacks from their begin to their end.
+
+    The program prints a line for each step of a callback, with the time in s of `time.monotonic()` and the thread's
+    name:
+
+        1234.5678 MainThread beat begins
+
+    The verbs are begins, ends, and for a coroutine awaits and resumes. A callback that awaits holds no thread; it has
+    a lane of its own. A callback that never ended is drawn until the node ended, or until now.
+
+    Raises LabError when the node has printed no such line.
+    """
+    steps = read_steps(node.log())
+    if not steps:
+        raise LabError(
+            f"{node.file.name} has printed no line like “1234.5678 MainThread beat begins”: call trace() or use "
+            "traced() in its callbacks, and let it run for a moment"
+        )
+    until = max(steps[-1].time, node.life().ended or time.monotonic())
+    spans = spans_of(steps, until)
+    zero, last = steps[0].time, max(span.end for span in spans)
+    lanes = _lanes(spans)
+    colours = dict(zip(dict.fromkeys(span.callback for span in spans), COLOURS * 9, strict=False))
+    left = 0.3 + max(text_width(lane) for lane in lanes)
+    width, height = left + WIDTH + 0.25, TOP + LEGEND + LANE * len(lanes) + BOTTOM
+    with sheet(width, height, title) as page:
+        size = (left / width, BOTTOM / height, WIDTH / width, LANE * len(lanes) / height)
+        axis = page.add_axes(size)
+        axis.set_xlim(0, max(last - zero, 0.1))
+        axis.set_ylim(len(lanes), 0)
+        axis.set_yticks([row + 0.5 for row in range(len(lanes))], lanes)
+        axis.tick_params(axis="y", length=0)
+        axis.grid(axis="y", visible=False)
+        axis.set_axisbelow(True)
+        axis.set_xlabel(TIME)
+        for span in spans:
+            _draw(axis, span, lanes.index(span.lane), zero, colours[span.callback])
+        for row in range(1, len(lanes)):
+            axis.axhline(row, color="#e6e6e6", linewidth=0.8)
+        _draw_legend(axis, colours)
+        return as_html(page, _in_words(title, spans, lanes, zero))
+
+
+def read_steps(log: str) -> list[Step]:
+    """Return the steps that a program printed, in order of time; other lines are passed over."""
+    found = (Step(float(line[1]), line[2], line[3], line[4]) for line in _LINE.finditer(log))
+    return sorted(found, key=lambda step: step.time)
+
+
+def spans_of(steps: Iterable[Step], until: float) -> list[Span]:
+    """Join steps to spans; one that is still open ends at `until`.
+
+    A coroutine may resume on another thread, so its steps are joined by the callback's name alone.
+    """
+    spans: list[Span] = []
+    running: dict[tuple[str, str], float] = {}
+    awaiting: dict[str, list[float]] = {}
+    for step in steps:
+        key = (step.thread, step.callback)
+        if step.verb == "resumes" and awaiting.get(step.callback):
+            begin = awaiting[step.callback].pop(0)
+            spans.append(Span(NO_THREAD, step.callback, begin, step.time))
+        if step.verb in ("awaits", "ends") and key in running:
+            spans.append(Span(step.thread, step.callback, running.pop(key), step.time))
+        if step.verb == "awaits":
+            awaiting.setdefault(step.callback, []).append(step.time)
+        if step.verb in ("begins", "resumes"):
+            running[key] = step.time
+    spans += [Span(thread, name, begin, until, is_over=False) for (thread, name), begin in running.items()]
+    spans += [
+        Span(NO_THREAD, name, begin, until, is_over=False)
+        for name, begins in awaiting.items()
+        for begin in begins
+    ]
+    return sorted(spans, key=lambda span: span.begin)
+
+
+def _lanes(spans: Sequence[Span]) -> list[str]:
+    threads = sorted({span.lane for span in spans} - {NO_THREAD})
+    return [*threads, NO_THREAD] if any(span.lane == NO_THREAD for span in spans) else threads
+
+
+def _draw(axis: Axes, span: Span, row: int, zero: float, colour: str) -> None:
+    is_held = span.lane != NO_THREAD
+    axis.broken_barh(
+        [(span.begin - zero, span.end - span.begin)],
+        (row + 0.15, 0.7),
+        facecolor=colour if is_held else "white",
+        edgecolor=colour,
+        linewidth=1.2,
+        linestyle="-" if is_held else "--",
+    )
+
+
+def _draw_legend(axis: Axes, colours: dict[str, str]) -> None:
+    from matplotlib.patches import Patch
+
+    axis.legend(
+        handles=[Patch(color=colour, label=name) for name, colour in colours.items()],
+        loc="lower left",
+        bbox_to_anchor=(0, 1),
+        ncols=len(colours),
+        frameon=False,
+        borderaxespad=0.1,
+    )
+
+
+def _in_words(title: str, spans: Sequence[Span], lanes: Sequence[str], zero: float) -> str:
+    told = [f"{title}."]
+    for lane in lanes:
+        here = [span for span in spans if span.lane == lane]
+        told.append(f"{lane}: " + "; ".join(_several(name, here, zero) for name in _names(here)) + ".")
+    for name in _names(spans):
+        begins = [span.begin for span in spans if span.callback == name and span.lane != NO_THREAD]
+        if len(begins) > 2:
+            longest = max(later - earlier for earlier, later in pairwise(begins))
+            told.append(f"Longest time from one {name} to the next: {longest:.2f} s.")
+    return " ".join(told)
+
+
+def _names(spans: Iterable[Span]) -> list[str]:
+    return list(dict.fromkeys(span.callback for span in spans))
+
+
+def _several(name: str, spans: Sequence[Span], zero: float) -> str:
+    mine = [span for span in spans if span.callback == name]
+    if len(mine) > 2:
+        return f"{name} {len(mine)} times"
+    return ", ".join(
+        f"{name} from {span.begin - zero:.2f} s "
+        + (f"to {span.end - zero:.2f} s" if span.is_over else "on, without an end")
+        for span in mine
+    )

@@ -1,0 +1,132 @@
+"""Quantities over time: one panel each, with labelled moments above them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from IPython.display import HTML
+
+from lab.pictures.flags import ROW, overhang, rows_of
+from lab.pictures.marks import Mark
+from lab.pictures.sheet import BLUE, BOTTOM, GREY, LEFT, TOP, VERMILION, as_html, sheet
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+WIDTH, HEIGHT, SPACE = 6.6, 1.6, 0.18  # inches: of a panel, and between two
+FEW = 40  # values that are drawn as points, too
+TIME = "s since the recording began (system clock)"
+
+
+class Curve(NamedTuple):
+    """A quantity: its values, in `unit`, at so many times, in s; its panel shows at least `least_range`."""
+
+    name: str
+    unit: str
+    least_range: float
+    times: np.ndarray
+    values: np.ndarray
+
+
+def draw_panels(
+    curves: Sequence[Curve],
+    *,
+    seconds: float,
+    marks: Sequence[Mark],
+    changes: Sequence[Mark],
+    compare: Mapping[str, Callable[[float], float]],
+    title: str,
+) -> HTML:
+    """Draw curves below each other over the same `seconds`, with `marks` (solid) and `changes` of the mode (dotted).
+
+    `compare` has functions of the time to draw, dashed, in the first panel.
+    """
+    flags = sorted([*marks, *changes])
+    scale = WIDTH / seconds
+    rows = rows_of(flags, scale)
+    band = ROW * (max(rows, default=-1) + 1)
+    height = TOP + band + len(curves) * (HEIGHT + SPACE) + BOTTOM
+    width = LEFT + WIDTH + max(0.25, overhang(flags, seconds, scale))
+    with sheet(width, height, title) as page:
+        panels: list[Axes] = []
+        for index, curve in enumerate(curves):
+            bottom = height - TOP - band - HEIGHT - index * (HEIGHT + SPACE)
+            place = (LEFT / width, bottom / height, WIDTH / width, HEIGHT / height)
+            panels.append(page.add_axes(place))
+            _draw(panels[-1], curve, seconds)
+        for name, function in compare.items():
+            _draw_comparison(panels[0], name, function, seconds)
+        for mark, row in zip(flags, rows, strict=True):
+            _draw_flag(panels, mark, band - row * ROW, is_change=mark in changes)
+        for panel in panels[:-1]:
+            panel.tick_params(labelbottom=False)
+        panels[-1].set_xlabel(TIME)
+        return as_html(page, _in_words(title, curves, seconds, flags, compare))
+
+
+def _draw(panel: Axes, curve: Curve, seconds: float) -> None:
+    panel.axhline(0, color=GREY, linewidth=0.8)
+    panel.plot(curve.times, curve.values, ".-" if len(curve.times) <= FEW else "-", color=BLUE, linewidth=1.5)
+    panel.set_xlim(0, seconds)
+    low, high = panel.get_ylim()
+    missing = max(0.0, curve.least_range - (high - low)) / 2
+    panel.set_ylim(low - missing, high + missing)
+    panel.set_ylabel(f"{curve.name}, {curve.unit}")
+
+
+def _draw_comparison(panel: Axes, name: str, function: Callable[[float], float], seconds: float) -> None:
+    """Draw a function within the limits that the robot's own curve has set."""
+    limits = panel.get_ylim()
+    times = np.linspace(0.0, seconds, 1000)
+    values = np.array([float(function(at)) for at in times])
+    panel.plot(times, values, "--", color=VERMILION, linewidth=1.5, label=name)
+    panel.set_ylim(limits)
+    panel.legend(loc="best", frameon=False)
+
+
+def _draw_flag(panels: Sequence[Axes], mark: Mark, above: float, *, is_change: bool) -> None:
+    """Draw a line through all panels up to its label, whose top is so many inches `above` them."""
+    colour, line = (VERMILION, ":") if is_change else (GREY, "-")
+    for panel in panels:
+        panel.axvline(mark.time, color=colour, linestyle=line, linewidth=1.1)
+    first = panels[0]
+    first.plot(
+        [mark.time, mark.time],
+        [1, 1 + (above - 0.03) / HEIGHT],
+        transform=first.get_xaxis_transform(),
+        color=colour,
+        linestyle=line,
+        linewidth=1.1,
+        clip_on=False,
+    )
+    first.annotate(
+        mark.label,
+        (mark.time, 1),
+        xycoords=("data", "axes fraction"),
+        xytext=(3, 72 * above - 2),
+        textcoords="offset points",
+        va="top",
+        color="#803300" if is_change else "black",
+        annotation_clip=False,
+        parse_math=False,
+    )
+
+
+def _in_words(
+    title: str, curves: Sequence[Curve], seconds: float, flags: Sequence[Mark], compare: Mapping[str, object]
+) -> str:
+    def sentence(curve: Curve) -> str:
+        lowest, highest = curve.values.argmin(), curve.values.argmax()
+        return (
+            f"{curve.name} in {curve.unit}: {curve.values[0]:.2f} at first, {curve.values[-1]:.2f} at last, "
+            f"lowest {curve.values[lowest]:.2f} at {curve.times[lowest]:.2f} s, "
+            f"highest {curve.values[highest]:.2f} at {curve.times[highest]:.2f} s."
+        )
+
+    compared = [f"Dashed beside {curves[0].name}: {', '.join(compare)}."] if compare else []
+    moments = [f"{mark.time:.2f} s: {mark.label}." for mark in flags]
+    return " ".join(
+        [f"{title}, {seconds:.1f} s.", *[sentence(curve) for curve in curves], *compared, *moments]
+    )

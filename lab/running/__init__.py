@@ -1,0 +1,1 @@
+"""Starts and ends the robot and students' programs."""

@@ -1,0 +1,112 @@
+"""Run your client: a program that ends by itself, with an exit status."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from lab.client.connection import connection
+from lab.running.life import Life
+from lab.running.processes import Process
+from lab.running.student_nodes import existing_file, in_namespace
+
+_running: dict[Path, Program] = {}
+
+
+def run_program(file: str | Path, *arguments: str, timeout: float = 30.0) -> Program:
+    """Run a Python file in namespace /robot and wait for its end: `start_program` followed by `wait`.
+
+    Raises LabError when there is no such file.
+    """
+    return start_program(file, *arguments).wait(timeout)
+
+
+def start_program(file: str | Path, *arguments: str) -> Program:
+    """Start a Python file as a process in namespace /robot and return without waiting.
+
+    A program that an earlier cell started from the same file is stopped first if it still runs.
+
+    Raises LabError when there is no such file.
+    """
+    path = existing_file(file)
+    if path in _running:
+        _running.pop(path).stop()
+    connection()  # sets the environment that the child inherits
+    program = Program(path, Process([str(path), *in_namespace(arguments)], own_stderr=True))
+    _running[path] = program
+    return program
+
+
+def stop_programs() -> None:
+    """End every program that still runs."""
+    for program in _running.values():
+        program.stop()
+    _running.clear()
+
+
+class Program:
+    """A file that runs, or ran, as a process.
+
+    Attributes:
+        file: its path.
+        stopped: whether it had to be stopped because it did not end by itself.
+    """
+
+    def __init__(self, file: Path, process: Process) -> None:
+        self.file = file
+        self.stopped = False
+        self._process = process
+        self._started = time.monotonic()
+        self._seconds: float | None = None
+
+    @property
+    def exit_status(self) -> int | None:
+        """Its exit status; None while it runs, and when it had to be stopped."""
+        return None if self.stopped else self._process.exit_status
+
+    @property
+    def stdout(self) -> str:
+        """What it has written to stdout: the output of `print()`."""
+        return self._process.output()
+
+    @property
+    def stderr(self) -> str:
+        """What it has written to stderr: log messages and tracebacks."""
+        return self._process.errors()
+
+    @property
+    def seconds(self) -> float:
+        """How long it ran until `wait` returned, or has run until now, in s."""
+        return time.monotonic() - self._started if self._seconds is None else self._seconds
+
+    def wait(self, timeout: float = 30.0) -> Program:
+        """Wait for its end, or stop it after `timeout` s. Returns the program itself."""
+        ended = self._process.wait(timeout)
+        self._seconds = self._seconds or self.seconds
+        if not ended:
+            self.stop()
+        return self
+
+    def life(self) -> Life:
+        """When it began, what it printed when, and how it ended, for a picture."""
+        return Life.of(self.file.name, self._process, was_stopped=self.stopped)
+
+    def stop(self) -> None:
+        """Press Ctrl-C, and kill it if it does not end within 3 s."""
+        if self._process.is_running:
+            self.stopped = True
+            self._process.stop()
+
+    def __repr__(self) -> str:
+        return f"<{self.file.name}: {self._state()}>"
+
+    def __str__(self) -> str:
+        lines = (self.stdout + self.stderr).splitlines()
+        return "\n    ".join([repr(self), *lines])
+
+    def _state(self) -> str:
+        if self.stopped:
+            return f"had not ended after {self.seconds:.1f} s and was stopped"
+        if self._process.is_running:
+            return f"running for {self.seconds:.1f} s"
+        return f"exit status {self.exit_status} after {self.seconds:.1f} s"

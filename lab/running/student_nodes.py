@@ -1,0 +1,157 @@
+"""Run a student's file as a node: a real process in the robot's namespace."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from lab.client.connection import NAMESPACE, connection
+from lab.client.interaction_log import log
+from lab.client.waiting import comes_true
+from lab.errors import LabError, NodeEndedError
+from lab.running.life import Life
+from lab.running.processes import Process
+from ros_runtime.notebook_domains import expect_node, forget_node
+from ros_runtime.reachability import wait_until_reachable
+
+START_TIMEOUT = 10.0  # s
+NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
+
+_nodes: dict[Path, StudentNode] = {}
+
+
+def run_node(file: str | Path, *arguments: str) -> StudentNode:
+    """Start a Python file as a process in namespace /robot and wait until its node answers.
+
+    A node that an earlier cell started from the same file is stopped first, so that no old server keeps answering.
+    `arguments` are the program's own.
+
+    Raises:
+        LabError: there is no such file.
+        NodeEndedError: it ended with an error at once; the message quotes what it printed.
+    """
+    path = existing_file(file)
+    log.clear()  # requests that an earlier server never answered do not belong to what follows
+    earlier = _nodes.pop(path, None)
+    if earlier is not None:
+        earlier.stop()
+    known = _nodes_seen()
+    node = StudentNode(path, Process([str(path), *in_namespace(arguments)]))
+    _nodes[path] = node
+    if comes_true(lambda: not node.is_running or _nodes_seen().keys() - known, START_TIMEOUT):
+        deadline = time.monotonic() + START_TIMEOUT
+        for gid, name in _nodes_seen().items():
+            if gid not in known:
+                wait_until_reachable(
+                    connection().node, name, lambda: not node.is_running or time.monotonic() > deadline
+                )
+                node.expect(name)
+    if not node.is_running and node.exit_status != 0:
+        raise NodeEndedError(
+            f"{path.name} ended at once with exit status {node.exit_status}; it printed:\n{node.log()}"
+        )
+    return node
+
+
+def stop_nodes() -> None:
+    """Stop every node that `run_node` started."""
+    for node in _nodes.values():
+        node.stop()
+    _nodes.clear()
+
+
+def existing_file(file: str | Path) -> Path:
+    """The full path of a student's file.
+
+    Raises LabError when there is none.
+    """
+    path = Path(file).resolve()
+    if not path.is_file():
+        raise LabError(
+            f"there is no file {file} in {Path.cwd()}; run the cell that begins %%writefile {file}"
+        )
+    return path
+
+
+def in_namespace(arguments: Sequence[str]) -> list[str]:
+    """The arguments of a program, followed by those that put its node into the robot's namespace."""
+    return [*arguments, "--ros-args", "-r", f"__ns:={NAMESPACE}"]
+
+
+def output_of_failed_nodes() -> str:
+    """The output of each node that ended with an error, to quote in an error message; "" if there are none."""
+    return "".join(
+        f"\n{node.file.name} has ended with exit status {node.exit_status}; it printed:\n{node.log()}"
+        for node in _nodes.values()
+        if node.exit_status and not node.was_stopped
+    )
+
+
+class StudentNode:
+    """A file that runs as a process.
+
+    Attributes:
+        file: its path.
+        was_stopped: `stop()` or `kill()` was called.
+    """
+
+    def __init__(self, file: Path, process: Process) -> None:
+        self.file = file
+        self.was_stopped = False
+        self._process = process
+        self._expected: list[str] = []
+
+    def expect(self, name: str) -> None:
+        """Let the ros2 commands wait for a node of this process, until it is stopped."""
+        self._expected.append(name)
+        expect_node(name)
+
+    @property
+    def is_running(self) -> bool:
+        """Whether its process is still running."""
+        return self._process.is_running
+
+    @property
+    def exit_status(self) -> int | None:
+        """None while it runs, 0 after a clean end, -n when signal n ended it."""
+        return self._process.exit_status
+
+    def log(self) -> str:
+        """Everything it has printed: `print()`, log messages and tracebacks."""
+        return self._process.output()
+
+    def life(self) -> Life:
+        """When it began, what it printed when, and how it ended, for a picture."""
+        return Life.of(self.file.name, self._process, was_stopped=self.was_stopped)
+
+    def stop(self) -> None:
+        """Press Ctrl-C. If the node does not end within 3 s, kill it and say so."""
+        self._expect_no_more()
+        if self.is_running:
+            self.was_stopped = True
+            if not self._process.stop():
+                print(f"{self.file.name} did not end within 3 s of Ctrl-C and was killed")
+
+    def kill(self) -> None:
+        """End it as a crash or a power cut would: it cannot clean up or tell other nodes."""
+        self.was_stopped = True
+        self._expect_no_more()
+        self._process.kill()
+
+    def _expect_no_more(self) -> None:
+        while self._expected:
+            forget_node(self._expected.pop())
+
+    def __repr__(self) -> str:
+        state = "running" if self.is_running else f"ended with exit status {self.exit_status}"
+        return f"<{self.file.name}: {state}>"
+
+
+def _nodes_seen() -> dict[bytes, str]:
+    """The full names of the nodes in the graph, by the GID of their /rosout publisher, which is unique."""
+    return {
+        bytes(info.endpoint_gid): f"{info.node_namespace.rstrip('/')}/{info.node_name}"
+        for info in connection().node.get_publishers_info_by_topic("/rosout")
+        if info.node_name != NOT_YET_KNOWN
+    }
