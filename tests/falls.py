@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from autograder.authoring import events as ev
 from autograder.authoring.checks import Check, Scenario, check
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
-from autograder.authoring.transcript import Transcript
 from autograder.engine.exercise import Exercise
 from autograder.engine.judging import verdict_on
 from autograder.engine.verdict import CheckVerdict, Grade

@@ -17,9 +17,9 @@ from dataclasses import dataclass, field
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Literal
 
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged, Failure, expect
 from autograder.authoring.sequence import steps_until
-from autograder.authoring.transcript import Transcript
 
 if TYPE_CHECKING:
     from autograder.authoring.obligation import Obligation

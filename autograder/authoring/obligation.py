@@ -21,14 +21,14 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call
 from autograder.authoring.checks import Check, Scenario, named_check
+from autograder.authoring.diagnosis.missing import unseen
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.call import Call
+from autograder.authoring.evidence.goal import Goal
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import NoOccasion
-from autograder.authoring.goal import Goal
-from autograder.authoring.missing import unseen
 from autograder.authoring.sequence import require_all_steps
-from autograder.authoring.transcript import Transcript
 
 Situation = str  # in which an obligation was judged, as the table of clauses names it
 

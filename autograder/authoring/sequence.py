@@ -6,9 +6,9 @@ from collections.abc import Mapping, MutableSequence, Sequence
 from random import Random
 from typing import Any
 
-from autograder.authoring import events as ev
-from autograder.authoring.missing import Missing
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.diagnosis.missing import Missing
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 
 STEPS = "steps"  # the input of a scenario that is a sequence
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from autograder.arena.scenario_spec import ScenarioSpec
-from autograder.authoring import events as ev
 from autograder.authoring.checks import Scenario
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.clock_scale import USUAL, scale_of
 from autograder.engine.exercise import Exercise
 from autograder.engine.stop import Stop

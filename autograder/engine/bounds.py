@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from autograder.authoring import events as ev
 from autograder.authoring.checks import Failure, Scenario
-from autograder.authoring.missing import held_up
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.diagnosis.missing import held_up
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 
 # Kinds of events in the words of a report.
 PLURALS: Mapping[str, str] = {

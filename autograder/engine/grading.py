@@ -13,9 +13,9 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import replace
 
 from autograder.authoring.checks import Check, Scenario
-from autograder.authoring.root_cause import why_the_robot_was_held_up
+from autograder.authoring.diagnosis.root_cause import why_the_robot_was_held_up
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.sequence import STEPS, steps_until
-from autograder.authoring.transcript import Transcript
 from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.engine.clock_scale import ClockScale
 from autograder.engine.exercise import Exercise, exercises_folder

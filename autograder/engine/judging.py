@@ -6,13 +6,13 @@ import traceback
 from collections.abc import Sequence
 from dataclasses import replace
 
-from autograder.authoring import events as ev
 from autograder.authoring import lesson
 from autograder.authoring.checks import Check, Scenario
+from autograder.authoring.diagnosis.readiness import require_ready, require_started
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged, Failure, NoOccasion
-from autograder.authoring.readiness import require_ready, require_started
 from autograder.authoring.sequence import in_words
-from autograder.authoring.transcript import Transcript
 from autograder.engine.bounds import require_bounded
 from autograder.engine.verdict import CheckStatus, CheckVerdict
 from autograder.engine.wholeness import require_whole

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from autograder.authoring import events as ev
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 
 STRAINED = 0.15  # s the simulator may be late in a retry
 OVERLOADED = 0.5  # s the simulator may be late before a run is not judged at all

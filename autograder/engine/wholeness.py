@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from autograder.authoring import events as ev
 from autograder.authoring.checks import Scenario
-from autograder.authoring.missing import held_up
-from autograder.authoring.root_cause import why_the_robot_was_held_up
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.diagnosis.missing import held_up
+from autograder.authoring.diagnosis.root_cause import why_the_robot_was_held_up
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.lateness import OVERLOADED, lateness
 
 LONGEST_SILENCE = 1.5  # s on the arena's clock without a report of the simulator

@@ -17,7 +17,7 @@ from action_msgs.msg import GoalStatus as GoalStatusMessage
 from service_msgs.msg import ServiceEventInfo
 from unique_identifier_msgs.msg import UUID
 
-from autograder.authoring import events as ev
+from autograder.authoring.evidence import events as ev
 from autograder.recording.definitions import class_of
 from autograder.recording.entry import Entry, full_name, stamp
 from ros_runtime.message_constants import GoalStatus

@@ -9,8 +9,8 @@ from typing import Any
 
 from rcl_interfaces.msg import Log
 
-from autograder.authoring import events as ev
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.verdict import CheckVerdict
 from autograder.recording.entry import CHECKS, EVENTS, ROSOUT, Entry, stamp
 from autograder.recording.narration import narrated

@@ -7,7 +7,7 @@ from typing import Any
 
 from rcl_interfaces.msg import Log
 
-from autograder.authoring import events as ev
+from autograder.authoring.evidence import events as ev
 from ros_runtime.message_constants import GoalStatus, name_of
 from ros_runtime.messages import is_message, to_dict
 

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Sequence
 
 from autograder.authoring.checks import Scenario
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import Exercise
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.recording.entry import About, Entry

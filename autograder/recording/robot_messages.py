@@ -10,8 +10,8 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
-from autograder.authoring import events as ev
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.recording.entry import Entry, full_name, stamp
 from autograder.recording.transforms import TF, transforms
 from humanoid_interfaces.msg import RobotState

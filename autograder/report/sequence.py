@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from autograder.authoring import events as ev
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from ros_runtime.drawing.sequence_diagram import Arrow, sequence_svg
 from ros_runtime.message_constants import GoalStatus, RobotMode, name_of
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from autograder.authoring.checks import Failure, Scenario
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.engine.exercise import Exercise
 from autograder.engine.lateness import lateness

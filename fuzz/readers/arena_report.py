@@ -18,7 +18,7 @@ from trajectory_msgs.msg import JointTrajectory
 
 from autograder.arena.arena_log import LARGEST_EVENT, ArenaLog
 from autograder.arena.bounded_reading import BoundedReading
-from autograder.authoring import events as ev
+from autograder.authoring.evidence import events as ev
 from autograder.engine.arena_run import NotGraded, read_events
 from fuzz import strategies as odd
 from fuzz.arena.wild_messages import wild_message

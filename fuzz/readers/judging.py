@@ -11,8 +11,8 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from autograder.authoring import events as ev
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.audit.recorded import Case, cases
 from autograder.engine.exercise import exercise_names
 from autograder.engine.judging import judge

@@ -13,7 +13,7 @@ from rich.console import Console
 
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.pages.pages import write_pages
 from autograder.engine.arena_run import read_events
 from autograder.engine.exercise import load_exercise

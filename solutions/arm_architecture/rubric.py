@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from autograder.authoring.rubric import Criterion
+from autograder.authoring import Criterion
 from ros_runtime.design import read_design
 from ros_runtime.drawing.design_graph import design_svg
 

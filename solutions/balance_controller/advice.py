@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from autograder.authoring import events as ev
-from autograder.authoring.connections import OUTSIDE
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Transcript, ev
+from autograder.authoring.diagnosis.connections import OUTSIDE
 
 from .gains import INTEGER, LIMIT, NAMES, NEGATIVE, NOT_FINITE, TOO_WEAK, Gains
 from .record import TOPIC, Change

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from autograder.authoring import standard
-from autograder.authoring.checks import in_order, program
-from autograder.authoring.obligation import check_of
+from autograder.authoring import check_of, in_order, program, standard
 
 from . import model
 

@@ -7,13 +7,21 @@ from collections.abc import Sequence
 
 from rcl_interfaces.msg import ParameterDescriptor, ParameterType
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call
-from autograder.authoring.client_checks import require_failure
-from autograder.authoring.failure import Failure, expect
-from autograder.authoring.obligation import Obligation, calls, obligation, whole_run
-from autograder.authoring.readiness import require_alive, require_ready, require_within_limits
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import (
+    Call,
+    Failure,
+    Obligation,
+    Transcript,
+    calls,
+    ev,
+    expect,
+    obligation,
+    require_alive,
+    require_failure,
+    require_ready,
+    require_within_limits,
+    whole_run,
+)
 from ros_runtime.message_constants import RobotMode
 
 from . import advice, gains, record

@@ -10,12 +10,7 @@ from typing import Any
 
 from rcl_interfaces.msg import ParameterType, ParameterValue
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call
-from autograder.authoring.missing import unseen
-from autograder.authoring.obligation import calls
-from autograder.authoring.readiness import require_alive
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Call, Transcript, calls, ev, require_alive, unseen
 
 from .gains import NAMES, Gains, fault_of, in_words
 

@@ -8,8 +8,7 @@ from typing import Any
 
 from action_msgs.msg import GoalStatus
 
-from autograder.authoring.checks import Scenario, program
-from autograder.authoring.obligation import check_of
+from autograder.authoring import Scenario, check_of, program
 from autograder.authoring.walking.client_scenarios import way
 
 from . import checks, model

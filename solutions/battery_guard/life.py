@@ -10,13 +10,7 @@ from itertools import pairwise
 from math import inf
 from typing import ClassVar, NamedTuple
 
-from autograder.authoring import events as ev
-from autograder.authoring.client_checks import require_one_goal
-from autograder.authoring.failure import Failure
-from autograder.authoring.missing import unseen
-from autograder.authoring.scripted_goal import ScriptedGoal
-from autograder.authoring.sequence import steps_until
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Failure, ScriptedGoal, Transcript, ev, require_one_goal, steps_until, unseen
 from autograder.authoring.walking.client_life import (
     CANCELED,
     FINDING,

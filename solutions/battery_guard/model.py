@@ -7,11 +7,7 @@ import re
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from autograder.authoring import events as ev
-from autograder.authoring.client_checks import how_to_give_up
-from autograder.authoring.failure import Failure, expect
-from autograder.authoring.fields import shown
-from autograder.authoring.obligation import Obligation, obligation, whole_run
+from autograder.authoring import Failure, Obligation, ev, expect, how_to_give_up, obligation, shown, whole_run
 from autograder.authoring.walking import client_obligations as owed
 from autograder.authoring.walking.client_life import CANCELED, SUCCEEDED, Cause, End
 

@@ -5,13 +5,20 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call
-from autograder.authoring.connections import lesson_on_hearing, why_nothing_is_heard
-from autograder.authoring.fields import differing_fields, shown_fields
-from autograder.authoring.obligation import calls, obligation
-from autograder.authoring.robot_topic import BATTERY, known_messages
-from autograder.authoring.standard_obligations import answered_within, answers_from_memory
+from autograder.authoring import (
+    BATTERY,
+    Call,
+    answered_within,
+    answers_from_memory,
+    calls,
+    differing_fields,
+    ev,
+    known_messages,
+    lesson_on_hearing,
+    obligation,
+    shown_fields,
+    why_nothing_is_heard,
+)
 
 SERVICE = "get_battery_status"
 LOOKED_AT = ("percentage", "voltage", "current")  # fields that people look at first

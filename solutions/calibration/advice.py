@@ -7,11 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call
-from autograder.authoring.connections import why_nothing_is_heard
-from autograder.authoring.fields import shown_fields
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Call, Transcript, ev, shown_fields, why_nothing_is_heard
 
 from . import truth
 from .message import TOLERANCE, is_near, whole_numbers

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring import standard
-from autograder.authoring.checks import MAY_REST, in_order
-from autograder.authoring.obligation import check_of
+from autograder.authoring import MAY_REST, check_of, in_order, standard
 
 from . import model, truth
 

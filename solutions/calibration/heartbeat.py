@@ -5,12 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from autograder.authoring import events as ev
-from autograder.authoring.failure import expect
-from autograder.authoring.missing import unseen
-from autograder.authoring.readiness import require_alive
-from autograder.authoring.standing import where_it_stood
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Transcript, ev, expect, require_alive, unseen, where_it_stood
 
 GAP = 0.3  # s without a heartbeat
 JITTER = 0.06  # s of real time by which a message may be late on a busy machine

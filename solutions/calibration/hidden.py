@@ -6,11 +6,7 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from autograder.authoring.checks import RESTING, Scenario, in_order
-from autograder.authoring.failure import NoOccasion
-from autograder.authoring.obligation import check_of
-from autograder.authoring.sequence import shuffled
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import RESTING, NoOccasion, Scenario, Transcript, check_of, in_order, shuffled
 from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model, truth

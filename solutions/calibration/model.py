@@ -6,14 +6,21 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 
-from autograder.authoring.call import Call
-from autograder.authoring.connections import lesson_on_hearing
-from autograder.authoring.failure import Failure, expect
-from autograder.authoring.fields import shown
-from autograder.authoring.obligation import Obligation, calls, obligation, whole_run
-from autograder.authoring.robot_topic import DELIVERY
-from autograder.authoring.standard_obligations import FROM_MEMORY_TIME, require_fastest
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import (
+    DELIVERY,
+    Call,
+    Failure,
+    Obligation,
+    Transcript,
+    calls,
+    expect,
+    lesson_on_hearing,
+    obligation,
+    require_fastest,
+    shown,
+    whole_run,
+)
+from autograder.authoring.requirements.standard_obligations import FROM_MEMORY_TIME
 from ros_runtime.message_constants import RobotMode, name_of
 
 from . import truth

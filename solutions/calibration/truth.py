@@ -10,13 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call, Request
-from autograder.authoring.missing import unseen
-from autograder.authoring.obligation import calls
-from autograder.authoring.robot_topic import DELIVERY
-from autograder.authoring.sequence import STEPS, steps_until
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import DELIVERY, STEPS, Call, Request, Transcript, calls, ev, steps_until, unseen
 from ros_runtime.message_constants import RobotMode
 
 SERVICE = "calibrate_imu"

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.checks import program
-from autograder.authoring.obligation import check_of
+from autograder.authoring import check_of, program
 from autograder.authoring.walking import client_scenarios as scene
 from autograder.authoring.walking import every_client
 from autograder.authoring.walking.client_obligations import follows

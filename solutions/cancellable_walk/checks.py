@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from autograder.authoring import standard
-from autograder.authoring.checks import RESTING
-from autograder.authoring.obligation import check_of
+from autograder.authoring import RESTING, check_of, standard
 from autograder.authoring.walking import server_checks
 from autograder.authoring.walking.server_checks import INTERRUPT, WRONG_POSES, in_order
 

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from autograder.authoring.goal import Goal
-from autograder.authoring.obligation import Obligation, goals, obligation, whole_run
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Goal, Obligation, Transcript, goals, obligation, whole_run
 from autograder.authoring.walking.objections import (
     FRAME,
     NO_POWER,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from autograder.authoring.fields import shown
+from autograder.authoring import shown
 
 from .reply import side_in_words
 from .two_link_arm import TOLERANCE, Point, TwoLinkArm

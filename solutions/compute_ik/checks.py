@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring import standard
-from autograder.authoring.checks import in_order
-from autograder.authoring.obligation import check_of
+from autograder.authoring import check_of, in_order, standard
 
 from . import model
 

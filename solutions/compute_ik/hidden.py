@@ -6,8 +6,7 @@ import math
 from random import Random
 from typing import Any
 
-from autograder.authoring.checks import Scenario, in_order
-from autograder.authoring.obligation import check_of
+from autograder.authoring import Scenario, check_of, in_order
 from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model

@@ -6,13 +6,20 @@ import math
 
 from rcl_interfaces.msg import ParameterType, ParameterValue
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call
-from autograder.authoring.failure import Failure, expect
-from autograder.authoring.missing import held_up, unseen
-from autograder.authoring.obligation import calls, obligation, whole_run
-from autograder.authoring.standard_obligations import answered_within, answers_from_memory
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import (
+    Call,
+    Failure,
+    Transcript,
+    answered_within,
+    answers_from_memory,
+    calls,
+    ev,
+    expect,
+    held_up,
+    obligation,
+    unseen,
+    whole_run,
+)
 
 from .advice import advice_for, advice_on_the_side
 from .reply import CODES, Reply, Response, code_in_words, side_in_words

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring.call import Call
-from autograder.authoring.failure import Failure
-from autograder.authoring.fields import shown
+from autograder.authoring import Call, Failure, shown
 from humanoid_interfaces.srv import ComputeIK
 
 from .two_link_arm import TOLERANCE, Point, TwoLinkArm

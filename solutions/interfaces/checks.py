@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.checks import check, program
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Transcript, check, program
 
 from .judging import require_built, require_fields
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.checks import check
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Transcript, check
 
 from .checks import ACTION, SERVICE, action_builds, service_builds
 from .judging import require_constants, require_fields

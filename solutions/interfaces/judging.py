@@ -6,11 +6,8 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from autograder.authoring import events as ev
-from autograder.authoring.checks import CannotBeJudged, Failure, expect
-from autograder.authoring.missing import unseen
-from autograder.authoring.readiness import require_within_limits
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Failure, Transcript, ev, expect, require_within_limits, unseen
+from autograder.authoring.checks import CannotBeJudged
 
 BUSY = 60.0  # s of processor time; a correct file needs 25
 NO_FILE = "there is no definition in this folder"  # what the build says then

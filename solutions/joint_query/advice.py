@@ -6,12 +6,17 @@ import math
 import re
 from collections.abc import Sequence
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call
-from autograder.authoring.connections import why_nothing_is_heard
-from autograder.authoring.fields import ROUNDING, same
-from autograder.authoring.robot_record import RobotRecord
-from autograder.authoring.robot_topic import DELIVERY, JOINTS, known_messages
+from autograder.authoring import (
+    DELIVERY,
+    JOINTS,
+    Call,
+    RobotRecord,
+    ev,
+    known_messages,
+    same,
+    why_nothing_is_heard,
+)
+from autograder.authoring.evidence.fields import ROUNDING
 
 from .truth import SILENCE, Positions, is_at, positions_by_name, robot_joints
 

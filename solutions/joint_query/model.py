@@ -5,14 +5,20 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call
-from autograder.authoring.connections import lesson_on_hearing
-from autograder.authoring.fields import shown_fields
-from autograder.authoring.obligation import calls, obligation, whole_run
-from autograder.authoring.robot_topic import JOINTS, known_messages
-from autograder.authoring.standard_obligations import answered_within, answers_from_memory
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import (
+    JOINTS,
+    Call,
+    Transcript,
+    answered_within,
+    answers_from_memory,
+    calls,
+    ev,
+    known_messages,
+    lesson_on_hearing,
+    obligation,
+    shown_fields,
+    whole_run,
+)
 
 from . import advice, truth
 from .advice import asked, contains_name, described, listed, quoted

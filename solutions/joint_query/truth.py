@@ -6,11 +6,8 @@ import math
 from collections.abc import Mapping
 from itertools import pairwise
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call
-from autograder.authoring.fields import ROUNDING, same
-from autograder.authoring.robot_record import RobotRecord
-from autograder.authoring.robot_topic import DELIVERY, JOINTS, known_messages
+from autograder.authoring import DELIVERY, JOINTS, Call, RobotRecord, ev, known_messages, same
+from autograder.authoring.evidence.fields import ROUNDING
 
 SILENCE = 1.0  # s without a message, of which there are 20 a second
 SEVERAL = 2  # messages between two answers

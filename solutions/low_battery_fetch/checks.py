@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from autograder.authoring import standard
-from autograder.authoring.obligation import check_of
+from autograder.authoring import check_of, standard
 
 from . import model
 from .sequences import AFTERWARDS, Part, cancel, drop, fetch, levels, scenario

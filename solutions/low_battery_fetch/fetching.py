@@ -9,12 +9,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
-from autograder.authoring import events as ev
-from autograder.authoring.goal import Goal
-from autograder.authoring.missing import unseen
-from autograder.authoring.obligation import goals
-from autograder.authoring.scripted_goal import ScriptedCancel, ScriptedGoal
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Goal, ScriptedCancel, ScriptedGoal, Transcript, ev, goals, unseen
 from autograder.authoring.walking.planar import numbers_of
 
 NAVIGATE, PICK, BATTERY = "navigate_to_pose", "pick_and_place", "battery_state"

@@ -8,12 +8,20 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
-from autograder.authoring.failure import Failure, expect
-from autograder.authoring.fields import differing_fields, shown
-from autograder.authoring.goal import SUCCEEDED, Goal
-from autograder.authoring.obligation import Obligation, goals, obligation, whole_run
-from autograder.authoring.readiness import require_alive
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import (
+    SUCCEEDED,
+    Failure,
+    Goal,
+    Obligation,
+    Transcript,
+    differing_fields,
+    expect,
+    goals,
+    obligation,
+    require_alive,
+    shown,
+    whole_run,
+)
 
 from . import turns
 from .fetching import BATTERY, NAVIGATE, PICK, SILENCE, SLACK, Child, Fetch, children, fetches, objection

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from autograder.authoring.checks import Scenario
+from autograder.authoring import Scenario
 
 Steps = list[list[Any]]
 Script = Mapping[str, Any]

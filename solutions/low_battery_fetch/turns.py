@@ -11,15 +11,22 @@ from itertools import product
 
 from geometry_msgs.msg import Quaternion
 
-from autograder.authoring import events as ev
-from autograder.authoring.failure import Failure, expect
-from autograder.authoring.fields import differing_fields, expect_field, shown
-from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED
-from autograder.authoring.goal_endings import why_rclpy_aborted
-from autograder.authoring.missing import unseen
-from autograder.authoring.readiness import require_alive
-from autograder.authoring.standing import where_it_stood
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import (
+    ABORTED,
+    CANCELED,
+    SUCCEEDED,
+    Failure,
+    Transcript,
+    differing_fields,
+    ev,
+    expect,
+    expect_field,
+    require_alive,
+    shown,
+    unseen,
+    where_it_stood,
+    why_rclpy_aborted,
+)
 from ros_runtime.message_constants import GoalStatus, name_of
 
 from .fetching import (

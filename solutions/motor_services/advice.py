@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call
-from autograder.authoring.connections import why_nothing_is_commanded, why_nothing_is_heard
-from autograder.authoring.fields import shown
-from autograder.authoring.robot_record import RobotRecord
-from autograder.authoring.robot_topic import DELIVERY
+from autograder.authoring import (
+    DELIVERY,
+    Call,
+    RobotRecord,
+    ev,
+    shown,
+    why_nothing_is_commanded,
+    why_nothing_is_heard,
+)
 
 A_WAIT = 0.7  # s; an answer that takes longer waited for the robot
 LEAST_WAIT = 1.8  # s before an answer may say that the robot did not confirm: 2 s, less what clocks differ by

@@ -4,25 +4,30 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call
-from autograder.authoring.connections import lesson_on_hearing
-from autograder.authoring.failure import Failure
-from autograder.authoring.fields import shown, shown_fields
-from autograder.authoring.obligation import calls, obligation, whole_run
-from autograder.authoring.robot_record import RobotRecord
-from autograder.authoring.robot_topic import DELIVERY
-from autograder.authoring.standard_obligations import (
+from autograder.authoring import (
+    DELIVERY,
+    Call,
+    Failure,
+    RobotRecord,
+    Transcript,
+    answered_within,
+    answers_from_memory,
+    calls,
+    ev,
+    lesson_on_hearing,
+    obligation,
+    one_or_several,
+    require_fastest,
+    shown,
+    shown_fields,
+    whole_run,
+)
+from autograder.authoring.requirements.standard_obligations import (
     ENOUGH_ANSWERS,
     FROM_MEMORY,
     FROM_MEMORY_TIME,
     TOGETHER,
-    answered_within,
-    answers_from_memory,
-    one_or_several,
-    require_fastest,
 )
-from autograder.authoring.transcript import Transcript
 from ros_runtime.message_constants import RobotMode, name_of
 
 from . import advice

@@ -7,9 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
-from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario
-from autograder.authoring.obligation import check_of
+from autograder.authoring import RESTING, Scenario, check_of, standard
 from autograder.authoring.walking.server_checks import in_order
 
 from . import model

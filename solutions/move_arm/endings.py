@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from autograder.authoring.failure import Failure
-from autograder.authoring.goal import ABORTED, Goal
-from autograder.authoring.goal_endings import lesson_on_the_end, why_rclpy_aborted
+from autograder.authoring import ABORTED, Failure, Goal, lesson_on_the_end, why_rclpy_aborted
 from humanoid_interfaces.action import MoveArm
 from ros_runtime.message_constants import name_of
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring import events as ev
-from autograder.authoring.failure import expect
-from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED, Goal
+from autograder.authoring import ABORTED, CANCELED, SUCCEEDED, Goal, ev, expect
 from autograder.authoring.walking.life import cancels_on_the_way, granted, left_alone, phase, successors
 from autograder.authoring.walking.obligations.ends import require_preempted
 from autograder.authoring.walking.reports import require_error_code

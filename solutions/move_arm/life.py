@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 
-from autograder.authoring import events as ev
-from autograder.authoring.goal import Goal
+from autograder.authoring import Goal, ev
 from autograder.authoring.walking.life import (
     accepted,
     ended_at,

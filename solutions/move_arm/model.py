@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from autograder.authoring import events as ev
-from autograder.authoring.goal import CANCELED, Goal
-from autograder.authoring.obligation import Obligation, goals, obligation, whole_run
+from autograder.authoring import CANCELED, Goal, Obligation, ev, goals, obligation, whole_run
 from autograder.authoring.walking.life import phase, rivals
 from autograder.authoring.walking.objections import rejects
 from autograder.authoring.walking.obligations import cancels, tells

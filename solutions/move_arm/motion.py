@@ -4,11 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from autograder.authoring import events as ev
-from autograder.authoring.failure import Failure, expect
-from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
-from autograder.authoring.missing import not_shown
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import ABORTED, SUCCEEDED, Failure, Goal, Transcript, ev, expect, not_shown
 from autograder.authoring.walking import life as goals
 
 from . import life

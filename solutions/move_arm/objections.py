@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from autograder.authoring.goal import Goal
+from autograder.authoring import Goal
 from autograder.authoring.walking.objections import Objection
 
 from .plan import seconds_of

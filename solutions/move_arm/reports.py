@@ -5,10 +5,16 @@ from __future__ import annotations
 import math
 import re
 
-from autograder.authoring import events as ev
-from autograder.authoring.failure import expect
-from autograder.authoring.feedback import end_of_feedback, require_feedback, require_good_feedback_rate
-from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
+from autograder.authoring import (
+    ABORTED,
+    SUCCEEDED,
+    Goal,
+    end_of_feedback,
+    ev,
+    expect,
+    require_feedback,
+    require_good_feedback_rate,
+)
 from autograder.authoring.walking.life import ended_at, interrupted, left_alone
 from autograder.authoring.walking.reports import require_error_code
 

@@ -5,11 +5,8 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 
-from autograder.authoring import events as ev
-from autograder.authoring.connections import why_nothing_is_heard
-from autograder.authoring.goal import Goal
-from autograder.authoring.missing import unseen
-from autograder.authoring.robot_record import LONGEST_GAP, RobotRecord
+from autograder.authoring import Goal, RobotRecord, ev, unseen, why_nothing_is_heard
+from autograder.authoring.evidence.robot_record import LONGEST_GAP
 
 from .plan import Plan
 

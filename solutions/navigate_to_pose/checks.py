@@ -6,9 +6,7 @@ import math
 from functools import partial
 from typing import Any
 
-from autograder.authoring import standard
-from autograder.authoring.checks import RESTING
-from autograder.authoring.obligation import check_of
+from autograder.authoring import RESTING, check_of, standard
 from autograder.authoring.walking.server_checks import INTERRUPT, WRONG_POSES, in_order
 
 from . import model

@@ -6,11 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from autograder.authoring import events as ev
-from autograder.authoring.feedback import require_feedback
-from autograder.authoring.goal import SUCCEEDED, Goal
-from autograder.authoring.missing import not_shown
-from autograder.authoring.sequence import STEPS
+from autograder.authoring import STEPS, SUCCEEDED, Goal, ev, not_shown, require_feedback
 from autograder.authoring.walking import life
 from autograder.authoring.walking.planar import error, target
 from ros_runtime.angles import wrap

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring.failure import expect
-from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring import SUCCEEDED, Goal, expect
 from autograder.authoring.walking.life import accepted, interrupted, others, phase, went_down
 from autograder.authoring.walking.path import STRIDE, length_walked
 from ros_runtime.message_constants import GoalStatus, name_of

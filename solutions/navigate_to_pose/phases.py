@@ -5,10 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 
-from autograder.authoring import events as ev
-from autograder.authoring.failure import expect
-from autograder.authoring.goal import Goal
-from autograder.authoring.missing import not_shown
+from autograder.authoring import Goal, ev, expect, not_shown
 from autograder.authoring.walking.life import phase
 from autograder.authoring.walking.path import walking_speed
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.failure import expect
-from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring import SUCCEEDED, Goal, expect
 from autograder.authoring.walking.life import accepted, interrupted, phase
 from ros_runtime.message_constants import GoalStatus, name_of
 

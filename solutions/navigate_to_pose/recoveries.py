@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.failure import expect
-from autograder.authoring.goal import Goal
-from autograder.authoring.missing import not_shown
+from autograder.authoring import Goal, expect, not_shown
 from autograder.authoring.walking.life import accepted, interrupted, phase
 from autograder.authoring.walking.truth import require_arrival
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.failure import expect
-from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
+from autograder.authoring import ABORTED, SUCCEEDED, Goal, expect
 from autograder.authoring.walking import life
 from autograder.authoring.walking.obligations.tells import seconds
 from autograder.authoring.walking.planar import error

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.checks import check
+from autograder.authoring import check
 
 from .checks import ANSWERS, PATTERNS
 from .judging import judge_of, situation

@@ -6,9 +6,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from autograder.authoring.checks import Failure, expect
-from autograder.authoring.client_checks import require_success
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Failure, Transcript, expect, require_success
 
 WITHIN = 20.0  # s for printing twelve lines
 PATTERNS = ("topic", "service", "action")

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring import events as ev
-from autograder.authoring.failure import Failure
-from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
-from autograder.authoring.goal_endings import why_rclpy_aborted
+from autograder.authoring import ABORTED, SUCCEEDED, Failure, Goal, ev, why_rclpy_aborted
 from humanoid_interfaces.action import PickAndPlace
 
 _WHY_IT_GAVE_UP = {

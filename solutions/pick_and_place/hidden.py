@@ -6,8 +6,7 @@ from collections.abc import Callable
 from random import Random
 from typing import Any
 
-from autograder.authoring.checks import Scenario
-from autograder.authoring.obligation import check_of
+from autograder.authoring import Scenario, check_of
 from autograder.authoring.walking.drawn import NUMBERS, rounded
 from autograder.classroom.hidden_checks import standard_hidden
 

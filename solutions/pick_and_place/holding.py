@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring import events as ev
-from autograder.authoring.failure import expect
-from autograder.authoring.goal import SUCCEEDED, Goal
-from autograder.authoring.goal_endings import why_rclpy_aborted
+from autograder.authoring import SUCCEEDED, Goal, ev, expect, why_rclpy_aborted
 from autograder.authoring.walking.life import ended_at, phase
 
 from .life import canceled_at, holds_at, is_for_the_cup, robbed_at

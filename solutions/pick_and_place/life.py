@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring import events as ev
-from autograder.authoring.goal import Goal
+from autograder.authoring import Goal, ev
 from autograder.authoring.walking.life import accepted, ended_at, granted, interrupted, next_sent, others
 from autograder.authoring.walking.life import requests_to_cancel as _requests
 

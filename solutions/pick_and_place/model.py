@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.goal import CANCELED, SUCCEEDED, Goal
-from autograder.authoring.obligation import Obligation, goals, obligation
+from autograder.authoring import CANCELED, SUCCEEDED, Goal, Obligation, goals, obligation
 from autograder.authoring.walking.life import accepted, others, phase
 from autograder.authoring.walking.objections import rejects
 from autograder.authoring.walking.obligations import tells

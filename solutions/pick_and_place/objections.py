@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring.goal import Goal
+from autograder.authoring import Goal
 from autograder.authoring.walking.objections import Objection
 
 from .truth import place_of

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from autograder.authoring import events as ev
-from autograder.authoring.failure import expect
-from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring import SUCCEEDED, Goal, ev, expect
 from autograder.authoring.walking.life import ended_at, phase
 from autograder.authoring.walking.reports import require_error_code
 from humanoid_interfaces.msg import RobotState

@@ -6,10 +6,15 @@ import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 
-from autograder.authoring import events as ev
-from autograder.authoring.failure import expect
-from autograder.authoring.feedback import end_of_feedback, require_feedback, require_good_feedback_rate
-from autograder.authoring.goal import SUCCEEDED, Goal
+from autograder.authoring import (
+    SUCCEEDED,
+    Goal,
+    end_of_feedback,
+    ev,
+    expect,
+    require_feedback,
+    require_good_feedback_rate,
+)
 from autograder.authoring.walking.life import accepted, ended_at, interrupted, left_alone
 from humanoid_interfaces.action import PickAndPlace
 from ros_runtime.message_constants import GoalStatus, name_of

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import re
 
-from autograder.authoring import events as ev
-from autograder.authoring.failure import expect
-from autograder.authoring.falls import require_fell_told, require_knocked_over
-from autograder.authoring.goal import ABORTED, CANCELED, Goal
+from autograder.authoring import ABORTED, CANCELED, Goal, ev, expect, require_fell_told, require_knocked_over
 from autograder.authoring.walking.life import accepted, left_alone
 from autograder.authoring.walking.reports import require_error_code
 

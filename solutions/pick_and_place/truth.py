@@ -9,10 +9,8 @@ from typing import NamedTuple, TypeVar
 
 from geometry_msgs.msg import Point
 
-from autograder.authoring import events as ev
-from autograder.authoring.goal import Goal
-from autograder.authoring.missing import unseen
-from autograder.authoring.robot_record import LONGEST_GAP, RobotRecord
+from autograder.authoring import Goal, RobotRecord, ev, unseen
+from autograder.authoring.evidence.robot_record import LONGEST_GAP
 
 LIFTED = 0.02  # m above where it stood: the table carries nothing of it
 

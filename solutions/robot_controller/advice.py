@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring import events as ev
-from autograder.authoring.client_checks import why_not_this_status
-from autograder.authoring.fields import shown_fields
-from autograder.authoring.root_cause import why_it_went_no_further
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Transcript, ev, shown_fields, why_it_went_no_further, why_not_this_status
 
 from .truth import ENABLE, STATUS
 

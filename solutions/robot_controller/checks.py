@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.checks import program
-from autograder.authoring.obligation import check_of
+from autograder.authoring import check_of, program
 
 from . import model
 

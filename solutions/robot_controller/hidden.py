@@ -5,8 +5,7 @@ from __future__ import annotations
 from random import Random
 from typing import Any
 
-from autograder.authoring.checks import program
-from autograder.authoring.obligation import check_of
+from autograder.authoring import check_of, program
 
 from . import checks, model
 from .checks import ENABLED, FAILS, ON, WHY, replies

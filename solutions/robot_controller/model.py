@@ -4,11 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from autograder.authoring.client_checks import require_end, require_failure, started_at
-from autograder.authoring.failure import Failure, expect
-from autograder.authoring.missing import Missing
-from autograder.authoring.obligation import obligation, whole_run
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import (
+    Failure,
+    Missing,
+    Transcript,
+    expect,
+    obligation,
+    require_end,
+    require_failure,
+    started_at,
+    whole_run,
+)
 
 from .advice import SOONEST, gave_up_at, how_to_print_one, why_it_failed, why_not_one
 from .truth import (

@@ -5,10 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Request
-from autograder.authoring.client_checks import started_at
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Request, Transcript, ev, started_at
 
 ENABLE, STATUS = "enable_motors", "get_status"
 TYPES = {ENABLE: "std_srvs/srv/SetBool", STATUS: "std_srvs/srv/Trigger"}

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.failure import Failure
-from autograder.authoring.goal import ABORTED, Goal
-from autograder.authoring.goal_endings import why_rclpy_aborted
+from autograder.authoring import ABORTED, Failure, Goal, why_rclpy_aborted
 from autograder.authoring.walking.life import run_of
 from humanoid_interfaces.action import StandUp
 

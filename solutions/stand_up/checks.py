@@ -6,9 +6,7 @@ import math
 from functools import partial
 from typing import Any
 
-from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario
-from autograder.authoring.obligation import check_of
+from autograder.authoring import RESTING, Scenario, check_of, standard
 
 from . import model
 

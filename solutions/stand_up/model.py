@@ -5,15 +5,22 @@ from __future__ import annotations
 import math
 from itertools import groupby, pairwise
 
-from autograder.authoring import events as ev
-from autograder.authoring.connections import why_nothing_is_heard
-from autograder.authoring.failure import expect
-from autograder.authoring.falls import require_fell_told
-from autograder.authoring.feedback import require_good_feedback_rate
-from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED, Goal
-from autograder.authoring.goal_endings import why_rclpy_aborted
-from autograder.authoring.obligation import goals, obligation, whole_run
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import (
+    ABORTED,
+    CANCELED,
+    SUCCEEDED,
+    Goal,
+    Transcript,
+    ev,
+    expect,
+    goals,
+    obligation,
+    require_fell_told,
+    require_good_feedback_rate,
+    whole_run,
+    why_nothing_is_heard,
+    why_rclpy_aborted,
+)
 from autograder.authoring.walking.life import (
     accepted,
     ended_at,

@@ -7,11 +7,7 @@ from dataclasses import dataclass
 
 from geometry_msgs.msg import Quaternion
 
-from autograder.authoring import events as ev
-from autograder.authoring.falls import fall_after
-from autograder.authoring.goal import Goal
-from autograder.authoring.missing import unseen
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Goal, Transcript, ev, fall_after, unseen
 from autograder.authoring.walking.life import accepted, ended_at, granted, interrupted, next_sent, run_of
 
 STANCE, RISEN, CROUCHED = 0.60, 0.59, 0.47  # m, heights of the pelvis

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.obligation import check_of
+from autograder.authoring import check_of
 from autograder.authoring.walking import every_client
 from autograder.authoring.walking.client_obligations import follows
 from autograder.authoring.walking.client_scenarios import GOOD, WRONG_ARGUMENTS, walk

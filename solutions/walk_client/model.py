@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.obligation import obligation, whole_run
+from autograder.authoring import obligation, whole_run
 from autograder.authoring.walking import client_obligations as owed
 from autograder.authoring.walking.client_life import clients
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from autograder.authoring import standard
-from autograder.authoring.checks import RESTING, Scenario
-from autograder.authoring.obligation import check_of
+from autograder.authoring import RESTING, Scenario, check_of, standard
 from autograder.authoring.walking import server_checks
 from autograder.authoring.walking.server_checks import INTERRUPT, WRONG_POSES, in_order
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.goal import Goal
-from autograder.authoring.obligation import goals, obligation, whole_run
+from autograder.authoring import Goal, goals, obligation, whole_run
 from autograder.authoring.walking.objections import (
     BUSY,
     FRAME,

@@ -11,12 +11,12 @@ from typing import ClassVar
 
 from action_msgs.msg import GoalStatus
 
-from autograder.authoring import events as ev
-from autograder.authoring.client_checks import SLACK, require_one_goal, why_it_left
+from autograder.authoring.diagnosis.missing import not_shown
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.scripted_goal import ScriptedGoal
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
-from autograder.authoring.missing import not_shown
-from autograder.authoring.scripted_goal import ScriptedGoal
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.requirements.client_checks import SLACK, require_one_goal, why_it_left
 from autograder.authoring.walking.client_record import require_record
 
 SUCCEEDED, NO_SERVER, REJECTED, ABORTED, CANCELED = range(5)  # exit statuses

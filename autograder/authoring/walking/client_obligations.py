@@ -16,14 +16,19 @@ from typing import TypeVar
 
 from action_msgs.msg import GoalStatus
 
-from autograder.authoring import client_checks
-from autograder.authoring import events as ev
-from autograder.authoring.client_checks import NUMBER, has_number, how_to_give_up, why_not_this_status
+from autograder.authoring.diagnosis.missing import Missing
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.fields import expect_field
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure, expect
-from autograder.authoring.fields import expect_field
-from autograder.authoring.missing import Missing
 from autograder.authoring.obligation import Obligation, obligation, whole_run
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.requirements import client_checks
+from autograder.authoring.requirements.client_checks import (
+    NUMBER,
+    has_number,
+    how_to_give_up,
+    why_not_this_status,
+)
 from autograder.authoring.walking.client_life import (
     ABORTED,
     CANCELED,

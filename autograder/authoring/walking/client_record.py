@@ -7,11 +7,11 @@ from itertools import accumulate, repeat
 from math import inf
 from typing import Any
 
-from autograder.authoring import events as ev
-from autograder.authoring.missing import unseen
-from autograder.authoring.scripted_goal import ScriptedGoal
+from autograder.authoring.diagnosis.missing import unseen
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.scripted_goal import ScriptedGoal
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.sequence import STEPS
-from autograder.authoring.transcript import Transcript
 
 LATE = 1.0  # s that an event may come after its time
 

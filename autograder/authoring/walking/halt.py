@@ -6,10 +6,10 @@ import math
 
 from geometry_msgs.msg import Twist
 
+from autograder.authoring.diagnosis.missing import not_shown
+from autograder.authoring.evidence.goal import SUCCEEDED, Goal
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
-from autograder.authoring.goal import SUCCEEDED, Goal
-from autograder.authoring.missing import not_shown
-from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.truth import require_accepted, require_standing
 
 STANDING = 1.2  # s after the result in which it must not move

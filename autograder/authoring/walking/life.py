@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import cast
 
-from autograder.authoring import events as ev
-from autograder.authoring.goal import Cancel, Goal
-from autograder.authoring.missing import unseen
-from autograder.authoring.robot_topic import DELIVERY
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.diagnosis.missing import unseen
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.goal import Cancel, Goal
+from autograder.authoring.evidence.robot_topic import DELIVERY
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.walking.planar import error, tolerance
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus, name_of

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from autograder.authoring import events as ev
+from autograder.authoring.diagnosis.goal_endings import why_blind, why_rclpy_aborted
+from autograder.authoring.diagnosis.missing import not_shown
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.goal import Goal
 from autograder.authoring.failure import Failure, expect
-from autograder.authoring.goal import Goal
-from autograder.authoring.goal_endings import why_blind, why_rclpy_aborted
-from autograder.authoring.missing import not_shown
 from autograder.authoring.walking.planar import POSITION_TOLERANCE, YAW_TOLERANCE, error, heading
 from autograder.authoring.walking.truth import require_accepted
 from ros_runtime.angles import wrap

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
-from autograder.authoring import events as ev
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.goal import Goal
+from autograder.authoring.evidence.robot_topic import DELIVERY
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import expect
-from autograder.authoring.goal import Goal
 from autograder.authoring.obligation import Obligation, goals, obligation
-from autograder.authoring.robot_topic import DELIVERY
-from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking.life import others, overlaps, phase, run_of
 from autograder.authoring.walking.planar import numbers_of, stamped_target, target
 from autograder.authoring.walking.truth import require_accepted

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from statistics import fmean
 
-from autograder.authoring.robot_record import RobotRecord
+from autograder.authoring.evidence.robot_record import RobotRecord
 
 STRIDE = 1.0  # s, two steps: the pelvis sways to the left and to the right once in them
 SPACING = 0.1  # s between the points of the path

@@ -6,8 +6,8 @@ import math
 
 from geometry_msgs.msg import Pose, PoseStamped, Quaternion
 
-from autograder.authoring import events as ev
-from autograder.authoring.goal import Goal
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.goal import Goal
 from ros_runtime.angles import wrap, yaw_of
 
 POSITION_TOLERANCE = 0.10  # m

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 
 from geometry_msgs.msg import PoseStamped
 
-from autograder.authoring import events as ev
+from autograder.authoring.diagnosis.goal_endings import why_blind, why_rclpy_aborted
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.goal import ABORTED, Goal
+from autograder.authoring.evidence.robot_topic import DELIVERY
 from autograder.authoring.failure import expect
-from autograder.authoring.goal import ABORTED, Goal
-from autograder.authoring.goal_endings import why_blind, why_rclpy_aborted
-from autograder.authoring.robot_topic import DELIVERY
 from autograder.authoring.walking.life import ended_at
 from autograder.authoring.walking.planar import error, heading, target, turn
 from humanoid_interfaces.msg import RobotState

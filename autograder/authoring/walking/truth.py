@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from autograder.authoring import events as ev
-from autograder.authoring.connections import why_nothing_is_heard
+from autograder.authoring.diagnosis.connections import why_nothing_is_heard
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.goal import SUCCEEDED, Goal
+from autograder.authoring.evidence.robot_record import RobotRecord
 from autograder.authoring.failure import expect
-from autograder.authoring.goal import SUCCEEDED, Goal
-from autograder.authoring.robot_record import RobotRecord
 from autograder.authoring.walking.planar import YAW_TOLERANCE, error, tolerance
 from humanoid_interfaces.msg import RobotState
 

@@ -11,9 +11,9 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from autograder.authoring import events as ev
 from autograder.authoring.checks import Check, Scenario
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import load_exercise
 from ros_runtime.project import PROJECT
 from ros_runtime.record.event import to_line

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.batch.effort import Effort, utc_now
 from autograder.classroom.batch.special_grades import not_graded, with_reason
 from autograder.classroom.batch.version import checks_version

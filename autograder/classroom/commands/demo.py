@@ -18,7 +18,7 @@ from rich.table import Table
 from rich.text import Text
 
 import lab
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.audit.known_submission import known_submission
 from autograder.engine.exercise import load_exercise
 from autograder.engine.grading import grade

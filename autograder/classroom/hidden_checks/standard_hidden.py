@@ -9,10 +9,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from autograder.authoring.checks import Check, Scenario, named_check
-from autograder.authoring.obligation import Obligation, check_of
-from autograder.authoring.standard import Needs
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import Check, Obligation, Scenario, Transcript, check_of
+from autograder.authoring.checks import named_check
+from autograder.authoring.requirements.standard import Needs
 
 
 def works_in_any_namespace(

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from autograder.atomic_file import write_atomically
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.pages.motion import motion_svgs
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.sequence import transcript_svg

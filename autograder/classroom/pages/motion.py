@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from autograder.authoring import events as ev
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from ros_runtime.drawing.line_plot import Flag, Plot, plot_svg
 from ros_runtime.message_constants import GoalStatus, name_of
 

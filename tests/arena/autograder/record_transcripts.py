@@ -12,7 +12,7 @@ import json
 import sys
 from dataclasses import replace
 
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.audit.clause_table import clause_table
 from autograder.classroom.audit.known_submission import KnownSubmission, known_submission
 from autograder.classroom.audit.proof import enough_to_catch

@@ -15,9 +15,9 @@ from zlib import crc32
 
 import pytest
 
-from autograder.authoring import events as ev
-from autograder.authoring.root_cause import ALLOWED_LOAD, STARTING
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.diagnosis.root_cause import ALLOWED_LOAD, STARTING
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.audit.known_submission import known_submissions
 from autograder.classroom.audit.recorded import FOLDER, Case, cases
 from autograder.engine.exercise import exercise_names, load_exercise

@@ -7,8 +7,8 @@ import re
 
 import pytest
 
-from autograder.authoring import events as ev
 from autograder.authoring.checks import Scenario
+from autograder.authoring.evidence import events as ev
 from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.engine.exercise import Exercise, exercises_folder
 from autograder.engine.submission_arenas import SubmissionArenas

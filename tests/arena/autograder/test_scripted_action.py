@@ -8,9 +8,9 @@ import pytest
 from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
 
-from autograder.authoring import events as ev
 from autograder.authoring.checks import program
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.arena_run import ArenaRun, run_in_arena
 from autograder.engine.exercise import Exercise
 from autograder.engine.submission_arenas import SubmissionArenas

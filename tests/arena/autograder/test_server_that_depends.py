@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from autograder.authoring import events as ev
 from autograder.authoring.checks import Scenario
+from autograder.authoring.evidence import events as ev
 from autograder.engine.arena_run import ArenaRun, run_in_arena
 from autograder.engine.exercise import Exercise
 from autograder.isolation.availability import available_isolation

@@ -17,7 +17,7 @@ def count(stage, to):
     stage.wait_for_end()
 """
 CHECKS = '''
-from autograder.authoring.checks import check, program
+from autograder.authoring import check, expect, program, require_end
 from .judging import require_numbers
 
 TO_THREE = program("count", {"to": 3}, timed=False)
@@ -29,7 +29,6 @@ def counts_to_three(run):
     require_numbers(run)
 '''
 HIDDEN = '''
-from autograder.authoring.checks import check, program
 from .checks import counts_to_three
 from .judging import require_numbers
 
@@ -42,8 +41,6 @@ def counts_to_any_number(run):
     require_numbers(run)
 '''
 JUDGING = """
-from autograder.authoring.checks import expect
-from autograder.authoring.client_checks import require_end
 
 
 def require_numbers(run):
@@ -66,8 +63,7 @@ Caught by: counts_to_three
 
 --- correct/plain.py
 +++ faulty/from_nought.py
-@@ -3,2 +3,2 @@
--for number in range(1, int(sys.argv[1]) + 1):
+@@ -3,2 +3,2 -for number in range(1, int(sys.argv[1]) + 1):
 +for number in range(int(sys.argv[1]) + 1):
      print(number)
 """,

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from rosbags.highlevel import AnyReader
 
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.audit.known_submission import known_submission
 from autograder.classroom.audit.proof import enough_to_catch
 from autograder.engine.exercise import load_exercise

@@ -18,7 +18,7 @@ from std_msgs.msg import String, UInt8MultiArray
 from autograder.arena import arena_log as arena_log_module
 from autograder.arena.arena_log import MOST_OF, MOST_OF_NOBODYS, ArenaLog
 from autograder.arena.long_texts import LONGEST
-from autograder.authoring import events as ev
+from autograder.authoring.evidence import events as ev
 from ros_runtime.recorded_client.conversation import NOBODYS
 
 

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 from std_srvs.srv import Trigger
 
-from autograder.authoring import events as ev
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
-from autograder.authoring.transcript import Transcript
 from humanoid_interfaces.msg import RobotState
 
 READY = (ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0))

@@ -10,7 +10,7 @@ from builtin_interfaces.msg import Duration
 from records import failure_of, run_of
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from autograder.authoring import events as ev
+from autograder.authoring.evidence import events as ev
 from humanoid_interfaces.action import MoveArm
 from robot_sim.arms.joint_trajectory import MOVABLE
 from robot_sim.humanoid import Humanoid

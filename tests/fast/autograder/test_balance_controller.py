@@ -10,10 +10,10 @@ from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue, SetPara
 from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
 from records import answered, asked, failure_of, robot, run_of, said
 
-from autograder.authoring import events as ev
+from autograder.authoring.diagnosis.readiness import require_ready
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged
-from autograder.authoring.readiness import require_ready
-from autograder.authoring.transcript import Transcript
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.msg import BalanceGains, RobotState
 

@@ -10,8 +10,8 @@ from records import answered, asked, failure_of, robot, run_of
 from std_msgs.msg import Empty, Header
 from std_srvs.srv import Trigger
 
-from autograder.authoring import events as ev
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.msg import RobotState
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from autograder.authoring import events as ev
 from autograder.authoring.checks import Failure
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.srv import GetJointPositions
 from ros_runtime.record.client_events import ServiceAnswered, ServiceCalled

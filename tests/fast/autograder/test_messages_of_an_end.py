@@ -8,8 +8,8 @@ import pytest
 from records import answered, asked, failure_of, given_up, run_of, said, stack
 from sensor_msgs.msg import BatteryState
 
-from autograder.authoring import events as ev
-from autograder.authoring.server_checks import require_clean_exit
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.requirements.server_checks import require_clean_exit
 
 NO_RETURN = said(
     "Traceback (most recent call last):",

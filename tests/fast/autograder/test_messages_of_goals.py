@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 from records import SPINNING, failure_of, given_up, robot, run_of, said, stack
 
-from autograder.authoring import events as ev
-from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.goal import ABORTED, CANCELED, SUCCEEDED
 from autograder.authoring.walking import truth as walking_truth
 from humanoid_interfaces.action import WalkTo
 from ros_runtime.message_constants import GoalStatus

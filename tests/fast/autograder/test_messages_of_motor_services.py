@@ -8,7 +8,7 @@ import pytest
 from records import answered, asked, failure_of, robot, run_of
 from std_srvs.srv import SetBool, Trigger
 
-from autograder.authoring import events as ev
+from autograder.authoring.evidence import events as ev
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.msg import RobotState
 

@@ -8,9 +8,9 @@ import pytest
 from records import PEERS, SPINNING, asked, failure_of, given_up, run_of, stack
 from std_srvs.srv import Trigger
 
-from autograder.authoring import events as ev
-from autograder.authoring.client_checks import require_end
-from autograder.authoring.readiness import require_ready
+from autograder.authoring.diagnosis.readiness import require_ready
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.requirements.client_checks import require_end
 
 
 @pytest.mark.parametrize(

@@ -5,11 +5,11 @@ from dataclasses import replace
 import pytest
 from std_srvs.srv import Trigger
 
-from autograder.authoring import events as ev
 from autograder.authoring.checks import Check, Scenario
+from autograder.authoring.diagnosis.missing import Missing, not_shown, unseen
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged, Failure
-from autograder.authoring.missing import Missing, not_shown, unseen
-from autograder.authoring.transcript import Transcript
 from autograder.engine.judging import judge
 from autograder.engine.wholeness import require_whole
 from humanoid_interfaces.action import WalkTo

@@ -7,12 +7,12 @@ from dataclasses import replace
 import pytest
 from test_grading import BEGINNING, ISOLATED, SUBMISSION, arenas, exercise, robot, statuses
 
-from autograder.authoring import events as ev
 from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.diagnosis.missing import Missing
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
-from autograder.authoring.missing import Missing
 from autograder.authoring.obligation import check_of, obligation, whole_run
-from autograder.authoring.transcript import Transcript
 from autograder.engine import grading
 
 ASK = Scenario("in_order", {"steps": [["ask", 1], ["wait", 2.5]]}, robot=RESTING)

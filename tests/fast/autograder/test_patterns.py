@@ -2,8 +2,8 @@
 
 import pytest
 
-from autograder.authoring import events as ev
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import exercise_module, load_exercise
 from autograder.engine.judging import judge
 

@@ -9,9 +9,9 @@ from action_msgs.msg import GoalStatus
 from geometry_msgs.msg import Point, PoseStamped
 from records import failure_of, robot, run_of
 
-from autograder.authoring import events as ev
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged
-from autograder.authoring.transcript import Transcript
 from autograder.engine.exercise import load_exercise
 from humanoid_interfaces.action import PickAndPlace
 

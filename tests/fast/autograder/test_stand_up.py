@@ -9,8 +9,8 @@ import pytest
 from action_msgs.msg import GoalStatus
 from records import failure_of, robot, run_of
 
-from autograder.authoring import events as ev
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.action import StandUp
 from humanoid_interfaces.msg import RobotState

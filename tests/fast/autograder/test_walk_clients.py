@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 from action_msgs.msg import GoalStatus
 
-from autograder.authoring import events as ev
 from autograder.authoring.checks import CannotBeJudged, Failure
-from autograder.authoring.client_checks import require_end
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.requirements.client_checks import require_end
 from autograder.engine.exercise import load_exercise
 from humanoid_interfaces.action import WalkTo
 

@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 import pytest
 
-from autograder.authoring import events as ev
-from autograder.authoring.robot_record import RobotRecord
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.robot_record import RobotRecord
 from autograder.authoring.walking.path import length, length_walked, walking_speed
 
 SWAY = 0.03  # m to each side

@@ -7,9 +7,9 @@ import math
 import pytest
 
 from autograder.arena.poses import pose_at
-from autograder.authoring import events as ev
 from autograder.authoring.checks import Failure
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.walking.objections import (
     BUSY,
     FRAME,

@@ -63,7 +63,7 @@ def test_what_was_not_graded_is_not_cached(tmp_path):
     ("changed", "matters"),
     [
         ("solutions/battery_service/hidden.py", True),
-        ("autograder/authoring/server_checks.py", True),
+        ("autograder/authoring/requirements/server_checks.py", True),
         ("autograder/engine/grading.py", True),
         ("robot_sim/walking/gait.py", True),
         ("solutions/cancellable_walk/checks.py", False),

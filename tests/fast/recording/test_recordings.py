@@ -24,9 +24,9 @@ from falls import (
 )
 from rosbags.highlevel import AnyReader
 
-from autograder.authoring import events as ev
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
-from autograder.authoring.transcript import Transcript
 from autograder.engine.judging import judge
 from autograder.engine.verdict import Grade
 from autograder.recording.kept import keep

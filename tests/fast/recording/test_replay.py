@@ -24,7 +24,7 @@ from mcap.writer import Writer
 from PIL import Image, ImageSequence
 from typer.testing import CliRunner
 
-from autograder.authoring import events as ev
+from autograder.authoring.evidence import events as ev
 from autograder.recording.entry import METADATA
 from course_cli.app import app
 from replay import web

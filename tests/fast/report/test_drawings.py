@@ -7,8 +7,8 @@ import re
 import pytest
 from geometry_msgs.msg import PoseStamped
 
-from autograder.authoring import events as ev
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.pages.drawings import Drawings, drawing_into
 from autograder.classroom.pages.motion import motion_svgs
 from autograder.engine.verdict import CheckVerdict, Grade

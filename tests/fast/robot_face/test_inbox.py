@@ -8,7 +8,7 @@ from geometry_msgs.msg import Twist
 from rclpy.serialization import serialize_message
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from autograder.authoring.events import RobotRefused, parse_event
+from autograder.authoring.evidence.events import RobotRefused, parse_event
 from robot_sim.arms.joint_trajectory import MOVABLE
 from robot_sim.ros.ground_truth import GroundTruthWriter
 from robot_sim.ros.inbox import BYTES_A_SECOND, FLOOD, MESSAGES_A_SECOND, Inbox

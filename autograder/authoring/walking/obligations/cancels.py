@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from autograder.authoring import events as ev
+from autograder.authoring.diagnosis.goal_endings import why_rclpy_aborted
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.goal import ABORTED, CANCELED, SUCCEEDED, Goal
 from autograder.authoring.failure import Failure, expect
-from autograder.authoring.goal import ABORTED, CANCELED, SUCCEEDED, Goal
-from autograder.authoring.goal_endings import why_rclpy_aborted
 from autograder.authoring.walking import life
 from autograder.authoring.walking.truth import STOP_TIME, require_stopped, require_walking
 from humanoid_interfaces.msg import RobotState

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import pairwise
 
+from autograder.authoring.diagnosis.goal_endings import why_rclpy_aborted
+from autograder.authoring.diagnosis.missing import not_shown
+from autograder.authoring.evidence.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.failure import expect
-from autograder.authoring.falls import fall_after
-from autograder.authoring.goal import ABORTED, SUCCEEDED, Goal
-from autograder.authoring.goal_endings import why_rclpy_aborted
-from autograder.authoring.missing import not_shown
+from autograder.authoring.requirements.falls import fall_after
 from autograder.authoring.walking import life, reports
 from autograder.authoring.walking.motion import require_reached
 from autograder.authoring.walking.planar import error

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from builtin_interfaces.msg import Duration
 
+from autograder.authoring.diagnosis.goal_endings import why_rclpy_aborted
+from autograder.authoring.evidence.goal import ABORTED, LISTENED, SUCCEEDED, Goal
 from autograder.authoring.failure import expect
-from autograder.authoring.feedback import require_good_feedback_rate
-from autograder.authoring.goal import ABORTED, LISTENED, SUCCEEDED, Goal
-from autograder.authoring.goal_endings import why_rclpy_aborted
+from autograder.authoring.requirements.feedback import require_good_feedback_rate
 from autograder.authoring.walking import life, reports
 from ros_runtime.message_constants import GoalStatus, name_of
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
+from autograder.authoring.evidence.goal import SUCCEEDED, Goal
+from autograder.authoring.evidence.robot_topic import DELIVERY
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure, expect
-from autograder.authoring.goal import SUCCEEDED, Goal
-from autograder.authoring.robot_topic import DELIVERY
-from autograder.authoring.transcript import Transcript
 from autograder.authoring.walking import halt, life
 from autograder.authoring.walking.motion import require_limited_velocity, require_short_turn
 from autograder.authoring.walking.planar import heading, target

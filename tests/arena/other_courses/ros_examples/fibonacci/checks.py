@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring import standard
-from autograder.authoring.checks import Scenario, check, expect
-from autograder.authoring.goal import SUCCEEDED, Goal
-from autograder.authoring.transcript import Transcript
+from autograder.authoring import SUCCEEDED, Goal, Scenario, Transcript, check, expect, standard
 
 ORDER = 5
 COUNT = Scenario("count", {"order": ORDER}, robot=None)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from autograder.authoring import events as ev
+from autograder.authoring.diagnosis.goal_endings import why_rclpy_aborted
+from autograder.authoring.diagnosis.missing import unseen
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.goal import ABORTED, Goal
+from autograder.authoring.evidence.robot_record import RobotRecord
 from autograder.authoring.failure import expect
-from autograder.authoring.goal import ABORTED, Goal
-from autograder.authoring.goal_endings import why_rclpy_aborted
-from autograder.authoring.missing import unseen
-from autograder.authoring.robot_record import RobotRecord
 from autograder.authoring.walking.reports import require_error_code
 from humanoid_interfaces.msg import RobotState
 

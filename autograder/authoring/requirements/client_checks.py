@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import re
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Request
+from autograder.authoring.diagnosis.missing import Missing, unseen
+from autograder.authoring.diagnosis.readiness import require_within_limits
+from autograder.authoring.diagnosis.standing import where_it_stood
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.call import Request
+from autograder.authoring.evidence.scripted_goal import ScriptedGoal
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure, expect
-from autograder.authoring.missing import Missing, unseen
-from autograder.authoring.readiness import require_within_limits
-from autograder.authoring.scripted_goal import ScriptedGoal
-from autograder.authoring.standing import where_it_stood
-from autograder.authoring.transcript import Transcript
 
 SLACK = 2.0  # s on the arena's clock for start and shutdown: 0.4 s of real time at scale 5, on a busy machine
 GAVE_UP = 1  # the exit status of a client that has heard nothing for too long

@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from autograder.authoring import events as ev
-from autograder.authoring.ending import GROWS, LEAKS, end_in_words, remedy_for_a_limit, remedy_for_the_end
-from autograder.authoring.record import Record
-from autograder.authoring.standing import where_it_stood, why_nobody_serves
+from autograder.authoring.diagnosis.ending import (
+    GROWS,
+    LEAKS,
+    end_in_words,
+    remedy_for_a_limit,
+    remedy_for_the_end,
+)
+from autograder.authoring.diagnosis.standing import where_it_stood, why_nobody_serves
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.record import Record
 
 # Processor-seconds that a sound program may use to start, and in each second of the arena's clock: as many on a busy
 # machine as on an idle one, and several times what it needs. One that uses more caused what comes late itself.

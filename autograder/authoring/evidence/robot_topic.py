@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call
-from autograder.authoring.missing import unseen
-from autograder.authoring.robot_record import RobotRecord
+from autograder.authoring.diagnosis.missing import unseen
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.call import Call
+from autograder.authoring.evidence.robot_record import RobotRecord
 
 # s a message may be on its way: 0.2 s of real time at scale 5, 0.1 s at scale 10. Scenarios wait a little longer.
 DELIVERY = 1.0

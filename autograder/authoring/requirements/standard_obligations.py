@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.call import Call
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.obligation import Obligation, calls, obligation, whole_run
-from autograder.authoring.transcript import Transcript
 
 # s: an answer from memory takes some ms of real time, which the arena's clock makes 10 times as many; of several
 # answers the fastest shows whether a callback waits, for a busy machine does not delay them all.

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
+from autograder.authoring.diagnosis.goal_endings import why_rclpy_aborted
+from autograder.authoring.diagnosis.missing import Missing, ordinal
+from autograder.authoring.evidence.goal import Goal
 from autograder.authoring.failure import expect
-from autograder.authoring.goal import Goal
-from autograder.authoring.goal_endings import why_rclpy_aborted
-from autograder.authoring.missing import Missing, ordinal
 
 MIN_RATE, MAX_RATE = 3.0, 10.0  # Hz; 5 are asked for
 RATE_SLACK = 0.5  # Hz of measuring error over a short walk

@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 
-from autograder.authoring import events as ev
-from autograder.authoring.call import Call, Request
-from autograder.authoring.goal import Cancel, Goal, require_cancels
-from autograder.authoring.missing import Missing
-from autograder.authoring.robot_record import RobotRecord
-from autograder.authoring.scripted_goal import ScriptedGoal, scripted_goals
+from autograder.authoring.diagnosis.missing import Missing
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.call import Call, Request
+from autograder.authoring.evidence.goal import Cancel, Goal, require_cancels
+from autograder.authoring.evidence.robot_record import RobotRecord
+from autograder.authoring.evidence.scripted_goal import ScriptedGoal, scripted_goals
 
 
 class Transcript(RobotRecord):

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from autograder.authoring import events as ev
-from autograder.authoring.record import Record
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.record import Record
 
 
 @dataclass(frozen=True)

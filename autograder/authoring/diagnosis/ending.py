@@ -6,8 +6,8 @@ import re
 import signal
 from dataclasses import dataclass
 
-from autograder.authoring import events as ev
-from autograder.authoring.record import Record
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.record import Record
 
 GROWS = "Look for a list that grows with every message, request or round of a loop: keep only the last."
 LEAKS = "03b_clients_in_bad_company#leak-why"

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from autograder.authoring.checks import Check, Scenario, named_check
-from autograder.authoring.feedback import require_feedback
+from autograder.authoring.diagnosis.readiness import require_ready
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.obligation import check_of, obligation, whole_run
-from autograder.authoring.readiness import require_ready
-from autograder.authoring.server_checks import require_clean_exit
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.requirements.feedback import require_feedback
+from autograder.authoring.requirements.server_checks import require_clean_exit
 
 Needs = Check | Sequence[Check]
 

@@ -8,12 +8,12 @@ from __future__ import annotations
 import difflib
 import re
 
-from autograder.authoring import events as ev
-from autograder.authoring.connections import OUTSIDE
-from autograder.authoring.ending import end_in_words, remedy_for_a_limit, remedy_for_the_end
+from autograder.authoring.diagnosis.connections import OUTSIDE
+from autograder.authoring.diagnosis.ending import end_in_words, remedy_for_a_limit, remedy_for_the_end
+from autograder.authoring.diagnosis.missing import unseen
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.record import Record
 from autograder.authoring.failure import Failure
-from autograder.authoring.missing import unseen
-from autograder.authoring.record import Record
 
 _IS_OF_PARAMETERS = re.compile(r"\w/(describe|get|set)_parameters(_atomically)?$")
 ALIKE = 0.6  # of two names; above it one is taken for a misspelling of the other

@@ -6,13 +6,13 @@ import math
 import re
 from typing import TYPE_CHECKING
 
-from autograder.authoring import events as ev
-from autograder.authoring.ending import raised_in
-from autograder.authoring.standing import where_it_stood
+from autograder.authoring.diagnosis.ending import raised_in
+from autograder.authoring.diagnosis.standing import where_it_stood
+from autograder.authoring.evidence import events as ev
 from ros_runtime.message_constants import GoalStatus, name_of
 
 if TYPE_CHECKING:
-    from autograder.authoring.goal import Goal
+    from autograder.authoring.evidence.goal import Goal
 
 STILL_COMING = 1.5  # s; a goal whose last feedback is not older is still in its loop
 FROZEN = 10  # feedback messages; so many alike are no coincidence while the robot moves

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring import events as ev
-from autograder.authoring.ending import Remedy
-from autograder.authoring.record import Record
+from autograder.authoring.diagnosis.ending import Remedy
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.record import Record
 
 OUTSIDE = "01_robot_and_graph#names-why"
 

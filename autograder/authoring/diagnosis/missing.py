@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from autograder.authoring.diagnosis.root_cause import Cause, why_it_went_no_further, why_the_robot_was_held_up
+from autograder.authoring.evidence.record import Record
 from autograder.authoring.failure import CannotBeJudged, Failure, NoOccasion
-from autograder.authoring.record import Record
-from autograder.authoring.root_cause import Cause, why_it_went_no_further, why_the_robot_was_held_up
 
 _FIRST_OF_ALL = "Find out what your node did just before: the log below shows what it printed, with times."
 

@@ -8,10 +8,7 @@ from typing import Any
 
 from action_msgs.srv import CancelGoal
 
-from autograder.authoring import events as ev
-from autograder.authoring.failure import Failure, expect
-from autograder.authoring.fields import expect_field
-from autograder.authoring.goal_endings import (
+from autograder.authoring.diagnosis.goal_endings import (
     BLIND,
     lesson_on_the_end,
     went_on,
@@ -19,10 +16,13 @@ from autograder.authoring.goal_endings import (
     why_it_ended_so,
     why_no_result,
 )
-from autograder.authoring.missing import Missing, unseen
-from autograder.authoring.readiness import require_alive
-from autograder.authoring.robot_record import RobotRecord
-from autograder.authoring.standing import where_it_stood
+from autograder.authoring.diagnosis.missing import Missing, unseen
+from autograder.authoring.diagnosis.readiness import require_alive
+from autograder.authoring.diagnosis.standing import where_it_stood
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.fields import expect_field
+from autograder.authoring.evidence.robot_record import RobotRecord
+from autograder.authoring.failure import Failure, expect
 from ros_runtime.message_constants import GoalStatus, name_of
 
 SUCCEEDED, CANCELED, ABORTED = GoalStatus.SUCCEEDED, GoalStatus.CANCELED, GoalStatus.ABORTED

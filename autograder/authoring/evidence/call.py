@@ -6,14 +6,14 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from autograder.authoring import events as ev
+from autograder.authoring.diagnosis.readiness import require_alive
+from autograder.authoring.diagnosis.root_cause import about_waiting
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.fields import expect_field
 from autograder.authoring.failure import Failure, expect
-from autograder.authoring.fields import expect_field
-from autograder.authoring.readiness import require_alive
-from autograder.authoring.root_cause import about_waiting
 
 if TYPE_CHECKING:
-    from autograder.authoring.transcript import Transcript
+    from autograder.authoring.evidence.transcript import Transcript
 
 
 @dataclass(frozen=True)

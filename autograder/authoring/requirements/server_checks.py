@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from autograder.authoring import events as ev
 from autograder.authoring.checks import Failure, expect
-from autograder.authoring.ending import end_in_words, remedy_for_the_end
-from autograder.authoring.missing import unseen
-from autograder.authoring.readiness import require_within_limits
-from autograder.authoring.standing import where_it_stood
-from autograder.authoring.transcript import Transcript
+from autograder.authoring.diagnosis.ending import end_in_words, remedy_for_the_end
+from autograder.authoring.diagnosis.missing import unseen
+from autograder.authoring.diagnosis.readiness import require_within_limits
+from autograder.authoring.diagnosis.standing import where_it_stood
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 
 _CLEAN_END = (
     "Catch KeyboardInterrupt and ExternalShutdownException around spin(), destroy the node and call "

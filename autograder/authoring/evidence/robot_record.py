@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
-from autograder.authoring import events as ev
-from autograder.authoring.missing import unseen
-from autograder.authoring.record import Record
+from autograder.authoring.diagnosis.missing import unseen
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.record import Record
 
 LONGEST_GAP = 0.5  # s from a moment asked about to the nearest sample of the robot; there are 50 a second
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from autograder.authoring import events as ev
-from autograder.authoring.ending import OWN_FILE
-from autograder.authoring.record import Record
+from autograder.authoring.diagnosis.ending import OWN_FILE
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.record import Record
 
 _FRAME = re.compile(r'File "([^"]+)", line (\d+) in ([\w.<>]+)')
 _SPINNING = ("main", "<module>")  # functions in which a healthy program waits for something to do

@@ -1,0 +1,1 @@
+"""Why something did not happen, from the evidence: exits, threads that stood, missing connections."""

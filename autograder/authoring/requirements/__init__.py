@@ -1,0 +1,1 @@
+"""What any server and any client must do."""
