@@ -17,7 +17,6 @@ class RobotOptions:
         rtf: simulated seconds a second; 0: as fast as it can.
         namespace: of the node.
         view: show it in a browser, served at `port` (0: the first free from 8080 on).
-        robot: name of a real robot to show instead.
         scene, crouch, seed: which humanoid stands where, how, and with which noise.
         ground_truth_fd, control_fd: descriptors of the arena's pipes; with control_fd the robot is graded and /sim is
             absent.
@@ -30,7 +29,6 @@ class RobotOptions:
     namespace: str = "/robot"
     view: bool = False
     port: int = 0
-    robot: str | None = None
     scene: str = "flat"
     crouch: bool = False
     seed: int = 0
@@ -60,11 +58,6 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--view", action="store_true", help="show the robot in a browser on this machine")
     parser.add_argument(
         "--port", type=int, default=0, help="of the view (default: the first free from 8080 on)"
-    )
-    parser.add_argument(
-        "--robot",
-        metavar="NAME",
-        help="look at a real robot instead, such as unitree_g1: it stands in the browser view and has no ROS side",
     )
     parser.add_argument("--scene", choices=tuple(SCENES), default="flat")
     parser.add_argument("--crouch", action="store_true", help="begin in a crouch instead of standing")

@@ -70,8 +70,6 @@ def serve_robot(
     signal.signal(signal.SIGINT, stop)
     signal.signal(signal.SIGTERM, stop)
 
-    if options.robot:
-        return _show_other_robot(options.robot, options.port, goes_on)
     ground_truth = GroundTruthWriter(options.ground_truth_fd) if options.ground_truth_fd is not None else None
     humanoid = humanoid or build_humanoid(options)
     if ground_truth and options.postures:
@@ -110,17 +108,6 @@ def serve_robot(
             view.close()
         node.destroy_node()
         rclpy.try_shutdown()
-
-
-def _show_other_robot(name: str, port: int, is_running: Callable[[], bool]) -> None:
-    from robot_sim.views.other_robots import RobotUnavailable, show
-
-    try:
-        show(name, port, is_running)
-    except RobotUnavailable as error:
-        sys.exit(f"course sim: {error}")
-    except (ImportError, OSError) as error:
-        sys.exit(_why_there_is_no_view(error))
 
 
 def _open_view(humanoid: Humanoid, port: int) -> WebView:
