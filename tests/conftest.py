@@ -28,6 +28,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         metavar="MINUTES",
         help="skip the known submissions whose grading has not begun after so long",
     )
+    parser.addoption(
+        "--long-fuzz",
+        action="store_true",
+        help="try a thousand times as many inputs in tests/fast/fuzz; --hypothesis-seed chooses them",
+    )
 
 
 def pytest_configure() -> None:

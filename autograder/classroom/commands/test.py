@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-import time
 from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Annotated
@@ -48,30 +47,11 @@ def test(
     browser: Annotated[
         bool, typer.Option("--browser", help="JupyterLab and the web view, seen in a browser: one minute.")
     ] = False,
-    fuzz: Annotated[
-        float | None,
-        typer.Option(
-            "--fuzz",
-            metavar="MINUTES",
-            min=0,
-            help="No tests: try what a student can send, made up from ever new seeds, so long; 0: one seed.",
-        ),
-    ] = None,
-    fuzz_seed: Annotated[
-        int | None,
-        typer.Option("--fuzz-seed", min=0, help="With --fuzz: the first seed; else one of the time."),
-    ] = None,
-    fuzz_only: Annotated[
-        list[str] | None,
-        typer.Option("--fuzz-only", help="With --fuzz: only this fuzzer; repeat it for several."),
-    ] = None,
 ) -> None:
-    """Run the tests: all of them (half an hour), or the tiers that are named; or fuzz for some minutes.
+    """Run the tests: all of them (half an hour), or the tiers that are named.
 
     Further arguments go to pytest: `course test tests/fast/setup -x`, `course test --fast -k name`.
     """
-    if fuzz is not None:
-        raise typer.Exit(0 if run_fuzzers(fuzz, fuzz_seed, fuzz_only or []) else 1)
     chosen = {tier for tier, wanted in zip(TIERS, (fast, arena, robot, browser), strict=True) if wanted}
     # Five files at a time: robots and notebooks of the tests wait for the clock more than for the processors. The
     # order of the files is that of tests/conftest.py.
@@ -81,32 +61,6 @@ def test(
     if not passed and again:
         passed = pass_alone(arguments, PROJECT)
     raise typer.Exit(0 if passed else 1)
-
-
-def run_fuzzers(minutes: float, seed: int | None, only: Sequence[str]) -> bool:
-    """Fuzz, and return whether nothing was found."""
-    from autograder.isolation.availability import available_isolation  # late: the tests need none of it
-    from fuzz.arena.targets import TARGETS
-    from fuzz.readers.all import READERS
-    from fuzz.rounds import run_rounds
-
-    if unknown := sorted(set(only) - {*READERS, *TARGETS}):
-        raise typer.BadParameter(
-            f"there is no fuzzer {unknown[0]}; there are {', '.join([*READERS, *TARGETS])}"
-        )
-    readers = [name for name in READERS if not only or name in only]
-    targets = [name for name in TARGETS if not only or name in only]
-    isolation = available_isolation()
-    if targets and not isolation.trusted:
-        print(f"No programs in arenas: {isolation.reason}", flush=True)
-        targets = []
-    seed = time.time_ns() // 1000 % 2**31 if seed is None else seed
-    print(f"{len(readers) + len(targets)} fuzzers for {minutes:g} minutes from seed {seed} on", flush=True)
-    rounds = run_rounds(minutes, seed, readers, targets, tell=lambda line: print(line, flush=True))
-    for path in rounds.found:
-        print(f"\n{path}\n{path.read_text(encoding='utf-8')[:SHOWN]}", flush=True)
-    print(f"{rounds.count} seeds, {len(rounds.found)} findings", flush=True)
-    return not rounds.found
 
 
 def run_pytest(arguments: Sequence[str], folder: Path) -> bool:

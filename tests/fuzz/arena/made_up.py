@@ -14,7 +14,6 @@ from autograder.engine.grading import grade
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import Grade
 from fuzz.arena.targets import TARGETS, Target
-from fuzz.finding import Finding
 
 PROGRAM = Path(__file__).with_name("wild_program.py")
 MESSAGES = Path(__file__).with_name("wild_messages.py")
@@ -32,8 +31,8 @@ def program(target: Target, seed: int) -> str:
     )
 
 
-def look(name: str, seed: int) -> Finding | None:
-    """Grade the program of this seed and the correct one after it; return what was not as it has to be."""
+def look(name: str, seed: int) -> str:
+    """Grade the program of this seed and the correct one after it; return what was not as it has to be, or ""."""
     target = TARGETS[name]
     source = program(target, seed)
     problem = ""
@@ -43,8 +42,8 @@ def look(name: str, seed: int) -> Finding | None:
         except Exception:  # whatever the grader raises is what is looked for
             problem = traceback.format_exc()
         if not problem:
-            return None
-    return Finding(name, seed, problem, source)
+            return ""
+    return f"{name}, seed {seed}: {problem}\n\n{source}"
 
 
 def _problem(target: Target, source: str, seed: int) -> str:
