@@ -16,7 +16,7 @@ from typing import Any
 
 import typer
 
-from course_cli.ending import FULL_DISK, is_a_full_disk
+from course_cli.ending import in_a_sentence
 
 HELP = "Learn ROS 2 services and actions on a humanoid that really balances."
 FORWARDING = {"ignore_unknown_options": True, "allow_extra_args": True}
@@ -100,9 +100,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     try:
         app(chosen)(args=list(arguments), prog_name="course")
     except Exception as error:
-        if not is_a_full_disk(error):
-            raise
-        sys.exit(FULL_DISK)
+        if sentence := in_a_sentence(error):
+            sys.exit(sentence)
+        raise
 
 
 def app(chosen: str | None) -> typer.Typer:

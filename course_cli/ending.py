@@ -14,6 +14,10 @@ FULL_DISK = (
     "course: the disk is full. What was complete before is unharmed.\n"
     "Next: make room, then type the same command again; `course grade` goes on with --resume."
 )
+NO_PERMISSION = (
+    "course: no permission for {path}.\n"
+    "Next: choose a folder that is yours with --out, or by going there, then type the same command again."
+)
 
 
 def ended(console: Console, reason: object, status: int) -> typer.Exit:
@@ -29,10 +33,17 @@ def batch_status(*, not_graded: int, complete: bool) -> int:
     return 0 if complete else COULD_NOT
 
 
-def is_a_full_disk(error: BaseException | None) -> bool:
-    """Return whether an error, or one that led to it, says that nothing more can be written: also SQLite's words."""
-    while error is not None:
-        if getattr(error, "errno", None) in (errno.ENOSPC, errno.EDQUOT) or "disk is full" in str(error):
-            return True
-        error = error.__cause__ or error.__context__
-    return False
+def in_a_sentence(error: BaseException) -> str:
+    """Return what to tell of an error that people meet on any machine, or of one that led to it; else ""."""
+    causes = [error]
+    while (cause := causes[-1].__cause__ or causes[-1].__context__) is not None:
+        causes.append(cause)
+    if any(map(_is_a_full_disk, causes)):
+        return FULL_DISK
+    denied = next((each for each in causes if isinstance(each, PermissionError) and each.filename), None)
+    return NO_PERMISSION.format(path=denied.filename) if denied else ""
+
+
+def _is_a_full_disk(error: BaseException) -> bool:
+    """Return whether it says that nothing more can be written: also in SQLite's words."""
+    return getattr(error, "errno", None) in (errno.ENOSPC, errno.EDQUOT) or "disk is full" in str(error)

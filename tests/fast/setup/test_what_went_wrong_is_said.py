@@ -26,6 +26,15 @@ NOT_JUDGED = CheckVerdict(
     ],
 )
 def test_a_full_disk(monkeypatch: pytest.MonkeyPatch, error: Exception) -> None:
+    end_with(monkeypatch, error, r"^course: the disk is full\.(.|\n)*Next: make room")
+
+
+def test_a_folder_of_somebody_else(monkeypatch: pytest.MonkeyPatch) -> None:
+    error = PermissionError(errno.EACCES, "Permission denied", "/opt/course/graded")
+    end_with(monkeypatch, error, r"^course: no permission for /opt/course/graded\.\nNext: choose a folder")
+
+
+def end_with(monkeypatch: pytest.MonkeyPatch, error: Exception, sentence: str) -> None:
     def fail() -> None:
         try:
             raise error
@@ -33,7 +42,7 @@ def test_a_full_disk(monkeypatch: pytest.MonkeyPatch, error: Exception) -> None:
             raise RuntimeError("the gradebook could not be written") from cause
 
     monkeypatch.setattr(app, "load", lambda name: fail)
-    with pytest.raises(SystemExit, match=r"^course: the disk is full\.(.|\n)*Next: make room"):
+    with pytest.raises(SystemExit, match=sentence):
         app.main(["bench"])
 
 
