@@ -23,6 +23,7 @@ IMPOSSIBLE = Part(
         ["ask", "wrong frame", "place_pose.header.frame_id", "map"],
         ["ask", "NaN position", "place_pose.pose.position.x", math.nan],
         ["ask", "NaN force", "grasp_force", math.nan],
+        ["ask", "infinite force", "grasp_force", math.inf],
         ["ask", "no force", "grasp_force", 0.0],
         ["wait", AFTERWARDS],
         ["interrupt"],

@@ -122,8 +122,8 @@ CHARGING = Part([["battery", 0.9], ["wait", 1.0]])
 LOW_THEN_CHARGED = scenario(fetch("low", children=()), CHARGING, fetch("charged"), battery=0.195)
 NO_BATTERY = scenario(
     fetch("nothing", children=()),
-    Part([["battery", math.nan], ["wait", 1.0]]),
-    fetch("NaN", children=()),
+    Part([["battery", math.nan], ["battery", 1.5], ["wait", 1.0]]),
+    fetch("no percentage", children=()),
     CHARGING,
     fetch("charged"),
     battery=None,

@@ -129,10 +129,12 @@ def _pick(script: Script, force: float) -> GoalScript:
         )
         for number, each in enumerate(stages)
     ]
+    tilted = _pose((0.03 * force, -0.1, 0.75), yaw=0.4)
+    tilted.pose.orientation.x, tilted.pose.orientation.y = 0.0123, -0.0456
     result = PickAndPlace.Result(
         error_code=script.get("code", 0),
         error_msg=script.get("said", ""),
-        final_object_pose=_pose((0.03 * force, -0.1, 0.75), yaw=0.4),
+        final_object_pose=tilted,
         max_grasp_force=force,
     )
     return _script(script, work, sum(seconds.values()), result)
