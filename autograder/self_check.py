@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +10,7 @@ from rich.console import Console
 
 from autograder.authoring.checks import Check
 from autograder.engine.exercise import Exercise, file_names, load_exercise
-from autograder.engine.grading import grade
+from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.hand_in import work_in
 from autograder.engine.submission import UnusableSubmission, place_of_work, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
@@ -129,18 +129,11 @@ def check_aloud(
             with line.aside():
                 print_retry(console, check)
 
-        result = grade(
-            submission,
-            loaded,
-            jobs=jobs,
-            report=report,
-            on_retry=on_retry,
-            running=line.show,
-            arenas=arenas,
-            first_alone=True,
-            recorded=recorder is not None,
-            evidence=recorder.add if recorder else lambda verdict, transcripts: None,
-        )
+        options = GradingOptions(jobs=jobs, first_alone=True, recorded=recorder is not None)
+        watcher = Watcher(report, on_retry, on_running=line.show)
+        if recorder:
+            watcher = replace(watcher, on_evidence=recorder.add)
+        result = grade(submission, loaded, options, watcher, arenas=arenas)
     console.print()
     console.print(grade_table(result))
     if recordings and recorder:

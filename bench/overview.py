@@ -16,7 +16,7 @@ from autograder.classroom.audit.known_submission import known_submission
 from autograder.engine.arena_run import ArenaRun, run_in_arena
 from autograder.engine.clock_scale import highest_scale
 from autograder.engine.exercise import Exercise, load_exercise
-from autograder.engine.grading import grade
+from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import CheckVerdict
 from autograder.isolation.availability import available_isolation
@@ -87,7 +87,7 @@ def _seconds_of_verdicts(submission: Submission, exercise: Exercise, jobs: int) 
     def note(_verdict: CheckVerdict) -> None:
         seconds.append(time.monotonic() - started)
 
-    grade(submission, exercise, jobs=jobs, report=note)
+    grade(submission, exercise, GradingOptions(jobs=jobs), Watcher(note))
     return seconds
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from autograder.authoring.checks import Check, Scenario
 from autograder.authoring.diagnosis.root_cause import why_the_robot_was_held_up
@@ -28,83 +28,80 @@ from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckStatus, CheckVerdict, Grade
 from autograder.isolation.availability import Isolation, available_isolation
 
-Report = Callable[[CheckVerdict], None]
-Running = Callable[[Sequence[Scenario]], None]
-OnRetry = Callable[[Check], None]
 Runs = dict[Scenario, Future[Transcript]]
-Evidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
 
 LONGEST_TRIED = 3  # steps that are looked for a failure by themselves
 VISIBLE_SEED = 0  # of what visible checks are judged on: the same inputs in a self-check and in every batch
 MOST_ATTEMPTS: dict[CheckStatus, int] = {"passed": 1, "failed": 2, "not run": 1, "error": 4}
 
 
-def grade(
-    submission: Submission,
-    exercise: Exercise,
-    *,
-    seed: int = 0,
-    jobs: int = 2,
-    scale: float | None = None,
-    isolation: Isolation | None = None,
-    report: Report = lambda verdict: None,
-    on_retry: OnRetry = lambda check: None,
-    evidence: Evidence = lambda verdict, transcripts: None,
-    running: Running = lambda scenarios: None,
-    arenas: SubmissionArenas | None = None,
-    recorded: bool = False,
-    first_alone: bool = False,
-    at_first_look: Collection[str] = (),
-    stop: Stop | None = None,
-    shortens: bool = True,
-) -> Grade:
-    """Grade a submission.
+@dataclass(frozen=True)
+class GradingOptions:
+    """How a submission is graded.
 
-    Args:
-        submission: what is graded.
-        exercise: its checks, visible and hidden.
+    Attributes:
         seed: draws the inputs of the scenarios that only hidden checks judge.
         jobs: how many arenas run at a time.
         scale: of every arena's clock; None: what the machine can bear.
         isolation: of the arenas; None: the best this machine has.
-        report: gets each verdict as soon as it is known.
-        on_retry: gets each check that did not pass and is now tried again.
-        evidence: gets the transcripts that a check was judged on.
-        running: gets the scenarios that run, whenever they change.
-        arenas: of this submission, if one was opened ahead; they are closed at the end.
         recorded: have the transcripts hold whole postures of the robot, for recordings; no check sees them.
         first_alone: run nothing beside the first scenario, as somebody waits for the first verdict.
         at_first_look: the checks (ids) whose first failure counts, where no points can be lost: in an audit.
-        stop: when it is set, the arenas are ended at once.
         shortens: look for the shortest steps that show a failure in a sequence that was drawn.
+    """
+
+    seed: int = 0
+    jobs: int = 2
+    scale: float | None = None
+    isolation: Isolation | None = None
+    recorded: bool = False
+    first_alone: bool = False
+    at_first_look: Collection[str] = ()
+    shortens: bool = True
+
+
+@dataclass(frozen=True)
+class Watcher:
+    """What is called while a submission is graded, on any thread.
+
+    Attributes:
+        on_verdict: gets each verdict as soon as it is known.
+        on_retry: gets each check that did not pass and is now tried again.
+        on_evidence: gets the transcripts that a check was judged on.
+        on_running: gets the scenarios that run, whenever they change.
+    """
+
+    on_verdict: Callable[[CheckVerdict], None] = lambda verdict: None
+    on_retry: Callable[[Check], None] = lambda check: None
+    on_evidence: Callable[[CheckVerdict, Sequence[Transcript]], None] = lambda verdict, transcripts: None
+    on_running: Callable[[Sequence[Scenario]], None] = lambda scenarios: None
+
+
+def grade(
+    submission: Submission,
+    exercise: Exercise,
+    options: GradingOptions = GradingOptions(),
+    watcher: Watcher = Watcher(),
+    *,
+    arenas: SubmissionArenas | None = None,
+    stop: Stop | None = None,
+) -> Grade:
+    """Grade a submission with the checks of the exercise, visible and hidden.
+
+    `arenas` are those of this submission, if one was opened ahead; they are closed at the end. When `stop` is set, the
+    arenas are ended at once.
 
     Raises:
         Stopped: `stop` was set before the last verdict.
         HiddenChecksRefused: there are hidden checks, and arenas cannot be isolated here, or would show them.
     """
-    isolation = isolation or available_isolation()
+    isolation = options.isolation or available_isolation()
     if any(check.hidden for check in exercise.checks):
         if not isolation.trusted:
             raise HiddenChecksRefused(f"hidden checks need isolated arenas: {isolation.reason}")
         require_hidden([exercise.folder, exercises_folder()])
     arenas = arenas or SubmissionArenas(exercise.scenario_file, isolation.kind)
-    session = _Session(
-        submission,
-        exercise,
-        seed,
-        ClockScale(scale),
-        isolation,
-        report,
-        on_retry,
-        evidence,
-        running,
-        arenas,
-        at_first_look,
-        stop,
-        recorded,
-        shortens,
-    )
-    return session.run(jobs, first_alone)
+    return _Session(submission, exercise, replace(options, isolation=isolation), watcher, arenas, stop).run()
 
 
 class _Session:
@@ -114,32 +111,19 @@ class _Session:
         self,
         submission: Submission,
         exercise: Exercise,
-        seed: int,
-        scale: ClockScale,
-        isolation: Isolation,
-        report: Report,
-        on_retry: OnRetry,
-        evidence: Evidence,
-        running: Running,
+        options: GradingOptions,
+        watcher: Watcher,
         arenas: SubmissionArenas,
-        at_first_look: Collection[str],
         stop: Stop | None,
-        recorded: bool,
-        shortens: bool,
     ) -> None:
+        assert options.isolation, "which arenas are there?"
         self._submission = submission
         self._exercise = exercise
-        self._seed = seed
-        self._scale = scale
-        self._isolation = isolation
-        self._report = report
-        self._on_retry = on_retry
-        self._evidence = evidence
-        self._running = running
+        self._options = options
+        self._isolation = options.isolation
+        self._scale = ClockScale(options.scale)
+        self._watcher = watcher
         self._arenas = arenas
-        self._at_first_look = at_first_look
-        self._recorded = recorded
-        self._shortens = shortens
         self._scenarios = list(dict.fromkeys(scenario for check in exercise.checks for scenario in check.on))
         self._visible = {scenario for check in exercise.checks if not check.hidden for scenario in check.on}
         self._stop = Stop(stop)
@@ -148,7 +132,8 @@ class _Session:
         # how often a check was not settled by a scenario, by the check's id
         self._attempts: Counter[tuple[str, Scenario]] = Counter()
 
-    def run(self, jobs: int, first_alone: bool = False) -> Grade:
+    def run(self) -> Grade:
+        jobs, first_alone = self._options.jobs, self._options.first_alone
         with self._arenas, ThreadPoolExecutor(jobs) as pool:
             try:
                 while len(self._verdicts) < len(self._exercise.checks):
@@ -163,7 +148,11 @@ class _Session:
                 self._stop.set()
         verdicts = [self._verdicts[check.id] for check in self._exercise.checks]
         return Grade(
-            self._exercise.name, self._submission.student, self._isolation.label, verdicts, seed=self._seed
+            self._exercise.name,
+            self._submission.student,
+            self._isolation.label,
+            verdicts,
+            seed=self._options.seed,
         )
 
     def _settle(self) -> None:
@@ -192,7 +181,7 @@ class _Session:
             )
             self._runs[attempt][scenario] = run
             running[run] = scenario
-        self._running(list(running.values()))
+        self._watcher.on_running(list(running.values()))
         return list(running)
 
     def _wanted(self) -> list[tuple[Scenario, int]]:
@@ -235,11 +224,11 @@ class _Session:
                 self._exercise,
                 self._submission.files,
                 scenario,
-                VISIBLE_SEED if scenario in self._visible else self._seed,
+                VISIBLE_SEED if scenario in self._visible else self._options.seed,
                 attempt_scale,
                 self._isolation.kind,
                 cold,
-                recorded=self._recorded,
+                recorded=self._options.recorded,
             )
             try:
                 transcript = run_in_arena(run, self._stop, self._arenas)
@@ -274,17 +263,17 @@ class _Session:
             return
         attempt = max(self._attempts[check.id, scenario] for scenario in check.on)
         verdict = judge(check, transcripts, finally_=attempt + 1 >= MOST_ATTEMPTS["error"])
-        failed_at_once = verdict.status == "failed" and check.id in self._at_first_look
+        failed_at_once = verdict.status == "failed" and check.id in self._options.at_first_look
         if verdict.status != "passed" and not failed_at_once:
             again = at_fault(check, transcripts)
             for scenario in again:
                 self._attempts[check.id, scenario] += 1
             if all(self._attempts[check.id, each] < MOST_ATTEMPTS[verdict.status] for each in again):
-                self._on_retry(check)
+                self._watcher.on_retry(check)
                 return
             if verdict.status == "failed" and (shorter := self._shorter_failure(check, again, transcripts)):
                 verdict, transcripts = shorter
-        self._evidence(verdict, transcripts)
+        self._watcher.on_evidence(verdict, transcripts)
         self._conclude(verdict)
 
     def _shorter_failure(
@@ -296,7 +285,7 @@ class _Session:
         """
         runs = list(transcripts)
         index = next((check.on.index(scenario) for scenario in failed if scenario.is_drawn), None)
-        if not self._shortens or not check.each_run or index is None or not check.on[index].is_light:
+        if not self._options.shortens or not check.each_run or index is None or not check.on[index].is_light:
             return None
         drawn, run = check.on[index], runs[index]
         steps = steps_until(run, judge(replace(check, on=(drawn,)), [run]).robot_time)
@@ -319,4 +308,4 @@ class _Session:
 
     def _conclude(self, verdict: CheckVerdict) -> None:
         self._verdicts[verdict.id] = verdict
-        self._report(verdict)
+        self._watcher.on_verdict(verdict)

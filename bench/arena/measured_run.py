@@ -18,7 +18,7 @@ from typing import Any
 from autograder.authoring.evidence import events as ev
 from autograder.engine.arena_run import ArenaRun, run_in_arena
 from autograder.engine.exercise import Exercise, load_exercise
-from autograder.engine.grading import grade
+from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.submission import Submission, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from bench.arena.robot_watch import RobotWatch
@@ -69,7 +69,7 @@ def _gradings(task: dict[str, Any], exercise: Exercise, submission: Submission) 
             kept.update({id(one): one for one in seen})
 
         before = _used(task["meter"]), time.monotonic()
-        result = grade(submission, exercise, jobs=task["jobs"], evidence=keep)
+        result = grade(submission, exercise, GradingOptions(jobs=task["jobs"]), Watcher(on_evidence=keep))
         after = _used(task["meter"]), time.monotonic()
         floor = sum(map(_floor, transcripts.values())) / task["jobs"]
         yield {**_difference(before, after), "floor_s": floor, "passed": result.all_passed}

@@ -77,7 +77,7 @@ def _cancels(random: Random) -> dict[str, Any]:
 
     At last the robot goes down when it has stopped near its goal.
     """
-    ahead = random.uniform(0.5, 0.6)
+    ahead, side = random.uniform(0.5, 0.6), random.choice((-1, 1))
 
     def walking(name: str, *cancel: Any) -> Steps:
         return [
@@ -106,7 +106,8 @@ def _cancels(random: Random) -> dict[str, Any]:
         [
             *(["go_on", "arrived", random.uniform(-0.2, -0.15), 0.0, 0.0], ["arrive", "arrived"]),
             *(["wait", AFTERWARDS], ["cancel", "arrived"]),
-            *(["go_on", "after it", 0.2, 0.0, 0.3], ["arrive", "after it"], ["wait", AFTERWARDS]),
+            *(["go_on", "after it", 0.2, 0.0, side * 1.5], ["arrive", "after it"], ["wait", AFTERWARDS]),
+            *(["go_on", "aside", 0.0, side * 0.2, 0.0], ["arrive", "aside"], ["wait", AFTERWARDS]),
         ],
     ]
     random.shuffle(blocks)

@@ -11,7 +11,7 @@ from typing import Any
 from autograder.classroom.audit.known_submission import KnownSubmission, require_known_checks
 from autograder.classroom.audit.shared_arenas import SharedArenas
 from autograder.engine.exercise import Exercise
-from autograder.engine.grading import grade
+from autograder.engine.grading import GradingOptions, grade
 from autograder.engine.stop import Stop
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckStatus, Grade
@@ -154,17 +154,8 @@ def audit_one(
     `stop`: ends them at once when it is set.
     """
     started = time.monotonic()
-    result = grade(
-        known.read(),
-        exercise,
-        seed=seed + repetition,
-        jobs=1,
-        scale=scale,
-        at_first_look=at_first_look,
-        arenas=arenas,
-        stop=stop,
-        shortens=False,
-    )
+    options = GradingOptions(seed + repetition, 1, scale, at_first_look=at_first_look, shortens=False)
+    result = grade(known.read(), exercise, options, arenas=arenas, stop=stop)
     return AuditedRun(known, repetition, result, time.monotonic() - started, for_any_fault(exercise))
 
 

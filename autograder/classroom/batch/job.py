@@ -15,7 +15,7 @@ from autograder.classroom.batch.special_grades import not_graded, with_reason
 from autograder.classroom.batch.version import checks_version
 from autograder.classroom.pages.drawings import DrawnRuns, drawing_into
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise, load_exercise
-from autograder.engine.grading import Report, grade
+from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
 from autograder.engine.submission_arenas import SubmissionArenas
@@ -91,7 +91,7 @@ class Live:
 
     isolation: Isolation
     stop: Stop
-    report: Report
+    report: Callable[[CheckVerdict], None]
     begins: Callable[[GradingJob], None]
     ends: Callable[[GradingJob], None]
 
@@ -113,7 +113,9 @@ def carry_out(job: GradingJob, live: Live | None = None) -> Outcome:
         live.ends(job)
 
 
-def _graded(job: GradingJob, isolation: Isolation, stop: Stop, report: Report) -> Outcome:
+def _graded(
+    job: GradingJob, isolation: Isolation, stop: Stop, report: Callable[[CheckVerdict], None]
+) -> Outcome:
     began, arenas, recorder = utc_now(), None, None
     drawn: dict[str, Sequence[str]] = {}
     draw = drawing_into(drawn)
@@ -130,18 +132,9 @@ def _graded(job: GradingJob, isolation: Isolation, stop: Stop, report: Report) -
             exercise = load_exercise(job.exercise, hidden=job.trusted)
             arenas = SubmissionArenas(exercise.scenario_file, isolation.kind)
             recorder = _recorder(exercise) if job.recorded else None
-            found = grade(
-                job.submission,
-                exercise,
-                seed=job.seed,
-                jobs=job.arenas,
-                isolation=isolation,
-                report=report,
-                evidence=keep_evidence,
-                recorded=job.recorded,
-                arenas=arenas,
-                stop=stop,
-            )
+            options = GradingOptions(job.seed, job.arenas, isolation=isolation, recorded=job.recorded)
+            watcher = Watcher(on_verdict=report, on_evidence=keep_evidence)
+            found = grade(job.submission, exercise, options, watcher, arenas=arenas, stop=stop)
     except Stopped:
         raise
     except Exception:  # whatever goes wrong here is the grader's fault and may not end the batch

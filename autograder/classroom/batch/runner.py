@@ -20,16 +20,28 @@ from autograder.classroom.batch.version import checks_version
 from autograder.classroom.pages.drawings import Drawings
 from autograder.engine.essay import left_to_a_person, load_essay
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise, essay_names, load_exercise
-from autograder.engine.grading import Report
 from autograder.engine.stop import Stop
 from autograder.engine.submission import UnusableSubmission
-from autograder.engine.verdict import Grade
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.availability import Isolation
 from autograder.recording.kept import keep
 
 PATIENCE = 0.5  # s to wait for results before it is looked again for new submissions
 
-Running = Callable[[Sequence[GradingJob]], None]
+
+@dataclass(frozen=True)
+class BatchWatcher:
+    """What is called while a batch is graded, on any thread.
+
+    Attributes:
+        on_verdict: gets each verdict as soon as it is known; from other machines with the grade.
+        on_running: gets the jobs that run in this process, whenever they change.
+        on_retry: gets each job that could not be graded and is done again at the end, alone, with its first outcome.
+    """
+
+    on_verdict: Callable[[CheckVerdict], None] = lambda verdict: None
+    on_running: Callable[[Sequence[GradingJob]], None] = lambda jobs: None
+    on_retry: PutOff = lambda job, outcome: None
 
 
 @dataclass(frozen=True)
@@ -56,9 +68,7 @@ class BatchRunner:
         jobs: how many arenas run in parallel here.
         seeds: of the scenarios' inputs.
         resume: take grades from the cache.
-        report: gets each verdict as soon as it is known, on any thread; from other machines with the grade.
-        running: gets the jobs that run in this process, whenever they change, on any thread.
-        put_off: gets each job that could not be graded and is done again at the end, alone, with its first outcome.
+        watcher: is called as the batch goes on.
         drawings: keeps those of failed checks.
         recordings: folder in which they are kept, each in <student>/<exercise>/; None: none are made.
         workers: where the work is done; None: `jobs` threads of this process.
@@ -72,9 +82,7 @@ class BatchRunner:
         jobs: int,
         seeds: Seeds = ONE_FOR_ALL,
         resume: bool = False,
-        report: Report = lambda verdict: None,
-        running: Running = lambda jobs: None,
-        put_off: PutOff = lambda job, outcome: None,
+        watcher: BatchWatcher = BatchWatcher(),
         drawings: Drawings | None = None,
         recordings: Path | None = None,
         workers: Workers | None = None,
@@ -84,9 +92,7 @@ class BatchRunner:
         self._jobs = jobs
         self._seeds = seeds
         self._resume = resume
-        self._report = report
-        self._running = running
-        self._put_off = put_off
+        self._watcher = watcher
         self._drawings = drawings
         self._recordings = recordings
         self._workers = workers
@@ -112,7 +118,7 @@ class BatchRunner:
         arenas = 1 if self._workers else max(1, self._jobs // max(1, at_a_time))
         workers = self._workers or threads(max(1, self._jobs // arenas))
         live = self._live() if workers.share_memory else None
-        crew = Crew(workers, partial(carry_out, live=live), self._put_off)
+        crew = Crew(workers, partial(carry_out, live=live), self._watcher.on_retry)
         handed_over: dict[tuple[str, str], Work] = {}
         try:
             for work in works:
@@ -123,7 +129,7 @@ class BatchRunner:
                 prepared = self._prepare(work, arenas)
                 if isinstance(prepared, Graded):
                     for verdict in prepared.grade.checks:
-                        self._report(verdict)
+                        self._watcher.on_verdict(verdict)
                     yield prepared
                     continue
                 while not crew.has_room:
@@ -186,18 +192,18 @@ class BatchRunner:
             finished.append(Graded(work, outcome.grade, job.sources, effort=outcome.effort))
             if self._workers and not self._workers.share_memory:
                 for verdict in outcome.grade.checks:
-                    self._report(verdict)
+                    self._watcher.on_verdict(verdict)
         yield from finished
 
     def _live(self) -> Live:
-        return Live(self._isolation, self._stop, self._report, self._begins, self._ends)
+        return Live(self._isolation, self._stop, self._watcher.on_verdict, self._begins, self._ends)
 
     def _begins(self, job: GradingJob) -> None:
         with self._lock:
             self._now_running.append(job)
-            self._running(list(self._now_running))
+            self._watcher.on_running(list(self._now_running))
 
     def _ends(self, job: GradingJob) -> None:
         with self._lock:
             self._now_running.remove(job)
-            self._running(list(self._now_running))
+            self._watcher.on_running(list(self._now_running))

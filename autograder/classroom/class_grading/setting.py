@@ -17,7 +17,7 @@ from autograder.classroom.batch.effort import utc_now
 from autograder.classroom.batch.folder_lock import locked
 from autograder.classroom.batch.records import GRADES, read_grades
 from autograder.classroom.batch.request import BatchRequest
-from autograder.classroom.batch.runner import BatchRunner
+from autograder.classroom.batch.runner import BatchRunner, BatchWatcher
 from autograder.classroom.batch.seeds import Seeds
 from autograder.classroom.batch.selection import require_seed
 from autograder.classroom.batch.toolkit_version import commit_of
@@ -57,9 +57,7 @@ class Setting:
             seeds=self.seeds,
             resume=self.request.resume or self.request.watch,
             workers=self.cluster.workers if self.cluster else None,
-            report=progress.verdict,
-            running=progress.running,
-            put_off=progress.put_off,
+            watcher=BatchWatcher(progress.verdict, progress.running, progress.put_off),
             drawings=Drawings(self.request.out),
             recordings=self.request.out / RECORDINGS if self.request.record else None,
         )

@@ -22,7 +22,7 @@ import lab
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.audit.known_submission import known_submission
 from autograder.engine.exercise import load_exercise
-from autograder.engine.grading import grade
+from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.submission import read_submission
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.page import Section, write_page
@@ -144,7 +144,7 @@ def _grade_three(console: Console, jobs: int) -> tuple[list[Grade], list[Section
 
         name = submission.student
         with console.status(f"   {name} …"):
-            result = grade(submission, exercise, jobs=jobs, evidence=keep)
+            result = grade(submission, exercise, GradingOptions(jobs=jobs), Watcher(on_evidence=keep))
         console.print(f"   {name}: {summary(result)}", markup=False)
         grades.append(result)
         sections.append(Section(f"Submission: {name}", result, diagrams))

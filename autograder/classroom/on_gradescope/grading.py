@@ -12,7 +12,7 @@ from autograder.classroom.export.options import Options
 from autograder.classroom.export.published import NOT_GRADED
 from autograder.classroom.on_gradescope.container import Container
 from autograder.engine.exercise import Exercise, file_names, load_exercise
-from autograder.engine.grading import grade
+from autograder.engine.grading import GradingOptions, grade
 from autograder.engine.submission import UnusableSubmission
 from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation
@@ -49,4 +49,4 @@ def _grade(work: Work | None, exercise: Exercise, isolation: Isolation) -> Grade
         submission = work.read()
     except UnusableSubmission as error:
         return unreadable(STUDENT, exercise, isolation.label, 0, str(error))
-    return grade(submission, exercise, jobs=os.cpu_count() or 1, isolation=isolation)
+    return grade(submission, exercise, GradingOptions(jobs=os.cpu_count() or 1, isolation=isolation))

@@ -7,7 +7,7 @@ from contextlib import ExitStack
 
 from autograder.classroom.audit.known_submission import known_submission
 from autograder.engine.exercise import load_exercise
-from autograder.engine.grading import grade
+from autograder.engine.grading import GradingOptions, grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
 from autograder.isolation.limits import StudentLimits
@@ -22,8 +22,7 @@ def test_a_sound_node_has_the_visible_points_beside_other_peoples_connections() 
         for _ in range(StudentLimits().tcp_sockets):
             stack.enter_context(socket.create_connection(server.getsockname()))
             stack.enter_context(server.accept()[0])
-        graded = grade(
-            sound, load_exercise(EXERCISE, hidden=False), isolation=Isolation(Kind.NONE, "as asked for")
-        )
+        none = GradingOptions(isolation=Isolation(Kind.NONE, "as asked for"))
+        graded = grade(sound, load_exercise(EXERCISE, hidden=False), none)
     assert graded.all_passed, [check for check in graded.checks if check.status != "passed"]
     assert (graded.isolation, graded.score) == ("untrusted", graded.max_score)

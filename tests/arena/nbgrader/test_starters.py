@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from autograder.engine.exercise import exercise_names, load_exercise
-from autograder.engine.grading import grade
+from autograder.engine.grading import GradingOptions, grade
 from autograder.engine.submission import read_submission
 
 QUIZ = "patterns"  # nothing of it is answered yet
@@ -17,7 +17,8 @@ def test_the_starter_gets_some_points_and_fails_some_check(name):
     starter = read_submission(EXERCISES / name / f"{name}.ipynb", name)
     exercise = load_exercise(name, hidden=False)
     # One arena at a time runs no scenario whose checks turn out to need one that failed.
-    result = grade(starter, exercise, jobs=1, at_first_look=[check.id for check in exercise.checks])
+    every = [check.id for check in exercise.checks]
+    result = grade(starter, exercise, GradingOptions(jobs=1, at_first_look=every))
     assert result.status == "graded"
     assert result.score < result.max_score
     assert (result.score == 0) == (name == QUIZ)

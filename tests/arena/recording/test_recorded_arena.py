@@ -16,7 +16,7 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.audit.known_submission import known_submission
 from autograder.classroom.audit.proof import enough_to_catch
 from autograder.engine.exercise import load_exercise
-from autograder.engine.grading import grade
+from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.recording.kept import keep
 from autograder.recording.recorder import Recorder
@@ -37,7 +37,8 @@ def graded(recorder: Recorder | None) -> tuple[Grade, list[Transcript]]:
         if recorder:
             recorder.add(verdict, transcripts)
 
-    return grade(KNOWN.read(), CHECKS, evidence=add, recorded=recorder is not None), runs
+    options = GradingOptions(recorded=recorder is not None)
+    return grade(KNOWN.read(), CHECKS, options, Watcher(on_evidence=add)), runs
 
 
 @pytest.fixture(scope="module")

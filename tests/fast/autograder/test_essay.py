@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 from autograder.authoring.rubric import Criterion, criteria_in
 from autograder.classroom.batch.cache import GradeCache
 from autograder.classroom.batch.collection import collect
-from autograder.classroom.batch.runner import BatchRunner
+from autograder.classroom.batch.runner import BatchRunner, BatchWatcher
 from autograder.classroom.nbgrader_bridge.criterion_cells import with_criterion_cells
 from autograder.engine.essay import left_to_a_person, load_essay
 from autograder.engine.exercise import (
@@ -50,7 +50,7 @@ def notebook(work: str) -> str:
 def run_batch(folder: Path, reported: list[CheckVerdict]):
     isolation = Isolation(Kind.NAMESPACES, "as a test says")
     cache = GradeCache(folder / "cache", isolation)
-    runner = BatchRunner(cache, isolation, jobs=1, report=reported.append)
+    runner = BatchRunner(cache, isolation, jobs=1, watcher=BatchWatcher(reported.append))
     (graded,) = runner.run(collect(folder / "submitted").works)
     assert len(reported) == runner.count(NAME)
     return graded

@@ -304,10 +304,10 @@ def test_failure_of_a_visible_check_or_else_of_a_hidden_one_ends_a_grading(monke
     few = replace(exercise, checks=[*exercise.checks[:2], *hidden[:2]])
     looked = []
 
-    def grade(submission, exercise, *, report, **rest):
+    def grade(submission, exercise, options, watcher, **rest):
         for check, status in zip(exercise.checks, verdicts, strict=True):
             looked.append(verdict_on(check, status))
-            report(looked[-1])
+            watcher.on_verdict(looked[-1])
         return Grade(exercise.name, fault.name, "namespaces", looked, seed=0)
 
     monkeypatch.setattr(first_look_module, "grade", grade)

@@ -25,6 +25,11 @@ FIRST, SECOND = Scenario("first"), Scenario("second")
 BEGINNING = (ev.NodeStarted(t=0.0), ev.NodeReady(t=0.0, waited=0.1))
 
 
+def graded(exercise, *, stop=None, watcher=None, **options):
+    options = grading.GradingOptions(**{"isolation": ISOLATED, **options})
+    return grading.grade(SUBMISSION, exercise, options, watcher or grading.Watcher(), stop=stop)
+
+
 def robot(t, lag):
     still = dict.fromkeys(("x", "y", "yaw", "speed", "turn_rate", "steps"), 0)
     return ev.RobotTruth(
@@ -76,13 +81,13 @@ def statuses(grade):
 
 def test_full_marks(monkeypatch, two_checks):
     arenas(monkeypatch, lambda scenario, scale: transcript(scenario, mark="here"))
-    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED)
+    grade = graded(two_checks)
     assert (grade.status, grade.score, grade.max_score, grade.all_passed) == ("graded", 5, 5, True)
 
 
 def test_a_failure_says_what_when_and_what_next_and_what_stands_on_it_is_not_run(monkeypatch, two_checks):
     arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
-    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED)
+    grade = graded(two_checks)
     assert statuses(grade) == {"base": "failed", "above": "not run"}
     failed, not_run = grade.checks
     assert (failed.expected, failed.observed, failed.help, failed.robot_time) == (
@@ -100,7 +105,7 @@ def test_an_arena_that_fails_is_tried_again_and_then_not_graded(monkeypatch, two
         raise NotGraded("no room")
 
     ran = arenas(monkeypatch, answer)
-    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, jobs=1)
+    grade = graded(two_checks, jobs=1)
     assert statuses(grade) == {"base": "error", "above": "error"}
     assert (grade.status, grade.score) == ("not graded", None)
     assert "no room" in grade.checks[0].help
@@ -114,7 +119,7 @@ def test_a_check_that_breaks_costs_nothing(monkeypatch):
         raise KeyError("oops")
 
     arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
-    grade = grading.grade(SUBMISSION, exercise(broken), isolation=ISOLATED)
+    grade = graded(exercise(broken))
     assert (grade.status, grade.checks[0].status) == ("not graded", "error")
     assert "oops" in grade.checks[0].help
 
@@ -125,7 +130,7 @@ def test_what_the_arena_left_out_is_looked_for_again_and_then_not_graded(monkeyp
         return replace(whole, events=[event for event in whole.events if event.kind != "scenario_ended"])
 
     ran = arenas(monkeypatch, answer)
-    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, jobs=1)
+    grade = graded(two_checks, jobs=1)
     assert (grade.status, statuses(grade)["base"]) == ("not graded", "error")
     assert grade.checks[0].help == "Not graded: first: the record breaks off at 3.0 s"
     assert [name for name, _ in ran].count("first") == 4
@@ -145,7 +150,7 @@ def test_what_is_not_seen_is_looked_for_again_on_slower_clocks(monkeypatch, slow
             scenario, mark="here" if scale <= slow_enough else None, scale=scale
         ),
     )
-    assert grading.grade(SUBMISSION, exercise(sees), isolation=ISOLATED, scale=5.0).all_passed
+    assert graded(exercise(sees), scale=5.0).all_passed
     assert [scale for _, scale in ran] == [5.0, 5.0, 2.0, 1.0][: 3 if slow_enough == 2.0 else 4]
 
 
@@ -156,14 +161,14 @@ def test_an_overloaded_run_is_repeated_more_slowly_before_it_is_judged(monkeypat
         )
 
     ran = arenas(monkeypatch, answer)
-    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, jobs=1, scale=5.0)
+    grade = graded(two_checks, jobs=1, scale=5.0)
     assert grade.all_passed
     assert [scale for name, scale in ran if name == "first"] == [5.0, 2.0, 1.0]
 
 
 def test_a_machine_that_is_too_slow_even_at_scale_1_gives_no_grade(monkeypatch, two_checks):
     arenas(monkeypatch, lambda scenario, scale: transcript(scenario, lag=2.0, scale=scale))
-    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED)
+    grade = graded(two_checks)
     assert grade.status == "not graded"
     assert "too busy" in grade.checks[0].help
 
@@ -185,7 +190,7 @@ def test_a_program_that_got_no_processor_is_run_again_more_slowly_where_time_cou
         monkeypatch,
         lambda scenario, scale: without_robot(scenario, scale, starved=3.0 if scale > 2 else 0.1),
     )
-    assert grading.grade(SUBMISSION, exercise(ends), isolation=ISOLATED, scale=5.0).all_passed
+    assert graded(exercise(ends), scale=5.0).all_passed
     assert [scale for _, scale in ran] == scales
 
 
@@ -200,7 +205,7 @@ def test_a_node_that_never_came_is_judged_unless_half_its_time_was_lost(
         return Transcript.from_events(scenario.name, {}, events, 1.0)
 
     arenas(monkeypatch, answer)
-    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED)
+    grade = graded(two_checks)
     assert (grade.status if status == "not graded" else grade.checks[0].status) == status
 
 
@@ -215,7 +220,7 @@ def test_a_failure_on_a_strained_run_counts_only_if_it_is_seen_again_on_one_that
         )
 
     ran = arenas(monkeypatch, answer)
-    assert grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, jobs=1, scale=5.0).all_passed
+    assert graded(two_checks, jobs=1, scale=5.0).all_passed
     assert [scale for name, scale in ran if name == "first"][-1] == fast_enough
 
 
@@ -230,7 +235,7 @@ def test_a_failure_counts_only_if_it_is_seen_twice(monkeypatch, marks, status):
 
     coming = iter(marks)
     ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario, mark=next(coming)))
-    grade = grading.grade(SUBMISSION, exercise(ends), isolation=ISOLATED, scale=5.0)
+    grade = graded(exercise(ends), scale=5.0)
     assert statuses(grade) == {"ends": status}
     assert len(ran) == min(len(marks), 2)
 
@@ -252,7 +257,7 @@ def test_the_first_scenario_and_every_retry_start_the_program_cold(monkeypatch, 
 
         judge.__name__ = f"check_{number}"
         checks.append(check(points=1, on=scenario)(judge))
-    grade = grading.grade(SUBMISSION, exercise(*checks), isolation=ISOLATED, jobs=1)
+    grade = graded(exercise(*checks), jobs=1)
     assert statuses(grade) == {"check_0": "passed", "check_1": "failed"}
     assert starts == [("first", True), ("second", False), ("second", True)]
 
@@ -260,13 +265,10 @@ def test_the_first_scenario_and_every_retry_start_the_program_cold(monkeypatch, 
 def test_what_runs_now_is_told(monkeypatch, two_checks):
     arenas(monkeypatch, lambda scenario, scale: transcript(scenario, mark="here"))
     told = []
-    grading.grade(
-        SUBMISSION,
-        two_checks,
-        isolation=ISOLATED,
-        jobs=1,
-        running=lambda scenarios: told.append([scenario.name for scenario in scenarios]),
+    watcher = grading.Watcher(
+        on_running=lambda scenarios: told.append([scenario.name for scenario in scenarios])
     )
+    graded(two_checks, watcher=watcher, jobs=1)
     assert [names for names in told if names] == [["first"], ["second"]]
     assert told[-1] == []
 
@@ -278,11 +280,7 @@ def test_hidden_checks_are_refused_without_isolation(monkeypatch):
 
     ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
     with pytest.raises(HiddenChecksRefused, match="no namespaces here"):
-        grading.grade(
-            SUBMISSION,
-            exercise(replace(secret, hidden=True)),
-            isolation=Isolation(Kind.NONE, "no namespaces here"),
-        )
+        graded(exercise(replace(secret, hidden=True)), isolation=Isolation(Kind.NONE, "no namespaces here"))
     assert ran == []
 
 
@@ -294,19 +292,19 @@ def test_hidden_checks_are_refused_where_a_sandbox_would_show_them(monkeypatch):
     ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
     shown = replace(exercise(replace(secret, hidden=True)), folder=Path(sys.prefix, "share/course/secrets"))
     with pytest.raises(HiddenChecksRefused, match=r"secrets lies in .*, which students' programs can read"):
-        grading.grade(SUBMISSION, shown, isolation=ISOLATED)
+        graded(shown)
     assert ran == []
 
 
 def test_without_isolation_a_grade_is_labelled_untrusted(monkeypatch, two_checks):
     arenas(monkeypatch, lambda scenario, scale: transcript(scenario, mark="here"))
-    grade = grading.grade(SUBMISSION, two_checks, isolation=Isolation(Kind.NONE, "no namespaces here"))
+    grade = graded(two_checks, isolation=Isolation(Kind.NONE, "no namespaces here"))
     assert grade.to_json()["isolation"] == "untrusted"
 
 
 def test_where_no_points_can_be_lost_the_first_failure_may_count(monkeypatch, two_checks):
     ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
-    grade = grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, jobs=1, at_first_look=["base"])
+    grade = graded(two_checks, jobs=1, at_first_look=["base"])
     assert statuses(grade) == {"base": "failed", "above": "not run"}
     assert [name for name, _ in ran] == ["first"]
 
@@ -320,5 +318,5 @@ def test_a_stop_ends_the_grading_without_a_grade_and_starts_no_other_arena(monke
 
     ran = arenas(monkeypatch, ended)
     with pytest.raises(Stopped):
-        grading.grade(SUBMISSION, two_checks, isolation=ISOLATED, jobs=1, stop=stop)
+        graded(two_checks, jobs=1, stop=stop)
     assert [name for name, _ in ran] == ["first"]

@@ -20,6 +20,8 @@ DRAWN = Scenario(
     "drawn", lambda random: {"steps": [["ask", 1], ["unplug"], ["wait", 2.5], ["ask", 2]]}, robot=RESTING
 )
 
+ONE_JOB = grading.GradingOptions(jobs=1, isolation=ISOLATED)
+
 
 def run_of(scenario, *, said="", steps_done=None, missing=()):
     """A run of a sequence, a step a second, in which the node prints `said` at the end of the last step."""
@@ -56,7 +58,7 @@ def test_it_says_its_clauses_its_sentence_and_its_situations():
 
 def test_a_submission_that_never_gives_occasion_has_failed_and_is_not_ungraded(monkeypatch):
     ran = arenas(monkeypatch, lambda scenario, scale: run_of(scenario))
-    grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), isolation=ISOLATED, jobs=1)
+    grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), ONE_JOB)
     assert statuses(grade) == {"prints": "failed"}
     assert grade.checks[0].expected == "an answer that shows this: It prints something good"
     assert (
@@ -66,7 +68,7 @@ def test_a_submission_that_never_gives_occasion_has_failed_and_is_not_ungraded(m
 
 def test_an_occasion_that_a_slower_clock_gives_is_enough(monkeypatch):
     arenas(monkeypatch, lambda scenario, scale: run_of(scenario, said="good" if scale < 5.0 else ""))
-    grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), isolation=ISOLATED, jobs=1)
+    grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), ONE_JOB)
     assert statuses(grade) == {"prints": "passed"}
 
 
@@ -83,7 +85,7 @@ def test_only_checks_on_drawn_sequences_meet_any_fault():
 def test_only_the_scenario_that_failed_is_retried(monkeypatch):
     answers = {"in_order": ["good"], "drawn": ["bad", "good"]}
     ran = arenas(monkeypatch, lambda scenario, scale: run_of(scenario, said=answers[scenario.name].pop(0)))
-    grade = grading.grade(SUBMISSION, exercise(check_on(ASK, DRAWN)), isolation=ISOLATED, jobs=1)
+    grade = grading.grade(SUBMISSION, exercise(check_on(ASK, DRAWN)), ONE_JOB)
     assert statuses(grade) == {"prints": "passed"}
     assert [name for name, _ in ran] == ["in_order", "drawn", "drawn"]
 
@@ -98,7 +100,7 @@ def test_a_failure_names_the_shortest_steps_that_show_it(monkeypatch, least, nam
         return run_of(scenario, said="bad" if shown else "good")
 
     arenas(monkeypatch, answer)
-    grade = grading.grade(SUBMISSION, exercise(check_on(DRAWN)), isolation=ISOLATED, jobs=1)
+    grade = grading.grade(SUBMISSION, exercise(check_on(DRAWN)), ONE_JOB)
     assert grade.checks[0].observed == f"bad; steps: {named}"
 
 
@@ -109,13 +111,13 @@ def test_steps_that_make_no_scenario_by_themselves_are_left(monkeypatch):
         return run_of(scenario, said="bad")
 
     arenas(monkeypatch, answer)
-    grade = grading.grade(SUBMISSION, exercise(check_on(DRAWN)), isolation=ISOLATED, jobs=1)
+    grade = grading.grade(SUBMISSION, exercise(check_on(DRAWN)), ONE_JOB)
     assert statuses(grade) == {"prints": "failed"}
 
 
 def test_an_arena_that_ends_early_passes_nothing(monkeypatch):
     arenas(monkeypatch, lambda scenario, scale: run_of(scenario, said="good", missing=("mark",)))
-    grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), isolation=ISOLATED, jobs=1)
+    grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), ONE_JOB)
     assert grade.score == 0
 
 

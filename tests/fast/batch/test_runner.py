@@ -10,7 +10,7 @@ import pytest
 from autograder.classroom.batch import job as module
 from autograder.classroom.batch.cache import GradeCache
 from autograder.classroom.batch.collection import Work
-from autograder.classroom.batch.runner import BatchRunner
+from autograder.classroom.batch.runner import BatchRunner, BatchWatcher
 from autograder.engine.exercise import load_exercise
 from autograder.engine.hand_in import candidate_at
 from autograder.engine.stop import Stopped
@@ -22,7 +22,7 @@ ISOLATED = Isolation(Kind.NAMESPACES, "as a test says")
 CHECKS = load_exercise("battery_service", hidden=True).checks
 
 
-def grade_by_content(submission, exercise, *, isolation, report, **_):
+def grade_by_content(submission, exercise, options, watcher, **_):
     """Stands for the arenas: judges by a word in the source, so that the batch itself is what is tested."""
     (source,) = submission.sources.values()
     if "crash" in source:
@@ -36,8 +36,8 @@ def grade_by_content(submission, exercise, *, isolation, report, **_):
         for check in exercise.checks
     ]
     for verdict in verdicts:
-        report(verdict)
-    return Grade(exercise.name, submission.student, isolation.label, verdicts)
+        watcher.on_verdict(verdict)
+    return Grade(exercise.name, submission.student, options.isolation.label, verdicts)
 
 
 @pytest.fixture
@@ -86,7 +86,7 @@ def test_resume_grades_only_what_is_not_known(tmp_path, works, monkeypatch):
 def test_every_check_is_reported_once(tmp_path, works, monkeypatch):
     monkeypatch.setattr(module, "grade", grade_by_content)
     reported = []
-    list(batch(tmp_path, report=reported.append).run([works[0], works[-1]]))
+    list(batch(tmp_path, watcher=BatchWatcher(reported.append)).run([works[0], works[-1]]))
     assert len(reported) == 2 * len(CHECKS)
 
 
@@ -102,11 +102,11 @@ def test_leaving_early_ends_what_runs_and_starts_nothing_more(tmp_path, works, m
     started = []
     second_is_running = threading.Event()
 
-    def until_stopped(submission, exercise, *, report, stop, **options):
+    def until_stopped(submission, exercise, options, watcher, *, stop, **_):
         started.append(submission.student)
         if submission.student == "anna":
             assert second_is_running.wait(10)
-            return grade_by_content(submission, exercise, report=report, **options)
+            return grade_by_content(submission, exercise, options, watcher)
         second_is_running.set()
         while not stop.is_set():
             pass

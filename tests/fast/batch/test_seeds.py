@@ -98,7 +98,8 @@ def test_what_a_visible_check_sees_is_drawn_with_the_same_seed_in_every_batch(tm
     monkeypatch.setattr(grading, "require_hidden", lambda paths: None)
     exercise = Exercise("made_up", tmp_path, checks, True)
     isolation = Isolation(Kind.NAMESPACES, "as a test says")
-    grading.grade(Submission("made_up", "anna", {}), exercise, seed=77, isolation=isolation)
+    options = grading.GradingOptions(seed=77, isolation=isolation)
+    grading.grade(Submission("made_up", "anna", {}), exercise, options)
     assert seen == {"shown": grading.VISIBLE_SEED, "both": grading.VISIBLE_SEED, "kept_back": 77}
 
 

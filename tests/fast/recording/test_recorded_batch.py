@@ -18,6 +18,7 @@ from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.crew import Workers
 from autograder.classroom.batch.job import GradingJob, Outcome
 from autograder.classroom.batch.runner import BatchRunner
+from autograder.engine.grading import GradingOptions, Watcher
 from autograder.engine.hand_in import candidate_at
 from autograder.engine.verdict import Grade
 from autograder.isolation.arena_process import Kind
@@ -30,15 +31,13 @@ ISOLATED = Isolation(Kind.NAMESPACES, "as a test says")
 asked: list[bool] = []
 
 
-def judge_a_fall(
-    submission: Any, of: Any, *, isolation: Any, evidence: Any, recorded: bool, **_: Any
-) -> Grade:
+def judge_a_fall(submission: Any, of: Any, options: GradingOptions, watcher: Watcher, **_: Any) -> Grade:
     """Stands for the arenas: every submission lets the robot fall in the scenario "walk"."""
-    asked.append(recorded)
+    asked.append(options.recorded)
     verdicts = [judged(each, run) for run in [walk()] for each in of.checks]
     for verdict in verdicts:
-        evidence(verdict, [walk()])
-    return Grade(of.name, submission.student, isolation.label, verdicts, seed=0)
+        watcher.on_evidence(verdict, [walk()])
+    return Grade(of.name, submission.student, ISOLATED.label, verdicts, seed=0)
 
 
 @pytest.fixture

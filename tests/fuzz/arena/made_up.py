@@ -10,7 +10,7 @@ from pathlib import Path
 from autograder.classroom.audit.known_submission import known_submission
 from autograder.classroom.audit.residue import residue
 from autograder.engine.exercise import Exercise, load_exercise
-from autograder.engine.grading import grade
+from autograder.engine.grading import GradingOptions, grade
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import Grade
 from fuzz.arena.targets import TARGETS, Target
@@ -50,9 +50,10 @@ def _problem(target: Target, source: str, seed: int) -> str:
     """Return what was wrong, or ""."""
     exercise = _exercise(target)
     (file,) = exercise.file_names
+    options = GradingOptions(seed, jobs=1)
     with residue() as left:
         submission = Submission(target.exercise, "wild", {file: source})
-        wild = grade(submission, exercise, seed=seed, jobs=1, at_first_look=target.checks)
+        wild = grade(submission, exercise, replace(options, at_first_look=target.checks))
     if wild.status != "graded":
         return f"the made-up program was not graded:\n{_in_words(wild)}"
     if wild.all_passed:
@@ -60,7 +61,7 @@ def _problem(target: Target, source: str, seed: int) -> str:
     if left:
         return f"it left behind: {', '.join(left)}"
     with residue() as left:
-        correct = grade(known_submission(target.exercise, target.correct).read(), exercise, seed=seed, jobs=1)
+        correct = grade(known_submission(target.exercise, target.correct).read(), exercise, options)
     if not correct.all_passed:
         return f"the correct program after it lost points:\n{_in_words(correct)}"
     return f"the correct program after it left behind: {', '.join(left)}" if left else ""

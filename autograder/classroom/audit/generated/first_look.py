@@ -9,7 +9,7 @@ from autograder.classroom.audit.generated.mutant import Mutant
 from autograder.classroom.audit.known_submission import KnownSubmission
 from autograder.classroom.audit.run import AuditedRun
 from autograder.engine.exercise import Exercise, file_names
-from autograder.engine.grading import grade
+from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.judging import verdict_on
 from autograder.engine.stop import Stop
 from autograder.engine.submission import Submission
@@ -90,18 +90,9 @@ def first_look(
             raise _Plain
 
     try:
-        result = grade(
-            known.read(),
-            exercise,
-            seed=seed + repetition,
-            jobs=1,
-            scale=scale,
-            report=report,
-            at_first_look=[check.id for check in exercise.checks],
-            arenas=arenas,
-            stop=stop,
-            shortens=False,
-        )
+        every = [check.id for check in exercise.checks]
+        options = GradingOptions(seed + repetition, 1, scale, at_first_look=every, shortens=False)
+        result = grade(known.read(), exercise, options, Watcher(report), arenas=arenas, stop=stop)
     except _Plain:
         settled = {one.id: one for one in verdicts.values() if one.status != "error"}
         checks = [settled.get(check.id) or verdict_on(check, "not run") for check in exercise.checks]
