@@ -13,6 +13,7 @@ from nbformat import NotebookNode
 
 from book.links import Links
 from book.reader_copy import reader_copy
+from ros_runtime.course_error import COULD_NOT, CourseError
 from ros_runtime.project import PROJECT
 
 CONFIGURATION = Path(__file__).with_name("sphinx")
@@ -50,8 +51,10 @@ every cell and change it.
 OUTPUTS = " Their outputs and pictures come from a run of every cell."
 
 
-class BookFailed(Exception):
+class BookFailed(CourseError):
     """Sphinx could not make the site, or warns of something in it."""
+
+    exit_status = COULD_NOT
 
 
 def parts_of(project: Path) -> dict[str, dict[PurePosixPath, Path]]:

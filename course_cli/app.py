@@ -15,8 +15,11 @@ from importlib.util import find_spec
 from typing import Any
 
 import typer
+from rich.console import Console
+from typer.core import TyperGroup
 
-from course_cli.ending import in_a_sentence
+from course_cli.ending import ended, in_a_sentence
+from ros_runtime.course_error import CourseError
 
 HELP = "Learn ROS 2 services and actions on a humanoid that really balances."
 FORWARDING = {"ignore_unknown_options": True, "allow_extra_args": True}
@@ -105,10 +108,20 @@ def main(arguments: Sequence[str] | None = None) -> None:
         raise
 
 
+class _Course(TyperGroup):
+    """Ends a command with the words and the exit status of a `CourseError`."""
+
+    def invoke(self, ctx: Any) -> Any:
+        try:
+            return super().invoke(ctx)
+        except CourseError as error:
+            raise ended(Console(highlight=False), error, error.exit_status) from error
+
+
 def app(chosen: str | None) -> typer.Typer:
     """Return the application with every command listed, and only `chosen` imported."""
     course = typer.Typer(
-        help=HELP, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False
+        cls=_Course, help=HELP, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False
     )
     for name, command in COMMANDS.items():
         if not is_here(name):

@@ -7,8 +7,10 @@ import errno
 import typer
 from rich.console import Console
 
-COULD_NOT = 1
-UNUSABLE = 2
+from ros_runtime.course_error import COULD_NOT, UNUSABLE
+
+__all__ = ["COULD_NOT", "NOT_GRADED", "UNUSABLE", "batch_status", "ended", "in_a_sentence"]
+
 NOT_GRADED = 3  # something could not be graded, and no student is to blame
 FULL_DISK = (
     "course: the disk is full. What was complete before is unharmed.\n"

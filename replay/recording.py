@@ -16,12 +16,13 @@ from autograder.recording.definitions import class_of
 from autograder.recording.entry import CHECKS, EVENTS, FORMAT, METADATA, ROSOUT
 from autograder.recording.narration import brief
 from replay.moment import Kind, Moment, Verdict, readable
+from ros_runtime.course_error import CourseError
 
 LARGEST_FILE = 128 * 2**20  # bytes
 MOST_MESSAGES = 500_000
 
 
-class NoRecording(Exception):
+class NoRecording(CourseError):
     """The file cannot be shown; the message says what it is and what to do."""
 
 

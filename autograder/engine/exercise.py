@@ -25,6 +25,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from autograder.engine.clauses import clauses_in, in_words
+from ros_runtime.course_error import CourseError
 from ros_runtime.project import PROJECT
 
 if TYPE_CHECKING:
@@ -34,11 +35,11 @@ FOLDER_VARIABLE = "COURSE_EXERCISES"  # inherited by the processes that a comman
 SCENARIO_FILE, CHECKS, HIDDEN, RUBRIC = "scenarios.py", "checks", "hidden", "rubric"
 
 
-class UnknownExercise(Exception):
+class UnknownExercise(CourseError):
     """There is no exercise of that name."""
 
 
-class UnusableExercise(Exception):
+class UnusableExercise(CourseError):
     """What an exercise's author wrote cannot be used; the message says where and why."""
 
 

@@ -10,6 +10,7 @@ from pathlib import Path, PurePath
 from autograder.engine.exercise import file_names
 from autograder.engine.notebook import code_cells, written_by
 from autograder.engine.program_text import NoProgram, bytes_of, text_of
+from ros_runtime.course_error import CourseError
 
 MAX_BYTES = 1_000_000  # of a file a student writes
 MAX_NOTEBOOK_BYTES = 50_000_000  # a notebook also holds pictures of the robot
@@ -19,7 +20,7 @@ CLEAR_OUTPUTS = (
 _HALF_A_CHARACTER = re.compile("[\ud800-\udfff]")  # half of an emoji, which an editor cut in two
 
 
-class UnusableSubmission(Exception):
+class UnusableSubmission(CourseError):
     """The submission cannot be read; the message says what was found and what is expected."""
 
     def __init__(self, message: str) -> None:

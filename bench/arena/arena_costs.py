@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from bench.arena.processor_time import metered_group
+from ros_runtime.course_error import COULD_NOT, CourseError
 from ros_runtime.project import PROJECT
 
 ARENAS = (  # the first scenario of a check
@@ -20,8 +21,10 @@ ARENAS = (  # the first scenario of a check
 )
 
 
-class BenchFailed(Exception):
+class BenchFailed(CourseError):
     """A measured run failed."""
+
+    exit_status = COULD_NOT
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,6 @@ from rich.console import Console
 
 from autograder.engine.essay import load_essay
 from autograder.engine.exercise import (
-    UnknownExercise,
-    UnusableExercise,
     essay_names,
     exercise_names,
     file_names,
@@ -21,7 +19,7 @@ from autograder.engine.exercise import (
 from autograder.engine.hand_in import MOST_FOLDERS, work_in
 from autograder.engine.submission import UnusableSubmission, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
-from course_cli.ending import COULD_NOT, NOT_GRADED, UNUSABLE, ended
+from course_cli.ending import COULD_NOT, NOT_GRADED
 from course_cli.exercises_option import CourseOption
 from course_cli.jobs_option import JobsOption
 from ros_runtime.project import PROJECT
@@ -47,23 +45,20 @@ def check(
 ) -> None:
     """Check your own solution of an exercise."""
     console = Console(highlight=False)
-    try:
-        path, left_aside = _work(exercise, file)
-        for line in left_aside:
-            console.print(f"left aside: {line}", style="yellow", markup=False)
-        if exercise in essay_names():
-            _show_rubric(console, exercise, path)
-            return
-        with SubmissionArenas(scenario_file(exercise)) as arenas:
-            if exercise in exercise_names() and path.exists():
-                arenas.open_ahead()
-            # imported meanwhile, because the first verdict is waited for
-            from autograder.self_check import check_and_keep
+    path, left_aside = _work(exercise, file)
+    for line in left_aside:
+        console.print(f"left aside: {line}", style="yellow", markup=False)
+    if exercise in essay_names():
+        _show_rubric(console, exercise, path)
+        return
+    with SubmissionArenas(scenario_file(exercise)) as arenas:
+        if exercise in exercise_names() and path.exists():
+            arenas.open_ahead()
+        # imported meanwhile, because the first verdict is waited for
+        from autograder.self_check import check_and_keep
 
-            folder = Path("recordings") / exercise if record else None
-            result = check_and_keep(console, path, exercise, jobs=jobs, arenas=arenas, recordings=folder)
-    except (UnknownExercise, UnusableExercise, UnusableSubmission) as error:
-        raise ended(console, error, UNUSABLE) from error
+        folder = Path("recordings") / exercise if record else None
+        result = check_and_keep(console, path, exercise, jobs=jobs, arenas=arenas, recordings=folder)
     if json_file:
         json_file.write_text(json.dumps(result.to_json(), indent=2) + "\n")
     if result.status == "not graded":

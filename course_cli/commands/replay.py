@@ -56,7 +56,7 @@ def replay(
             console.print(f"{film_file}: {frames} frames", markup=False)
             return
         _in_the_browser(console, recording, span, port)
-    except (NoRecording, ValueError) as error:
+    except ValueError as error:
         raise ended(console, error, UNUSABLE) from error
     except (NoOpenGLError, OSError) as error:
         raise ended(console, error, COULD_NOT) from error

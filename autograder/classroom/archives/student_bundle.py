@@ -9,6 +9,7 @@ from pathlib import Path
 from autograder.classroom.archives.archive import write_archive
 from autograder.classroom.nbgrader_bridge.release import generate_release
 from autograder.engine.exercise import all_names, exercise_names, exercises_folder, file_names, load_exercise
+from ros_runtime.course_error import COULD_NOT, CourseError
 
 TOP = "humanoid-course"  # the folder the archive unpacks to
 README = "docs/for_students.md"  # becomes their README.md; the clone's own is for instructors
@@ -47,8 +48,10 @@ PARTS = (
 FOR_INSTRUCTORS = "autograder/classroom"  # `course` lists only commands whose modules exist
 
 
-class Leak(Exception):
+class Leak(CourseError):
     """A file of the archive contains what students must not see."""
+
+    exit_status = COULD_NOT
 
 
 def write_bundle(root: Path, archive: Path) -> int:

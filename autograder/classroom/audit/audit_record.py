@@ -14,11 +14,12 @@ from autograder.classroom.batch.cache import grade_key
 from autograder.engine.exercise import Exercise
 from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation
+from ros_runtime.course_error import CourseError
 
 _Place = tuple[str, str, int | None]  # exercise, submission, seed: there is one run of each
 
 
-class UnusableAuditRecord(Exception):
+class UnusableAuditRecord(CourseError):
     """The file cannot be gone on with."""
 
 

@@ -19,6 +19,8 @@ from pathlib import Path
 import whatthepatch
 from whatthepatch.exceptions import WhatThePatchException
 
+from ros_runtime.course_error import CourseError
+
 SUFFIX = ".patch"
 LARGEST_SHARE = 0.6  # of a program's lines; if more differ, the whole file is clearer than a diff
 _CONTEXT = 2  # lines around a change
@@ -26,7 +28,7 @@ DOCSTRING = re.compile(r'\A(?:#.*\n|\s)*"""(.*?)"""\n?', re.DOTALL)  # also wher
 _BEGINNING = re.compile(r"^--- (\S+)", re.MULTILINE)
 
 
-class PatchError(Exception):
+class PatchError(CourseError):
     """A patch that cannot be read, or that no longer applies."""
 
 

@@ -24,6 +24,7 @@ from typing import Literal, get_args
 from autograder.classroom.audit.fault_patch import DOCSTRING, SUFFIX, header_of, whole_program
 from autograder.engine.exercise import exercises_folder, file_names
 from autograder.engine.submission import Submission, read_submission
+from ros_runtime.course_error import CourseError
 
 KNOWN = "known"  # their folder, in an exercise's
 ABOUT = "about.md"
@@ -34,7 +35,7 @@ _KEY = re.compile(r"(Style|Fault|Attack|Outcome|Caught by|Also fails|Passes): *(
 _HEADLINE: Mapping[Kind, str] = {"correct": "Style", "faulty": "Fault", "hostile": "Attack"}
 
 
-class HeaderError(Exception):
+class HeaderError(CourseError):
     """The docstring of a known submission does not say what the audit needs."""
 
 

@@ -13,6 +13,7 @@ from nbgrader.utils import parse_utc
 from autograder.engine.exercise import all_names, file_names
 from autograder.engine.hand_in import Candidate, OwnFile, candidates_in, choose_work
 from autograder.engine.submission import Submission, UnusableSubmission
+from ros_runtime.course_error import CourseError
 
 STUDENT = re.compile(r"[\w@+][\w@+.,' -]*")  # what nbgrader, a file system and a shell all take as a name
 _SECRET = re.compile("[0-9a-f]{128}")
@@ -20,7 +21,7 @@ MOST_NAMED = 5  # of the files of somebody who handed in nothing
 LAYOUT = "SUBMITTED/<student>/<exercise>/<exercise>.ipynb or SUBMITTED/<student>/<exercise>.py"
 
 
-class NoSubmissions(Exception):
+class NoSubmissions(CourseError):
     """The folder has nothing that can be graded; the message says what layout is expected."""
 
 

@@ -10,13 +10,16 @@ from dataclasses import dataclass
 
 from autograder.classroom.batch.crew import Workers
 from autograder.isolation.availability import Isolation, available_isolation
+from ros_runtime.course_error import COULD_NOT, CourseError
 
 AT_A_TIME = 1000  # jobs the scheduler knows of, so that an adaptive cluster can grow
 _PATIENCE = 30.0  # s for the scheduler to answer and for a first worker
 
 
-class NoCluster(Exception):
+class NoCluster(CourseError):
     """There is no cluster to work on; the message says why, and what to do."""
+
+    exit_status = COULD_NOT
 
 
 @dataclass(frozen=True)

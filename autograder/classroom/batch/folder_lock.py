@@ -9,11 +9,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from ros_runtime.course_error import COULD_NOT, CourseError
+
 LOCK = ".lock"
 
 
-class FolderInUse(Exception):
+class FolderInUse(CourseError):
     """Another process grades into the folder; the message says which, and what to do."""
+
+    exit_status = COULD_NOT
 
 
 @contextmanager

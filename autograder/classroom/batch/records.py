@@ -8,12 +8,13 @@ from pathlib import Path
 
 from autograder.atomic_file import write_atomically
 from autograder.engine.verdict import Grade
+from ros_runtime.course_error import CourseError
 
 GRADES = "grades.json"
 UNREADABLE = (OSError, ValueError, RecursionError)  # what reading JSON that was damaged or nested raises
 
 
-class UnusableRecord(Exception):
+class UnusableRecord(CourseError):
     """A file of grades cannot be read; the message says what was found, and what to do."""
 
 

@@ -7,13 +7,14 @@ from collections.abc import Sequence
 from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.seeds import Seeds
 from autograder.engine.verdict import Grade
+from ros_runtime.course_error import CourseError
 
 
-class OtherSeed(Exception):
+class OtherSeed(CourseError):
     """The grades that are to stay were given with another seed; the message says what to do."""
 
 
-class NothingSelected(Exception):
+class NothingSelected(CourseError):
     """A name selects no submission; the message says which names there are."""
 
 

@@ -20,11 +20,12 @@ from autograder.classroom.batch.seeds import Seeds
 from autograder.classroom.batch.version import checks_version
 from autograder.engine.exercise import exercises_folder
 from autograder.engine.verdict import Grade
+from ros_runtime.course_error import CourseError
 
 SHARD = "shard.json"
 
 
-class CannotMerge(Exception):
+class CannotMerge(CourseError):
     """The folders do not make one batch; the message says why, and what to do."""
 
 

@@ -18,13 +18,14 @@ from typing import BinaryIO
 
 from autograder.engine.hand_in import NOT_THEIRS
 from autograder.engine.submission import CLEAR_OUTPUTS, MAX_NOTEBOOK_BYTES, UnusableSubmission
+from ros_runtime.course_error import CourseError
 
 MOST_FILES = 200_000
 MOST_BYTES = 4 * 2**30  # read of one download
 _JUNK = (*NOT_THEIRS, ".git", ".ipynb_checkpoints", ".DS_Store")
 
 
-class UnusableDownload(Exception):
+class UnusableDownload(CourseError):
     """The download cannot be read as one of the platform; the message says what was found and what is expected."""
 
 

@@ -9,8 +9,8 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.classroom.audit.audit_record import AuditRecord, UnusableAuditRecord, read_runs
-from autograder.classroom.audit.fault_patch import SUFFIX, PatchError, as_patch
+from autograder.classroom.audit.audit_record import AuditRecord, read_runs
+from autograder.classroom.audit.fault_patch import SUFFIX, as_patch
 from autograder.classroom.audit.generated.run import audit_generated, mutant_named
 from autograder.classroom.audit.kill_matrix import kill_matrix, print_progress
 from autograder.classroom.audit.known_submission import (
@@ -24,12 +24,9 @@ from autograder.classroom.audit.run import AuditedRun
 from autograder.classroom.audit.run import audit as audit_submissions
 from autograder.engine.exercise import (
     Exercise,
-    UnknownExercise,
-    UnusableExercise,
     exercise_names,
     load_exercise,
 )
-from autograder.engine.exposure import HiddenChecksRefused
 from autograder.isolation.availability import available_isolation
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
@@ -135,10 +132,6 @@ def audit(
     except KeyboardInterrupt:
         go_on = f"{json_file} has what is done: add --resume to go on." if json_file else "Nothing is kept."
         raise ended(console, f"Interrupted. {go_on}", COULD_NOT) from None
-    except (UnknownExercise, UnusableExercise, UnusableAuditRecord, HeaderError, PatchError) as error:
-        raise ended(console, error, UNUSABLE) from error
-    except HiddenChecksRefused as error:
-        raise ended(console, error, COULD_NOT) from error
     every_run = [run for runs in audited.values() for run in runs]
     if not every_run:
         raise ended(console, f"no submission matches {only!r}", UNUSABLE)

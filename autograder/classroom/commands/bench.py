@@ -8,14 +8,12 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.engine.exercise import UnknownExercise, exercise_names, load_exercise
-from bench.arena.arena_costs import BenchFailed
+from autograder.engine.exercise import exercise_names, load_exercise
 from bench.arena.check_table import bench_checks
-from bench.arena.processor_time import CannotBeMeasured
 from bench.arena.tables import bench_arenas
 from bench.overview import bench_overview
 from bench.robot.table import bench_robot
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.ending import UNUSABLE, ended
 from course_cli.jobs_option import JobsOption
 
 ALL = "all"
@@ -82,10 +80,8 @@ def bench(
                 bench_checks(console, name, jobs)
         elif trial:
             bench_robot(console, None if ALL in trial else trial, quick=quick, jobs=jobs)
-    except (UnknownExercise, ValueError) as error:
+    except ValueError as error:
         raise ended(console, error, UNUSABLE) from error
-    except (BenchFailed, CannotBeMeasured) as error:
-        raise ended(console, error, COULD_NOT) from error
 
 
 def _exercises(names: list[str]) -> list[str]:

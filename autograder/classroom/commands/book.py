@@ -11,10 +11,9 @@ import typer
 from nbformat import NotebookNode
 from rich.console import Console
 
-from book.chapter_run import ChapterFailed
 from book.chapter_run import execute as execute_chapter
 from book.kept_runs import KeptRuns
-from book.site import BookFailed, make_site
+from book.site import make_site
 from course_cli.ending import COULD_NOT, ended
 from ros_runtime.project import PROJECT
 
@@ -38,8 +37,6 @@ def book(
     console = Console(highlight=False)
     try:
         first_page = make_site(output, WORK, _runs(console) if execute else {})
-    except (ChapterFailed, BookFailed) as error:
-        raise ended(console, error, COULD_NOT) from error
     except KeyboardInterrupt:
         raise ended(
             console, "Interrupted. The chapters that have run are kept: type it again to go on.", COULD_NOT

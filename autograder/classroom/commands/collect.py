@@ -15,7 +15,7 @@ from autograder.classroom.collect.handed_in import Assignment, Reading
 from autograder.classroom.collect.placing import Placed, place
 from autograder.classroom.collect.platforms import PLATFORMS
 from autograder.engine.exercise import UnknownExercise, all_names
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.ending import COULD_NOT, ended
 from course_cli.exercises_option import CourseOption
 
 PlatformName = Enum("PlatformName", {name: name for name in PLATFORMS}, type=str)  # type: ignore[misc]
@@ -61,8 +61,6 @@ def collect(
                     + (f", and {len(aside) - 1} more" if len(aside) > 1 else "")
                 )
             placed = place(choice, out, overwrite=overwrite)
-    except (UnusableDownload, UnknownExercise) as error:
-        raise ended(console, error, UNUSABLE) from error
     except OSError as error:
         raise ended(console, f"{out} cannot be written: {error}", COULD_NOT) from error
     for line in [*reading.unknown, *choice.left_aside]:

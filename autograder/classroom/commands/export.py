@@ -15,7 +15,7 @@ from autograder.classroom.export.formats import FORMATS, Export, LeftOut
 from autograder.classroom.export.formats import export as make_export
 from autograder.classroom.export.options import Options
 from autograder.classroom.export.published import UnusableBatch
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.ending import COULD_NOT, ended
 
 Format = Enum("Format", {name: name for name in FORMATS}, type=str)  # type: ignore[misc]
 
@@ -66,20 +66,17 @@ def export(
 ) -> None:
     """Write the grades of a batch for another platform; "not graded" is never a zero there."""
     console = Console(highlight=False)
-    try:
-        grades, graded_at = read_batch(source)
-        options = Options(
-            graded_at,
-            hidden.value,
-            roster,
-            _assignments(assignment or [], {grade.exercise for grade in grades}),
-            classroom,
-            # In a job of Classroom 50, which grades one submission, they say which it is.
-            {name: value for name, value in os.environ.items() if len(grades) == 1 or name == "CLASSROOM"},
-        )
-        made = make_export(format_.value, grades, options)
-    except UnusableBatch as error:
-        raise ended(console, error, UNUSABLE) from error
+    grades, graded_at = read_batch(source)
+    options = Options(
+        graded_at,
+        hidden.value,
+        roster,
+        _assignments(assignment or [], {grade.exercise for grade in grades}),
+        classroom,
+        # In a job of Classroom 50, which grades one submission, they say which it is.
+        {name: value for name, value in os.environ.items() if len(grades) == 1 or name == "CLASSROOM"},
+    )
+    made = make_export(format_.value, grades, options)
     folder = out or (source if source.is_dir() else source.parent) / "exports" / format_.value
     try:
         made.write(folder)

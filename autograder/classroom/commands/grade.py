@@ -9,17 +9,10 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.classroom.batch.collection import NoSubmissions
-from autograder.classroom.batch.dask_workers import NoCluster
-from autograder.classroom.batch.folder_lock import FolderInUse
-from autograder.classroom.batch.records import UnusableRecord
 from autograder.classroom.batch.request import BatchRequest, UnusableRequest
-from autograder.classroom.batch.selection import NothingSelected, OtherSeed
 from autograder.classroom.batch.shards import Shard
 from autograder.classroom.class_grading.once import grade_once
 from autograder.classroom.class_grading.watching import watch_and_grade
-from autograder.engine.exercise import UnusableExercise
-from autograder.engine.exposure import HiddenChecksRefused
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 from course_cli.jobs_option import JobsOption
@@ -113,10 +106,6 @@ def grade(
     except KeyboardInterrupt:
         console.print("Interrupted. Add --resume to go on where it stopped.", style="yellow")
         raise typer.Exit(COULD_NOT) from None
-    except (NoSubmissions, NothingSelected, OtherSeed, UnusableExercise, UnusableRecord) as error:
-        raise ended(console, error, UNUSABLE) from error
-    except (FolderInUse, HiddenChecksRefused, NoCluster) as error:
-        raise ended(console, error, COULD_NOT) from error
     raise typer.Exit(status)
 
 

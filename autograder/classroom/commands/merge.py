@@ -10,15 +10,15 @@ import typer
 from rich.console import Console
 
 from autograder.classroom.batch.batch_record import merged_record, write_batch
-from autograder.classroom.batch.folder_lock import FolderInUse, locked
+from autograder.classroom.batch.folder_lock import locked
 from autograder.classroom.batch.records import GRADES, write_grades
-from autograder.classroom.batch.shards import CannotMerge, Merged, merge_shards
+from autograder.classroom.batch.shards import Merged, merge_shards
 from autograder.classroom.batch.source_files import write_base_code, write_sources
 from autograder.classroom.class_grading.output import enter_all, sources_of, tell_the_end
 from autograder.classroom.nbgrader_bridge.course_folder import RELEASE
 from autograder.classroom.pages.pages import write_pages
 from autograder.recording.kept import FOLDER as RECORDINGS
-from course_cli.ending import COULD_NOT, UNUSABLE, batch_status, ended
+from course_cli.ending import batch_status
 from course_cli.exercises_option import CourseOption
 
 
@@ -31,15 +31,9 @@ def merge(
 ) -> None:
     """Join the shards of a class into one gradebook."""
     console = Console(highlight=False)
-    try:
-        merged = merge_shards(folders)
-    except CannotMerge as error:
-        raise ended(console, error, UNUSABLE) from error
-    try:
-        with locked(out):
-            status = _write(console, merged, folders, out)
-    except FolderInUse as error:
-        raise ended(console, error, COULD_NOT) from error
+    merged = merge_shards(folders)
+    with locked(out):
+        status = _write(console, merged, folders, out)
     raise typer.Exit(status)
 
 

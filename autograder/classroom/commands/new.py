@@ -10,9 +10,8 @@ import typer
 from rich.console import Console
 
 from autograder.classroom.nbgrader_bridge.release import bring_up_to_date
-from autograder.classroom.new_exercise.make import KINDS, CannotMake, make_exercise
+from autograder.classroom.new_exercise.make import KINDS, make_exercise
 from autograder.engine.exercise import exercises_folder, use_exercises_of
-from course_cli.ending import UNUSABLE, ended
 
 Kind = Enum("Kind", {kind: kind for kind in KINDS}, type=str)  # type: ignore[misc]
 
@@ -32,10 +31,7 @@ def new(
     """Create the folder of a new exercise: a working example that passes its own audit, for you to change."""
     console = Console(highlight=False)
     place = course or exercises_folder()
-    try:
-        folder = make_exercise(exercise, kind.value, place)
-    except CannotMake as error:
-        raise ended(console, error, UNUSABLE) from error
+    folder = make_exercise(exercise, kind.value, place)
     use_exercises_of(place)
     bring_up_to_date(place, place.parent / "exercises")
     for path in sorted(path for path in folder.rglob("*") if path.is_file() and path.suffix != ".pyc"):

@@ -9,8 +9,7 @@ import typer
 from rich.console import Console
 
 from autograder.classroom.archives.gradescope_package import write_package
-from autograder.classroom.archives.student_bundle import Leak
-from autograder.engine.exercise import UnusableExercise, essay_names, exercise_names
+from autograder.engine.exercise import essay_names, exercise_names
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 from ros_runtime.project import PROJECT
@@ -44,8 +43,6 @@ def gradescope(
     archive = out or Path(f"gradescope_{exercise}.zip" if exercise else "gradescope.zip")
     try:
         count = write_package(PROJECT, archive, exercise)
-    except UnusableExercise as error:
-        raise ended(console, error, UNUSABLE) from error
-    except (Leak, OSError) as error:
+    except OSError as error:
         raise ended(console, error, COULD_NOT) from error
     console.print(f"{archive}: {count} files, {archive.stat().st_size / 1e6:.1f} MB", markup=False)

@@ -8,10 +8,10 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.classroom.archives.student_bundle import Leak, write_bundle
+from autograder.classroom.archives.student_bundle import write_bundle
 from autograder.classroom.nbgrader_bridge.course_folder import NbgraderError
 from autograder.classroom.nbgrader_bridge.release import bring_up_to_date, out_of_date
-from autograder.engine.exercise import UnusableExercise, exercises_folder
+from autograder.engine.exercise import exercises_folder
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.exercises_option import CourseOption
 from ros_runtime.project import PROJECT
@@ -39,7 +39,7 @@ def release(
     console = Console(highlight=False)
     try:
         _release(console, out, exercises, check)
-    except (NbgraderError, UnusableExercise) as error:
+    except NbgraderError as error:
         raise ended(console, error, UNUSABLE) from error
 
 
@@ -57,8 +57,5 @@ def _release(console: Console, out: Path, exercises: bool, check: bool) -> None:
         for path in bring_up_to_date(solutions, released):
             console.print(f"{path.relative_to(solutions.parent)} renewed", markup=False)
         return
-    try:
-        count = write_bundle(PROJECT, out)
-    except Leak as error:
-        raise ended(console, error, COULD_NOT) from error
+    count = write_bundle(PROJECT, out)
     console.print(f"{out}: {count} files, {out.stat().st_size / 1e6:.1f} MB", markup=False)

@@ -9,6 +9,7 @@ from typing import Literal
 
 from autograder.classroom.batch.collection import STUDENT
 from autograder.engine.verdict import CheckVerdict, Grade
+from ros_runtime.course_error import CourseError
 
 HiddenPolicy = Literal["hide", "show"]
 NOT_GRADED = "The grader could not judge this submission. That is no zero: it will be graded again."
@@ -22,7 +23,7 @@ class CannotSay(Exception):
     """A platform's format cannot say this one thing; the message says why, and what to do."""
 
 
-class UnusableBatch(Exception):
+class UnusableBatch(CourseError):
     """The grades or the options cannot be used; the message says what was found and what is expected."""
 
 

@@ -12,6 +12,7 @@ from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
 from autograder.classroom.nbgrader_bridge.check_cells import cell_metadata
+from ros_runtime.course_error import CourseError
 
 KINDS_FOLDER = Path(__file__).with_name("kinds")
 KINDS = tuple(sorted(folder.name for folder in KINDS_FOLDER.iterdir()))
@@ -24,7 +25,7 @@ _SOLUTION, _TASK = (
 _MARKS = re.compile(r"^ *### (BEGIN|END) SOLUTION\n", re.MULTILINE)
 
 
-class CannotMake(Exception):
+class CannotMake(CourseError):
     """The exercise cannot be made; the message says why."""
 
 

@@ -6,13 +6,13 @@ import sys
 from pathlib import Path
 
 import pytest
-import typer
+from typer.testing import CliRunner
 
 from autograder.classroom.class_grading import setting
-from autograder.classroom.commands import grade
 from autograder.engine.exposure import HiddenChecksRefused, require_hidden
 from autograder.isolation.arena_spec import Kind
 from autograder.isolation.availability import Isolation
+from course_cli.app import app
 from ros_runtime.project import PROJECT
 
 
@@ -45,16 +45,13 @@ def test_a_link_is_followed_on_both_sides(tmp_path: Path) -> None:
             require_hidden([tmp_path / hidden], [tmp_path / shown])
 
 
-def test_the_command_refuses_and_writes_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_refuses_and_writes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     work = tmp_path / "ada" / "battery_service.py"
     work.parent.mkdir()
     work.write_text("print()")
     monkeypatch.setattr(setting, "available_isolation", lambda: Isolation(Kind.NAMESPACES, "it is said"))
     out = Path(sys.prefix, "graded")
-    with pytest.raises(typer.Exit) as ended:
-        grade.grade(tmp_path, out=out)
-    assert ended.value.exit_code == 1
-    assert "nothing is graded" in capsys.readouterr().out
+    ran = CliRunner().invoke(app("grade"), ["grade", str(tmp_path), "--out", str(out)])
+    assert ran.exit_code == 1
+    assert "nothing is graded" in ran.output
     assert not out.exists()
