@@ -23,6 +23,7 @@ FINAL_AGE = (
 )
 FINAL_SLACK = 0.015  # m by which final_pose may be off: odom's period, and rounding to centimetres
 TRUTH_LATE = 0.5  # s that the simulator's word may come after a report that is made of it
+HEIGHT_SLACK = 0.1  # m, more than the pelvis bobs while a message is made and delivered
 UNIT_SLACK = 0.02  # by which the length of a reported quaternion may differ from 1
 TAKING_OVER = 2.0  # s in which a goal that preempts another may begin
 
@@ -125,6 +126,14 @@ def require_true_pose(
         help=help
         or f"Fill {what} from the latest odom message before it is sent; the terminal call sends nothing that "
         "is set after it.",
+        at=at,
+    )
+    height = min(recent, key=lambda robot: abs(robot.z - position.z)).z
+    expect(
+        position.z == 0.0 or abs(position.z - height) <= HEIGHT_SLACK,
+        expected=f"{what} with z {height:.2f} m, where base_link is, or 0 as on a map",
+        observed=f"z {position.z:.2f} m",
+        help=help or "Copy the whole position of odom's pose.",
         at=at,
     )
     length = math.hypot(*(getattr(stamped.pose.orientation, axis) for axis in "xyzw"))
