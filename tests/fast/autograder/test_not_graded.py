@@ -42,15 +42,15 @@ BAD_FILE = (
 AUTHORING, ENGINE = "autograder/authoring", "autograder/engine"
 PLACES = {
     LEAVES: (
-        f"{AUTHORING}/client_checks.py require_one_goal started_at",
-        f"{AUTHORING}/falls.py require_knocked_over",
-        f"{AUTHORING}/goal.py require_silence_afterwards",
-        f"{AUTHORING}/missing.py _exception_for",
+        f"{AUTHORING}/requirements/client_checks.py require_one_goal started_at",
+        f"{AUTHORING}/requirements/falls.py require_knocked_over",
+        f"{AUTHORING}/evidence/goal.py require_silence_afterwards",
+        f"{AUTHORING}/diagnosis/missing.py _exception_for",
         f"{AUTHORING}/obligation.py _require_sent",
-        f"{AUTHORING}/readiness.py require_ready require_started",
-        f"{AUTHORING}/robot_record.py _require_samples told",
-        f"{AUTHORING}/robot_topic.py known_messages",
-        f"{AUTHORING}/server_checks.py require_clean_exit",
+        f"{AUTHORING}/diagnosis/readiness.py require_ready require_started",
+        f"{AUTHORING}/evidence/robot_record.py _require_samples told",
+        f"{AUTHORING}/evidence/robot_topic.py known_messages",
+        f"{AUTHORING}/requirements/server_checks.py require_clean_exit",
         f"{AUTHORING}/walking/client_record.py _require_acts require_record",
         f"{AUTHORING}/walking/life.py accepted",
         "solutions/balance_controller/record.py gains_at_first",
@@ -68,7 +68,7 @@ PLACES = {
     LATE: (f"{ENGINE}/wholeness.py _require_effects",),
     FLOODS: (f"{ENGINE}/bounds.py _require_nothing_dropped",),
     NEVER_SHOWS: (
-        f"{AUTHORING}/missing.py not_shown",
+        f"{AUTHORING}/diagnosis/missing.py not_shown",
         f"{AUTHORING}/walking/client_life.py started",
         f"{AUTHORING}/walking/halt.py require_final_zero",
         f"{AUTHORING}/walking/motion.py require_limited_velocity",
