@@ -150,7 +150,15 @@ def fills_the_result_in(goal: Goal) -> str | None:
     )
     said = result.result.final_object_pose
     place = cup_at(goal.run, result.t).position
-    off = math.dist(as_tuple(said.pose.position), place)
+    claimed_place = as_tuple(said.pose.position)
+    off = math.dist(claimed_place, place)
+    expect(
+        claimed_place != place_of(goal),
+        expected="final_object_pose as it was measured",
+        observed="the very place_pose of the goal, to the last digit",
+        help="Copy the last message of objects/cup/pose, header and pose, before the terminal call.",
+        at=result.t,
+    )
     expect(
         said.header.frame_id == "odom" and off <= LIFTED,
         expected=f"final_object_pose in frame odom near x {place[0]:.2f}, y {place[1]:.2f}, z {place[2]:.2f} m",
