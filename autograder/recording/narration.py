@@ -19,7 +19,7 @@ _MOST_ELEMENTS = 6
 
 def narrated(event: Any) -> tuple[int, str] | None:
     """Return the level of an event and what happened, or None for what is told elsewhere (feedback, output)."""
-    told = _of_the_program(event) or _of_interfaces(event) or _of_the_examiner(event)
+    told = _of_the_program(event) or _of_interfaces(event) or _of_the_grader(event)
     return (told[0], told[1][:LONGEST]) if told else None
 
 
@@ -127,11 +127,11 @@ def _of_interfaces(event: Any) -> tuple[int, str] | None:
     return None
 
 
-def _of_the_examiner(event: Any) -> tuple[int, str] | None:
+def _of_the_grader(event: Any) -> tuple[int, str] | None:
     match event:
-        case ev.RobotCommanded(command=command):
+        case ev.RobotCommanded(command=command, verb=verb):
             arguments = ", ".join(f"{key}={value}" for key, value in command.items() if key != "do")
-            return INFO, f"the examiner: {command.get('do', '')} {arguments}".rstrip()
+            return INFO, f"the grader: {verb} {arguments}".rstrip()
         case ev.RobotRefused(topic=topic, count=count, reason=reason):
             return WARN, f"the robot refused {count} messages on {topic}: {reason}"
         case ev.ServiceOffered(service=name) | ev.ActionOffered(action=name):

@@ -97,8 +97,8 @@ def _arrow(event: object) -> Arrow | None:
             return Arrow(t, SERVER, CLIENT, f"result “{goal}”: {name_of(GoalStatus, status)}", "answer")
         case ev.Unanswered(t=t, what=what, waited=waited):
             return Arrow(t, CLIENT, CLIENT, f"no answer to the {what} after {waited:.1f} s")
-        case ev.RobotCommanded(t=t, command=command):
-            return Arrow(t, ROBOT, ROBOT, f"the examiner: {command.get('do', '')}")
+        case ev.RobotCommanded(t=t, verb=verb):
+            return Arrow(t, ROBOT, ROBOT, f"the grader: {verb}")
     return None
 
 

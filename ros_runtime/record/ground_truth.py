@@ -151,6 +151,11 @@ class RobotCommanded(Event):
 
     command: dict[str, Any]
 
+    @property
+    def verb(self) -> str:
+        """What the robot was told to do, in words: 'set battery'."""
+        return str(self.command.get("do", "")).replace("_", " ")
+
 
 @dataclass(frozen=True, kw_only=True)
 class MotorPowerReceived(Event):

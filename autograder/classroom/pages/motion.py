@@ -62,8 +62,8 @@ def _moments(transcript: Transcript) -> Iterator[Flag]:
                 yield Flag(f"cancel “{goal}”" if goal else "cancel every goal", t)
             case ev.ResultReceived(t=t, goal=goal, status=status):
                 yield Flag(f"“{goal}” ends {name_of(GoalStatus, status)}", t)
-            case ev.RobotCommanded(t=t, command=command):
-                yield Flag(f"the examiner: {command.get('do', '')}", t)
+            case ev.RobotCommanded(t=t, verb=verb):
+                yield Flag(f"the grader: {verb}", t)
 
 
 def _goal_places(transcript: Transcript) -> Iterator[Flag]:
