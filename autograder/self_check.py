@@ -86,17 +86,17 @@ def check_and_keep(
     arenas: SubmissionArenas | None = None,
     recordings: Path | None = None,
 ) -> Grade:
-    """Check a student's file as `check_aloud` does, and keep how many checks passed for the page of progress.
+    """Check a student's file as `check_with_progress` does, and keep how many checks passed for the page of progress.
 
     Raises `UnusableSubmission` and `UnknownExercise`.
     """
-    result = check_aloud(console, path, exercise, jobs=jobs, arenas=arenas, recordings=recordings)
+    result = check_with_progress(console, path, exercise, jobs=jobs, arenas=arenas, recordings=recordings)
     if result.status == "graded":
         keep_check(exercise, sum(check.status == "passed" for check in result.checks), len(result.checks))
     return result
 
 
-def check_aloud(
+def check_with_progress(
     console: Console,
     path: Path,
     exercise: str,

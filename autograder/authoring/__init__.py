@@ -12,11 +12,11 @@ from autograder.authoring.diagnosis.connections import (
     why_nothing_is_commanded,
     why_nothing_is_heard,
 )
-from autograder.authoring.diagnosis.goal_endings import lesson_on_the_end, why_rclpy_aborted
+from autograder.authoring.diagnosis.goal_diagnosis import lesson_on_the_end, why_rclpy_aborted
 from autograder.authoring.diagnosis.missing import Missing, held_up, not_shown, unseen
 from autograder.authoring.diagnosis.readiness import require_alive, require_ready, require_within_limits
 from autograder.authoring.diagnosis.root_cause import why_it_went_no_further
-from autograder.authoring.diagnosis.standing import where_it_stood
+from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.call import Call, Request
 from autograder.authoring.evidence.fields import differing_fields, expect_field, same, shown, shown_fields

@@ -19,9 +19,9 @@ from autograder.authoring.sequence import STEPS, steps_until
 from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.engine.clock_scale import ClockScale
 from autograder.engine.exercise import Exercise, exercises_folder
-from autograder.engine.exposure import HiddenChecksRefused, require_hidden
 from autograder.engine.judging import at_fault, judge, verdict_on
-from autograder.engine.lateness import OVERLOADED, STRAINED, lateness
+from autograder.engine.path_exposure import HiddenChecksRefused, require_hidden
+from autograder.engine.simulation_lag import OVERLOADED, STRAINED, lateness
 from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
 from autograder.engine.submission_arenas import SubmissionArenas

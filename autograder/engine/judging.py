@@ -14,8 +14,8 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged, Failure, NoOccasion
 from autograder.authoring.sequence import in_words
 from autograder.engine.bounds import require_bounded
+from autograder.engine.completeness import require_whole
 from autograder.engine.verdict import CheckStatus, CheckVerdict
-from autograder.engine.wholeness import require_whole
 
 LOG_LINES = 40
 

@@ -11,7 +11,7 @@ from autograder.authoring.checks import Failure, Scenario
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.engine.exercise import Exercise
-from autograder.engine.lateness import lateness
+from autograder.engine.simulation_lag import lateness
 from autograder.engine.submission import Submission
 from autograder.engine.submission_arenas import SubmissionArenas
 

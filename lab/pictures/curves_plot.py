@@ -9,7 +9,7 @@ from IPython.display import HTML
 from numpy.typing import ArrayLike
 
 from lab.errors import LabError
-from lab.pictures.sheet import BLUE, BOTTOM, GREY, LEFT, TOP, VERMILION, as_html, sheet
+from lab.pictures.figure import BLUE, BOTTOM, GREY, LEFT, TOP, VERMILION, as_html, sheet
 
 WIDTH, HEIGHT = 6.6, 3.0  # inches
 STYLES = (("-", BLUE), ("--", VERMILION), (":", GREY))

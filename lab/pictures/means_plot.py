@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from IPython.display import HTML
 
 from lab.errors import LabError
+from lab.pictures.figure import BLUE, BOTTOM, LEFT, TOP, as_html, sheet
 from lab.pictures.quantities import quantity_named
 from lab.pictures.recording import Recording
-from lab.pictures.sheet import BLUE, BOTTOM, LEFT, TOP, as_html, sheet
 
 WIDTH, HEIGHT = 4.8, 3.0  # inches
 NAMES = 1.2  # inches on the right, for the name of the last point

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from IPython.display import HTML
 
 from lab.errors import LabError
-from lab.pictures.flags import text_width
-from lab.pictures.sheet import BLUE, BOTTOM, GREY, TOP, VERMILION, as_html, sheet
+from lab.pictures.figure import BLUE, BOTTOM, GREY, TOP, VERMILION, as_html, sheet
+from lab.pictures.labels import text_width
 from lab.running.student_nodes import StudentNode
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from IPython.display import HTML
 
-from lab.pictures.flags import ROW, overhang, rows_of
-from lab.pictures.marks import Mark
-from lab.pictures.sheet import BLUE, BOTTOM, GREY, LEFT, TOP, VERMILION, as_html, sheet
+from lab.pictures.annotations import Mark
+from lab.pictures.figure import BLUE, BOTTOM, GREY, LEFT, TOP, VERMILION, as_html, sheet
+from lab.pictures.labels import ROW, overhang, rows_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 from IPython.display import HTML
 
 from lab.errors import LabError
-from lab.pictures.flags import ROW, overhang, rows_of, text_width
-from lab.pictures.marks import Mark
-from lab.pictures.sheet import BLUE, BOTTOM, GREY, TOP, VERMILION, as_html, sheet
+from lab.pictures.annotations import Mark
+from lab.pictures.figure import BLUE, BOTTOM, GREY, TOP, VERMILION, as_html, sheet
+from lab.pictures.labels import ROW, overhang, rows_of, text_width
 from lab.running.life import Life
 from lab.running.programs import Program
 from lab.running.student_nodes import StudentNode

@@ -180,7 +180,7 @@ def publishes_them_in_time(batch: Batch) -> str | None:
     else:
         require_alive(run)
     answered = batch.changes[-1].call.answered.t
-    since = [event for event in run.heard(TOPIC) if event.t >= batch.changes[0].call.sent.t]
+    since = [event for event in run.received(TOPIC) if event.t >= batch.changes[0].call.sent.t]
     right = [event.t for event in since if not _wrong(_gains_in(event), last.after)]
     help, see = advice.about_silence(run, is_late=bool(right), changes_something=last.after != old)
     expect(
@@ -233,7 +233,7 @@ def says_nothing_when_it_refuses(batch: Batch) -> str | None:
 @obligation(9, of=whole_run)
 def publishes_only_what_was_accepted(run: Transcript) -> str | None:
     """Each gain in each message is one that was accepted before, or of the start"""
-    first, heard = record.gains_at_first(run), run.heard(TOPIC)
+    first, heard = record.gains_at_first(run), run.received(TOPIC)
     accepted = [change for change in record.changes(run) if change.accepted]
     for event in heard:
         sent = [change.after for change in accepted if change.call.sent.t <= event.t]
@@ -259,7 +259,7 @@ def _listeners(run: Transcript) -> list[tuple[Transcript, str, float]]:
 def keeps_the_last(occasion: tuple[Transcript, str, float]) -> str:
     """A robot that starts later gets the last message, because the topic is latched"""
     run, name, began = occasion
-    heard = run.heard(name)
+    heard = run.received(name)
     require_alive(run)
     expect(
         bool(heard),
@@ -280,7 +280,7 @@ def publishes_its_start_once(run: Transcript) -> str | None:
     if not run.params.get("latched"):
         return None  # of what is published before anybody is there, only a latched message arrives
     first_set = min((change.call.sent.t for change in record.changes(run)), default=math.inf)
-    heard = [event for event in run.heard(TOPIC) if event.t < first_set]
+    heard = [event for event in run.received(TOPIC) if event.t < first_set]
     expect(
         len(heard) == 1,
         expected=f"1 message on {TOPIC} at the start",
@@ -324,7 +324,7 @@ def survives(run: Transcript) -> str | None:
     off = [event.t for event in run.all(ev.MotorPowerReceived) if not event.on]
     off += [robot.t for robot in watched if not robot.motors_enabled]
     at = pushed if fallen is None else fallen
-    heard = [event for event in run.heard(TOPIC) if event.t <= at]
+    heard = [event for event in run.received(TOPIC) if event.t <= at]
     how = "its motors were switched off" if fallen is None else f"it fell at {fallen:.1f} s"
     expect(
         fallen is None and not off,

@@ -126,7 +126,7 @@ def batches(run: Transcript) -> list[Batch]:
         together[-1].append(change)
     begins = [*(batch[0].call.sent.t for batch in together), math.inf]
     return [
-        Batch(run, batch, [event for event in run.heard(TOPIC) if begin <= event.t < end])
+        Batch(run, batch, [event for event in run.received(TOPIC) if begin <= event.t < end])
         for batch, (begin, end) in zip(together, pairwise(begins), strict=True)
     ]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from autograder.authoring import Transcript, ev, expect, require_alive, unseen, where_it_stood
+from autograder.authoring import Transcript, ev, expect, require_alive, unseen, where_it_waited
 
 GAP = 0.3  # s without a heartbeat
 JITTER = 0.06  # s of real time by which a message may be late on a busy machine
@@ -23,7 +23,7 @@ def require_heartbeat(run: Transcript) -> None:
     require_alive(run)
     signalled = run.first(ev.NodeSignalled)
     end = signalled.t if signalled else run.end
-    beats = [event.t for event in run.heard("heartbeat") if event.t <= end]
+    beats = [event.t for event in run.received("heartbeat") if event.t <= end]
     working = _at_work(run, end)
     if not working:
         raise unseen(run, "calibrate_imu was never asked")
@@ -82,6 +82,6 @@ def _at_work(run: Transcript, end: float) -> list[tuple[float, float]]:
 def _advice_on_the_gap(run: Transcript, during: bool) -> str:
     if not during:
         return "The timer of the heartbeat must go on as long as the node runs: make it in the constructor."
-    if place := where_it_stood(run):
+    if place := where_it_waited(run):
         return f"The timer got no turn: a callback stood in {place}, and held its thread or its group. Await there."
     return "The timer gets no turn while the callback of calibrate_imu waits: await in it (async def, and futures)."

@@ -249,7 +249,7 @@ def publishes_the_means(call: Call) -> str | None:
         return None
     answered, run, means = call.answered, call.run, _means(call)
     earliest, latest = answered.t - LATEST_BEFORE, answered.t + DELIVERY
-    published = [event for event in run.heard("imu_bias") if earliest <= event.t <= latest]
+    published = [event for event in run.received("imu_bias") if earliest <= event.t <= latest]
     call.require(
         len(published) == 1,
         expected="one message on imu_bias for each success, within 1 s of the answer",
@@ -268,7 +268,7 @@ def latches_the_bias(run: Transcript) -> str | None:
     done = [call for call in those(*SUCCEEDS)(run) if call.response.success]
     if not done:
         return None
-    heard = run.heard("imu_bias")
+    heard = run.received("imu_bias")
     done[-1].require(
         bool(heard),
         expected="the last imu_bias, sent to a node that subscribes after the calibration",
@@ -311,7 +311,7 @@ def _require_silence(call: Call) -> None:
     run = call.run
     others = [other.answer for other in calls(SERVICE)(run) if other.name != call.name and other.answer]
     successes = [answer.t for answer in others if answer.response.success]
-    for event in run.heard("imu_bias"):
+    for event in run.received("imu_bias"):
         excused = any(end - LATEST_BEFORE <= event.t <= end + DELIVERY for end in successes)
         if call.sent.t <= event.t <= call.answered.t + DELIVERY and not excused:
             vector = event.message.vector

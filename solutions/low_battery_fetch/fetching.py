@@ -67,7 +67,7 @@ class Child:
         return self.ended is not None and self.sent.finished is None and not self.rejected
 
     @cached_property
-    def heard(self) -> list[float]:
+    def received(self) -> list[float]:
         """When something was heard of it (s): its acceptance, and its feedback."""
         began = self.began
         return [] if began is None else [began, *(each.t for each in self.sent.feedback if each.t > began)]
@@ -76,7 +76,7 @@ class Child:
     def silent_at(self) -> float | None:
         """When nothing had been heard of it for 5 s (s), None if that never was so."""
         until = self.sent.finished.t if self.sent.finished else self.run.end
-        for last, following in pairwise([*self.heard, until]):
+        for last, following in pairwise([*self.received, until]):
             if following - last > SILENCE:
                 return last + SILENCE
         return None

@@ -214,7 +214,7 @@ def cancels_for_a_reason(sent: Sent) -> str | None:
     for number, each in enumerate(child.cancels()):
         t = each.received.t
         low = fetch.low_at is not None and _is_for_the_battery(child, fetch.low_at, t)
-        heard = max((last for last in child.heard if last < t), default=child.t)
+        heard = max((last for last in child.received if last < t), default=child.t)
         expect(
             number > 0 or low or min(fetch.stopped_at, given_up) <= t or t - heard >= SILENCE - SLACK,
             expected=f"{child.action} to come to its own end: nobody canceled fetch, no newer goal came, and the "

@@ -24,7 +24,7 @@ from autograder.authoring import (
     require_alive,
     shown,
     unseen,
-    where_it_stood,
+    where_it_waited,
     why_rclpy_aborted,
 )
 from ros_runtime.message_constants import GoalStatus, name_of
@@ -331,7 +331,7 @@ def _why_it_stopped(turn: Turn) -> str:
         return (
             "execute made its terminal call too early: go on with the next step when a child has SUCCEEDED."
         )
-    if place := where_it_stood(goal.run):
+    if place := where_it_waited(goal.run):
         return f"execute stood in {place}. {DEAD_END}"
     if turn.after and turn.after.sent.result_requested is None and turn.after.began is not None:
         return "Ask for the child's result with get_result_async() once it is accepted."

@@ -96,7 +96,7 @@ def stops_by_an_empty_trajectory(goal: Goal) -> str | None:
     if asked is None or life.neighbours(goal) or goals.successors(goal) or not goals.granted(goal):
         return None
     run, until = goals.run_of(goal), goals.next_sent(goal, asked)
-    published = [each for each in run.heard("joint_trajectory") if each.t <= until]
+    published = [each for each in run.received("joint_trajectory") if each.t <= until]
     if not published:
         raise not_shown(run, "an empty trajectory stops the arm")
     last = published[-1]

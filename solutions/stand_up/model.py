@@ -321,7 +321,9 @@ def stays_down_while_uneven(goal: Goal) -> str | None:
             f"it rose from {start:.2f} to {highest.z:.2f} m",
         )
     else:
-        early = [each.t for each in run.heard("cmd_vel") if at <= each.t < even and each.message.linear.z > 0]
+        early = [
+            each.t for each in run.received("cmd_vel") if at <= each.t < even and each.message.linear.z > 0
+        ]
         rose, when, how = bool(early), min(early, default=at), "it was told to rise"
     expect(
         not rose,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring.diagnosis.ending import Remedy
+from autograder.authoring.diagnosis.exit_diagnosis import Remedy
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.record import Record
 
@@ -25,17 +25,17 @@ def hears(run: Record, topic: str, *, before: float = math.inf) -> bool | None:
 
 def why_nothing_is_heard(run: Record, topic: str) -> str | None:
     """Return why the node gets no message of the robot's `topic`, or None if it does or nothing is known."""
-    remedy = _what_is_deaf(run, topic)
+    remedy = _missing_subscription(run, topic)
     return remedy.help if remedy else None
 
 
 def lesson_on_hearing(run: Record, topic: str) -> str:
     """Return the lesson on why the node gets no message of the robot's `topic`, '' (the check's) if it does."""
-    remedy = _what_is_deaf(run, topic)
+    remedy = _missing_subscription(run, topic)
     return remedy.see if remedy else ""
 
 
-def _what_is_deaf(run: Record, topic: str) -> Remedy | None:
+def _missing_subscription(run: Record, topic: str) -> Remedy | None:
     topics = run.first(ev.NodeTopics)
     if topics is None or hears(run, topic) in (None, True):
         return None

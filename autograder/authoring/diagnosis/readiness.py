@@ -9,7 +9,7 @@ import difflib
 import re
 
 from autograder.authoring.diagnosis.connections import OUTSIDE
-from autograder.authoring.diagnosis.ending import end_in_words, remedy_for_a_limit, remedy_for_the_end
+from autograder.authoring.diagnosis.exit_diagnosis import end_in_words, remedy_for_a_limit, remedy_for_the_end
 from autograder.authoring.diagnosis.missing import unseen
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.record import Record

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from autograder.authoring.diagnosis.ending import (
+from autograder.authoring.diagnosis.exit_diagnosis import (
     GROWS,
     LEAKS,
     end_in_words,
     remedy_for_a_limit,
     remedy_for_the_end,
 )
-from autograder.authoring.diagnosis.standing import where_it_stood, why_nobody_serves
+from autograder.authoring.diagnosis.stack_location import where_it_waited, why_nobody_serves
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.record import Record
 
@@ -44,7 +44,7 @@ class Cause:
 
 def about_waiting(run: Record) -> tuple[str, str]:
     """Return what to do about a program that gives no answer, by the line on which it stood, and the lesson."""
-    if place := where_it_stood(run):
+    if place := where_it_waited(run):
         return f"It stood in {place}. {_WAITS}", DEADLOCK
     if idle := why_nobody_serves(run):
         return idle, SERVES

@@ -8,17 +8,17 @@ from typing import Any
 
 from action_msgs.srv import CancelGoal
 
-from autograder.authoring.diagnosis.goal_endings import (
+from autograder.authoring.diagnosis.goal_diagnosis import (
     BLIND,
     lesson_on_the_end,
     went_on,
-    why_blind,
     why_it_ended_so,
     why_no_result,
+    why_starved,
 )
 from autograder.authoring.diagnosis.missing import Missing, unseen
 from autograder.authoring.diagnosis.readiness import require_alive
-from autograder.authoring.diagnosis.standing import where_it_stood
+from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.fields import expect_field
 from autograder.authoring.evidence.robot_record import RobotRecord
@@ -167,9 +167,9 @@ class Goal:
             raise Failure(
                 expected=f"a result with status {name_of(GoalStatus, status)}",
                 observed=observed,
-                help=help if help and went_on(self) and not why_blind(self) else advice,
+                help=help if help and went_on(self) and not why_starved(self) else advice,
                 at=self.run.end,
-                see=BLIND if why_blind(self) else "",
+                see=BLIND if why_starved(self) else "",
             )
         ended = self.result.status
         expect(
@@ -221,7 +221,7 @@ class Goal:
         expect_field(self.result.result, path, value, because=because, help=help, at=self.result.t, see=see)
 
     def _busy(self) -> str:
-        place = where_it_stood(self.run)
+        place = where_it_waited(self.run)
         return f"It stood in {place}. {_BUSY}" if place else _BUSY
 
     def _no_answer(self) -> str:

@@ -108,7 +108,7 @@ class Transcript(RobotRecord):
 
     # -- topics -------------------------------------------------------------------------------------------------------
 
-    def heard(self, topic: str) -> list[ev.MessageReceived]:
+    def received(self, topic: str) -> list[ev.MessageReceived]:
         """Return what the student's node published on a topic that the scenario listens to, in order."""
         return [event for event in self.all(ev.MessageReceived) if event.topic == topic]
 

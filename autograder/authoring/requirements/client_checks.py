@@ -6,7 +6,7 @@ import re
 
 from autograder.authoring.diagnosis.missing import Missing, unseen
 from autograder.authoring.diagnosis.readiness import require_within_limits
-from autograder.authoring.diagnosis.standing import where_it_stood
+from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.call import Request
 from autograder.authoring.evidence.scripted_goal import ScriptedGoal
@@ -125,7 +125,7 @@ def how_it_ended(run: Transcript, exited: ev.NodeExited) -> str:
 
 def _where_it_hung(run: Transcript) -> str:
     """Return why the program did not end: before its first request, at an unanswered one, or after the last answer."""
-    place = where_it_stood(run, in_main=True)
+    place = where_it_waited(run, in_main=True)
     stood = f" It stood in {place}." if place else ""
     goals = [goal for event in run.all(ev.ActionOffered) for goal in run.scripted_goals(event.action)]
     return (_where_its_goal_stood(goals[-1]) if goals else _at_which_request(run)) + stood

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from autograder.authoring.diagnosis.goal_endings import why_rclpy_aborted
+from autograder.authoring.diagnosis.goal_diagnosis import why_rclpy_aborted
 from autograder.authoring.diagnosis.missing import Missing, ordinal
 from autograder.authoring.evidence.goal import Goal
 from autograder.authoring.failure import expect

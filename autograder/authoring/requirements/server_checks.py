@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from autograder.authoring.checks import Failure, expect
-from autograder.authoring.diagnosis.ending import end_in_words, remedy_for_the_end
+from autograder.authoring.diagnosis.exit_diagnosis import end_in_words, remedy_for_the_end
 from autograder.authoring.diagnosis.missing import unseen
 from autograder.authoring.diagnosis.readiness import require_within_limits
-from autograder.authoring.diagnosis.standing import where_it_stood
+from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 
@@ -36,7 +36,7 @@ def require_clean_exit(run: Transcript) -> None:
         raise unseen(run, "nobody pressed Ctrl-C")
     exited = run.first(ev.NodeExited)
     if exited is None:
-        place = where_it_stood(run, in_main=True)
+        place = where_it_waited(run, in_main=True)
         raise Failure(
             expected="the program to end after SIGINT (Ctrl-C)",
             observed=f"it still ran {run.end - signalled.t:.1f} s later",

@@ -143,7 +143,7 @@ class ClientLife:
         return self.when(ev.NodeExited)
 
     @property
-    def heard(self) -> list[float]:
+    def received(self) -> list[float]:
         """When it was accepted, and each feedback after that."""
         assert self.goal is not None
         return [self.accepted, *(each.t for each in self.goal.feedback if each.t > self.accepted)]
@@ -153,7 +153,7 @@ class ClientLife:
 
         A client may begin to count anew when it is asked to cancel.
         """
-        for earlier, later in pairwise([*self.heard, self.result]):
+        for earlier, later in pairwise([*self.received, self.result]):
             anew = max([earlier, *(t for t in self.asked if earlier < t < earlier + PATIENCE)])
             if later - earlier > PATIENCE - NEARLY:
                 is_certain = later - anew > PATIENCE + MARGIN

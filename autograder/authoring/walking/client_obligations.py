@@ -149,7 +149,7 @@ def asks_to_cancel_in_time(
 def _needless(life: ClientLife, t: float) -> Failure:
     """Return the failure for a request to cancel that came when nothing asked for it."""
     assert life.goal is not None
-    heard = max([life.goal.received.t, *(each for each in life.heard if each <= t)])
+    heard = max([life.goal.received.t, *(each for each in life.received if each <= t)])
     typed = [event.line for event in life.run.all(ev.NodeTyped) if event.t <= t]
     after = ""
     if typed:

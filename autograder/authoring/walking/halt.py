@@ -23,7 +23,7 @@ _SETTLE = (
 def require_final_zero(run: Transcript, goal: Goal, until: float = math.inf) -> None:
     """Require that the last Twist before a goal SUCCEEDED is zero; another goal was sent `until` s."""
     result = require_accepted(goal).require_result(SUCCEEDED)
-    velocities = [each for each in run.heard("cmd_vel") if each.t < until]
+    velocities = [each for each in run.received("cmd_vel") if each.t < until]
     if not velocities:
         raise not_shown(run, "the last Twist before a success is zero")
     before = [each for each in velocities if goal.sent.t <= each.t <= result.t]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from autograder.authoring.diagnosis.goal_endings import why_blind, why_rclpy_aborted
+from autograder.authoring.diagnosis.goal_diagnosis import why_rclpy_aborted, why_starved
 from autograder.authoring.diagnosis.missing import not_shown
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.goal import Goal
@@ -37,7 +37,7 @@ def require_reached(goal: Goal) -> ev.RobotTruth:
 
 def _advice_on_the_way(goal: Goal, nearest: float) -> str:
     """Say why the robot did not get there, by how far it went."""
-    if reason := why_rclpy_aborted(goal) or why_blind(goal):
+    if reason := why_rclpy_aborted(goal) or why_starved(goal):
         return reason
     start = goal.run.robot_at(goal.sent.t)
     distance, _ = error(start, goal)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from geometry_msgs.msg import PoseStamped
 
-from autograder.authoring.diagnosis.goal_endings import why_blind, why_rclpy_aborted
+from autograder.authoring.diagnosis.goal_diagnosis import why_rclpy_aborted, why_starved
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.goal import ABORTED, Goal
 from autograder.authoring.evidence.robot_topic import DELIVERY
@@ -55,7 +55,9 @@ def require_true_feedback(goal: Goal) -> None:
 
 def _require_true_place(goal: Goal, feedback: ev.FeedbackReceived, recent: Sequence[ev.RobotTruth]) -> None:
     message = feedback.feedback
-    require_true_pose(message.current_pose, recent, "feedback.current_pose", feedback.t, help=why_blind(goal))
+    require_true_pose(
+        message.current_pose, recent, "feedback.current_pose", feedback.t, help=why_starved(goal)
+    )
     distances = [error(robot, goal)[0] for robot in recent]
     claimed = message.distance_remaining
     expect(

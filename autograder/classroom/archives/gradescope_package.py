@@ -26,7 +26,7 @@ PARTS = (
     *(f"autograder/classroom/commands/{name}.py" for name in ("__init__", "gradescope")),
     *(
         f"autograder/classroom/batch/{name}.py"
-        for name in ("__init__", "collection", "records", "special_grades")
+        for name in ("__init__", "collection", "records", "grades_without_run")
     ),
     *(f"course_cli/{name}.py" for name in ("__init__", "app", "ending", "exercises_option", "jobs_option")),
     *(f"course_cli/commands/{name}.py" for name in ("__init__", "check")),

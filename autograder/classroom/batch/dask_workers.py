@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from autograder.classroom.batch.crew import Workers
+from autograder.classroom.batch.worker_pool import Workers
 from autograder.isolation.availability import Isolation, available_isolation
 from ros_runtime.course_error import COULD_NOT, CourseError
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.batch.effort import Effort, utc_now
-from autograder.classroom.batch.special_grades import not_graded, with_reason
+from autograder.classroom.batch.grades_without_run import not_graded, with_reason
 from autograder.classroom.batch.version import checks_version
 from autograder.classroom.pages.drawings import DrawnRuns, drawing_into
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise, load_exercise

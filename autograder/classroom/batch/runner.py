@@ -11,12 +11,12 @@ from pathlib import Path
 
 from autograder.classroom.batch.cache import GradeCache, Known
 from autograder.classroom.batch.collection import Work
-from autograder.classroom.batch.crew import Crew, PutOff, Workers, threads
 from autograder.classroom.batch.effort import Effort, without_arena
+from autograder.classroom.batch.grades_without_run import unreadable
 from autograder.classroom.batch.job import GradingJob, Live, carry_out
 from autograder.classroom.batch.seeds import ONE_FOR_ALL, Seeds
-from autograder.classroom.batch.special_grades import unreadable
 from autograder.classroom.batch.version import checks_version
+from autograder.classroom.batch.worker_pool import RetryLater, WorkerPool, Workers, threads
 from autograder.classroom.pages.drawings import Drawings
 from autograder.engine.essay import left_to_a_person, load_essay
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise, essay_names, load_exercise
@@ -41,7 +41,7 @@ class BatchWatcher:
 
     on_verdict: Callable[[CheckVerdict], None] = lambda verdict: None
     on_running: Callable[[Sequence[GradingJob]], None] = lambda jobs: None
-    on_retry: PutOff = lambda job, outcome: None
+    on_retry: RetryLater = lambda job, outcome: None
 
 
 @dataclass(frozen=True)
@@ -118,7 +118,7 @@ class BatchRunner:
         arenas = 1 if self._workers else max(1, self._jobs // max(1, at_a_time))
         workers = self._workers or threads(max(1, self._jobs // arenas))
         live = self._live() if workers.share_memory else None
-        crew = Crew(workers, partial(carry_out, live=live), self._watcher.on_retry)
+        crew = WorkerPool(workers, partial(carry_out, live=live), self._watcher.on_retry)
         handed_over: dict[tuple[str, str], Work] = {}
         try:
             for work in works:
@@ -176,7 +176,7 @@ class BatchRunner:
         )
 
     def _finish(
-        self, crew: Crew, handed_over: dict[tuple[str, str], Work], patience: float | None = None
+        self, crew: WorkerPool, handed_over: dict[tuple[str, str], Work], patience: float | None = None
     ) -> Iterator[Graded]:
         """Wait for outcomes, and cache them all before anybody can interrupt the loop."""
         finished = []

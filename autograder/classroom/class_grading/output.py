@@ -11,7 +11,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from autograder.classroom.batch.records import GRADES
 from autograder.classroom.batch.runner import Graded
-from autograder.classroom.class_grading.entering import Entering
+from autograder.classroom.class_grading.gradebook_writer import GradebookWriter
 from autograder.engine.verdict import Grade
 from autograder.recording.kept import FOLDER as RECORDINGS
 from autograder.report.class_table import class_table
@@ -22,7 +22,7 @@ def enter_all(console: Console, results: Sequence[Graded], out: Path) -> tuple[l
 
     Returns a sentence for each that failed, and the grades with what a person has given there.
     """
-    entering = Entering(out)
+    entering = GradebookWriter(out)
     grades: list[Grade] = []
     with _bar(console) as progress:
         for result in progress.track(results, description="gradebook"):

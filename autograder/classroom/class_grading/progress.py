@@ -87,7 +87,7 @@ class BatchProgress:
             }
         self._say_now_and_then()
 
-    def put_off(self, job: GradingJob, outcome: Outcome) -> None:
+    def retry_later(self, job: GradingJob, outcome: Outcome) -> None:
         """Say that a job could not be graded, and is done again at the end."""
         if not self._elsewhere:  # its verdicts were counted, and come again
             self._pace.expect(len(outcome.grade.checks))

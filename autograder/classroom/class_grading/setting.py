@@ -24,7 +24,7 @@ from autograder.classroom.batch.toolkit_version import commit_of
 from autograder.classroom.class_grading.progress import BatchProgress
 from autograder.classroom.pages.drawings import Drawings
 from autograder.engine.exercise import exercises_folder
-from autograder.engine.exposure import require_hidden
+from autograder.engine.path_exposure import require_hidden
 from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation, available_isolation
 from autograder.recording.kept import FOLDER as RECORDINGS
@@ -57,7 +57,7 @@ class Setting:
             seeds=self.seeds,
             resume=self.request.resume or self.request.watch,
             workers=self.cluster.workers if self.cluster else None,
-            watcher=BatchWatcher(progress.verdict, progress.running, progress.put_off),
+            watcher=BatchWatcher(progress.verdict, progress.running, progress.retry_later),
             drawings=Drawings(self.request.out),
             recordings=self.request.out / RECORDINGS if self.request.record else None,
         )

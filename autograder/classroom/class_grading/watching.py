@@ -17,7 +17,7 @@ from autograder.classroom.batch.runner import Graded
 from autograder.classroom.batch.selection import with_others
 from autograder.classroom.batch.source_files import write_base_code, write_sources
 from autograder.classroom.batch.watched_folder import WatchedFolder, only_watcher
-from autograder.classroom.class_grading.entering import Entering
+from autograder.classroom.class_grading.gradebook_writer import GradebookWriter
 from autograder.classroom.class_grading.once import left_aside, tell_what_is_left
 from autograder.classroom.class_grading.progress import BatchProgress
 from autograder.classroom.class_grading.setting import Setting, prepared
@@ -52,7 +52,7 @@ class _Watch:
     def __init__(self, setting: Setting) -> None:
         self._setting = setting
         self._folder = WatchedFolder(setting.request.submitted)
-        self._entering = Entering(setting.request.out)
+        self._entering = GradebookWriter(setting.request.out)
         self._grades = list(setting.before)
         self._record = setting.record
         self._results: dict[tuple[str, str], Graded] = {}

@@ -19,7 +19,7 @@ from autograder.classroom.audit.known_submission import (
     known_submission,
     known_submissions,
 )
-from autograder.classroom.audit.residue import residue
+from autograder.classroom.audit.leftovers import leftovers
 from autograder.classroom.audit.run import AuditedRun
 from autograder.classroom.audit.run import audit as audit_submissions
 from autograder.engine.exercise import (
@@ -125,7 +125,7 @@ def audit(
             if not judged:
                 raise ended(console, f"no mutant matches {only!r}", UNUSABLE)
             raise typer.Exit(0 if all(one.noticed_by for one in judged) else COULD_NOT)
-        with residue() as left:
+        with leftovers() as left:
             for name in names:
                 known = known_submissions(name, only=only)
                 audited[name] = _audit_all(console, known, name, record, jobs, repeat, seed, scale)

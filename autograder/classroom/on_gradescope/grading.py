@@ -6,7 +6,7 @@ import os
 from datetime import datetime, timezone
 
 from autograder.classroom.batch.collection import Work, files_of_exercises, works_of
-from autograder.classroom.batch.special_grades import unreadable
+from autograder.classroom.batch.grades_without_run import unreadable
 from autograder.classroom.export.gradescope import Results, render
 from autograder.classroom.export.options import Options
 from autograder.classroom.export.published import NOT_GRADED

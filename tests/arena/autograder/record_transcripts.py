@@ -19,7 +19,7 @@ from autograder.classroom.audit.proof import enough_to_catch
 from autograder.classroom.audit.recorded import FOLDER, scenarios_of, write
 from autograder.engine.arena_run import ArenaRun, run_in_arena
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise
-from autograder.engine.lateness import STRAINED, lateness
+from autograder.engine.simulation_lag import STRAINED, lateness
 from autograder.engine.submission_arenas import SubmissionArenas
 from ros_runtime.project import PROJECT
 

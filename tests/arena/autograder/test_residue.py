@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from autograder.classroom.audit.known_submission import KnownSubmission, known_submission
-from autograder.classroom.audit.residue import residue
+from autograder.classroom.audit.leftovers import leftovers
 from autograder.classroom.audit.run import audit_one
 from autograder.engine.exercise import Exercise, load_exercise
 from autograder.isolation.availability import available_isolation
@@ -49,7 +49,7 @@ def test_hostile_submissions_leave_nothing_and_change_no_other_grade() -> None:
     honest = known_submission(EXERCISE, "correct/class_based")
     for its_exercise, name in HOSTILE:
         known = known_submission(its_exercise, f"hostile/{name}")
-        with residue() as left:
+        with leftovers() as left:
             audited = audit_one(known, caught_only(known), at_first_look=known.caught_by)
         assert audited.surprises() == [], name
         assert left == [], name
@@ -57,7 +57,7 @@ def test_hostile_submissions_leave_nothing_and_change_no_other_grade() -> None:
 
 
 def test_each_kind_of_residue_is_seen() -> None:
-    with residue(patience=0.2) as left:
+    with leftovers(patience=0.2) as left:
         kept = [subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)]
         folder = Path(tempfile.mkdtemp(prefix=f"arena-{os.getpid()}-", dir="/tmp"))
         domain = ReservedDomain()
@@ -73,7 +73,7 @@ def test_each_kind_of_residue_is_seen() -> None:
 
 def test_an_orphan_is_seen() -> None:
     orphan = "import os, time\nif os.fork() == 0:\n    os.setsid(); time.sleep(60)"
-    with residue(patience=0.2) as left:
+    with leftovers(patience=0.2) as left:
         subprocess.run([sys.executable, "-c", orphan], check=True)
     (line,) = left
     pid = int(line.split()[1].rstrip(","))

@@ -70,8 +70,8 @@ def test_a_server_meets_what_the_stage_offers_and_is_heard(tmp_path) -> None:
     transcript = run_in_arena(ArenaRun(exercise, {f"{NAME}.py": SERVER.encode()}, scenario))
     assert transcript.first(ev.ScenarioEnded), transcript.output()
     assert transcript.call("tell").response.success
-    assert [event.message.data for event in transcript.heard("told")] == ["good morning, Motors: ON"]
-    assert [event.message.data for event in transcript.heard("kept")] == ["from the beginning"]
+    assert [event.message.data for event in transcript.received("told")] == ["good morning, Motors: ON"]
+    assert [event.message.data for event in transcript.received("kept")] == ["from the beginning"]
     assert transcript.mark("good morning, Motors: ON / from the beginning")
     (request,) = transcript.requests("get_status")
     assert request.reply

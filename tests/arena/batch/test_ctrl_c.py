@@ -13,7 +13,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from autograder.classroom.audit.residue import residue
+from autograder.classroom.audit.leftovers import leftovers
 from autograder.isolation.availability import available_isolation
 
 FILE = "walk_client.py"
@@ -39,7 +39,7 @@ def test_ctrl_c_ends_the_scenarios_that_run_and_leaves_nothing(tmp_path: Path) -
     for student in ("anna", "bert"):
         (tmp_path / "submitted" / student).mkdir(parents=True)
         (tmp_path / "submitted" / student / FILE).write_text(SILENT)
-    with residue() as left:
+    with leftovers() as left:
         grader = subprocess.Popen(
             COMMAND,
             cwd=tmp_path,

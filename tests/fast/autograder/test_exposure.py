@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from autograder.classroom.class_grading import setting
-from autograder.engine.exposure import HiddenChecksRefused, require_hidden
+from autograder.engine.path_exposure import HiddenChecksRefused, require_hidden
 from autograder.isolation.arena_spec import Kind
 from autograder.isolation.availability import Isolation
 from course_cli.app import app

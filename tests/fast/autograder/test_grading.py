@@ -13,7 +13,7 @@ from autograder.authoring.failure import CannotBeJudged
 from autograder.engine import grading
 from autograder.engine.arena_run import NotGraded
 from autograder.engine.exercise import Exercise
-from autograder.engine.exposure import HiddenChecksRefused
+from autograder.engine.path_exposure import HiddenChecksRefused
 from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
 from autograder.isolation.arena_process import Kind

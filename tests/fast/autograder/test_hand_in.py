@@ -193,7 +193,7 @@ def test_a_notebook_that_holds_other_work_than_its_file_is_named_by_its_self_che
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(module, "check_aloud", lambda *_, **__: Grade(NAME, "me", "none", []))
+    monkeypatch.setattr(module, "check_with_progress", lambda *_, **__: Grade(NAME, "me", "none", []))
     put(tmp_path, FIRST, f"{NAME}.ipynb")
     module.self_check(NAME)
     assert capsys.readouterr().out == ""

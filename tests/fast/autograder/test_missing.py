@@ -10,8 +10,8 @@ from autograder.authoring.diagnosis.missing import Missing, not_shown, unseen
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged, Failure
+from autograder.engine.completeness import require_whole
 from autograder.engine.judging import judge
-from autograder.engine.wholeness import require_whole
 from humanoid_interfaces.action import WalkTo
 
 BEGINNING = (ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0))

@@ -64,8 +64,8 @@ PLACES = {
         "solutions/pick_and_place/truth.py reports",
         "solutions/stand_up/truth.py bodies",
     ),
-    HOLDS_UP: (f"{ENGINE}/wholeness.py _require_the_robots_time require_whole",),
-    LATE: (f"{ENGINE}/wholeness.py _require_effects",),
+    HOLDS_UP: (f"{ENGINE}/completeness.py _require_the_robots_time require_whole",),
+    LATE: (f"{ENGINE}/completeness.py _require_effects",),
     FLOODS: (f"{ENGINE}/bounds.py _require_nothing_dropped",),
     NEVER_SHOWS: (
         f"{AUTHORING}/diagnosis/missing.py not_shown",
@@ -83,7 +83,10 @@ PLACES = {
     STARVES: (f"{ENGINE}/grading.py _run",),
     UNREADABLE: (f"{ENGINE}/arena_run.py _transcript read_events",),
     BUILDS: ("solutions/interfaces/judging.py _built _part _report require_built",),
-    BAD_FILE: ("autograder/classroom/batch/crew.py _lost", "autograder/classroom/batch/job.py _graded"),
+    BAD_FILE: (
+        "autograder/classroom/batch/worker_pool.py _lost",
+        "autograder/classroom/batch/job.py _graded",
+    ),
 }
 
 

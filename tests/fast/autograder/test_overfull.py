@@ -10,9 +10,9 @@ from autograder.arena.events import NodeReady, NodeStarted
 from autograder.authoring.checks import Scenario
 from autograder.authoring.failure import Failure
 from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
+from autograder.engine.completeness import require_whole
 from autograder.engine.exercise import Exercise, exercises_folder
 from autograder.engine.submission_arena import ArenaEnded
-from autograder.engine.wholeness import require_whole
 from autograder.isolation.arena_process import ArenaReport, Ended, Kind
 from autograder.isolation.captured_output import CapturedOutput
 from ros_runtime.record.event import to_line

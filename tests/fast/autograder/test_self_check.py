@@ -27,7 +27,7 @@ def test_it_is_kept_when_every_check_was_judged(
     grade: Grade, expected: list, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     kept: list[tuple] = []
-    monkeypatch.setattr(module, "check_aloud", lambda *arguments, **options: grade)
+    monkeypatch.setattr(module, "check_with_progress", lambda *arguments, **options: grade)
     monkeypatch.setattr(module, "keep_check", lambda *entry: kept.append(entry))
     assert module.self_check("battery_service").grade is grade
     assert kept == expected
@@ -35,7 +35,9 @@ def test_it_is_kept_when_every_check_was_judged(
 
 def test_the_command_keeps_it_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     kept: list[tuple] = []
-    monkeypatch.setattr(module, "check_aloud", lambda *arguments, **options: graded("passed", "failed"))
+    monkeypatch.setattr(
+        module, "check_with_progress", lambda *arguments, **options: graded("passed", "failed")
+    )
     monkeypatch.setattr(module, "keep_check", lambda *entry: kept.append(entry))
     with pytest.raises(typer.Exit) as ended:
         check("battery_service", tmp_path / "missing.py", json_file=None, jobs=1, course=None)

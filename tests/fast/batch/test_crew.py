@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from autograder.classroom.batch.crew import Crew, Workers, threads
+from autograder.classroom.batch.grades_without_run import not_graded
 from autograder.classroom.batch.job import GradingJob, Outcome
-from autograder.classroom.batch.special_grades import not_graded
+from autograder.classroom.batch.worker_pool import WorkerPool, Workers, threads
 from autograder.engine.verdict import CheckVerdict, Grade
 
 
@@ -38,7 +38,7 @@ def grade_or_die(folder: Path, job: GradingJob) -> Outcome:
     return Outcome(passes(job), "namespaces")
 
 
-def outcomes(crew: Crew, students: list[str]) -> list[tuple[str, str, str]]:
+def outcomes(crew: WorkerPool, students: list[str]) -> list[tuple[str, str, str]]:
     """Each outcome's student, status and reason, in order of the students."""
     found = []
     for student in students:
@@ -52,7 +52,7 @@ def outcomes(crew: Crew, students: list[str]) -> list[tuple[str, str, str]]:
 
 
 def test_a_job_that_kills_its_worker_is_not_graded_and_takes_no_other_with_it(tmp_path: Path) -> None:
-    crew = Crew(Workers(new_pool, at_a_time=2), partial(grade_or_die, tmp_path))
+    crew = WorkerPool(Workers(new_pool, at_a_time=2), partial(grade_or_die, tmp_path))
     students = ["always", "anna", "bert", "carl", "once"]
     found = outcomes(crew, students)
     assert [student for student, _, _ in found] == students
@@ -67,7 +67,7 @@ def test_an_executor_that_cannot_be_opened_is_an_error_and_no_grade() -> None:
         raise OSError("no processes left")
 
     with pytest.raises(OSError, match="no processes left"):
-        outcomes(Crew(Workers(unavailable, at_a_time=1), partial(grade_or_die, Path())), ["anna"])
+        outcomes(WorkerPool(Workers(unavailable, at_a_time=1), partial(grade_or_die, Path())), ["anna"])
 
 
 def test_what_could_not_be_graded_is_done_again_alone_at_the_end() -> None:
@@ -82,11 +82,11 @@ def test_what_could_not_be_graded_is_done_again_alone_at_the_end() -> None:
         running.remove(job.student)
         return Outcome(grade, "namespaces", may_end_otherwise=busy)
 
-    put_off: list[str] = []
-    crew = Crew(threads(3), busy_at_first, lambda job, outcome: put_off.append(job.student))
+    retry_later: list[str] = []
+    crew = WorkerPool(threads(3), busy_at_first, lambda job, outcome: retry_later.append(job.student))
     found = outcomes(crew, ["always", "anna", "at first", "bert"])
     assert [status for _, status, _ in found] == ["not graded", "graded", "graded", "graded"]
-    assert sorted(put_off) == ["always", "at first"]
+    assert sorted(retry_later) == ["always", "at first"]
     assert tries == {"always": 2, "anna": 1, "at first": 2, "bert": 1}
     assert beside["always"] == beside["at first"] == 0
 
@@ -98,6 +98,6 @@ def test_what_was_not_graded_for_a_reason_that_stays_is_not_done_again() -> None
         tries.append(job.student)
         return Outcome(not_graded(job.exercise, job.student, "", "the worker has no isolation"), "")
 
-    ((_, status, _),) = outcomes(Crew(threads(1), without_isolation), ["anna"])
+    ((_, status, _),) = outcomes(WorkerPool(threads(1), without_isolation), ["anna"])
     assert status == "not graded"
     assert tries == ["anna"]

@@ -11,9 +11,9 @@ import pytest
 from distributed import LocalCluster
 
 from autograder.classroom.batch import dask_workers as module
-from autograder.classroom.batch.crew import Crew
 from autograder.classroom.batch.dask_workers import NoCluster, dask_cluster
 from autograder.classroom.batch.job import GradingJob, Outcome, carry_out
+from autograder.classroom.batch.worker_pool import WorkerPool
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
@@ -42,7 +42,7 @@ def test_a_killed_worker_costs_no_grade_and_doubles_none(tmp_path, monkeypatch):
         dask_cluster(local.scheduler_address) as cluster,
     ):
         assert (cluster.size, cluster.isolation.label, cluster.left_out) == (2, "untrusted", ())
-        crew = Crew(cluster.workers, partial(grade_once_the_killed_is_gone, tmp_path))
+        crew = WorkerPool(cluster.workers, partial(grade_once_the_killed_is_gone, tmp_path))
         for student in STUDENTS:
             crew.give(job(student))
         while len(working := list((tmp_path / "workers").iterdir())) < 2:

@@ -8,8 +8,8 @@ import pytest
 from drawings import read
 
 from lab.errors import LabError
-from lab.pictures.flags import rows_of, text_width
-from lab.pictures.marks import Mark
+from lab.pictures.annotations import Mark
+from lab.pictures.labels import rows_of, text_width
 from lab.pictures.timeline import draw_timeline
 from lab.running.life import Life
 from lab.running.processes import Process

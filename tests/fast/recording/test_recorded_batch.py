@@ -15,9 +15,9 @@ from autograder.classroom.batch import job as module
 from autograder.classroom.batch import runner as runner_module
 from autograder.classroom.batch.cache import GradeCache
 from autograder.classroom.batch.collection import Work
-from autograder.classroom.batch.crew import Workers
 from autograder.classroom.batch.job import GradingJob, Outcome
 from autograder.classroom.batch.runner import BatchRunner
+from autograder.classroom.batch.worker_pool import Workers
 from autograder.engine.grading import GradingOptions, Watcher
 from autograder.engine.hand_in import candidate_at
 from autograder.engine.verdict import Grade

@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 
 from autograder.classroom.audit.known_submission import known_submission
-from autograder.classroom.audit.residue import residue
+from autograder.classroom.audit.leftovers import leftovers
 from autograder.engine.exercise import Exercise, load_exercise
 from autograder.engine.grading import GradingOptions, grade
 from autograder.engine.submission import Submission
@@ -51,7 +51,7 @@ def _problem(target: Target, source: str, seed: int) -> str:
     exercise = _exercise(target)
     (file,) = exercise.file_names
     options = GradingOptions(seed, jobs=1)
-    with residue() as left:
+    with leftovers() as left:
         submission = Submission(target.exercise, "wild", {file: source})
         wild = grade(submission, exercise, replace(options, at_first_look=target.checks))
     if wild.status != "graded":
@@ -60,7 +60,7 @@ def _problem(target: Target, source: str, seed: int) -> str:
         return f"the made-up program has full marks:\n{_in_words(wild)}"
     if left:
         return f"it left behind: {', '.join(left)}"
-    with residue() as left:
+    with leftovers() as left:
         correct = grade(known_submission(target.exercise, target.correct).read(), exercise, options)
     if not correct.all_passed:
         return f"the correct program after it lost points:\n{_in_words(correct)}"

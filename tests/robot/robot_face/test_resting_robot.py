@@ -33,7 +33,7 @@ def robots():
 
 
 @pytest.fixture(scope="module")
-def heard(robots):
+def received(robots):
     """By topic: what was heard of the one, and of the other."""
     return {
         topic: [robot.collect(kind, topic, count, qos) for robot in robots]

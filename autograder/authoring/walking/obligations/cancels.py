@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring.diagnosis.goal_endings import why_rclpy_aborted
+from autograder.authoring.diagnosis.goal_diagnosis import why_rclpy_aborted
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.goal import ABORTED, CANCELED, SUCCEEDED, Goal
 from autograder.authoring.failure import Failure, expect

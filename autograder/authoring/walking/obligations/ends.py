@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import pairwise
 
-from autograder.authoring.diagnosis.goal_endings import why_rclpy_aborted
+from autograder.authoring.diagnosis.goal_diagnosis import why_rclpy_aborted
 from autograder.authoring.diagnosis.missing import not_shown
 from autograder.authoring.evidence.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.failure import expect

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from builtin_interfaces.msg import Duration
 
-from autograder.authoring.diagnosis.goal_endings import why_rclpy_aborted
+from autograder.authoring.diagnosis.goal_diagnosis import why_rclpy_aborted
 from autograder.authoring.evidence.goal import ABORTED, LISTENED, SUCCEEDED, Goal
 from autograder.authoring.failure import expect
 from autograder.authoring.requirements.feedback import require_good_feedback_rate

@@ -82,7 +82,7 @@ def ends_with_a_zero_twist(goal: Goal) -> str | None:
     assert goal.result
     run, end = life.run_of(goal), life.next_sent(goal, goal.result.t)
     if (
-        not any(goal.sent.t <= each.t < end for each in run.heard("cmd_vel"))
+        not any(goal.sent.t <= each.t < end for each in run.received("cmd_vel"))
         and life.way_to(goal) < life.AT_IT
     ):
         return "nothing published where it stands"
@@ -92,7 +92,7 @@ def ends_with_a_zero_twist(goal: Goal) -> str | None:
 
 def does_not_steer_without_a_goal(run: Transcript) -> str | None:
     """Without an active goal it publishes no velocity but zero."""
-    moving = [each for each in run.heard("cmd_vel") if not halt.is_zero(each.message)]
+    moving = [each for each in run.received("cmd_vel") if not halt.is_zero(each.message)]
     for each in moving:
         expect(
             _has_goal(run, each.t),

@@ -14,7 +14,7 @@ from autograder.engine.verdict import Grade
 LOG = "nbgrader.log"
 
 
-class Entering:
+class GradebookWriter:
     """The gradebook of an output folder; it is opened at the first entry."""
 
     def __init__(self, out: Path) -> None:

@@ -9,7 +9,7 @@ from autograder.authoring.diagnosis.missing import held_up
 from autograder.authoring.diagnosis.root_cause import why_the_robot_was_held_up
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.engine.lateness import OVERLOADED, lateness
+from autograder.engine.simulation_lag import OVERLOADED, lateness
 
 LONGEST_SILENCE = 1.5  # s on the arena's clock without a report of the simulator
 LATEST_COMMAND = 1.5  # s on it until a command of the scenario takes effect

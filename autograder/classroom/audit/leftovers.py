@@ -1,6 +1,6 @@
 """What gradings leave behind on this machine: nothing, if they are sound.
 
-    with residue() as left:
+    with leftovers() as left:
         grade(…)
     assert not left
 
@@ -28,7 +28,7 @@ _MIDDLEWARES = ("fastrtps", "fastdds", "sem.")
 
 
 @contextmanager
-def residue(patience: float = 5.0) -> Iterator[list[str]]:
+def leftovers(patience: float = 5.0) -> Iterator[list[str]]:
     """Yield a list, empty until the block ends, then of what is left that was not there before, each in words.
 
     What has been ended may take `patience` s to be gone.

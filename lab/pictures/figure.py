@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from IPython.display import HTML
 
-from lab.pictures.flags import FONT_SIZE
+from lab.pictures.labels import FONT_SIZE
 from lab.pictures.picture import figure
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Sequence
 from functools import cache
 
-from lab.pictures.marks import Mark
+from lab.pictures.annotations import Mark
 
 FONT_SIZE = 9.0  # points
 ROW = 0.19  # inches

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from autograder.authoring.diagnosis.ending import OWN_FILE
+from autograder.authoring.diagnosis.exit_diagnosis import OWN_FILE
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.record import Record
 
@@ -27,7 +27,7 @@ class Place:
         return f"line {self.line} of {self.file}, in {self.function}(){calls}"
 
 
-def where_it_stood(run: Record, *, in_main: bool = False) -> Place | None:
+def where_it_waited(run: Record, *, in_main: bool = False) -> Place | None:
     """Return where a thread of the student's stood in a callback when the program was ended, if one did.
 
     `in_main` looks also into main(), where a client waits, but where a server only spins.
@@ -47,7 +47,7 @@ def where_it_stood(run: Record, *, in_main: bool = False) -> Place | None:
 def why_nobody_serves(run: Record) -> str | None:
     """Return what to do if no thread of a server spun when it was ended, though none stood in a callback."""
     stack = run.first(ev.NodeStack)
-    main = where_it_stood(run, in_main=True)
+    main = where_it_waited(run, in_main=True)
     if stack is None or main is None or main.function not in _SPINNING:
         return None
     if any(function.startswith("spin") for line in stack.lines for *_, function in _FRAME.findall(line)):

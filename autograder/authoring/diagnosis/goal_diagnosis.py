@@ -6,8 +6,8 @@ import math
 import re
 from typing import TYPE_CHECKING
 
-from autograder.authoring.diagnosis.ending import raised_in
-from autograder.authoring.diagnosis.standing import where_it_stood
+from autograder.authoring.diagnosis.exit_diagnosis import raised_in
+from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
 from ros_runtime.message_constants import GoalStatus, name_of
 
@@ -102,7 +102,7 @@ def _why_forbidden(where: str, state: str, event: str) -> str:
     return f"execute made a call{where} that a goal in state {state} does not allow, so rclpy aborted it."
 
 
-def why_blind(goal: Goal) -> str | None:
+def why_starved(goal: Goal) -> str | None:
     """Return what to do if execute keeps the node from being served: what it reports never changes while it runs."""
     distances = [getattr(feedback.feedback, "distance_remaining", None) for feedback in goal.feedback]
     if len(distances) < FROZEN or None in distances or len(set(distances)) > 1 or not _robot_moved(goal):
@@ -122,7 +122,7 @@ def _robot_moved(goal: Goal) -> bool:
 
 def _why_it_never_came(goal: Goal) -> str:
     """Return why the result of a goal that has ended did not come."""
-    if place := where_it_stood(goal.run):
+    if place := where_it_waited(goal.run):
         return f"execute has not returned since its terminal call: it stood in {place}. Return the result at once."
     if goal.run.first(ev.NodeStack):
         return (
@@ -150,7 +150,7 @@ def why_no_result(goal: Goal) -> tuple[str, str]:
             "The goal is accepted and not executed: nobody called goal_handle.execute(). A handle_accepted_callback "
             "must call it, also for a goal that has to wait its turn."
         )
-    if blind := why_blind(goal):
+    if blind := why_starved(goal):
         return f"{seen}, and feedback still came", blind
     if went_on(goal):
         left = getattr(goal.feedback[-1].feedback, "distance_remaining", None)
@@ -166,6 +166,6 @@ def why_no_result(goal: Goal) -> tuple[str, str]:
             ends = "What ends it?"
         return f"{seen}, and feedback still came", f"execute is still in its loop{where}. {ends}"
     last = f"its last feedback came at {goal.feedback[-1].t:.1f} s" if goal.feedback else "without feedback"
-    place = where_it_stood(goal.run)
+    place = where_it_waited(goal.run)
     stood = f" It stood in {place}." if place else ""
     return f"{seen}, {last}", f"execute is still running: something in it waits without a time limit.{stood}"

@@ -10,10 +10,10 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
 
+from autograder.classroom.batch.grades_without_run import not_graded
 from autograder.classroom.batch.job import GradingJob, Outcome
-from autograder.classroom.batch.special_grades import not_graded
 
-PutOff = Callable[[GradingJob, Outcome], None]
+RetryLater = Callable[[GradingJob, Outcome], None]
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ def threads(number: int) -> Workers:
     return Workers(lambda: ThreadPoolExecutor(number), number, share_memory=True)
 
 
-class Crew:
+class WorkerPool:
     """Gives jobs to workers and takes the outcomes, each job's once.
 
     A job whose worker was killed, or whose executor broke, is done again alone when no other is left: one that kills
@@ -46,18 +46,18 @@ class Crew:
     Args:
         workers: carry out the jobs.
         work: what they do with each.
-        put_off: gets each job that is to be done again, and what came of it the first time.
+        retry_later: gets each job that is to be done again, and what came of it the first time.
     """
 
     def __init__(
         self,
         workers: Workers,
         work: Callable[[GradingJob], Outcome],
-        put_off: PutOff = lambda job, outcome: None,
+        retry_later: RetryLater = lambda job, outcome: None,
     ) -> None:
         self._workers = workers
         self._work = work
-        self._put_off = put_off
+        self._put_off = retry_later
         self._executor: Executor | None = None
         self._running: dict[Future[Outcome], GradingJob] = {}
         self._once_more: deque[GradingJob] = deque()
