@@ -17,7 +17,7 @@ from robot_sim.views.film import save_frames
 from robot_sim.views.view import View
 
 RATE = 12.5  # frames a second
-LONGEST = 60.0  # s
+MAX_DURATION = 60.0  # s
 WIDTH, HEIGHT = 480, 360  # px of the picture without the text
 LAST_FRAME = 1.5  # s for which the end stands still, so that the verdict can be read
 FORMATS: Mapping[str, Literal["WEBP", "GIF"]] = {".webp": "WEBP", ".gif": "GIF"}
@@ -32,10 +32,10 @@ def film(recording: Recording, span: Span, file: Path, *, camera: str = "track")
         NoOpenGLError: this machine cannot draw.
     """
     require_known_format(file)
-    if span.end - span.start > LONGEST:
+    if span.end - span.start > MAX_DURATION:
         raise ValueError(
-            f"the film would last {span.end - span.start:.0f} s; at most {LONGEST:g} are filmed: choose with --seconds "
-            "and --around"
+            f"the film would last {span.end - span.start:.0f} s; at most {MAX_DURATION:g} are filmed: choose with "
+            "--seconds and --around"
         )
     frames = _frames(recording, span, camera)
     save_frames(file, frames, FORMATS[file.suffix.lower()], RATE, last=LAST_FRAME)

@@ -13,7 +13,7 @@ from rclpy.node import NodeNameNonExistentError
 from ros_cli.command_node import CommandNode, full_name
 from ros_cli.errors import CommandError
 
-PATIENCE = 2.0  # s; a node that is busy for longer gets the request all the same
+SERVER_TIMEOUT = 2.0  # s; a node that is busy for longer gets the request all the same
 
 NamesAndTypes = list[tuple[str, list[str]]]
 
@@ -64,4 +64,4 @@ def _wait(command: CommandNode, server: str, servers_of: Callable[[str, str], Na
             continue
         node = full_name(name, namespace)
         if server in names and f"{node}/list_parameters" in command.services():
-            command.wait_until_answering(node, PATIENCE)
+            command.wait_until_answering(node, SERVER_TIMEOUT)

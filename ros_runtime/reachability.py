@@ -10,7 +10,7 @@ from rcl_interfaces.srv import ListParameters
 from rclpy.client import Client
 from rclpy.node import Node
 
-PATIENCE = 0.1  # s for one answer
+ANSWER_TIMEOUT = 0.1  # s for one answer
 
 
 def wait_until_reachable(node: Node, name: str, gives_up: Callable[[], bool]) -> bool:
@@ -42,7 +42,7 @@ def wait_until_all_reachable(node: Node, names: Sequence[str], gives_up: Callabl
                 if name not in reachable and client.service_is_ready()
             }
             if not found:
-                time.sleep(PATIENCE / 10)
+                time.sleep(ANSWER_TIMEOUT / 10)
             reachable |= _ask_once(found)
     finally:
         for client in clients.values():
@@ -58,7 +58,7 @@ def _ask_once(clients: Mapping[str, Client]) -> set[str]:
     }
     for future, answered in asked.values():
         future.add_done_callback(lambda _, answered=answered: answered.set())
-    deadline = time.monotonic() + PATIENCE
+    deadline = time.monotonic() + ANSWER_TIMEOUT
     in_time = {
         name for name, (_, answered) in asked.items() if answered.wait(max(0.0, deadline - time.monotonic()))
     }

@@ -20,7 +20,7 @@ from autograder.arena.student import Student
 APPEARING_TIMEOUT = 20.0  # for the student's node to appear
 MODULE_TIMEOUT = 150.0  # for work of ours in the student's sandbox, such as compiling
 MATCHING_TIMEOUT = 3.0  # for its clients to be seen; some programs make them only when they need them
-SETTLING = 0.05  # for the program's own side of those connections
+CONNECTION_TIME = 0.05  # for the program's own side of those connections
 # s, on the arena's clock:
 END_TIMEOUT = 25.0
 
@@ -102,7 +102,7 @@ class ClientStage(Offering):
             return self._was_asked() or self._student.has_exited()
 
         self.poll_until(lambda: is_needless() or self._is_known(), MATCHING_TIMEOUT)
-        self.wait_until(is_needless, SETTLING)
+        self.wait_until(is_needless, CONNECTION_TIME)
 
     def _wait_for_end(self, timeout: float) -> None:
         started = time.monotonic()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-LONGEST = 10_000  # characters of a text, elements of a list
+MAX_LENGTH = 10_000  # characters of a text, elements of a list
 
 
 @dataclass
@@ -13,7 +13,7 @@ class Longest:
     """The length of the longest text or list met, in characters or elements."""
 
     length: int = 0
-    limit: int = LONGEST
+    limit: int = MAX_LENGTH
 
     @property
     def was_cut(self) -> bool:
@@ -22,7 +22,7 @@ class Longest:
 
 
 def cut_long_texts(fields: dict[str, Any]) -> tuple[dict[str, Any], Longest]:
-    """Return the fields with each text and list cut to `LONGEST`, and how long the longest was."""
+    """Return the fields with each text and list cut to `MAX_LENGTH`, and how long the longest was."""
     longest = Longest()
     return {name: _cut(value, longest) for name, value in fields.items()}, longest
 
@@ -34,7 +34,7 @@ def _cut(value: Any, longest: Longest) -> Any:
         return {name: _cut(each, longest) for name, each in value.items()}
     if isinstance(value, list | tuple):
         longest.length = max(longest.length, len(value))
-        if len(value) > LONGEST:
+        if len(value) > MAX_LENGTH:
             return []  # it has to stay a list
         return [_cut(each, longest) for each in value]
     return value
@@ -42,7 +42,7 @@ def _cut(value: Any, longest: Longest) -> Any:
 
 def _cut_text(text: str, longest: Longest) -> str:
     longest.length = max(longest.length, len(text))
-    if len(text) > LONGEST:
-        text = f"{text[:LONGEST]}…[cut: {len(text):,} characters]"
+    if len(text) > MAX_LENGTH:
+        text = f"{text[:MAX_LENGTH]}…[cut: {len(text):,} characters]"
     # half of a surrogate pair is no character, and no JSON parser takes it
     return text if text.isascii() else text.encode(errors="replace").decode()

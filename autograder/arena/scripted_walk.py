@@ -12,7 +12,7 @@ from autograder.arena.sequence import Steps, carry_out
 from humanoid_interfaces.action import WalkTo
 
 ON_THE_WAY = (0.4, 0.1, 0.2)  # m, m, rad
-SOON = 15.0  # s for a goal, or a cancel, to come
+GOAL_TIMEOUT = 15.0  # s for a goal, or a cancel, to come
 
 # What a server does: the fields of a GoalScript, but for
 #   distances, early: of the feedback (m), instead of feedback and early_feedback
@@ -67,7 +67,7 @@ class World:
         def has_come() -> int:
             return getattr(self._server, what)
 
-        self._stage.wait_until(lambda: has_come() or self._stage.has_ended(), SOON)
+        self._stage.wait_until(lambda: has_come() or self._stage.has_ended(), GOAL_TIMEOUT)
         return has_come() > 0
 
     def _do(self, act: Callable[..., object], *arguments: Any) -> None:

@@ -37,7 +37,7 @@ MATCHING_TIMEOUT = 10.0  # for robot and node to find each other's topics
 REACHING_TIMEOUT = 1.0  # a correct node may be slow at first, a faulty one never answers
 MOST_REACHED = 4  # nodes
 LOOKING = 0.1  # between two queries of all services on offer
-SETTLING = 0.05  # for the node's own side of those connections
+CONNECTION_TIME = 0.05  # for the node's own side of those connections
 # s, on the arena's clock:
 CLEAN_EXIT_TIMEOUT = 5.0
 __all__ = ["STRANGER", "ActionClient", "Goal", "NodeMissing", "ServiceClient", "Stage"]
@@ -133,7 +133,7 @@ class Stage(Offering):
         self._reach_node()
         self._report_topics()
         self._graph.inspect()
-        self.wait(SETTLING)
+        self.wait(CONNECTION_TIME)
         self._speed_up()
 
     # -- the robot and the student's process --------------------------------------------------------------------------

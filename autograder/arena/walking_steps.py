@@ -19,9 +19,9 @@ from autograder.arena.stage import STRANGER, ActionClient, Goal, Stage
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.recorded_client.goal import RESULT_TIMEOUT
 
-SETTLING = 1.0  # s for the first odom and robot_state to arrive
-SOON = 10.0  # s for the end of a goal that is cancelled, preempted or out of reach
-STARTING = 5.0  # s in which a robot begins to walk
+ROBOT_TOPICS_TIME = 1.0  # s for the first odom and robot_state to arrive
+END_TIMEOUT = 10.0  # s for the end of a goal that is cancelled, preempted or out of reach
+WALK_START_TIMEOUT = 5.0  # s in which a robot begins to walk
 COMING_NEAR = 15.0  # s
 NEAR = 0.12  # m
 
@@ -42,7 +42,7 @@ def walk_in_order(
     stage.listen("cmd_vel", Twist)
     walker = _Walker(stage, stage.action(action, action_type), make_goal)
     stage.open()
-    stage.wait(SETTLING)
+    stage.wait(ROBOT_TOPICS_TIME)
     carry_out(stage, steps, {**walker.vocabulary(), **(others or {})})
 
 
@@ -68,7 +68,7 @@ class _Walker:
             "walk_for": self.walk_for,
             "come_near": self.come_near,
             "settle": self.settle,
-            "hear_of": lambda name: self._goals[name].wait_for_feedback(1, STARTING),
+            "hear_of": lambda name: self._goals[name].wait_for_feedback(1, WALK_START_TIMEOUT),
             "arrive": self.arrive,
             "end": self.end,
             "wait": self._stage.wait,
@@ -108,12 +108,12 @@ class _Walker:
     def arrive(self, name: str, patience: float = RESULT_TIMEOUT) -> None:
         """Wait for the end of a goal: so long (s), unless another has kept the scenario waiting in vain."""
         goal = self._goals[name]
-        if goal.accepted and not goal.wait_for_result(SOON if self._waited_in_vain else patience):
+        if goal.accepted and not goal.wait_for_result(END_TIMEOUT if self._waited_in_vain else patience):
             self._waited_in_vain = True
 
     def end(self, name: str) -> None:
         """Wait for the end of a goal that was cancelled, preempted or put out of reach."""
-        self._goals[name].wait_for_result(SOON)
+        self._goals[name].wait_for_result(END_TIMEOUT)
 
     def _send_pose(self, name: str, pose: PoseStamped, limit: float) -> Goal:
         return self._send(name, pose, self._make_goal(pose, limit))
@@ -146,7 +146,7 @@ class _Walker:
 
     def walk_for(self, duration: float) -> None:
         """Wait until the robot walks, and so long (s) from then on."""
-        self._stage.robot.wait_for(lambda robot: robot.mode == RobotState.WALKING, STARTING)
+        self._stage.robot.wait_for(lambda robot: robot.mode == RobotState.WALKING, WALK_START_TIMEOUT)
         self._stage.wait(duration)
 
     def come_near(self, name: str, distance: float) -> None:
@@ -168,11 +168,11 @@ class _Walker:
         robot = self._stage.robot
         robot.set_motor_power(False)
         robot.wait_for(lambda state: not state.motors_enabled)
-        self._stage.wait(SETTLING)
+        self._stage.wait(ROBOT_TOPICS_TIME)
 
     def set_up(self) -> None:
         """Put the robot on its feet again, as after a fall, and wait until it says STANDING."""
         robot = self._stage.robot
         robot.set_up()
         robot.wait_for(lambda state: state.mode == RobotState.STANDING)
-        self._stage.wait(SETTLING)
+        self._stage.wait(ROBOT_TOPICS_TIME)

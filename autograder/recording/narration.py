@@ -12,7 +12,7 @@ from ros_runtime.message_constants import GoalStatus, name_of
 from ros_runtime.messages import is_message, to_dict
 
 INFO, WARN = Log.INFO, Log.WARN
-LONGEST = 300  # characters of a line
+MAX_CHARACTERS = 300  # characters of a line
 _MOST_FIELDS = 12
 _MOST_ELEMENTS = 6
 
@@ -20,7 +20,7 @@ _MOST_ELEMENTS = 6
 def narrated(event: Any) -> tuple[int, str] | None:
     """Return the level of an event and what happened, or None for what is told elsewhere (feedback, output)."""
     told = _of_the_program(event) or _of_interfaces(event) or _of_the_grader(event)
-    return (told[0], told[1][:LONGEST]) if told else None
+    return (told[0], told[1][:MAX_CHARACTERS]) if told else None
 
 
 def brief(message: Any) -> str:

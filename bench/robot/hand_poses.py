@@ -26,7 +26,7 @@ from robot_sim.arms.reach import rotation_vector
 from robot_sim.humanoid import Humanoid
 
 DURATION = 2.0  # s, of the motion
-SETTLING = 1.0  # s
+REST_TIME = 1.0  # s
 CLOSE = 0.005, 0.01  # m, rad
 
 
@@ -56,7 +56,7 @@ def run(case: KnownGoal) -> Run:
         return run_of(name, humanoid, clock, "was found, though it is out of reach")
     at_rest = (0.0,) * len(posture.names)
     humanoid.move_joints(JointTrajectory(posture.names, (Waypoint(DURATION, posture.positions, at_rest),)))
-    simulate(humanoid, DURATION + SETTLING)
+    simulate(humanoid, DURATION + REST_TIME)
     hand = humanoid.hands[case.side]
     error = float(np.linalg.norm(hand.pose.position - base - goal.position))
     turn = (

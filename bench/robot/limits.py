@@ -21,7 +21,7 @@ UNITS = {"turning": "rad/s"}
 STEPS = 10  # that are measured
 STEP_TIME = 0.44  # s
 STOPPED = 0.05  # m/s
-WITHIN = 0.1  # of the limit
+MAX_ERROR_RATIO = 0.1  # of the limit
 
 
 def cases(quick: bool) -> list[str]:
@@ -47,7 +47,7 @@ def run(way: str) -> Run:
     humanoid.stop()
     stopped = simulate(humanoid, 3.0, until=lambda: base_speed(humanoid) < STOPPED)
     speed = moved / (STEPS * STEP_TIME)
-    as_advertised = stopped and abs(speed / limit - 1) < WITHIN
+    as_advertised = stopped and abs(speed / limit - 1) < MAX_ERROR_RATIO
     note = "" if as_advertised else f"{speed:.3f} instead of {limit:g}"
     stop = _distance(last, humanoid.base_pose())
     return run_of((way,), humanoid, clock, note, {"speed": speed, "stop_m": stop})

@@ -23,7 +23,7 @@ from robot_sim.views.film import Reel
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 RATE = 12.5  # frames a second
-LONGEST = 60.0  # s, which are about 5 MB in the notebook
+MAX_DURATION = 60.0  # s, which are about 5 MB in the notebook
 
 
 def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: str = "track") -> HTML:
@@ -90,8 +90,8 @@ def film_of_messages(
 
 
 def _frames(seconds: float) -> int:
-    if not 0 < seconds <= LONGEST:
-        raise ValueError(f"the film would last {seconds:g} s; expected more than 0, at most {LONGEST:g}")
+    if not 0 < seconds <= MAX_DURATION:
+        raise ValueError(f"the film would last {seconds:g} s; expected more than 0, at most {MAX_DURATION:g}")
     return max(1, round(seconds * RATE))
 
 

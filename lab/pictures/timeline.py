@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 WIDTH = 6.6  # inches, of the time axis
 BAR, SPACE = 0.16, 0.16  # inches: height of a process, and below it
 LABEL_LENGTH = 48  # characters
-AT_ONCE = 0.05  # s between lines of one burst, of which a long one is cut
+BURST_GAP = 0.05  # s between lines of one burst, of which a long one is cut
 TIME = "s since the first of them began (system clock)"
 
 
@@ -82,7 +82,7 @@ def _flags(life: Life, zero: float) -> list[Mark]:
     """What is written along a life: its lines and, at last, its end."""
     bursts: list[list[Mark]] = []
     for line in life.lines:
-        if bursts and line.time - bursts[-1][-1].time < AT_ONCE:
+        if bursts and line.time - bursts[-1][-1].time < BURST_GAP:
             bursts[-1].append(line)
         else:
             bursts.append([line])

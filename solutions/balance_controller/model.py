@@ -25,7 +25,7 @@ from autograder.authoring import (
 from ros_runtime.message_constants import RobotMode
 
 from . import advice, gains, record
-from .record import SERVICES, TOPIC, WITHIN, Batch, Change, Reading, changes_before, readings
+from .record import PUBLISH_TIME, SERVICES, TOPIC, Batch, Change, Reading, changes_before, readings
 
 NEAR_DEFAULT = 1.0  # the robot's own gains are not whole numbers
 AFTERMATH = 3.0  # s after a push in which a robot falls if it does
@@ -184,7 +184,7 @@ def publishes_them_in_time(batch: Batch) -> str | None:
     right = [event.t for event in since if not _wrong(_gains_in(event), last.after)]
     help, see = advice.about_silence(run, is_late=bool(right), changes_something=last.after != old)
     expect(
-        bool(right) and right[0] <= answered + WITHIN,
+        bool(right) and right[0] <= answered + PUBLISH_TIME,
         expected=f"a message on {TOPIC} within 1 s, because {words}",
         observed=f"it came {right[0] - answered:.1f} s later" if right else "none",
         help=help,

@@ -16,7 +16,7 @@ from .gains import NAMES, Gains, fault_of, in_words
 
 TOPIC = "balance_gains"
 SERVICES = "balance_controller/"  # in front of the names of the node's parameter services
-WITHIN = 1.5  # s from an accepted set to its message; the task says 1 s
+PUBLISH_TIME = 1.5  # s from an accepted set to its message; the task says 1 s
 _FIELDS = {
     ParameterType.PARAMETER_INTEGER: "integer_value",
     ParameterType.PARAMETER_DOUBLE: "double_value",
@@ -121,7 +121,7 @@ def batches(run: Transcript) -> list[Batch]:
     """Return the sets in batches, each of which ends where nothing is set for longer than a message may take."""
     together: list[list[Change]] = []
     for change in changes(run):
-        if not together or change.call.sent.t > together[-1][-1].call.answered.t + WITHIN:
+        if not together or change.call.sent.t > together[-1][-1].call.answered.t + PUBLISH_TIME:
             together.append([])
         together[-1].append(change)
     begins = [*(batch[0].call.sent.t for batch in together), math.inf]

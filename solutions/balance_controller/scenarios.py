@@ -18,7 +18,7 @@ TOPIC = "balance_gains"
 NAMES = ["kp_pitch", "kd_pitch", "kp_roll", "kd_roll", "max_torque"]
 MATCHING = 3.0  # s for the publisher of the gains to be found
 SETTLED = 1.7  # s for what a set causes to arrive; longer than the model lets a message be on its way
-LATE = 10.0  # s for a latched message to arrive
+LATCHED_TIME = 10.0  # s for a latched message to arrive
 STANDING = 1.0  # s of the robot's time with new gains before a push
 AFTERMATH = 4.0  # s of it after a push
 GIVING_UP = 12.0  # s for a program to refuse what it is started with
@@ -53,7 +53,7 @@ def in_order(
     def listen(listener: str) -> None:
         stage.mark(listener)
         late = stage.listen(TOPIC, BalanceGains, latched=True, as_=listener)
-        stage.wait_until(lambda: late.messages, LATE)
+        stage.wait_until(lambda: late.messages, LATCHED_TIME)
 
     def push(*impulse: float) -> None:
         stage.robot.wait(STANDING)

@@ -16,9 +16,9 @@ from autograder.authoring.walking.client_life import (
     FINDING,
     LEAVES_SOON,
     LEAVING,
-    MARGIN,
     NO_SERVER,
-    PATIENCE,
+    ORDER_MARGIN,
+    SILENCE_LIMIT,
     STATUS_HELP,
     SURELY_WAITED,
     Cause,
@@ -33,7 +33,7 @@ NAVIGATE = "navigate_to_pose"
 BATTERY = "battery_state"
 ROBOT = "robot_state"
 LIMIT = 0.20
-AT_ONCE = 1.0  # s
+AT_ONCE_TIME = 1.0  # s
 KNOWN = 1.0  # s after which a client surely knows what was published
 GRACE = 1.0  # s beyond a clause's limit for a request, on a busy machine
 IS_LATCHED = (
@@ -144,7 +144,7 @@ class GuardLife(ClientLife):
         if self.goal is None or self.accepted == inf:
             return
         finished = self.goal.finished.t if self.goal.finished else inf
-        over = min([finished, *(since - MARGIN for since, _, _ in self.silences())])
+        over = min([finished, *(since - ORDER_MARGIN for since, _, _ in self.silences())])
         found = [
             ("battery", self._fell(low), max(low.since, self.accepted), min(low.until, over))
             for low in self.lows
@@ -154,7 +154,7 @@ class GuardLife(ClientLife):
             found.append(("Ctrl-C", "you pressed Ctrl-C", self.interrupted, over))
         found.sort(key=lambda each: each[2])
         for name, because, since, until in found:
-            latest = since + AT_ONCE + GRACE
+            latest = since + AT_ONCE_TIME + GRACE
             in_time = any(since <= cancel.received.t <= latest for cancel in self.goal.cancels)
             is_first = since == found[0][2]
             is_alone = not any(since < other[2] <= latest for other in found)
@@ -189,18 +189,18 @@ class GuardLife(ClientLife):
             ("no percentage", f"no percentage came on {BATTERY}", known, started, _WAIT_FOR_BATTERY),
             ("no server", f"nobody offers {NAVIGATE}", offered, known, _WAIT_FOR_SERVER),
         ):
-            earliest = started + PATIENCE - FINDING
+            earliest = started + SILENCE_LIMIT - FINDING
             if t > earliest:
                 since = since if since < inf else started
-                latest = since + PATIENCE + LEAVES_SOON
-                yield End(NO_SERVER, name, because, started + PATIENCE, earliest, latest, help)
+                latest = since + SILENCE_LIMIT + LEAVES_SOON
+                yield End(NO_SERVER, name, because, started + SILENCE_LIMIT, earliest, latest, help)
 
     def _low_before(self) -> Iterator[End]:
         """Yield the ends of a program that saw a low battery; it may look for the server all the same."""
         started = self.run.first(ev.NodeStarted)
         for low in self.lows:
             since = max(low.since, started.t if started else low.since)
-            found = min(max(self.when(ev.ActionOffered), since), since + 2 * PATIENCE)
+            found = min(max(self.when(ev.ActionOffered), since), since + 2 * SILENCE_LIMIT)
             help = IS_LATCHED if len(self._heard_on(BATTERY)) == 1 else STATUS_HELP
             because = f"the battery was at {low.level:.4g} before the goal was sent"
             yield End(CANCELED, "low before", because, since, since, found + FINDING + LEAVING, help)
@@ -214,12 +214,12 @@ class GuardLife(ClientLife):
         waits_until = inf  # when it surely waits for nothing any more
         if called_off < inf:
             by_keyboard = not self.for_the_battery
-            over = called_off + PATIENCE
-            waits_until = max(over, min(self.stands_from(called_off), over + PATIENCE))
-            earliest = called_off + (SURELY_WAITED if by_keyboard else PATIENCE - MARGIN)
+            over = called_off + SILENCE_LIMIT
+            waits_until = max(over, min(self.stands_from(called_off), over + SILENCE_LIMIT))
+            earliest = called_off + (SURELY_WAITED if by_keyboard else SILENCE_LIMIT - ORDER_MARGIN)
             is_refused = any(cancel.reply and not cancel.reply.canceling for cancel in self.goal.cancels)
             may_go_on = is_refused and not by_keyboard
-            because = f"the goal had not ended {PATIENCE:g} s after the request to cancel it"
+            because = f"the goal had not ended {SILENCE_LIMIT:g} s after the request to cancel it"
             latest = waits_until + LEAVES_SOON
             yield (
                 End(CANCELED, "no CANCELED", because, earliest, earliest, latest, _WAIT_NO_LONGER),
@@ -227,7 +227,7 @@ class GuardLife(ClientLife):
             )
             if may_go_on:
                 waits_until = inf
-        if finished and result < waits_until + MARGIN:
+        if finished and result < waits_until + ORDER_MARGIN:
             yield self._by_its_result(finished.status, called_off < result), True
 
     def _by_its_result(self, status: int, is_called_off: bool) -> End:
@@ -237,10 +237,13 @@ class GuardLife(ClientLife):
         if end.status != CANCELED:
             return end
         stands = self.stands_from(t)
-        name = "no STANDING" if is_called_off and stands > t + PATIENCE else end.name
-        latest = t + PATIENCE + LEAVES_SOON  # so long it may wait for STANDING in any case
+        name = "no STANDING" if is_called_off and stands > t + SILENCE_LIMIT else end.name
+        latest = t + SILENCE_LIMIT + LEAVES_SOON  # so long it may wait for STANDING in any case
         if is_called_off and self.for_the_battery:
-            earliest, latest = min(stands, t + PATIENCE - MARGIN), min(stands + LEAVES_SOON, latest)
+            earliest, latest = (
+                min(stands, t + SILENCE_LIMIT - ORDER_MARGIN),
+                min(stands + LEAVES_SOON, latest),
+            )
             return replace(end, name=name, earliest=earliest, latest=latest)
         return replace(end, name=name, latest=latest)
 

@@ -11,9 +11,9 @@ from autograder.authoring import Call, Transcript, ev, shown_fields, why_nothing
 
 from . import truth
 from .message import TOLERANCE, is_near, whole_numbers
-from .truth import ASKING, COLLECTING, EARLY, FEWEST_SAMPLES, Story, imu_between, status_requests
+from .truth import ASKING, CLOCK_SLACK, COLLECTING, FEWEST_SAMPLES, Story, imu_between, status_requests
 
-AT_ONCE = 0.5  # s for a refusal without looking into anything
+AT_ONCE_TIME = 0.5  # s for a refusal without looking into anything
 GRAVITY = 9.81  # m/s²
 _LIMIT = "Set one limit of 2 s to the wait for get_status, and answer when there is nothing by then."
 _BUSY = "Note that a calibration runs as soon as it is asked for, before any await, and refuse others until its answer."
@@ -67,14 +67,14 @@ def advice_on_failing(call: Call, story: Story, published: int) -> str:
     waited, asked = call.latency, status_requests(call)
     if asked and story.situation == truth.SAYS_NO:
         return f"get_status answered success: false, and your answer was {said}: any answer of it will do."
-    if waited < AT_ONCE:
+    if waited < AT_ONCE_TIME:
         return f"You refused at once ({said}): look again at each request, and forget a calibration however it ends."
     if not asked and call.run.all(ev.ServiceOffered):
         return f"The grader's get_status was never asked ({said}): did the request get as far as call_async?"
     if story.situation == truth.SLOW and waited < COLLECTING:
         after = story.since - call.sent.t
         return f"get_status answered after {after:.1f} s, you after {waited:.1f} s ({said}): wait {ASKING:g} s for it."
-    if ASKING - EARLY <= waited < COLLECTING:
+    if ASKING - CLOCK_SLACK <= waited < COLLECTING:
         return f"get_status had answered, but not to you ({said}): give client and service a ReentrantCallbackGroup."
     if any(FEWEST_SAMPLES <= count <= published for count in whole_numbers(call.response.message)):
         return f"{FEWEST_SAMPLES} samples are enough, and you had more ({said}): some messages of a sensor are lost."

@@ -27,7 +27,7 @@ from . import truth
 from .advice import advice_on_failing, advice_on_vector, published_instead, reasons_to_refuse
 from .heartbeat import require_heartbeat
 from .message import TOLERANCE, decimals, is_near, numbers_in, shown_vector, triples_in, whole_numbers
-from .truth import ASKING, COLLECTING, EARLY, FEWEST_SAMPLES, SERVICE, imu_between, story_of, those
+from .truth import ASKING, CLOCK_SLACK, COLLECTING, FEWEST_SAMPLES, SERVICE, imu_between, story_of, those
 
 DECIMALS = 4
 RATE = 50.0  # Hz, imu
@@ -87,7 +87,7 @@ def _require_success(call: Call, story: truth.Story) -> None:
     )
     took = call.answered.t - story.since
     call.require(
-        COLLECTING - EARLY <= took <= COLLECTING + LATER,
+        COLLECTING - CLOCK_SLACK <= took <= COLLECTING + LATER,
         expected=f"{COLLECTING:g} s of samples, collected after get_status had answered, and the answer within 1 s",
         observed=f"the answer came {took:.1f} s after that of get_status",
         help="Answer when the 3 s are over: wait for time, and not for a number of samples."
@@ -142,7 +142,7 @@ def calibrates_one_at_a_time(run: Transcript) -> str | None:
     ends = sorted(call.answered.t for call in calls(SERVICE)(run) if call.response.success)
     for before, after in pairwise(ends):
         expect(
-            after - before >= COLLECTING - EARLY,
+            after - before >= COLLECTING - CLOCK_SLACK,
             expected=f"{COLLECTING:g} s from the end of one calibration to that of the next: one runs at a time",
             observed=f"two succeeded {after - before:.1f} s apart",
             help="Look whether a calibration runs, and note that one does, before anything else, and before any await.",

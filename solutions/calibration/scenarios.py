@@ -14,7 +14,7 @@ from autograder.arena.stage import Stage
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.recorded_client.service_client import Call
 
-SETTLING = 1.5  # s for a change to be known everywhere; longer than the model lets a message be on its way
+KNOWN_TIME = 1.5  # s for a change to be known everywhere; longer than the model lets a message be on its way
 ANSWERING = 8.0  # s that the longest calibration may take: asking, collecting, and some
 ASKED = 1.0  # s for get_status to be asked; a server that never asks is past that, but not at its end
 LISTENING = 3.0  # s for a first heartbeat, or for a latched message
@@ -39,7 +39,7 @@ def in_order(stage: Stage, steps: Steps, hears_bias: bool = True, interrupt: boo
     robot.set_gyro_bias(BIAS)
     robot.wait_for_commands()
     stage.wait_until(lambda: heartbeat.messages, LISTENING)
-    stage.wait(SETTLING)
+    stage.wait(KNOWN_TIME)
     on_their_way: list[Call] = []
 
     def begin(number: int = 1) -> None:

@@ -14,7 +14,7 @@ from autograder.arena.stage import Stage
 from humanoid_interfaces.srv import ComputeIK
 
 MOVING = 1.0  # s of the robot's time for the arm from one point to the next
-SETTLING = 0.3  # s of it to come to rest
+REST_TIME = 0.3  # s of it to come to rest
 OTHER_ARM_JOINTS = ("shoulder_roll", "shoulder_yaw", "wrist_yaw", "wrist_pitch", "wrist_roll")
 
 Question = Sequence[Any]  # x and y (m); then, if they are other than usual: elbow_up, the frame, z (m)
@@ -83,7 +83,7 @@ def _move_to(stage: Stage, shoulder: float, elbow: float) -> None:
     if not (math.isfinite(shoulder) and math.isfinite(elbow)):
         return
     stage.robot.move_joints(_joint_positions(shoulder, elbow), MOVING)
-    stage.robot.wait(MOVING + SETTLING)
+    stage.robot.wait(MOVING + REST_TIME)
     stage.robot.report_arm("l")
     stage.robot.wait_for_commands()
 

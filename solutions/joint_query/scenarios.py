@@ -11,7 +11,7 @@ from humanoid_interfaces.srv import GetJointPositions
 ON_ITS_WAY = 1.2  # s; longer than the model lets a message be on its way, of which there are 20 a second
 MOTION = 1.0  # s of the robot's time from one posture to the next
 TURN = 3.0  # s of the robot's time for a motion that nobody waits for
-SETTLING = 0.3  # s of it to come to rest
+REST_TIME = 0.3  # s of it to come to rest
 
 
 def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
@@ -24,7 +24,7 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
 
     def move(posture: Mapping[str, float]) -> None:
         stage.robot.move_joints(posture, MOTION)
-        stage.robot.wait(MOTION + SETTLING)
+        stage.robot.wait(MOTION + REST_TIME)
         stage.wait(ON_ITS_WAY)
 
     def let_arrive() -> None:

@@ -12,11 +12,11 @@ from autograder.authoring import Scenario, check_of
 from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
-from .sequences import CHARGED, LONG, Part, cancel, drop, fetch, in_order, levels, preempt, scenario
+from .sequences import CHARGED, LONG_WALK_TIME, Part, cancel, drop, fetch, in_order, levels, preempt, scenario
 
 STOPS = ((True, 0.3), (True, 2.0), (False, 0.0), (None, 0.0))  # agrees, refuses, gives no answer; s
 REFUSES = (False, 0.0)
-EARLY = {"answered_after": 2.0, "takes": LONG}
+EARLY = {"answered_after": 2.0, "takes": LONG_WALK_TIME}
 HOLDING = ("lifting", "moving", "placing", "retreating")
 LEVELS = (math.nan, math.inf, 20.0, -0.3, 1.001, 0.2, 0.2001, 0.5, 0.99)
 

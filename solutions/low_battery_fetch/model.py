@@ -27,7 +27,7 @@ from . import turns
 from .fetching import BATTERY, NAVIGATE, PICK, SILENCE, SLACK, Child, Fetch, children, fetches, objection
 from .turns import Turn, require_turn
 
-AT_ONCE = 1.0 + SLACK  # s from a reason to the request to cancel the child
+CANCEL_TIME = 1.0 + SLACK  # s from a reason to the request to cancel the child
 HEARING = 0.2  # s in which feedback and the battery may overtake each other
 ON_ITS_WAY = 0.5  # s before the end of fetch in which feedback may be overtaken by it
 Sent = tuple[Fetch, Child]
@@ -161,7 +161,7 @@ def stops_with_empty_hands(sent: Sent) -> str | None:
         help=f'create_subscription(BatteryState, "{BATTERY}", …): a relative name, and TRANSIENT_LOCAL.',
         at=low,
     )
-    if not child.is_empty_handed(max(low, began)) or not child.is_empty_handed(max(low, began) + AT_ONCE):
+    if not child.is_empty_handed(max(low, began)) or not child.is_empty_handed(max(low, began) + CANCEL_TIME):
         return None
     return _handed_down(child, low, "the battery is low and nothing is held")
 
@@ -194,7 +194,7 @@ def cancels_the_silent(sent: Sent) -> str | None:
     if silent is None or child.is_dead or child.is_late or child.is_silent_after_a_cancel:
         return None
     because = "nothing was heard of it for 5 s, and a robot that walks for nobody is a danger"
-    return _require_canceled(child, silent - SLACK, because, "", within=SLACK + turns.SOON)
+    return _require_canceled(child, silent - SLACK, because, "", within=SLACK + turns.AT_ONCE_TIME)
 
 
 @obligation(28, of=children)
@@ -248,7 +248,7 @@ def lets_it_finish(sent: Sent) -> str | None:
 
 
 def _require_canceled(
-    child: Child, since: float, because: str, moment: str, *, within: float = AT_ONCE
+    child: Child, since: float, because: str, moment: str, *, within: float = CANCEL_TIME
 ) -> str | None:
     """Require a request to cancel a child soon after a moment (s); return at which moment of its work that was."""
     asked = [each.received.t for each in child.cancels()]
@@ -270,7 +270,7 @@ def _require_canceled(
 
 def _is_for_the_battery(child: Child, low: float, t: float) -> bool:
     """Return whether a request to cancel at a time (s) may have been for a battery that was low by then."""
-    return low <= t and child.is_empty_handed(max(low - HEARING, t - AT_ONCE))
+    return low <= t and child.is_empty_handed(max(low - HEARING, t - CANCEL_TIME))
 
 
 def _is_given_up(child: Child, t: float) -> bool:
@@ -295,7 +295,7 @@ def hands_feedback_on(sent: Sent) -> str | None:
         alike = (f for f in come if f.t >= each.t and not differing_fields(f.feedback, each.feedback))
         match = next(alike, None)
         expect(
-            match is not None and match.t - each.t <= AT_ONCE,
+            match is not None and match.t - each.t <= CANCEL_TIME,
             expected=f"feedback of fetch with stage {shown(each.feedback.stage)}, as pick_and_place published it, "
             "within 1 s",
             observed="none with all its fields" if match is None else f"{match.t - each.t:.1f} s after it",

@@ -19,7 +19,7 @@ from humanoid_interfaces.action import NavigateToPose, PickAndPlace
 NAVIGATE, PICK = "navigate_to_pose", "pick_and_place"
 TYPES = {NAVIGATE: NavigateToPose, PICK: PickAndPlace}
 STAGES = ("approaching", "grasping", "lifting", "moving", "placing", "retreating")
-SETTLING = 1.5  # s for the battery's level, and for the servers, to be known to the node
+KNOWN_TIME = 1.5  # s for the battery's level, and for the servers, to be known to the node
 WHOLE = 25.0  # s for a fetch
 IN_VAIN = 3.0  # s for the others, when one has not ended
 UNDER_WAY = 3  # feedback messages of a walk, or of a stage
@@ -98,7 +98,7 @@ def in_order(
     if battery is not None:
         publish(battery)
     stage.open()
-    stage.wait(SETTLING)
+    stage.wait(KNOWN_TIME)
     carry_out(stage, steps, vocabulary)
 
 

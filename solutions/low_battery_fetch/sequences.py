@@ -10,7 +10,7 @@ from autograder.authoring import Scenario
 
 Steps = list[list[Any]]
 Script = Mapping[str, Any]
-LONG = 4.0  # s of a walk in which something happens
+LONG_WALK_TIME = 4.0  # s of a walk in which something happens
 AT_WORK = 2.6  # s of such a stage
 AFTERWARDS = 1.5  # s after a result in which nothing more may be asked for
 CHARGED = 0.8
@@ -81,7 +81,7 @@ def _children(last: int, at: str, script: Script) -> list[Script]:
     """Return scripts of which the last one has a walk or a stage that is long enough for something to happen in it."""
     return [
         *({} for _ in range(last - 1)),
-        {"stages": {at: AT_WORK}, **script} if at else {"takes": LONG, **script},
+        {"stages": {at: AT_WORK}, **script} if at else {"takes": LONG_WALK_TIME, **script},
     ]
 
 

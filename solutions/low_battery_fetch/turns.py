@@ -46,7 +46,7 @@ from .fetching import (
     is_offered,
 )
 
-SOON = 2.5  # s for what follows at once, and that 5 s may be exceeded by
+AT_ONCE_TIME = 2.5  # s for what follows at once, and that 5 s may be exceeded by
 PLACES = {TABLE: (1.2, 0.0), HOME: (0.0, 0.0), TAKE: (1.45, 0.0, 0.72)}  # m in odom
 PREEMPTED = 6
 # Why a fetch goes on as it must.
@@ -168,9 +168,9 @@ def _plan(fetch: Fetch, after: Child | None, t: float, *reasons: bool) -> Plan |
     if (after is None and low and not stopped) or unclear or (after and after.is_silent_after_a_cancel):
         return None  # no clause says which of two reasons counts
     if stopped:
-        ends = (End(CANCELED, latest=t + SOON), End(ABORTED, code=PREEMPTED, latest=t + SOON))
+        ends = (End(CANCELED, latest=t + AT_ONCE_TIME), End(ABORTED, code=PREEMPTED, latest=t + AT_ONCE_TIME))
         return Plan(IS_CANCELED if canceled else IS_PREEMPTED, ends[not canceled : 1 + preempted])
-    given_up = (End(ABORTED, ("battery",), latest=t + SOON),)
+    given_up = (End(ABORTED, ("battery",), latest=t + AT_ONCE_TIME),)
     if after is None:
         level = fetch.level(fetch.begun)
         if level and not is_low(level):
@@ -180,7 +180,7 @@ def _plan(fetch: Fetch, after: Child | None, t: float, *reasons: bool) -> Plan |
         return failure
     done = after.sent.finished is not None and after.sent.finished.status == SUCCEEDED
     if after.step == PUT and done:
-        return Plan(DONE, (End(SUCCEEDED, latest=t + SOON),))
+        return Plan(DONE, (End(SUCCEEDED, latest=t + AT_ONCE_TIME),))
     if low or not done:
         return Plan(LOW_AT_HOME, given_up) if after.step in (HOME, PUT) else _next(fetch, HOME, LOW_AWAY, t)
     return _next(
@@ -192,7 +192,7 @@ def _next(fetch: Fetch, step: str, why: str, t: float) -> Plan:
     """Return that a step follows, unless its server is not there within 5 s; at first it may look for both."""
     given_up = t + SILENCE
     missing = {
-        action: End(ABORTED, (action,), soonest=given_up - SLACK, latest=given_up + SOON)
+        action: End(ABORTED, (action,), soonest=given_up - SLACK, latest=given_up + AT_ONCE_TIME)
         for action in (NAVIGATE, PICK)
         if not is_offered(fetch.run, action, t, given_up)
     }
@@ -205,17 +205,17 @@ def _failure_of(child: Child, t: float, low: bool) -> Plan | None:
     """Return how a child that failed ends the fetch, None for one that has not."""
     name, end = child.action, child.sent.finished
     if child.is_late:
-        return Plan(UNANSWERED, (End(ABORTED, (name,), soonest=t - SLACK, latest=t + SOON),))
+        return Plan(UNANSWERED, (End(ABORTED, (name,), soonest=t - SLACK, latest=t + AT_ONCE_TIME),))
     if child.rejected:
-        return Plan(FAILED, (End(ABORTED, (name,), latest=t + SOON),))
+        return Plan(FAILED, (End(ABORTED, (name,), latest=t + AT_ONCE_TIME),))
     if child.silent_at is not None:
-        soonest, latest = (0.0, t + 3 * SOON) if child.is_dead else (t - SLACK, t + SOON)
+        soonest, latest = (0.0, t + 3 * AT_ONCE_TIME) if child.is_dead else (t - SLACK, t + AT_ONCE_TIME)
         return Plan(SILENT, (End(ABORTED, (name,), soonest=soonest, latest=latest),))
     if end is None or end.status == SUCCEEDED or (end.status == CANCELED and child.cancels()):
         return None
     said = (end.result.error_msg,) if end.result.error_msg else ()
     code = end.result.error_code if name == PICK and end.status == ABORTED else None
-    aborted = End(ABORTED, (name, *said), code, latest=t + SOON)
+    aborted = End(ABORTED, (name, *said), code, latest=t + AT_ONCE_TIME)
     if low and child.cancels():
         return None if child.step == PUT else Plan(FAILED, (aborted, HOME))
     return Plan(FAILED, (aborted,))

@@ -10,7 +10,7 @@ from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import Stage
 from humanoid_interfaces.msg import RobotState
 
-SETTLING = 1.4  # s for a change to be known everywhere; longer than a message may be on its way
+KNOWN_TIME = 1.4  # s for a change to be known everywhere; longer than a message may be on its way
 APART = 0.2  # s from an answer to the next step, so that it is plain what the robot was like at the answer
 CONFIRMING = 6.0  # s for an answer, also one that waits for the robot to confirm
 
@@ -20,7 +20,7 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
     enable, status = stage.service("enable_motors", SetBool), stage.service("get_status", Trigger)
     robot = stage.robot
     stage.open()
-    stage.wait(SETTLING)
+    stage.wait(KNOWN_TIME)
 
     def send(service: Any, request: Any, number: int) -> list[Any]:
         return [service.send(request) for _ in range(number)]
@@ -32,7 +32,7 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
 
     def settle() -> None:
         robot.wait_for_commands()
-        stage.wait(SETTLING)
+        stage.wait(KNOWN_TIME)
 
     def switch_elsewhere(on: bool) -> None:
         robot.set_motor_power(on)
@@ -41,16 +41,16 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
     def walk(velocity: list[float]) -> None:
         robot.walk(velocity)
         robot.wait_for(lambda state: state.mode == RobotState.WALKING, timeout=5.0)
-        stage.wait(SETTLING)
+        stage.wait(KNOWN_TIME)
 
     def stop() -> None:
         robot.walk([0.0, 0.0, 0.0])
         robot.wait_for(lambda state: state.mode != RobotState.WALKING)
-        stage.wait(SETTLING)
+        stage.wait(KNOWN_TIME)
 
     def knock_over(impulse: list[float]) -> None:
         robot.knock_over(impulse)
-        stage.wait(SETTLING)
+        stage.wait(KNOWN_TIME)
 
     def publish_state(published: bool) -> None:
         robot.publish_robot_state(published)

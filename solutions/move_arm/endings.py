@@ -12,8 +12,8 @@ from .plan import errors, largest
 from .truth import joints_at, plan_of
 
 GOAL_TOLERANCE = 0.05  # rad, where the goal says 0
-PATIENCE = 1.0  # s after the last point in which the arm may still arrive
-NEAR = 0.25  # rad, off a trajectory that the arm follows
+ARRIVAL_TIME = 1.0  # s after the last point in which the arm may still arrive
+FOLLOWING_ERROR = 0.25  # rad, off a trajectory that the arm follows
 _PREEMPTED = (
     "Nobody has sent another goal for this arm. Remember the newest goal of each arm, not one for both: a goal gives "
     "way only to one with the same `arm`."
@@ -70,7 +70,7 @@ def why_given_up(goal: Goal, help: str = "") -> str:
     joint, off = largest(
         errors(joints_at(goal.run, goal.result.t).positions, plan_of(goal).at(goal.result.t))
     )
-    if off <= NEAR:
+    if off <= FOLLOWING_ERROR:
         return (
             f"In the simulator {joint} was the worst joint then, and {off:.2f} rad off its trajectory. Are "
             "joint_states served while execute runs, and is each joint looked up by its name?"
@@ -93,7 +93,7 @@ def _why_missed(goal: Goal, help: str) -> str:
             f"In the simulator {joint} was the worst joint then, {off:.2f} rad from the last point, and goal_tolerance "
             f"is {meant}. Compare with that, joint by joint."
         )
-    if goal.result.t < plan.end + 0.7 * PATIENCE:
+    if goal.result.t < plan.end + 0.7 * ARRIVAL_TIME:
         return (
             f"That came {goal.result.t - plan.end:.1f} s after the last point's time, but a joint has 1 s more to get "
             "there."

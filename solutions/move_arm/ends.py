@@ -8,17 +8,17 @@ from autograder.authoring.walking.obligations.ends import require_preempted
 from autograder.authoring.walking.reports import require_error_code
 
 from . import life
-from .endings import PATIENCE, ErrorCode, require_not_given_up, tolerance_of
+from .endings import ARRIVAL_TIME, ErrorCode, require_not_given_up, tolerance_of
 from .motion import require_moving
 from .plan import errors, largest
 from .truth import joints_at, joints_between, plan_of
 
-EARLY = 0.5  # s that a server may have begun before its answer was seen
+ANSWER_DELAY = 0.5  # s that a server may have begun before its answer was seen
 SOONER = 0.15  # rad less, at which a server may already see that a joint is off
 REACTION = 1.5  # s for the server to say so
 OVERTAKING = 0.3  # s
 QUIET = 0.8  # s without joint_states before which nobody may give up
-NOTICED = 1.5  # s without them after which a server has noticed
+NOTICE_TIME = 1.5  # s without them after which a server has noticed
 GIVEN_UP = 2.0  # s
 _SILENT = "Remember when the last joint_states came, and give up when that is more than 1 s ago."
 _WENT_ON = (
@@ -44,7 +44,7 @@ def succeeds(goal: Goal) -> str | None:
     require_not_given_up(goal, _why_given_up(goal))
     result, plan, tolerance = goal.require_result(SUCCEEDED), plan_of(goal), tolerance_of(goal)
     expect(
-        result.t >= plan.end - EARLY,
+        result.t >= plan.end - ANSWER_DELAY,
         expected="the goal to go on until its last point is due",
         observed=f"it SUCCEEDED {plan.end - result.t:.1f} s before",
         help="The arm may come by its last point on the way. Wait until the last point's time_from_start is over.",
@@ -60,8 +60,8 @@ def succeeds(goal: Goal) -> str | None:
         at=result.t,
     )
     expect(
-        result.t <= plan.end + PATIENCE + REACTION,
-        expected=f"the goal to end within {PATIENCE:g} s of its last point's time",
+        result.t <= plan.end + ARRIVAL_TIME + REACTION,
+        expected=f"the goal to end within {ARRIVAL_TIME:g} s of its last point's time",
         observed=f"it SUCCEEDED {result.t - plan.end:.1f} s after it",
         help=_OTHER_ARM if life.situation(goal).endswith("arm") else _LATE,
         at=result.t,
@@ -85,7 +85,7 @@ def misses(goal: Goal) -> str | None:
         goal, "GOAL_TOLERANCE_VIOLATED", because=f"{hold.joints[-1]} was held short of the last point"
     )
     expect(
-        plan.end - EARLY <= result.t <= plan.end + PATIENCE + REACTION,
+        plan.end - ANSWER_DELAY <= result.t <= plan.end + ARRIVAL_TIME + REACTION,
         expected="the goal to end 1 s after its last point was due",
         observed=f"it ended {result.t - plan.end:+.1f} s after that",
         help="Wait for the last point's time_from_start, then at most 1 s for every joint to be within goal_tolerance.",
@@ -139,7 +139,7 @@ def notices_silence(goal: Goal) -> str | None:
     require_moving(goal, lost)
     result = goal.require_result(ABORTED, help=_SILENT)
     plan, known = plan_of(goal), joints_at(goal.run, lost).positions
-    seems_off = largest(errors(known, plan.at(lost + NOTICED)))[1] >= life.PATH_TOLERANCE - SOONER
+    seems_off = largest(errors(known, plan.at(lost + NOTICE_TIME)))[1] >= life.PATH_TOLERANCE - SOONER
     if not (seems_off and result.result.error_code == ErrorCode.PATH_TOLERANCE_VIOLATED):
         because = "nothing is known of the joints any more"
         require_error_code(goal, "INVALID_JOINTS", because=because, help=_SILENT)
@@ -159,9 +159,9 @@ def grants_cancels(goal: Goal) -> str | None:
     if not asked or any(other.sent.t < asked[0].sent.t + OVERTAKING for other in successors(goal)):
         return None
     first, due = asked[0], plan_of(goal).end
-    if goal.status == SUCCEEDED and first.sent.t > due - EARLY:
+    if goal.status == SUCCEEDED and first.sent.t > due - ANSWER_DELAY:
         return "just before arrival"
-    is_early = first.sent.t < goal.accepted_at + EARLY
+    is_early = first.sent.t < goal.accepted_at + ANSWER_DELAY
     if first.answer and is_early:
         expect(
             goal.name in first.answer.canceling,
@@ -188,9 +188,9 @@ def gives_way(goal: Goal) -> str | None:
         return None
     came = newer[0].sent.t
     canceled = any(cancel.sent.t <= came + OVERTAKING for cancel in granted(goal))
-    if canceled or (goal.status == SUCCEEDED and came > plan_of(goal).end - EARLY):
+    if canceled or (goal.status == SUCCEEDED and came > plan_of(goal).end - ANSWER_DELAY):
         return None
-    if came >= goal.accepted_at + EARLY:
+    if came >= goal.accepted_at + ANSWER_DELAY:
         require_moving(goal, came)
     require_preempted(goal, came, _WENT_ON)
     return f"by {len(newer)} newer"

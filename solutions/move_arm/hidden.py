@@ -16,7 +16,7 @@ from .checks import LATER
 from .ranges import RANGES
 
 RIGHT = ["r_wrist_pitch", "r_elbow", "r_shoulder_roll"]
-SETTLING = 0.5  # s
+REST_TIME = 0.5  # s
 
 
 def _steps(random: Random) -> dict[str, Any]:
@@ -39,9 +39,9 @@ def _steps(random: Random) -> dict[str, Any]:
         *(["be_over", "whole"], ["wait", LATER]),
         ["go", "near enough", "l", checks.SHORT, [[2.5, [0.0, at(-2.1, -1.9)]]], 0.45],
         *(["hold_short", "near enough", 0.35, "l_elbow"], ["arrive", "near enough"]),
-        *(["release", "l_elbow"], ["wait", SETTLING]),
+        *(["release", "l_elbow"], ["wait", REST_TIME]),
         *(["go", "blocked upwards", "l", ["l_elbow"], [[3.0, [-0.3]]]], ["get_going", "l_elbow"]),
-        *(["hold", "l_elbow"], ["end", "blocked upwards"], ["release", "l_elbow"], ["wait", SETTLING]),
+        *(["hold", "l_elbow"], ["end", "blocked upwards"], ["release", "l_elbow"], ["wait", REST_TIME]),
         ["go", "in time", "l", checks.SHORT, [[2.5, [0.0, at(-0.9, -0.7)]]]],
         *(["hold_short", "in time", 0.35, "l_elbow"], ["release_late", "in time", 0.4, "l_elbow"]),
         *(["arrive", "in time"], ["wait", LATER]),
@@ -54,7 +54,7 @@ def _steps(random: Random) -> dict[str, Any]:
             ["right", "r", ["r_wrist_pitch", "r_elbow"], [[2.5, [at(-0.5, 0.5), at(-1.2, -1.0)]]]],
         ],
         *(["get_going", "l_elbow"], ["go", "newer", "l", ["l_elbow"], [[2.0, [at(-0.6, -0.4)]]]]),
-        *(["end", "left"], ["be_over", "right"], ["be_over", "newer"], ["wait", SETTLING]),
+        *(["end", "left"], ["be_over", "right"], ["be_over", "newer"], ["wait", REST_TIME]),
         *_impossible(random),  # when all else is done, so that one that is accepted is in nobody's way
         ["go", "lost", "l", ["l_elbow"], [[6.0, [-1.7]]]],
         *(["get_going", "l_elbow"], ["unplug_joint_states"], ["end", "lost"], ["wait", LATER]),

@@ -18,7 +18,7 @@ from autograder.authoring.walking.life import (
     successors,
 )
 
-from .endings import PATIENCE, tolerance_of
+from .endings import ARRIVAL_TIME, tolerance_of
 from .objections import is_sound
 from .plan import errors, largest
 from .truth import joints_at, plan_of
@@ -26,7 +26,7 @@ from .truth import joints_at, plan_of
 PATH_TOLERANCE = 0.5  # rad
 NEARLY = 0.1  # rad less, from which on nobody can tell whether a joint is off its trajectory
 MEASURED = 0.02  # rad more, for what joint_states were when the server looked
-IN_TIME = 0.6 * PATIENCE  # s after the last point in which a joint that is let go surely arrives
+IN_TIME = 0.6 * ARRIVAL_TIME  # s after the last point in which a joint that is let go surely arrives
 ROUND = 0.05  # s, the period of joint_states
 
 
@@ -85,7 +85,7 @@ def ends_by_itself(goal: Goal) -> bool:
 
 def hold_of(goal: Goal) -> Hold | None:
     """Return what the scenario held of an accepted goal's joints until its last point's second was over."""
-    over = plan_of(goal).end + PATIENCE
+    over = plan_of(goal).end + ARRIVAL_TIME
     joints: list[str] = []
     since, until = math.inf, math.inf
     for each in goal.run.all(ev.RobotCommanded):

@@ -29,7 +29,7 @@ FEW = 4  # reports of the simulator, of which each so many'th is looked at; ther
 ERROR_SLACK = 0.1  # rad
 PROGRESS_SLACK = 15.0  # percent
 ROUNDING = 0.01  # percent
-LONG = 1.5  # s; a goal of less tells little about its feedback
+MIN_DURATION = 1.5  # s; a goal of less tells little about its feedback
 ALIKE = 0.1  # rad by which errors differ so little that either joint may be named
 _TO_BLAME = (ErrorCode.PATH_TOLERANCE_VIOLATED, ErrorCode.GOAL_TOLERANCE_VIOLATED)
 _NAME_THE_WORST = "Name the one joint with the largest error: max(errors, key=errors.get)."
@@ -106,7 +106,7 @@ def _has_time_for_feedback(goal: Goal) -> bool:
     """Return whether an accepted goal lasted, and was not cut short before there was much to report."""
     if not is_carried_out(goal) or left_alone(goal) or interrupted(goal):
         return False
-    return ends_by_itself(goal) or ended_at(goal) >= goal.accepted_at + LONG
+    return ends_by_itself(goal) or ended_at(goal) >= goal.accepted_at + MIN_DURATION
 
 
 def _require_true_point(plan: Plan, event: ev.FeedbackReceived) -> None:

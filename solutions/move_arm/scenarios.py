@@ -14,10 +14,10 @@ from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import Goal, Stage
 from humanoid_interfaces.action import MoveArm
 
-SETTLING = 1.0  # s for joint_states and joint_limits to arrive
-SOON = 8.0  # s for the end of a goal that was cancelled, blocked or replaced
+ROBOT_TOPICS_TIME = 1.0  # s for joint_states and joint_limits to arrive
+END_TIMEOUT = 8.0  # s for the end of a goal that was cancelled, blocked or replaced
 UNDER_WAY = 0.3  # rad that a joint has turned by when something happens to it
-STARTING = 5.0  # s for a joint to get under way
+MOTION_TIMEOUT = 5.0  # s for a joint to get under way
 JOINTS = [
     f"{side}_{joint}"
     for side in "lr"
@@ -45,7 +45,7 @@ def in_order(stage: Stage, steps: Steps, watched: bool = True) -> None:
     if watched:
         stage.robot.report_joints(JOINTS)
         stage.robot.wait_for_commands()
-    stage.wait(SETTLING)
+    stage.wait(ROBOT_TOPICS_TIME)
     carry_out(stage, steps, arms.vocabulary())
 
 
@@ -63,7 +63,7 @@ class _Arms:
             "go": self.go,
             "go_together": self.go_together,
             "arrive": lambda name: self._goals[name].wait_for_result(),
-            "end": lambda name: self._goals[name].wait_for_result(SOON),
+            "end": lambda name: self._goals[name].wait_for_result(END_TIMEOUT),
             "be_over": self.be_over,
             "cancel": lambda name: self._goals[name].cancel().wait(),
             "get_going": self.get_going,
@@ -122,7 +122,7 @@ class _Arms:
             seen.append(angle)
             return abs(angle - seen[0]) > UNDER_WAY
 
-        self._stage.robot.wait_for_joint(joint, has_turned, STARTING)
+        self._stage.robot.wait_for_joint(joint, has_turned, MOTION_TIMEOUT)
 
     def hold(self, *joints: str) -> None:
         """Hold joints where they are."""
@@ -133,7 +133,7 @@ class _Arms:
         """Hold joints when the last of them is `by` rad before the end of a goal."""
         trajectory = self._trajectories[name]
         end = trajectory.points[-1].positions[trajectory.joint_names.index(joints[-1])]
-        self._stage.robot.wait_for_joint(joints[-1], lambda angle: abs(angle - end) < by, STARTING)
+        self._stage.robot.wait_for_joint(joints[-1], lambda angle: abs(angle - end) < by, MOTION_TIMEOUT)
         self.hold(*joints)
 
     def release(self, *joints: str) -> None:
@@ -151,4 +151,4 @@ class _Arms:
         """Let joint_states list the joints in another order."""
         self._stage.robot.reverse_joint_states()
         self._stage.robot.wait_for_commands()
-        self._stage.wait(SETTLING)
+        self._stage.wait(ROBOT_TOPICS_TIME)

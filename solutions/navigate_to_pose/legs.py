@@ -12,7 +12,7 @@ from autograder.authoring.walking.planar import error, target
 from ros_runtime.angles import wrap
 
 ON_THE_WAY = 0.3  # m left, at least, where the robot is under way
-LONG = 1.0  # m; a shorter leg has no middle in which the robot only walks
+MIN_LEG = 1.0  # m; a shorter leg has no middle in which the robot only walks
 OFF_ITS_WAY = 0.6  # rad between heading and goal: more than the task's 0.5, so that nobody may overlook it
 
 
@@ -31,7 +31,7 @@ class Leg:
             not life.is_undisturbed(goal)
             or life.left_alone(goal)
             or operated(goal)
-            or life.way_to(goal) < LONG
+            or life.way_to(goal) < MIN_LEG
         ):
             return None
         end = goal.require_result(SUCCEEDED).t

@@ -13,9 +13,12 @@ from .legs import Leg, at_moment, operated, told, under_way
 
 TIME_SLACK = 1.0  # s that a reported time may be off: feedback's period and delivery
 FACTOR = 2.0
-EARLY, LATE = 1.5, 4.0  # s a TIMEOUT may come too early, and too late: the robot has to stand first
+TIMEOUT_EARLY, TIMEOUT_LATE = (
+    1.5,
+    4.0,
+)  # s a TIMEOUT may come too early, and too late: the robot has to stand first
 HERE = 0.05  # m or rad that the present pose may be off
-AT_ONCE = 4.0  # s
+HERE_TIME = 4.0  # s
 STAYED = 0.10  # m the pelvis may move while the robot only stands
 
 
@@ -76,7 +79,9 @@ def gives_up_in_time(goal: Goal) -> str | None:
     limit = 30.0 + 15.0 * error(goal.run.robot_at(start), goal)[0]
     given_up = goal.run.given_up("result", goal.name)
     lasted = (result.t if result else given_up.t if given_up else goal.run.end) - start
-    if not _timed_out(goal) and lasted < limit + (LATE if goal.status == SUCCEEDED else -EARLY):
+    if not _timed_out(goal) and lasted < limit + (
+        TIMEOUT_LATE if goal.status == SUCCEEDED else -TIMEOUT_EARLY
+    ):
         return None
     end = goal.require_result(
         ABORTED,
@@ -84,7 +89,7 @@ def gives_up_in_time(goal: Goal) -> str | None:
     )
     require_error_code(goal, "TIMEOUT", because="the time is over")
     expect(
-        limit - EARLY <= lasted <= limit + LATE,
+        limit - TIMEOUT_EARLY <= lasted <= limit + TIMEOUT_LATE,
         expected=f"TIMEOUT {limit:.0f} s after acceptance, 30 s and 15 s per metre that was to go then",
         observed=f"it came after {lasted:.1f} s",
         help="Compute the limit once, from the distance at acceptance, and count from acceptance.",
@@ -111,8 +116,8 @@ def succeeds_where_it_stands(goal: Goal) -> str | None:
     end = goal.require_result(SUCCEEDED)
     took = end.t - goal.accepted_at
     expect(
-        took <= AT_ONCE,
-        expected=f"success within {AT_ONCE:.0f} s: the robot is there already",
+        took <= HERE_TIME,
+        expected=f"success within {HERE_TIME:.0f} s: the robot is there already",
         observed=f"it came after {took:.1f} s",
         help="Look whether the robot is there before you look where to turn: at distance 0 the bearing means nothing.",
         at=end.t,

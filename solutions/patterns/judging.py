@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from autograder.authoring import Failure, Transcript, expect, require_success
 
-WITHIN = 20.0  # s for printing twelve lines
+PRINT_TIMEOUT = 20.0  # s for printing twelve lines
 PATTERNS = ("topic", "service", "action")
 REASONS = "abc"
 SITUATIONS = range(1, 13)
@@ -68,7 +68,7 @@ def require_answers(run: Transcript) -> None:
 
 def _answers(run: Transcript) -> dict[int, tuple[str, str]]:
     """Return pattern and reason by the number of the situation; the last line for a situation counts."""
-    require_success(run, WITHIN)
+    require_success(run, PRINT_TIMEOUT)
     found = [match for line in run.output("stdout").splitlines() if (match := _LINE.fullmatch(line))]
     return {int(match[1]): (match[2].lower(), match[3].lower()) for match in found}
 

@@ -14,7 +14,7 @@ from .truth import carried, reports, taken_from
 HIGH = 0.05  # m
 BAND = 0.30  # of the force that was asked for
 GLITCHES = 0.02  # of the samples
-ENOUGH = 5  # samples
+MIN_SAMPLES = 5  # samples
 GENTLE, FIRM = 7.0, 12.0  # N
 
 
@@ -44,13 +44,13 @@ def keeps_the_force_asked_for(goal: Goal) -> str | None:
     held = carried(goal, until)
     if goal.status == SUCCEEDED:
         expect(
-            len(held) >= ENOUGH,
+            len(held) >= MIN_SAMPLES,
             expected="the cup off the table for a while",
             observed="it never was",
             help="Close the hand around the cup and lift it.",
             at=until,
         )
-    if len(held) < ENOUGH:
+    if len(held) < MIN_SAMPLES:
         return None
     wanted = goal.request.grasp_force
     low, high = wanted * (1 - BAND), min(MOST_FORCE, wanted * (1 + BAND))

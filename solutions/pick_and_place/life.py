@@ -13,7 +13,7 @@ from .truth import carried, cup_at, place_of, taken_from
 
 CUP = "cup"  # the object on the table
 SHOULDER = (0.0, -0.17)  # m in odom
-NEAR, FAR = 0.45, 0.65  # m from the shoulder: surely within reach, surely beyond it
+SURE_REACH, NO_REACH = 0.45, 0.65  # m from the shoulder: surely within reach, surely beyond it
 HUNG = 0.3  # s that the last look at the cup may be old
 HOLDING = 1.0  # N
 
@@ -38,7 +38,7 @@ def is_for_the_cup(goal: Goal) -> bool:
 def is_far(goal: Goal) -> bool | None:
     """Return whether the cup or its place is out of reach; None: nobody can tell."""
     away = [math.dist(place[:2], SHOULDER) for place in (taken_from(goal), place_of(goal))]
-    return True if max(away) > FAR else None if max(away) > NEAR else False
+    return True if max(away) > NO_REACH else None if max(away) > SURE_REACH else False
 
 
 def rivals(goal: Goal) -> list[Goal]:

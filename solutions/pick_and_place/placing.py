@@ -14,7 +14,7 @@ from .endings import require_succeeded
 from .life import commanded, ends_by_itself, is_for_the_cup, is_possible, robbed_at, watched_until
 from .truth import LIFTED, as_tuple, carried, cup_at, grip_at, grips, place_of, reports, taken_from
 
-LONGEST, SLACK = 60.0, 1.0  # s
+GOAL_TIMEOUT, TIMEOUT_SLACK = 60.0, 1.0  # s
 PLACED = 0.03  # m
 HEIGHT = 0.02  # m above or below
 UPRIGHT = 0.98
@@ -35,8 +35,8 @@ def places(goal: Goal) -> str | None:
     require_standing(goal, place_of(goal), "place_pose", lambda: _advice_on_the_place(goal, result.t))
     took = result.t - goal.accepted_at
     expect(
-        took <= LONGEST + SLACK,
-        expected=f"a goal of at most {LONGEST:.0f} s",
+        took <= GOAL_TIMEOUT + TIMEOUT_SLACK,
+        expected=f"a goal of at most {GOAL_TIMEOUT:.0f} s",
         observed=f"it took {took:.0f} s",
         help="Move the hand at 0.1 to 0.2 m/s, and wait for what is measured instead of a fixed time.",
         at=result.t,

@@ -22,13 +22,13 @@ from ros_runtime.message_constants import GoalStatus, name_of
 from .life import canceled_at, commanded, is_for_the_cup, robbed_at
 from .truth import Grip, around, as_tuple, grips, taken_from
 
-LONG = 3.0  # s; a goal of less tells little about its feedback
+MIN_DURATION = 3.0  # s; a goal of less tells little about its feedback
 AGE = 0.7  # s that what feedback tells may be old
 AHEAD = 0.3  # s that a stage may be named before it begins
 PLACE_SLACK = 0.04  # m
 FORCE_SLACK = 2.0  # N
 ROUNDING = 0.01  # percent
-MUCH = 50.0  # percent, that are done at the last feedback at least
+MIN_LAST_PERCENT = 50.0  # percent, that are done at the last feedback at least
 FELT = 1.0  # N
 ABOVE = 0.03  # m
 
@@ -138,7 +138,7 @@ def _is_worth_telling(goal: Goal) -> bool:
         or commanded(goal, "push")
     ):
         return False
-    if ended_at(goal) < goal.accepted_at + LONG:
+    if ended_at(goal) < goal.accepted_at + MIN_DURATION:
         return False
     require_feedback(goal)
     end_of_feedback(goal)
@@ -207,8 +207,8 @@ def percentage_never_falls(goal: Goal) -> str | None:
         return _how_it_ended(goal)
     last_t, last = said[-1]
     expect(
-        last >= MUCH,
-        expected=f"percent_complete of more than {MUCH:.0f} while the hand retreats",
+        last >= MIN_LAST_PERCENT,
+        expected=f"percent_complete of more than {MIN_LAST_PERCENT:.0f} while the hand retreats",
         observed=f"{last:.1f}",
         help="It is a percentage, 0 to 100, of the whole task.",
         at=last_t,

@@ -25,14 +25,14 @@ from .life import (
     successor,
     was_carried,
 )
-from .placing import OPENED, SLACK, require_standing, require_withdrawn
+from .placing import OPENED, TIMEOUT_SLACK, require_standing, require_withdrawn
 from .truth import grip_at, grips, place_of, reports, taken_from
 
 FELL_OVER = 0.8
 MOVED = 0.05  # rad
 OPENED_BY = 0.01  # m
 BEGINNING, LATE = 0.8, 4.0  # s without a pose after which an object may be, and must be, unknown
-PATIENCE = 20.0  # s for a hand that does not arrive
+GRASP_TIMEOUT = 20.0  # s for a hand that does not arrive
 CLOSE = 0.2  # m
 BEFORE = 0.1  # s
 ALIKE = 0.03  # m by which two places may be taken for equally near
@@ -173,8 +173,8 @@ def gives_up_in_time(goal: Goal) -> str | None:
         help="Something waits without a limit for the hand to arrive. Give each stage a time in which it must be over.",
     )
     expect(
-        result.t - held <= PATIENCE + SLACK,
-        expected=f"the goal ABORTED within {PATIENCE:.0f} s",
+        result.t - held <= GRASP_TIMEOUT + TIMEOUT_SLACK,
+        expected=f"the goal ABORTED within {GRASP_TIMEOUT:.0f} s",
         observed=f"it was after {result.t - held:.0f} s",
         help="Give each stage a few seconds more than its trajectory takes.",
         at=result.t,

@@ -15,10 +15,12 @@ from humanoid_interfaces.action import PickAndPlace
 Place = Sequence[float]  # x, y m in odom; the height is that of a cup on the table
 Condition = Callable[[ev.HandTruth, ev.ObjectTruth], bool]
 
-SETTLING = 1.0  # s for the robot's topics to arrive, and for a moved cup to stand
-WHOLE = 60.0  # s for a goal
-SOON = 15.0  # s for a goal that something has ended, and for every one when another was waited for in vain
-STARTING = 40.0  # s until the hand has come somewhere
+ROBOT_TOPICS_TIME = 1.0  # s for the robot's topics to arrive, and for a moved cup to stand
+RESULT_TIMEOUT = 60.0  # s for a goal
+END_TIMEOUT = (
+    15.0  # s for a goal that something has ended, and for every one when another was waited for in vain
+)
+HAND_TIMEOUT = 40.0  # s until the hand has come somewhere
 ON_THE_TABLE = 0.755  # m, the height of the cup's centre
 ASIDE = (0.50, 0.30, ON_THE_TABLE)  # m, out of the right hand's way
 OPEN = 0.08  # m between the pads; narrower is closing around a cup of 6 cm
@@ -46,7 +48,7 @@ def in_order(stage: Stage, steps: Steps, watched: Sequence[str] = ("hand",)) -> 
     if "joints" in watched:
         stage.robot.report_joints(JOINTS)
     stage.robot.wait_for_commands()
-    stage.wait(SETTLING)
+    stage.wait(ROBOT_TOPICS_TIME)
     carry_out(stage, steps, table.vocabulary())
 
 
@@ -65,7 +67,7 @@ class _Table:
         return {
             "go": self.go,
             "arrive": self.arrive,
-            "end": lambda name: self._goals[name].wait_for_result(SOON),
+            "end": lambda name: self._goals[name].wait_for_result(END_TIMEOUT),
             "cancel": lambda name: self._goals[name].cancel().wait(),
             "wait_until": self.wait_until,
             "take_when": self.take_when,
@@ -92,13 +94,17 @@ class _Table:
     def arrive(self, name: str) -> None:
         """Wait for the end of a goal: so long as it may take, unless another has kept the scenario waiting in vain."""
         goal = self._goals[name]
-        if goal.accepted and not goal.wait_for_result(SOON if self._waited_in_vain else WHOLE):
+        if goal.accepted and not goal.wait_for_result(
+            END_TIMEOUT if self._waited_in_vain else RESULT_TIMEOUT
+        ):
             self._waited_in_vain = True
 
     def wait_until(self, what: str, name: str = "", way: float = 0.0) -> bool:
         """Wait until the hand has come so far; 'carried': with the cup, so much (0..1) of a goal's way."""
         condition = self._carried(name, way) if what == "carried" else _CONDITIONS[what]
-        has_come = self._stage.robot.wait_for_hand(condition, SOON if self._waited_in_vain else STARTING)
+        has_come = self._stage.robot.wait_for_hand(
+            condition, END_TIMEOUT if self._waited_in_vain else HAND_TIMEOUT
+        )
         self._waited_in_vain = self._waited_in_vain or not has_come
         return True
 
@@ -113,7 +119,7 @@ class _Table:
         """Put the cup somewhere (m in odom) on the table."""
         self._stage.robot.move_object("cup", (x, y, ON_THE_TABLE))
         self._stage.robot.wait_for_commands()
-        self._stage.wait(SETTLING)
+        self._stage.wait(ROBOT_TOPICS_TIME)
 
     def _carried(self, name: str, way: float) -> Condition:
         """Return when the cup has been lifted, and carried so much of the way that there is from here."""

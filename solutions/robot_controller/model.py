@@ -18,12 +18,12 @@ from autograder.authoring import (
 
 from .advice import SOONEST, gave_up_at, how_to_print_one, why_it_failed, why_not_one
 from .truth import (
+    ANSWER_MARGIN,
+    ANSWER_TIMEOUT,
     ENABLE,
-    MARGIN,
-    PATIENCE,
     REFUSED,
     STATUS,
-    WITHIN,
+    WHOLE_DEADLINE,
     Asked,
     asked,
     died,
@@ -47,7 +47,7 @@ REFUSING = "03b_clients_in_bad_company#success-why"  # the lesson
 @obligation(3, 4, 6, 8, 9, 12, of=whole_run)
 def ends_as_it_went(run: Transcript) -> str:
     """It ends with status 0 if both services answered, and with 1 if one was missing, silent or refused"""
-    exited, ends = require_end(run, WITHIN), expected_ends(run)
+    exited, ends = require_end(run, WHOLE_DEADLINE), expected_ends(run)
     allowed = [0] * ends.may_succeed + [1] * ends.may_fail
     if exited.returncode not in allowed:
         if allowed == [0]:
@@ -72,10 +72,10 @@ def ends_as_it_went(run: Transcript) -> str:
 @obligation(10, of=whole_run)
 def says_why_it_fails(run: Transcript) -> str | None:
     """Before it ends with status 1 it says why on stderr, without a traceback, and prints no status"""
-    exited, ends = require_end(run, WITHIN), expected_ends(run)
+    exited, ends = require_end(run, WHOLE_DEADLINE), expected_ends(run)
     if not ends.may_fail or (exited.returncode == 0 and ends.may_succeed):
         return None
-    require_failure(run, WITHIN, (1,), ends.why)
+    require_failure(run, WHOLE_DEADLINE, (1,), ends.why)
     printed = _status_lines(run)
     expect(
         not printed,
@@ -90,14 +90,14 @@ def says_why_it_fails(run: Transcript) -> str | None:
 @obligation(11, of=whole_run)
 def keeps_one_deadline(run: Transcript) -> str | None:
     """It gives up within 10 s in all, counted from the start of its node"""
-    exited = require_end(run, WITHIN)
+    exited = require_end(run, WHOLE_DEADLINE)
     if exited.returncode == 0:
         return "it succeeds"
     took = gave_up_at(run, exited) - started_at(run)
     when = " and ".join(f"{each.t - started_at(run):.1f} s" for each in asked(run, STATUS))
     expect(
-        took <= WITHIN + DEADLINE_SLACK,
-        expected=f"it to give up within {WITHIN:g} s in all, however late the servers are",
+        took <= WHOLE_DEADLINE + DEADLINE_SLACK,
+        expected=f"it to give up within {WHOLE_DEADLINE:g} s in all, however late the servers are",
         observed=f"it gave up after {took:.1f} s; get_status was asked at {when or 'no time'}",
         help="Set one deadline at the start, time.monotonic() + 10.0, and give each wait at most what is left of it.",
         at=gave_up_at(run, exited),
@@ -108,7 +108,7 @@ def keeps_one_deadline(run: Transcript) -> str | None:
 @obligation(4, of=whole_run)
 def looks_for_two_seconds(run: Transcript) -> str | None:
     """A server that is not there is looked for for 2 s, from the start on or when it is needed"""
-    exited = require_end(run, WITHIN)
+    exited = require_end(run, WHOLE_DEADLINE)
     missing = [service for service in (ENABLE, STATUS) if not offered(run, service)]
     if not missing or exited.returncode == 0:
         return None
@@ -116,8 +116,8 @@ def looks_for_two_seconds(run: Transcript) -> str | None:
     gave_up = gave_up_at(run, exited)
     least, most = gave_up - started_at(run), gave_up - max([started_at(run), *enabled[:1]])
     expect(
-        least >= SOONEST and most <= PATIENCE * len(missing) + SEARCH_SLACK,
-        expected=f"{' and '.join(missing)} to be looked for for {PATIENCE:g} s"
+        least >= SOONEST and most <= ANSWER_TIMEOUT * len(missing) + SEARCH_SLACK,
+        expected=f"{' and '.join(missing)} to be looked for for {ANSWER_TIMEOUT:g} s"
         + " each" * (len(missing) > 1),
         observed=f"it gave up {most:.1f} s after {'enable_motors had answered' if enabled else 'its start'}",
         help="A server that has not appeared after 2 s is missing: give wait_for_service timeout_sec=2.0.",
@@ -173,7 +173,7 @@ def _never_asked(run: Transcript, service: str) -> str | None:
         late = any(is_missing(run, each) is None for each in (ENABLE, STATUS))
         return "a server came late, and was not asked" if late else None
     after = " after enable_motors was answered" if service == STATUS else ""
-    exited = require_end(run, WITHIN)
+    exited = require_end(run, WHOLE_DEADLINE)
     observed, help = why_it_failed(run, exited)
     raise Failure(expected=f"a request to {service}{after}", observed=observed, help=help, at=exited.t)
 
@@ -195,7 +195,7 @@ def _repeats(service: str, run: Transcript) -> str | None:
         return _require_no_second(run, service, first, expected)
     second = sent[1]
     pause = second.t - first.t
-    answered = next((reply for reply in first.replies if reply.t < second.t - MARGIN), None)
+    answered = next((reply for reply in first.replies if reply.t < second.t - ANSWER_MARGIN), None)
     if answered and first.is_answered:
         raise Failure(
             expected=f"1 request to {service}, which was answered",
@@ -223,11 +223,13 @@ def _require_no_second(run: Transcript, service: str, first: Asked, expected: st
     """Judge a service that was asked once: it answered, or died, or the time was over."""
     if first.is_answered:
         return "answered at once"
-    exited = require_end(run, WITHIN)
-    late = first.replies and (exited.returncode == 0 or first.replies[0].t <= first.t + PATIENCE + MARGIN)
-    if late or is_gone(run, service, first.t + PATIENCE - MARGIN):
+    exited = require_end(run, WHOLE_DEADLINE)
+    late = first.replies and (
+        exited.returncode == 0 or first.replies[0].t <= first.t + ANSWER_TIMEOUT + ANSWER_MARGIN
+    )
+    if late or is_gone(run, service, first.t + ANSWER_TIMEOUT - ANSWER_MARGIN):
         return "its server died, or answered late"
-    if first.t + PATIENCE > started_at(run) + WITHIN - 1.0:
+    if first.t + ANSWER_TIMEOUT > started_at(run) + WHOLE_DEADLINE - 1.0:
         return "the deadline came first"
     told = _status_lines(run)
     if exited.returncode == 0 and told:
@@ -250,13 +252,13 @@ def _require_no_second(run: Transcript, service: str, first: Asked, expected: st
 
 def _require_patience(run: Transcript, service: str, last: Asked) -> None:
     """Require that the second request got its 2 s, or what was left of the 10 s."""
-    exited = require_end(run, WITHIN)
+    exited = require_end(run, WHOLE_DEADLINE)
     if exited.returncode == 0 or is_gone(run, service, exited.t):
         return  # a late answer to the first was used, or nobody was left
     waited = gave_up_at(run, exited) - last.t
-    left = started_at(run) + WITHIN - last.t
+    left = started_at(run) + WHOLE_DEADLINE - last.t
     expect(
-        waited >= min(SOONEST, left - MARGIN),
+        waited >= min(SOONEST, left - ANSWER_MARGIN),
         expected=f"2 s for the answer to the second request to {service}",
         observed=f"it gave up {waited:.1f} s after it",
         help="An answer may take 2 s, each time: wait with timeout_sec=2.0.",
@@ -302,7 +304,7 @@ def _status_lines(run: Transcript) -> list[str]:
 
 def _require_one(run: Transcript, told: Sequence[str], expected: str) -> str | None:
     """Require that one status was told where one has to be, and that it is the message of get_status."""
-    exited, ends = require_end(run, WITHIN), expected_ends(run)
+    exited, ends = require_end(run, WHOLE_DEADLINE), expected_ends(run)
     if not ends.may_succeed or (exited.returncode != 0 and ends.may_fail):
         return None
     expect(
@@ -331,7 +333,7 @@ def _require_one(run: Transcript, told: Sequence[str], expected: str) -> str | N
 @obligation(13, of=whole_run)
 def asks_here(run: Transcript) -> str:
     """It asks the robot in whose namespace it is started"""
-    require_end(run, WITHIN)
+    require_end(run, WHOLE_DEADLINE)
     if not run.requests(ENABLE):
         expected = f"a request to {ENABLE} in the namespace in which the program was started"
         raise Missing(run, expected=expected, never="none came")

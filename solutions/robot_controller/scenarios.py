@@ -13,7 +13,7 @@ from autograder.arena.scripted_service import SILENCE, Reply, ScriptedService
 
 END_OF_A_CALL = 5.0  # s from the first request, for a second one
 TICK = 0.03  # s
-LONGEST = 25.0  # s
+RUN_TIMEOUT = 25.0  # s
 TYPES = {"SetBool": SetBool, "Trigger": Trigger}
 
 # What is known of one service: None, or some of
@@ -66,7 +66,7 @@ def servers(stage: ClientStage, enable: Script | None = None, status: Script | N
     plays = [Play(stage, name, type_name, script) for name, type_name, script in wanted if script is not None]
     stage.start_program()
     started = time.monotonic()
-    while not stage.has_ended() and (t := time.monotonic() - started) < LONGEST:
+    while not stage.has_ended() and (t := time.monotonic() - started) < RUN_TIMEOUT:
         for play in plays:
             play.go_on(t)
         stage.wait_until(stage.has_ended, TICK)

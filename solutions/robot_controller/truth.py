@@ -10,9 +10,9 @@ from autograder.authoring import Request, Transcript, ev, started_at
 ENABLE, STATUS = "enable_motors", "get_status"
 TYPES = {ENABLE: "std_srvs/srv/SetBool", STATUS: "std_srvs/srv/Trigger"}
 SCRIPTS = {ENABLE: "enable", STATUS: "status"}  # the inputs of a scenario that say what a service does
-WITHIN = 10.0  # s for everything
-PATIENCE = 2.0  # s for an answer, or for a server to appear
-MARGIN = 0.4  # s by which an answer has to be early, or late, to count as such
+WHOLE_DEADLINE = 10.0  # s for everything
+ANSWER_TIMEOUT = 2.0  # s for an answer, or for a server to appear
+ANSWER_MARGIN = 0.4  # s by which an answer has to be early, or late, to count as such
 SURELY_FOUND = 1.7  # s after the node in which a server has appeared in time
 REFUSED = "enable_motors answered success: false"
 SAME = 0.3  # s within which two servers of one name get one request
@@ -37,7 +37,7 @@ class Asked:
     @property
     def is_answered(self) -> bool:
         """Whether an answer certainly came in time."""
-        return any(reply.t <= self.t + PATIENCE - MARGIN for reply in self.replies)
+        return any(reply.t <= self.t + ANSWER_TIMEOUT - ANSWER_MARGIN for reply in self.replies)
 
 
 @dataclass(frozen=True)
@@ -118,7 +118,7 @@ def expected_ends(run: Transcript) -> Ends:
             if not any(response.success for response in responses):
                 return Ends(False, True, why)
     last = [reply.t for each in asked(run, STATUS) for reply in each.replies]
-    may_fail |= bool(responses) and max(last) > started_at(run) + WITHIN - MARGIN
+    may_fail |= bool(responses) and max(last) > started_at(run) + WHOLE_DEADLINE - ANSWER_MARGIN
     return Ends(True, may_fail, why, tuple(response.message for response in responses))
 
 
@@ -128,6 +128,6 @@ def _answers(run: Transcript, service: str) -> tuple[set[bool], list[Any]]:
     replies = [reply for each in sent for reply in each.replies]
     for each in sent:
         if each.is_answered:
-            soon = each.replies[0].t + MARGIN
+            soon = each.replies[0].t + ANSWER_MARGIN
             return {True}, [reply.response for reply in replies if reply.t <= soon] or [replies[0].response]
     return {False} | ({True} if replies else set()), [reply.response for reply in replies]

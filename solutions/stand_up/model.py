@@ -64,19 +64,19 @@ from .truth import (
 
 SHIFTING, RISING, SETTLING = PHASES = ("shifting", "rising", "settling")
 ON_ITS_WAY = 1.0  # s for messages of the robot to arrive
-AT_ONCE = 2.5  # s; the task says 2 s
+AT_ONCE_TIME = 2.5  # s; the task says 2 s
 SETTLED = 0.40, 0.10  # s before the result, from when to when it must have been settled; 0.5 s are asked for
 LEANED = 0.5  # s that loads have to be uneven to be judged
-NOTICED = 0.2  # s of uneven loads that a server sees before it succeeds
+NOTICE_TIME = 0.2  # s of uneven loads that a server sees before it succeeds
 EVEN_TIME = 0.15  # s, less than the 0.3 s of even loads before which it must not rise
 REACTION = 0.6  # s for a server to see that, and for the pelvis to come to rest
 STOPPING = 0.08  # m that the pelvis may rise while it stops; at 0.15 m/s it rises 0.025 m after a zero Twist has come
-SHOWN = 0.6  # s for a change of the robot to show in the feedback
+FEEDBACK_DELAY = 0.6  # s for a change of the robot to show in the feedback
 CLIMBS = 0.03  # m/s
 AGE, PERCENT_SLACK, COMPLETE = 0.6, 15.0, 99.5  # s that a report may be old; percent
 BOB = 0.001  # m that a pelvis has to go down to be seen to bob
 CANCELING = 5.0  # s after a cancel, far more than a pelvis needs to come to rest
-LONG = 1.5  # s; a goal of less says little about a rate
+MIN_DURATION = 1.5  # s; a goal of less says little about a rate
 BEGUN = 0.006  # m, more than a pelvis bobs at rest
 AT_REST, WATCHED = 1.0, 0.3  # s after a cancel or a push in which the pelvis comes to rest, and to watch it
 
@@ -355,12 +355,12 @@ def shifts_again(goal: Goal) -> str | None:
     if not began_low(goal):
         return None
     run, judged = run_of(goal), None
-    for uneven, even in uneven_spans(run, *life(goal), NOTICED):
+    for uneven, even in uneven_spans(run, *life(goal), NOTICE_TIME):
         before = height_at(run, uneven)
         if before < height_at(run, goal.accepted_at) + BEGUN:
             continue
         expect(
-            goal.status != SUCCEEDED or even < ended_at(goal) - NOTICED,
+            goal.status != SUCCEEDED or even < ended_at(goal) - NOTICE_TIME,
             expected="no success while one foot carries much more than the other",
             observed=f"it SUCCEEDED with loads of {_loads_at(run, even)}",
             help="Look at the loads in every phase, also in settling.",
@@ -389,7 +389,7 @@ def names_shifting(goal: Goal) -> str | None:
     run, judged = run_of(goal), 0
     for uneven, even in uneven_spans(run, *life(goal), LEANED):
         for each in goal.feedback:
-            if uneven + SHOWN <= each.t <= even:
+            if uneven + FEEDBACK_DELAY <= each.t <= even:
                 judged += 1
                 expect(
                     each.feedback.phase == SHIFTING,
@@ -452,7 +452,7 @@ def feedback_at_5_hz(goal: Goal) -> str | None:
         not began_low(goal)
         or left_alone(goal)
         or interrupted(goal)
-        or (ended_at(goal) < goal.accepted_at + LONG and not why_rclpy_aborted(goal))
+        or (ended_at(goal) < goal.accepted_at + MIN_DURATION and not why_rclpy_aborted(goal))
     ):
         return None
     require_good_feedback_rate(goal)
@@ -498,7 +498,7 @@ def names_its_phase(goal: Goal) -> str | None:
 def _require_seen_phase(goal: Goal, each: ev.FeedbackReceived) -> None:
     """Require that the robot rises in no other phase than rising, and settles where it is high enough."""
     run, phase = run_of(goal), each.feedback.phase
-    recent = run.robot_between(each.t - SHOWN / 2, each.t)
+    recent = run.robot_between(each.t - FEEDBACK_DELAY / 2, each.t)
     highest = max(robot.z for robot in recent)
     rises = min(climb(run, robot.t) for robot in recent) > 2 * CLIMBS and highest < RISEN - GAIN
     expect(
@@ -579,7 +579,7 @@ def _before_the_end(goal: Goal) -> list[ev.FeedbackReceived]:
 def _require_at_once(goal: Goal, result: ev.ResultReceived, help: str) -> None:
     took = result.t - goal.accepted_at
     expect(
-        took <= AT_ONCE,
+        took <= AT_ONCE_TIME,
         expected="that answer within 2 s",
         observed=f"it came after {took:.1f} s",
         help=help,

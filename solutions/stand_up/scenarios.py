@@ -18,9 +18,9 @@ from autograder.arena.stage import ActionClient, Goal, Stage
 from humanoid_interfaces.action import StandUp
 from humanoid_interfaces.msg import RobotState
 
-SETTLING = 1.0  # s for the first messages of the robot to arrive
-SOON = 5.0  # s for the pelvis to get to a height
-LONGEST = 16.0  # s for any result
+ROBOT_TOPICS_TIME = 1.0  # s for the first messages of the robot to arrive
+HEIGHT_TIMEOUT = 5.0  # s for the pelvis to get to a height
+RESULT_TIMEOUT = 16.0  # s for any result
 UNEVEN = 0.5  # of the larger load, at most; so the robot stands when somebody leans on it
 LEANING = 4.0  # s for the loads to become uneven
 NO_VELOCITY = (0.0, 0.0, 0.0)
@@ -33,7 +33,7 @@ def in_order(stage: Stage, steps: Steps) -> None:
     robot = stage.robot
     robot.report_feet()
     robot.wait_for_commands()
-    stage.wait(SETTLING)
+    stage.wait(ROBOT_TOPICS_TIME)
     sent: dict[str, Goal] = {}
 
     def go(name: str) -> None:
@@ -50,10 +50,10 @@ def in_order(stage: Stage, steps: Steps) -> None:
     def crouch(height: float) -> None:
         robot.take_over(NO_VELOCITY)  # so that nothing comes between
         robot.move_body(-0.1)
-        robot.wait_for(lambda state: state.z < height, SOON)
+        robot.wait_for(lambda state: state.z < height, HEIGHT_TIMEOUT)
         robot.move_body(0.0)
         robot.give_back()
-        robot.wait(SETTLING)
+        robot.wait(ROBOT_TOPICS_TIME)
 
     def hold(is_held: bool) -> None:
         robot.take_over(NO_VELOCITY) if is_held else robot.give_back()
@@ -70,8 +70,8 @@ def in_order(stage: Stage, steps: Steps) -> None:
             "go": go,
             "go_together": go_together,
             "cancel": cancel,
-            "end": lambda name: sent[name].wait_for_result(LONGEST) or None,
-            "reach": lambda height: robot.wait_for(lambda state: state.z > height, SOON) or None,
+            "end": lambda name: sent[name].wait_for_result(RESULT_TIMEOUT) or None,
+            "reach": lambda height: robot.wait_for(lambda state: state.z > height, HEIGHT_TIMEOUT) or None,
             "crouch": crouch,
             "hold": hold,
             "lean_on": lean_on,
@@ -92,7 +92,7 @@ def ask_before_anything_is_known(stage: Stage) -> None:
     stand_up = _open(stage)
     stand_up.send_and_wait(as_="before")
     with robot:
-        stage.wait(2 * SETTLING)
+        stage.wait(2 * ROBOT_TOPICS_TIME)
         stand_up.send_and_wait(as_="after")
 
 
@@ -110,12 +110,12 @@ def sway_before(stage: Stage, nearly: float, light: float, even: int, uneven: in
     with _PlayedRobot(stage, 0.45) as robot:
         stand_up = _open(stage)
         robot.change(share=nearly)
-        stage.wait(SETTLING)
+        stage.wait(ROBOT_TOPICS_TIME)
         goal = stand_up.send_and_wait(as_="rise")
-        stage.wait(SETTLING)
+        stage.wait(ROBOT_TOPICS_TIME)
         for swing in range(swings):
             robot.follow([1.0] * even + [1.0 / light if swing % 2 else light] * uneven)
-        stage.poll_until(lambda: robot.has_followed, SOON)
+        stage.poll_until(lambda: robot.has_followed, HEIGHT_TIMEOUT)
         robot.change("even", share=1.0)
         robot.live_until_the_end(goal)
 
@@ -124,7 +124,7 @@ def step_aside_at_the_top(stage: Stage, light: float, duration: float) -> None:
     """Play a robot that has risen, puts its weight on one foot for `duration` s, and then back between both."""
     with _PlayedRobot(stage, 0.48) as robot:
         goal = _open(stage).send_and_wait(as_="rise")
-        stage.poll_until(lambda: robot.z >= TOP, SOON)
+        stage.poll_until(lambda: robot.z >= TOP, HEIGHT_TIMEOUT)
         stage.wait(0.2)
         robot.change("uneven", share=light)
         stage.wait(duration)
@@ -147,7 +147,7 @@ def be_restless(
     """
     with _PlayedRobot(stage, 0.48) as robot:
         goal = _open(stage).send_and_wait(as_="rise")
-        stage.poll_until(lambda: robot.z >= NEAR_THE_TOP, SOON)
+        stage.poll_until(lambda: robot.z >= NEAR_THE_TOP, HEIGHT_TIMEOUT)
         robot.change("restless", speed=speed, tilt=tilt, calm=calm)
         for toward in towards:
             robot.change(toward=toward)
@@ -179,7 +179,7 @@ def never_get_up(stage: Stage, even: float, uneven: float, times: int) -> None:
 def _open(stage: Stage) -> ActionClient:
     stand_up = stage.action("stand_up", StandUp)
     stage.open()
-    stage.wait(SETTLING)
+    stage.wait(ROBOT_TOPICS_TIME)
     return stand_up
 
 
@@ -250,7 +250,7 @@ class _PlayedRobot:
 
     def live_until_the_end(self, goal: Goal) -> None:
         """Wait until a goal ends, if it was accepted."""
-        goal.wait_for_result(LONGEST)
+        goal.wait_for_result(RESULT_TIMEOUT)
 
     def _live(self) -> None:
         due = time.monotonic()

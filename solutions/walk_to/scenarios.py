@@ -8,7 +8,7 @@ from rclpy.clock import Clock
 
 from autograder.arena.sequence import Steps
 from autograder.arena.stage import Stage
-from autograder.arena.walking_steps import SETTLING, walk_in_order
+from autograder.arena.walking_steps import ROBOT_TOPICS_TIME, walk_in_order
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
 
@@ -40,7 +40,7 @@ class _PlayedRobot:
 
     def publish_for_a_while(self, odom: bool, powered: bool) -> None:
         """Publish long enough for the last messages to have arrived."""
-        for _ in range(round(2 * SETTLING / PERIOD)):
+        for _ in range(round(2 * ROBOT_TOPICS_TIME / PERIOD)):
             self._publish_state(powered)
             if odom:
                 self._publish_odom()

@@ -17,7 +17,7 @@ from autograder.authoring.evidence.record import Record
 
 # Processor-seconds that a sound program may use to start, and in each second of the arena's clock: as many on a busy
 # machine as on an idle one, and several times what it needs. One that uses more caused what comes late itself.
-STARTING, ALLOWED_LOAD = 2.0, 0.3
+STARTUP_CPU_TIME, ALLOWED_LOAD = 2.0, 0.3
 ONE_INTERPRETER = 1.4  # processors: what Python and the threads of the middleware can keep busy for a while
 
 SERVES = "02_services#first-intro"
@@ -143,7 +143,7 @@ def _load_in_words(run: Record) -> str:
     usage = run.first(ev.NodeUsage)
     if usage is None:
         return ""
-    allowed = STARTING + ALLOWED_LOAD * usage.in_time
+    allowed = STARTUP_CPU_TIME + ALLOWED_LOAD * usage.in_time
     subject = "your program, with all it started,"
     if usage.cpu_in_time > allowed:
         return (

@@ -14,7 +14,7 @@ from autograder.authoring.failure import expect
 from ros_runtime.messages import is_message
 
 ROUNDING = 1e-5  # of a number that went through a float32
-LONGEST = 200  # characters of a text that are shown
+MAX_CHARACTERS = 200  # characters of a text that are shown
 
 
 def expect_field(
@@ -69,7 +69,7 @@ def shown(value: Any) -> str:
         return str(value).lower()
     if _is_number(value):
         return "NaN" if math.isnan(value) else f"{value:g}"
-    return repr(value[:LONGEST] if isinstance(value, str) else value)
+    return repr(value[:MAX_CHARACTERS] if isinstance(value, str) else value)
 
 
 def shown_fields(message: Any, *names: str) -> str:

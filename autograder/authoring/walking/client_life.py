@@ -25,11 +25,11 @@ BY_STATUS = {
     GoalStatus.STATUS_ABORTED: (ABORTED, "ABORTED", "the goal was ABORTED"),
     GoalStatus.STATUS_CANCELED: (CANCELED, "CANCELED", "the goal was CANCELED"),
 }
-PATIENCE = 5.0  # s
+SILENCE_LIMIT = 5.0  # s
 # s on the arena's clock:
 FINDING = 2.0  # from the node's appearance until the grader has seen it
-MARGIN = 0.5  # between two moments that a client surely sees in their order
-NEARLY = 0.25  # less than PATIENCE, in which a busy client may already think that it is over
+ORDER_MARGIN = 0.5  # between two moments that a client surely sees in their order
+NEARLY = 0.25  # less than SILENCE_LIMIT, in which a busy client may already think that it is over
 LEAVES_SOON = 3.0  # beyond a clause's limit, on a busy machine
 LEAVING = 8.0  # for what no clause limits: to print a line, and to end every thread and the node
 SURELY_WAITED = 4.0  # of the 5 after Ctrl-C
@@ -154,10 +154,10 @@ class ClientLife:
         A client may begin to count anew when it is asked to cancel.
         """
         for earlier, later in pairwise([*self.received, self.result]):
-            anew = max([earlier, *(t for t in self.asked if earlier < t < earlier + PATIENCE)])
-            if later - earlier > PATIENCE - NEARLY:
-                is_certain = later - anew > PATIENCE + MARGIN
-                yield earlier + PATIENCE, anew + PATIENCE, is_certain
+            anew = max([earlier, *(t for t in self.asked if earlier < t < earlier + SILENCE_LIMIT)])
+            if later - earlier > SILENCE_LIMIT - NEARLY:
+                is_certain = later - anew > SILENCE_LIMIT + ORDER_MARGIN
+                yield earlier + SILENCE_LIMIT, anew + SILENCE_LIMIT, is_certain
                 if is_certain:
                     return
 
@@ -167,11 +167,11 @@ class ClientLife:
         """Return what asks it to cancel its goal."""
         if self.accepted == inf:
             return []
-        because = f"nothing was heard of it for {PATIENCE:g} s"
+        because = f"nothing was heard of it for {SILENCE_LIMIT:g} s"
         return [
             *self.reasons(),
             *(
-                self._cause("silence", because, since - MARGIN, due, is_certain)
+                self._cause("silence", because, since - ORDER_MARGIN, due, is_certain)
                 for since, due, is_certain in self.silences()
             ),
         ]
@@ -198,19 +198,19 @@ class ClientLife:
         if self.goal is None:
             return self._without_a_goal()
         if self.goal.reply is None:
-            due, because = self.goal.received.t + PATIENCE, "the goal was never answered"
+            due, because = self.goal.received.t + SILENCE_LIMIT, "the goal was never answered"
             latest = due + LEAVES_SOON
-            return [End(NO_SERVER, "no answer", because, due, due - MARGIN, latest, _AWAIT_AN_ANSWER)]
+            return [End(NO_SERVER, "no answer", because, due, due - ORDER_MARGIN, latest, _AWAIT_AN_ANSWER)]
         if not self.goal.is_accepted:
             t, because = self.goal.reply.t, "the goal was rejected"
             return [End(REJECTED, "rejected", because, t, t, t + LEAVING, _LOOK_AT_ACCEPTED)]
         found = [(end, is_certain) for end, is_certain in self._after_the_acceptance() if end.at < inf]
         found.sort(key=lambda each: each[0].at)
-        last = next((end.at for end, is_certain in found if is_certain), inf) + MARGIN
+        last = next((end.at for end, is_certain in found if is_certain), inf) + ORDER_MARGIN
         return [end for end, _ in found if end.at <= last]
 
     def _without_a_goal(self) -> list[End]:
-        due, because = self.started + PATIENCE, f"nobody offers {self.action}"
+        due, because = self.started + SILENCE_LIMIT, f"nobody offers {self.action}"
         return [End(NO_SERVER, "no server", because, due, due - FINDING, due + SLACK + 3.0, _FIND)]
 
     def _after_the_acceptance(self) -> Iterator[tuple[End, bool]]:
@@ -222,8 +222,8 @@ class ClientLife:
         for end, is_certain in self._in_silence():
             silent = min(silent, end.at)
             yield end, is_certain
-        earliest = max(pressed, min(result, pressed + SURELY_WAITED, silent - MARGIN))
-        latest = pressed + PATIENCE + SLACK
+        earliest = max(pressed, min(result, pressed + SURELY_WAITED, silent - ORDER_MARGIN))
+        latest = pressed + SILENCE_LIMIT + SLACK
         yield End(CANCELED, "Ctrl-C", "Ctrl-C was pressed", pressed, earliest, latest, _WAIT_NO_LONGER), True
 
     def _in_silence(self) -> Iterator[tuple[End, bool]]:
@@ -232,8 +232,8 @@ class ClientLife:
             because, help = (
                 ("the server has died", _EXPECT_DEATH) if is_dead else ("the server is silent", _LISTEN)
             )
-            latest += PATIENCE + LEAVES_SOON
-            yield End(NO_SERVER, "silence", because, since, since - MARGIN, latest, help), is_certain
+            latest += SILENCE_LIMIT + LEAVES_SOON
+            yield End(NO_SERVER, "silence", because, since, since - ORDER_MARGIN, latest, help), is_certain
 
     def left_early(self, end: End, exited: ev.NodeExited) -> Failure:
         """Return the failure of a program that ended before it could know that it may end like this."""
@@ -247,7 +247,7 @@ class ClientLife:
             )
         since = self.goal.received.t if self.goal else self.started
         return Failure(
-            expected=f"{PATIENCE:g} s of waiting: {end.because}",
+            expected=f"{SILENCE_LIMIT:g} s of waiting: {end.because}",
             observed=f"it gave up after {exited.t - since:.1f} s",
             help=end.help,
             at=exited.t,

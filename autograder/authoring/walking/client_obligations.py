@@ -32,8 +32,8 @@ from autograder.authoring.requirements.client_checks import (
 from autograder.authoring.walking.client_life import (
     ABORTED,
     CANCELED,
-    MARGIN,
-    PATIENCE,
+    ORDER_MARGIN,
+    SILENCE_LIMIT,
     SUCCEEDED,
     SURELY_WAITED,
     Cause,
@@ -48,8 +48,8 @@ PROMPT_SLACK = 0.5  # s on the arena's clock: 0.1 s of real time at scale 5, on 
 ON_ITS_WAY = 0.3  # s that feedback may be overtaken by the result
 ENDS_AT_ONCE = 10.0  # s
 USAGE = 2  # the exit status of argparse
-SOON = 1.0  # s in which a line about the answer to a cancel is printed
-LONGEST = 100.0  # s; no scenario lasts so long
+PRINT_TIME = 1.0  # s in which a line about the answer to a cancel is printed
+BEYOND_ANY_SCENARIO = 100.0  # s; no scenario lasts so long
 TRACEBACK = "Traceback (most recent call last)"
 REFUSED = re.compile(
     r"refus|reject|declin|den(?:y|ied)|(?:not|n't|cannot) (?:be )?cancel|fail|terminated|already|too late",
@@ -155,7 +155,7 @@ def _needless(life: ClientLife, t: float) -> Failure:
     if typed:
         after = ", after the end of the input" if typed[-1] is None else f", after the line “{typed[-1]}”"
     return Failure(
-        expected=f"no request to cancel before a line q, Ctrl-C or {PATIENCE:g} s of silence",
+        expected=f"no request to cancel before a line q, Ctrl-C or {SILENCE_LIMIT:g} s of silence",
         observed=f"one came {t - heard:.1f} s after it last heard of the server{after}",
         help="Cancel only when a line, without its newline, is q and nothing else, at Ctrl-C, or in silence: a goal "
         f"may take its time, and the last sign of life came at {heard:.1f} s.",
@@ -198,7 +198,7 @@ def asks_for_its_result(life: ClientLife) -> str | None:
 def require_ending(life: ClientLife) -> tuple[list[End], ev.NodeExited]:
     """Require that it ended by itself, in time and with the status of a right end; return these ends."""
     run, ends = life.run, life.ends()
-    exited = client_checks.require_end(run, LONGEST)
+    exited = client_checks.require_end(run, BEYOND_ANY_SCENARIO)
     if TRACEBACK in run.output("stderr"):
         if exited.t < min(end.earliest for end in ends):
             expected = "a client that follows the goal to its end"
@@ -277,7 +277,7 @@ def _said_of_the_end(life: ClientLife, finished: ev.GoalFinished) -> float:
         return 0.0
     agreed = [cancel.reply.t for cancel in life.goal.cancels if cancel.reply and cancel.reply.canceling]
     said = [event for event in life.run.all(ev.NodeOutput) if "CANCELED" in event.text.upper()]
-    if said and any(t > finished.t - SOON for t in agreed):
+    if said and any(t > finished.t - PRINT_TIME for t in agreed):
         return said[-1].t  # both came together
     return finished.t - 0.1
 
@@ -313,7 +313,7 @@ def _require_final_pose(finished: ev.GoalFinished, line: str, at: float) -> None
 
 def require_reason(life: ClientLife, told: list[End], exited: ev.NodeExited) -> None:
     """Require a line on stderr that says why it ended, and exactly one with the server's reason after ABORTED."""
-    run, since = life.run, min(end.earliest for end in told) - MARGIN
+    run, since = life.run, min(end.earliest for end in told) - ORDER_MARGIN
     expect(
         bool(_printed(run, "stderr", since)),
         expected="one line on stderr that says why it ended",

@@ -13,7 +13,7 @@ from autograder.authoring.evidence.scripted_goal import ScriptedGoal
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.sequence import STEPS
 
-LATE = 1.0  # s that an event may come after its time
+EVENT_DELAY = 1.0  # s that an event may come after its time
 
 
 def require_record(run: Transcript, action: str) -> None:
@@ -26,7 +26,7 @@ def require_record(run: Transcript, action: str) -> None:
     until = min(run.end, withdrawn.t if withdrawn else inf)
     for goal in run.scripted_goals(action)[:1]:
         for what, due in _lacking(run, goal, script or {}):
-            if due + LATE < until:
+            if due + EVENT_DELAY < until:
                 raise unseen(run, f"the record lacks {what}")
     received = {each.cancel for each in run.all(ev.CancelReceived)}
     if any(each.cancel not in received for each in run.all(ev.CancelReplySent)):
@@ -60,7 +60,7 @@ def _lacking_feedback(goal: ScriptedGoal, script: Mapping[str, Any]) -> Iterator
     due = [goal.reply.t + 1.2 * t for t, _ in zip(accumulate(gaps, initial=0.0), distances, strict=False)]
     came = len([each for each in goal.feedback if each.t >= goal.reply.t])
     over = goal.finished.t if goal.finished else inf
-    if came < len(due) and due[came] + LATE < over:
+    if came < len(due) and due[came] + EVENT_DELAY < over:
         yield "feedback", due[came]
 
 

@@ -26,7 +26,7 @@ from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.availability import Isolation
 from autograder.recording.kept import keep
 
-PATIENCE = 0.5  # s to wait for results before it is looked again for new submissions
+RESULT_POLL_TIME = 0.5  # s to wait for results before it is looked again for new submissions
 
 
 @dataclass(frozen=True)
@@ -124,7 +124,7 @@ class BatchRunner:
             for work in works:
                 if work is None:
                     if crew.is_busy:
-                        yield from self._finish(crew, handed_over, PATIENCE)
+                        yield from self._finish(crew, handed_over, RESULT_POLL_TIME)
                     continue
                 prepared = self._prepare(work, arenas)
                 if isinstance(prepared, Graded):

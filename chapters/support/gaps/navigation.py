@@ -14,7 +14,7 @@ from lab.learning.gap_checks import asked, read_program
 RATE = 20  # Hz, of odom
 SPEED = 0.35  # m/s, of the robot
 SWAY, PERIOD = 0.03, 0.88  # m to each side, s for two steps
-WITHIN = 0.15  # of the distance really walked
+MAX_PATH_ERROR_RATIO = 0.15  # of the distance really walked
 MOST_SWAY = 0.25  # m that an odometer may count for a robot that marches on the spot
 MARCH = 30.0  # s
 
@@ -73,7 +73,7 @@ def forgets_the_sway() -> str:
     )
     for name, (truth, _) in paths.items():
         metres = found[name]
-        if abs(metres - truth) <= WITHIN * truth:
+        if abs(metres - truth) <= MAX_PATH_ERROR_RATIO * truth:
             continue
         if "back" in name and metres < 0.5:
             advice = "add up pieces; the distance from the start forgets the way back"
@@ -81,7 +81,7 @@ def forgets_the_sway() -> str:
             advice = "add each piece that is long enough to metres with +=, and set last = here then"
         else:
             advice = "set last = here when a piece counts, or the same metres count again"
-        raise not_yet(f"{metres:.2f} m for {name}", f"{truth:.2f} m, within {WITHIN:.0%}", advice)
+        raise not_yet(f"{metres:.2f} m for {name}", f"{truth:.2f} m, within {MAX_PATH_ERROR_RATIO:.0%}", advice)
     expect(
         marched <= MOST_SWAY,
         seen=f"{marched:.2f} m for a robot that marches {MARCH:g} s on the spot",

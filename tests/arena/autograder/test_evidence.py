@@ -15,7 +15,7 @@ from zlib import crc32
 
 import pytest
 
-from autograder.authoring.diagnosis.root_cause import ALLOWED_LOAD, STARTING
+from autograder.authoring.diagnosis.root_cause import ALLOWED_LOAD, STARTUP_CPU_TIME
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.audit.known_submission import known_submissions
@@ -291,7 +291,9 @@ def test_sound_programs_use_far_less_processor_time_than_is_allowed(exercise):
     for case in sound:
         for scenario, transcript in zip(case.check.on, case.transcripts, strict=True):
             if (used := transcript.first(ev.NodeUsage)) and scenario.timed:
-                assert used.cpu < 0.25 * (STARTING + ALLOWED_LOAD * used.wall * transcript.scale), case
+                assert used.cpu < 0.25 * (STARTUP_CPU_TIME + ALLOWED_LOAD * used.wall * transcript.scale), (
+                    case
+                )
 
 
 def reference(exercise):

@@ -17,7 +17,7 @@ from std_msgs.msg import String, UInt8MultiArray
 
 from autograder.arena import arena_log as arena_log_module
 from autograder.arena.arena_log import MOST_OF, MOST_OF_NOBODYS, ArenaLog
-from autograder.arena.long_texts import LONGEST
+from autograder.arena.long_texts import MAX_LENGTH
 from autograder.authoring.evidence import events as ev
 from ros_runtime.recorded_client.conversation import NOBODYS
 
@@ -94,7 +94,7 @@ def test_all_that_students_send_together_stays_below_a_budget(
 def test_a_long_text_is_cut_and_says_how_long_it_was(recording: Recording) -> None:
     recording.feedback("walk", String(data="x" * 1_234_567))
     (feedback,) = recording.of(ev.FeedbackReceived)
-    assert feedback.feedback.data == "x" * LONGEST + "…[cut: 1,234,567 characters]"
+    assert feedback.feedback.data == "x" * MAX_LENGTH + "…[cut: 1,234,567 characters]"
     assert recording.of(ev.TooLarge)[0].bytes == 1_234_567
 
 
@@ -106,7 +106,7 @@ def test_a_long_list_is_recorded_as_empty_and_by_its_length(recording: Recording
 
 
 def test_an_event_that_is_large_for_all_that_is_not_written(recording: Recording) -> None:
-    recording.feedback("walk", JointState(name=["x" * LONGEST] * 200))
+    recording.feedback("walk", JointState(name=["x" * MAX_LENGTH] * 200))
     (large,) = recording.events()
     assert (large.kind, large.what) == ("too_large", ev.FeedbackReceived.kind)
 

@@ -11,16 +11,16 @@ from autograder.authoring.requirements.feedback import require_good_feedback_rat
 from autograder.authoring.walking import life, reports
 from ros_runtime.message_constants import GoalStatus, name_of
 
-LONG = 3.0  # s; a goal of less tells little about a rate
-ENOUGH = 8  # feedback messages
-CLEARLY, LEAST = 0.5, 1.0  # m, s; the robot needs more than so long for so much
+MIN_DURATION = 3.0  # s; a goal of less tells little about a rate
+MIN_FEEDBACK = 8  # feedback messages
+FAR_DISTANCE, MIN_ESTIMATE = 0.5, 1.0  # m, s; the robot needs more than so long for so much
 
 
 def feedback_at_5_hz(goal: Goal) -> str | None:
     """Feedback comes at 5 Hz without a gap over 1 s."""
     if not life.accepted(goal) or life.left_alone(goal) or life.interrupted(goal):
         return None
-    if goal.accepted_at + LONG > life.ended_at(goal):
+    if goal.accepted_at + MIN_DURATION > life.ended_at(goal):
         return None
     require_good_feedback_rate(goal)
     return "all the way"
@@ -41,8 +41,8 @@ def estimates_the_time(goal: Goal) -> str | None:
     estimates = [seconds(each.feedback.estimated_time_remaining) for each in goal.feedback]
     is_slow = goal.request.max_velocity <= life.FASTEST
     for each, estimate in zip(goal.feedback, estimates, strict=True):
-        much = is_slow and each.feedback.distance_remaining > CLEARLY
-        least = LEAST if much else 0.0
+        much = is_slow and each.feedback.distance_remaining > FAR_DISTANCE
+        least = MIN_ESTIMATE if much else 0.0
         expect(
             estimate >= least,
             expected=f"an estimated_time_remaining of at least {least:g} s with "
@@ -54,8 +54,8 @@ def estimates_the_time(goal: Goal) -> str | None:
         )
     result = goal.result
     arrived = goal.status == SUCCEEDED and result is not None and life.near_arrival(goal, result.t)
-    walked = life.is_undisturbed(goal) and arrived and is_slow and life.way_to(goal) >= CLEARLY
-    if not walked or len(estimates) < ENOUGH:
+    walked = life.is_undisturbed(goal) and arrived and is_slow and life.way_to(goal) >= FAR_DISTANCE
+    if not walked or len(estimates) < MIN_FEEDBACK:
         return "on the way"
     quarter = len(estimates) // 4
     first, last = max(estimates[: 2 * quarter]), min(estimates[-quarter:])

@@ -15,7 +15,7 @@ from autograder.authoring.walking.truth import STOP, STOP_SPEED, STOP_TIME
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.angles import wrap
 
-FAR = 0.25  # m; a shorter way tells little about a speed
+MIN_DISTANCE = 0.25  # m; a shorter way tells little about a speed
 BEGINNING = 3.0  # s in which a goal makes the robot walk
 
 
@@ -24,7 +24,7 @@ def obeys_max_velocity(goal: Goal) -> str | None:
     limit = goal.request.max_velocity
     if not life.accepted(goal) or not limit or limit > life.FASTEST or not life.began_at_rest(goal):
         return None
-    if not life.is_undisturbed(goal) or life.left_alone(goal) or life.way_to(goal) < FAR:
+    if not life.is_undisturbed(goal) or life.left_alone(goal) or life.way_to(goal) < MIN_DISTANCE:
         return None
     require_limited_velocity(goal)
     return "slow" if limit < 0.1 else "fast"
@@ -32,7 +32,7 @@ def obeys_max_velocity(goal: Goal) -> str | None:
 
 def walks_at_its_own_velocity(goal: Goal) -> str | None:
     """With max_velocity 0 it walks at a velocity of its own."""
-    if not life.accepted(goal) or goal.request.max_velocity != 0.0 or life.way_to(goal) < FAR:
+    if not life.accepted(goal) or goal.request.max_velocity != 0.0 or life.way_to(goal) < MIN_DISTANCE:
         return None
     assert goal.answer
     enough = goal.answer.t + BEGINNING
