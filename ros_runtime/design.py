@@ -90,7 +90,7 @@ def read_design(text: str) -> Design:
 
 
 class _Reader:
-    """The links so far, and where in the last one the text stands."""
+    """The links parsed so far, and the open section of the last one."""
 
     def __init__(self) -> None:
         self.links: list[Link] = []

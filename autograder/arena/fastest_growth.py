@@ -13,7 +13,7 @@ class FastestGrowth:
         self.rate = 0.0
 
     def look(self, now: float, total: float, stretch: float) -> None:
-        """Note the total at a time (s); what is younger than `stretch` (s) counts as if it had taken so long."""
+        """Record the total at a time (s); intervals shorter than `stretch` (s) count as `stretch`."""
         self._looks.append((now, total))
         while len(self._looks) > 1 and now - self._looks[1][0] >= stretch:
             self._looks.popleft()

@@ -15,7 +15,7 @@ from ros_runtime.workarounds.scaled_clock.clock import library_path
 USUAL = 5.0
 FAST = 10.0
 SLOWER = (5.0, 2.0, 1.0)  # to fall back to when the machine cannot keep up
-BUSY = 1.5  # processes a core that want to run; two arenas alone do not get there
+BUSY = 1.5  # runnable processes per core; two arenas alone do not reach it
 
 
 def highest_scale() -> float:

@@ -1,4 +1,4 @@
-"""What went between the program and the grader, on the topics where a robot would have it.
+"""The calls and goals of a run as messages on the topics of a real robot.
 
 Feedback and status of an action are on its hidden topics `_action/feedback` and `_action/status`, goals and results on
 the service events (ROS 2's service introspection) of `_action/send_goal` and `_action/get_result`. The record names

@@ -36,7 +36,7 @@ def cases(quick: bool) -> list[KnownGoal]:
 
 
 def run(case: KnownGoal) -> Run:
-    """Move an arm to what was found for one goal; or see that nothing is found."""
+    """Solve the inverse kinematics of one pose and move there, or expect that it is out of reach."""
     clock = Clock()
     humanoid = Humanoid()
     simulate(humanoid, 0.5)

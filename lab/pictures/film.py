@@ -122,7 +122,7 @@ def _film(
 
 
 def _interpolated(at: np.ndarray, samples: Sequence[tuple[float, Any]]) -> np.ndarray:
-    """The samples, each with its time, at other times: a row for each."""
+    """Interpolate samples to other times; one row per time."""
     times = [t for t, _ in samples]
     columns = np.array([values for _, values in samples]).T
     return np.stack([np.interp(at, times, column) for column in columns], axis=1)

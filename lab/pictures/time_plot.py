@@ -21,7 +21,7 @@ TIME = "s since the recording began (system clock)"
 
 
 class Curve(NamedTuple):
-    """A quantity: its values, in `unit`, at so many times, in s; its panel shows at least `least_range`."""
+    """Values of a quantity (in `unit`) at the given times (s); its panel shows at least `least_range`."""
 
     name: str
     unit: str

@@ -144,7 +144,7 @@ def lay_on_the_floor(goal: Goal) -> bool:
 
 
 def fallen_during(goal: Goal) -> ev.RobotTruth | None:
-    """Return the robot when it had fallen after the goal was accepted and before the next one was sent, if it did."""
+    """Return the first sample in which the robot is down, from the goal's acceptance to the next goal, or None."""
     fallen = fall_after(goal.run, goal.accepted_at) if goal.run.ground_truth else None
     return fallen if fallen and fallen.t <= next_sent(goal, goal.sent.t) else None
 

@@ -15,14 +15,14 @@ REACTION = 1.0  # s before the simulator calls it a fall, in which a server may 
 
 
 def fall_after(run: RobotRecord, since: float) -> ev.RobotTruth | None:
-    """Return the robot when it had fallen after a moment (s), or nothing if it did not."""
+    """Return the first sample from `since` (s) on in which the robot is down, or None."""
     return next(
         (robot for robot in run.robot_between(since, run.end) if robot.mode == RobotState.FALLEN), None
     )
 
 
 def require_knocked_over(run: RobotRecord) -> ev.RobotTruth:
-    """Return the robot when it had fallen after the scenario's push; if it did not, nothing can be judged."""
+    """Return the first sample after the scenario's push in which the robot is down; raise if there is none."""
     if fallen := fall_after(run, run.told("push").t):
         return fallen
     raise unseen(run, "the robot did not fall")

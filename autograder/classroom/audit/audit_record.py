@@ -24,7 +24,7 @@ class UnusableAuditRecord(CourseError):
 
 
 class AuditRecord:
-    """The runs of an audit, by exercise, one a line. It also has what it was given, until that is graded again.
+    """The runs of an audit by exercise, one a line; entries of an earlier run stay until they are graded again.
 
     A run of an earlier audit counts when nothing that its verdict depends on has changed: the submission, the checks
     and the engine, the robot, the seed, the clock's scale, the isolation. One that was not graded never does, and none

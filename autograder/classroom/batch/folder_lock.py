@@ -22,7 +22,7 @@ class FolderInUse(CourseError):
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold the folder, which is made if need be; the kernel lets go of it when this process ends, however it ends.
+    """Lock the folder, and create it if it is missing; the lock goes with the process, even after a crash.
 
     Raises:
         FolderInUse: another process holds it.

@@ -11,7 +11,7 @@ from autograder.engine.verdict import Grade
 from ros_runtime.course_error import CourseError
 
 GRADES = "grades.json"
-UNREADABLE = (OSError, ValueError, RecursionError)  # what reading JSON that was damaged or nested raises
+UNREADABLE = (OSError, ValueError, RecursionError)  # raised for damaged or deeply nested JSON
 
 
 class UnusableRecord(CourseError):

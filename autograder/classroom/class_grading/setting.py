@@ -65,7 +65,7 @@ class Setting:
 
 @contextmanager
 def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> Iterator[Setting]:
-    """Take the output folder and the workers, and say how they are isolated; `works` are those of the whole class.
+    """Lock the output folder, start the workers and print their isolation; `works`: of the whole class.
 
     Raises:
         FolderInUse: another process grades into the output folder.

@@ -86,7 +86,7 @@ class Budget:
 
 @dataclass(frozen=True)
 class Download:
-    """The ordinary files of a download, in order of their paths, and a sentence for each that is none."""
+    """The regular files of a download, sorted by path, and a message for every other entry."""
 
     files: list[File]
     refused: list[str]

@@ -88,7 +88,7 @@ class CourseGradebook:
     def _leave_to_a_person(
         self, grade: Grade, submission: dict[str, str], page: Path, is_entered: bool
     ) -> Path | None:
-        """Enter an essay without points; its page is made of those that a person has given, when none is missing."""
+        """Enter an unmarked essay; its feedback page is made once every criterion is marked by hand."""
         page.unlink(missing_ok=True)
         if not (is_entered and self._autograded(grade).exists()):
             shutil.rmtree(self._autograded(grade), ignore_errors=True)

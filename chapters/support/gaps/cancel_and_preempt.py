@@ -61,7 +61,7 @@ def _cancel_in_mid_step(server: StudentNode, after: int) -> int:
 
 
 def a_bug_ends_aborted() -> str:
-    """Turn by nothing, where filling the result raises, and then by 20°."""
+    """Send a goal of 0°, in which filling the result raises, then one of 20°."""
     server = _start("careful_turn.py")
     with_bug = _outcome(server, _send(server, 0), TO_TURN)
     if with_bug.status == "SUCCEEDED" and with_bug.result.final_pose.header.frame_id:

@@ -12,7 +12,7 @@ LIGHT = (Scenario("ask", robot=(MAY_REST,)), Scenario("good", robot=None, studen
 
 @pytest.fixture
 def load(monkeypatch):
-    """Set the load of this machine: processes a core that want to run."""
+    """Set the load of this machine: runnable processes per core."""
     monkeypatch.setattr(clock_scale, "library_path", lambda: "libscaled_clock.so")
 
     def set_load(per_core):

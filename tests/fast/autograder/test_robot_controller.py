@@ -297,7 +297,7 @@ def test_the_scenario_leaves_no_doubt_whether_there_is_a_deadline():
     scenario, _refused = CHECKS["keeps_one_deadline"].on
     appears, answers = scenario.draw(0)["appears"], scenario.draw(0)["answers"]
     assert appears < 2.0 > answers
-    assert 2 * appears + 2.0 + answers + 2 * 2.0 > MODEL.WITHIN + MODEL.DEADLINE_SLACK
+    assert 2 * appears + 2.0 + answers + 2 * 2.0 > MODEL.WHOLE_DEADLINE + MODEL.DEADLINE_SLACK
 
 
 def test_a_program_that_looks_for_both_servers_at_once_may_find_one_missing_and_ask_nothing():

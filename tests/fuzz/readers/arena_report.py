@@ -53,7 +53,7 @@ def require_readable(events: Sequence[Event]) -> None:
 
 
 def require_events_or_none(report: bytes) -> None:
-    """Require that a report is read, or is no ground for a grade."""
+    """Require that a report is parsed, or that the result is NotGraded."""
     try:
         read_events(report)
     except NotGraded as error:

@@ -37,7 +37,7 @@ def require_kept_within_bounds(chunks: list[bytes]) -> None:
         captured.feed(chunk)
     captured.close()
     kept = sum(len(line.text.encode(errors="surrogatepass")) for line in lines)
-    assert kept <= 5 * KEPT_KIB * 1024  # a byte that is no text becomes a sign of three
+    assert kept <= 5 * KEPT_KIB * 1024  # an invalid UTF-8 byte becomes a three-byte replacement character
     assert len(lines) <= KEPT_KIB * 1024 // 32 + 2
     assert captured.dropped_bytes or sum(map(len, chunks)) <= kept + len(lines)
     assert [*captured.lines] == lines

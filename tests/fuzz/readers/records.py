@@ -86,7 +86,7 @@ def require_cached_or_none(data: bytes) -> None:
 
 
 def require_batch_or_none(data: bytes) -> None:
-    """Require that a damaged record of a batch is none, or one that the class page can say in words."""
+    """Require that a damaged record reads as None or can still be shown on the class page."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, BATCH).write_bytes(data)
         record = read_batch(Path(folder))

@@ -42,7 +42,7 @@ def received(robots):
 
 
 def vectors(messages, *names):
-    """The numbers of fields such as "pose.pose.position", a row a message."""
+    """The numbers of fields such as "pose.pose.position", one row per message."""
 
     def numbers(message, name):
         for part in name.split("."):
