@@ -1,9 +1,18 @@
-"""The choices that you have made, under the text of their question: reordering questions or choices does no harm."""
+"""The order in which you see choices, and those that you have made, under the text of their question."""
 
 from __future__ import annotations
 
-from lab.learning.progress_file import Kind, keep, kept
+from dataclasses import replace
+from random import Random
+
+from lab.learning.progress_file import Kind, keep, kept, own_number
 from lab.learning.question import Question
+
+
+def in_your_order(question: Question) -> Question:
+    """Shuffle the choices: in another order for each student, and in the same one every time."""
+    order = Random(f"{own_number()} {question.text}")
+    return replace(question, choices=tuple(order.sample(question.choices, len(question.choices))))
 
 
 def kept_letter(kind: Kind, question: Question) -> str | None:

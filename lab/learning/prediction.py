@@ -9,7 +9,7 @@ import ipywidgets
 from IPython.display import display
 
 from lab.errors import LabError
-from lab.learning.kept_choices import keep_letter, kept_letter
+from lab.learning.kept_choices import in_your_order, keep_letter, kept_letter
 from lab.learning.question import Question, read_question
 
 WIDTH = 80  # characters; Jupyter breaks longer lines in mid-word
@@ -25,7 +25,7 @@ def predict(chapter: str, number: int) -> Prediction:
 
     Raises LabError when the chapter has no prediction of that number.
     """
-    return Prediction(number, read_question(chapter, "PREDICTIONS", number))
+    return Prediction(number, in_your_order(read_question(chapter, "PREDICTIONS", number)))
 
 
 class Prediction:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from random import randrange
 from typing import Literal
 
 FILE = Path(".progress.json")  # hidden, as the files of tools are
@@ -22,7 +23,19 @@ def keep(kind: Kind, key: str, value: str | None) -> None:
     entries.pop(key, None)
     if value is not None:
         entries[key] = value
-    everything = {**_read(FILE), kind: entries}
+    _write({**_read(FILE), kind: entries})
+
+
+def own_number() -> int:
+    """Return a number that was drawn once for the notebooks of this folder: yours differs from other students'."""
+    everything = _read(FILE)
+    if not isinstance(number := everything.get("number"), int):
+        number = randrange(10**9)
+        _write({**everything, "number": number})
+    return number
+
+
+def _write(everything: dict) -> None:
     FILE.write_text(json.dumps(everything, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 

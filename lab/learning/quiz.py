@@ -5,7 +5,7 @@ from __future__ import annotations
 import ipywidgets
 from IPython.display import display
 
-from lab.learning.kept_choices import keep_letter, kept_letter
+from lab.learning.kept_choices import in_your_order, keep_letter, kept_letter
 from lab.learning.question import Question, in_html, read_question
 
 
@@ -14,7 +14,7 @@ def quiz(chapter: str, number: int) -> Quiz:
 
     Raises LabError when the chapter has no question of that number.
     """
-    return Quiz(f"Question {number}", read_question(chapter, "QUESTIONS", number))
+    return Quiz(f"Question {number}", in_your_order(read_question(chapter, "QUESTIONS", number)))
 
 
 class Quiz:

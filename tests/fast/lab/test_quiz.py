@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pkgutil
+from collections import Counter
 from importlib import import_module
 from pathlib import Path
 
@@ -72,6 +73,19 @@ def test_a_question_has_one_right_choice() -> None:
 def test_a_missing_question_is_told() -> None:
     with pytest.raises(lab.LabError, match="no question 99"):
         lab.quiz(CHAPTERS[0], 99)
+
+
+def test_the_choices_come_in_an_order_of_each_students_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first: Counter[int] = Counter()
+    for student in range(40):
+        (tmp_path / str(student)).mkdir()
+        monkeypatch.chdir(tmp_path / str(student))
+        texts = [[choice.text for choice in lab.quiz(*ALL[0]).question.choices] for _ in range(2)]
+        assert texts[0] == texts[1]
+        first[next(i for i, choice in enumerate(lab.quiz(*ALL[0]).question.choices) if choice.right)] += 1
+    assert len(first) == len(lab.quiz(*ALL[0]).question.choices)  # the right one stands anywhere
 
 
 @pytest.mark.parametrize(("chapter", "number"), ALL)
