@@ -36,11 +36,11 @@ import autograder.classroom.commands.grade
 
 folder, kills = sys.argv[1], json.loads(sys.argv[2])
 
-def all_points(submission, exercise, *, seed, isolation, report, **options):
+def all_points(submission, exercise, options, watcher, **_):
     with open(folder + "/log", "a") as log:
         log.write(submission.student + chr(10))
     verdicts = [CheckVerdict(check.id, check.title, "passed", check.points, check.points) for check in exercise.checks]
-    return Grade(exercise.name, submission.student, isolation.label, verdicts, seed=seed)
+    return Grade(exercise.name, submission.student, options.isolation.label, verdicts, seed=options.seed)
 
 def die_before(act, place, time):
     times = []

@@ -26,7 +26,7 @@ from autograder.engine.verdict import CheckVerdict, Grade
 
 folder = Path(sys.argv.pop())
 
-def by_word(submission, exercise, *, seed, isolation, report, stop, **options):
+def by_word(submission, exercise, options, watcher, *, stop, **_):
     (source,) = submission.sources.values()
     (folder / f"in_work_{len(list(folder.glob('in_work_*')))}").write_text(source)
     while "slow" in source and not (folder / "go").exists():
@@ -38,7 +38,7 @@ def by_word(submission, exercise, *, seed, isolation, report, stop, **options):
         CheckVerdict(check.id, check.title, "passed" if points else "failed", points, check.points)
         for check, points in zip(exercise.checks, earned)
     ]
-    return Grade(exercise.name, submission.student, isolation.label, verdicts, seed=seed)
+    return Grade(exercise.name, submission.student, options.isolation.label, verdicts, seed=options.seed)
 
 job.grade = by_word
 from course_cli.app import main
@@ -83,9 +83,11 @@ def ctrl_c(process: subprocess.Popen[str]) -> tuple[int, str]:
 
 
 def until(process: subprocess.Popen[str], happened: Callable[[], Any]) -> None:
-    """Wait for an event, as long as the watcher lives."""
+    """Wait for an event, as long as the watcher lives, for two minutes."""
+    end = time.monotonic() + 120.0
     while not happened():
         assert process.poll() is None, process.communicate()[0]
+        assert time.monotonic() < end
         time.sleep(0.05)  # between two looks
 
 

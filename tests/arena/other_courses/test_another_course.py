@@ -63,7 +63,8 @@ Caught by: counts_to_three
 
 --- correct/plain.py
 +++ faulty/from_nought.py
-@@ -3,2 +3,2 -for number in range(1, int(sys.argv[1]) + 1):
+@@ -3,2 +3,2 @@
+-for number in range(1, int(sys.argv[1]) + 1):
 +for number in range(int(sys.argv[1]) + 1):
      print(number)
 """,
