@@ -17,7 +17,7 @@ def robot(kernel: Kernel) -> Kernel:
     kernel.run("lab.start_robot()")
     kernel.run(SUBSCRIBES)
     kernel.run(
-        "lab.wait_until(lambda: '/robot/imu' in [topic.name for topic in lab.graph.topics_in_graph()])"
+        "lab.wait_until(lambda: '/robot/imu' in [topic.name for topic in lab.client.graph.topics_in_graph()])"
     )
     return kernel
 

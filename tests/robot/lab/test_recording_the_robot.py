@@ -69,7 +69,7 @@ def test_a_time_line_shows_the_server_and_its_end(recorded: Kernel) -> None:
 
 
 def test_without_a_robot_it_says_so(kernel: Kernel) -> None:
-    kernel.run("lab.stop_robot(); lab.topics.forget()")
+    kernel.run("lab.stop_robot(); lab.client.topics.forget()")
     printed = kernel.run(
         """
         try:

@@ -96,7 +96,7 @@ def test_a_camera_that_does_not_exist_is_refused(robot: Kernel) -> None:
 def test_without_a_robot_the_error_says_what_to_do(kernel: Kernel) -> None:
     kernel.run("lab.stop_robot()")
     with pytest.raises(CellError, match=r"nothing arrived on /robot/odom .* Try lab.start_robot\(\)"):
-        kernel.run("import time; time.sleep(1.2); lab.topics.latest('odom', timeout=0.5)")
+        kernel.run("import time; time.sleep(1.2); lab.client.topics.latest('odom', timeout=0.5)")
 
 
 def test_stop_everything_leaves_no_process_and_can_start_again(kernel: Kernel) -> None:
@@ -129,7 +129,7 @@ def test_nothing_survives_the_kernel(own_kernel: Kernel, end: signal.Signals) ->
 
 
 def test_two_kernels_do_not_meet(kernel: Kernel, own_kernel: Kernel) -> None:
-    question = "print(lab.connection.connection().domain_id)"
+    question = "print(lab.client.connection.connection().domain_id)"
     assert kernel.run(question) != own_kernel.run(question)
 
 

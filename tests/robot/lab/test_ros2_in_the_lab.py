@@ -65,7 +65,7 @@ def test_a_cell_and_a_terminal_see_the_notebooks_nodes(lab: dict[str, str], note
 def test_a_terminal_joins_the_notebook_that_began_last(
     lab: dict[str, str], notebook: Kernel, tmp_path: Path
 ) -> None:
-    earlier = notebook.run("print(lab.connection.connection().domain_id)").strip()
+    earlier = notebook.run("print(lab.client.connection.connection().domain_id)").strip()
     later = Kernel(tmp_path)
     try:
         later.run("lab.node()")

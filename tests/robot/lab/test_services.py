@@ -57,7 +57,7 @@ def test_a_slow_server_times_out_and_its_late_answer_is_ignored(notebook: Kernel
     drawn = notebook.run("print(lab.draw_sequence().data)")
     assert "notebook to add server: add: a -2." in drawn
     assert "notebook: no answer after 0.5 s." in drawn
-    pending = "lab.connection.connection().client(AddTwoInts, 'add').endpoint._pending_requests"
+    pending = "lab.client.connection.connection().client(AddTwoInts, 'add').endpoint._pending_requests"
     assert notebook.run(f"print({pending})") == "{}\n"
     printed = notebook.run(
         "print(lab.call('add', AddTwoInts, AddTwoInts.Request(a=7), timeout=10).sum)\n"
@@ -91,10 +91,10 @@ def test_a_missing_file_is_named(notebook: Kernel) -> None:
 
 
 def test_a_node_that_ignores_ctrl_c_is_killed_and_that_is_said(notebook: Kernel) -> None:
-    notebook.run("lab.student_nodes.START_TIMEOUT = 1.0\nnode = lab.run_node('stubborn.py')")
+    notebook.run("lab.running.student_nodes.START_TIMEOUT = 1.0\nnode = lab.run_node('stubborn.py')")
     notebook.run("lab.wait_until(lambda: 'up' in node.log())")
     assert "stubborn.py did not end within 3 s of Ctrl-C and was killed" in notebook.run("node.stop()")
-    notebook.run("lab.student_nodes.START_TIMEOUT = 10.0")
+    notebook.run("lab.running.student_nodes.START_TIMEOUT = 10.0")
 
 
 def test_the_call_is_drawn_with_its_answer(notebook: Kernel) -> None:
