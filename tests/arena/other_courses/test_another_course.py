@@ -17,7 +17,7 @@ def count(stage, to):
     stage.wait_for_end()
 """
 CHECKS = '''
-from autograder.authoring import check, expect, program, require_end
+from autograder.authoring import check, program
 from .judging import require_numbers
 
 TO_THREE = program("count", {"to": 3}, timed=False)
@@ -29,6 +29,7 @@ def counts_to_three(run):
     require_numbers(run)
 '''
 HIDDEN = '''
+from autograder.authoring import check, program
 from .checks import counts_to_three
 from .judging import require_numbers
 
@@ -41,6 +42,7 @@ def counts_to_any_number(run):
     require_numbers(run)
 '''
 JUDGING = """
+from autograder.authoring import expect, require_end
 
 
 def require_numbers(run):
