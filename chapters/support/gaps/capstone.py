@@ -25,7 +25,7 @@ A_MOMENT = (
     0.5  # s for the child to tell of a cancel that came just before the errand ended; less than CHILD_NEEDS
 )
 CHILD_NEEDS = 1.0  # s that the played legs go on after a cancel
-SILENCE_LIMIT = 2.0  # s, as errand.py has it
+PATIENCE = 2.0  # s, as errand.py has it
 SLOW = 3.0  # s of work for a child that is only slow
 TO_END = 4.0  # s for an end that is due
 CHILD_WORK_TIME = 15.0  # s of work for a child that is to be stopped
@@ -110,13 +110,13 @@ def gives_up_a_silent_child() -> str:
     parent, legs = _start("patient_errand.py", "steady")
     goal = _under_way(parent, CHILD_WORK_TIME)
     legs.kill()
-    outcome = _end_of(goal, parent, 2 * SILENCE_LIMIT + TO_END, "the child was killed")
+    outcome = _end_of(goal, parent, 2 * PATIENCE + TO_END, "the child was killed")
     _require_abort(outcome, parent)
     return f"it waited for a slow child, and gave up a mute one and a dead one: {reason!r}"
 
 
 def _has_patience(parent: StudentNode, legs: StudentNode) -> None:
-    """Require that a child which works for longer than SILENCE_LIMIT, with feedback, comes to its end."""
+    """Require that a child which works for longer than PATIENCE, with feedback, comes to its end."""
     goal = _under_way(parent, SLOW)
     outcome = _end_of(goal, parent, SLOW + TO_END, "the child gives feedback and ends in time")
     expect(
@@ -134,24 +134,24 @@ def _gives_up_the_mute() -> str:
     goal = _under_way(parent, CHILD_WORK_TIME)
     comes_true(
         lambda: _has_told(legs, 0, "cancel") or goal.is_over or not parent.is_running,
-        SILENCE_LIMIT + TO_GO_DOWN + 2.0,
+        PATIENCE + TO_GO_DOWN + 2.0,
     )
     if not comes_true(lambda: _has_told(legs, 0, "cancel"), A_MOMENT):
         raise not_yet(
             f"a child fell silent; the errand ended {_status(goal)}, and nobody cancelled the child{_complaint(parent)}"
             if goal.is_over
-            else f"a child has been silent for {SILENCE_LIMIT + 2.0:g} s, and nobody cancelled it{_complaint(parent)}",
-            f"a cancel after {SILENCE_LIMIT:g} s",
+            else f"a child has been silent for {PATIENCE + 2.0:g} s, and nobody cancelled it{_complaint(parent)}",
+            f"a cancel after {PATIENCE:g} s",
             "call child.cancel_goal_async() before you end the errand: the child may still walk"
             if goal.is_over
-            else "compare time.monotonic() - self.heard with SILENCE_LIMIT in every round",
+            else "compare time.monotonic() - self.heard with PATIENCE in every round",
         )
-    outcome = _end_of(goal, parent, SILENCE_LIMIT + TO_END, "the silent child was cancelled")
+    outcome = _end_of(goal, parent, PATIENCE + TO_END, "the silent child was cancelled")
     expect(
         _has_ended(legs, 0),
         seen=f"the errand ended {outcome.status} at once, and its child a second later{_complaint(parent)}",
         expected="the child's end first: this one is mute, and not dead",
-        next="after the cancel, wait_for(end, SILENCE_LIMIT)",
+        next="after the cancel, wait_for(end, PATIENCE)",
     )
     _require_abort(outcome, parent)
     return str(outcome.result.error_msg)
@@ -248,7 +248,7 @@ def _end_of(goal: Goal, parent: StudentNode, seconds: float, why: str) -> Outcom
         f"{why}, and {seconds:g} s later the errand is {goal.status}{_complaint(parent)}",
         "its end",
         "end the branch with a terminal call and `return WalkTo.Result(…)`; wait only with a limit, "
-        "wait_for(end, SILENCE_LIMIT)",
+        "wait_for(end, PATIENCE)",
     )
 
 
