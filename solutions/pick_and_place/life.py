@@ -19,7 +19,7 @@ HOLDING = 1.0  # N
 
 
 def commanded(goal: Goal, do: str) -> float | None:
-    """Return when (s) the scenario did something to the robot while the goal was active, first."""
+    """Return the time (s) of the scenario's first command `do` while the goal was active, or None."""
     end = min(ended_at(goal), goal.run.end)
     commands = [each for each in goal.run.all(ev.RobotCommanded) if each.command.get("do") == do]
     return next((each.t for each in commands if goal.sent.t < each.t < end), None)
@@ -31,7 +31,7 @@ def robbed_at(goal: Goal) -> float | None:
 
 
 def is_for_the_cup(goal: Goal) -> bool:
-    """Return whether it was accepted, asks for the object that is there, and nothing speaks against it."""
+    """Return whether the goal was accepted, is valid, and asks for the cup."""
     return accepted(goal) and is_sound(goal) and bool(goal.request.object_id == CUP)
 
 

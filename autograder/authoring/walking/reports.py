@@ -18,9 +18,7 @@ from humanoid_interfaces.msg import RobotState
 
 REPORT_SLACK = 0.08  # m or rad, over what the robot moved while the message was made and delivered
 REPORT_AGE = 0.6  # s that a reported pose may be old: odom's period, the feedback's period, delivery
-FINAL_AGE = (
-    0.5  # s before the end of a goal that may stop first, from when its final_pose may be: odom, delivery
-)
+FINAL_AGE = 0.5  # s that final_pose may be older than the end of a goal for which the robot stops
 FINAL_SLACK = 0.015  # m by which final_pose may be off: odom's period, and rounding to centimetres
 TRUTH_LATE = 0.5  # s that the simulator's word may come after a report that is made of it
 HEIGHT_SLACK = 0.1  # m, more than the pelvis bobs while a message is made and delivered

@@ -118,13 +118,13 @@ class BatchRunner:
         arenas = 1 if self._workers else max(1, self._jobs // max(1, at_a_time))
         workers = self._workers or threads(max(1, self._jobs // arenas))
         live = self._live() if workers.share_memory else None
-        crew = WorkerPool(workers, partial(carry_out, live=live), self._watcher.on_retry)
+        pool = WorkerPool(workers, partial(carry_out, live=live), self._watcher.on_retry)
         handed_over: dict[tuple[str, str], Work] = {}
         try:
             for work in works:
                 if work is None:
-                    if crew.is_busy:
-                        yield from self._finish(crew, handed_over, RESULT_POLL_TIME)
+                    if pool.is_busy:
+                        yield from self._finish(pool, handed_over, RESULT_POLL_TIME)
                     continue
                 prepared = self._prepare(work, arenas)
                 if isinstance(prepared, Graded):
@@ -132,15 +132,15 @@ class BatchRunner:
                         self._watcher.on_verdict(verdict)
                     yield prepared
                     continue
-                while not crew.has_room:
-                    yield from self._finish(crew, handed_over)
+                while not pool.has_room:
+                    yield from self._finish(pool, handed_over)
                 handed_over[work.student, work.exercise] = work
-                crew.give(prepared)
-            while crew.is_busy:
-                yield from self._finish(crew, handed_over)
+                pool.give(prepared)
+            while pool.is_busy:
+                yield from self._finish(pool, handed_over)
         finally:
             self._stop.set()
-            crew.close()
+            pool.close()
 
     def _load(self, name: str) -> Exercise:
         return load_exercise(name, hidden=self._isolation.trusted)
@@ -176,11 +176,11 @@ class BatchRunner:
         )
 
     def _finish(
-        self, crew: WorkerPool, handed_over: dict[tuple[str, str], Work], patience: float | None = None
+        self, pool: WorkerPool, handed_over: dict[tuple[str, str], Work], patience: float | None = None
     ) -> Iterator[Graded]:
         """Wait for outcomes, and cache them all before anybody can interrupt the loop."""
         finished = []
-        for job, outcome in crew.wait(patience):
+        for job, outcome in pool.wait(patience):
             work = handed_over.pop((job.student, job.exercise))
             if outcome.effort:
                 known = Known(outcome.grade, outcome.effort)

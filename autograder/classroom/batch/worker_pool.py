@@ -57,7 +57,7 @@ class WorkerPool:
     ) -> None:
         self._workers = workers
         self._work = work
-        self._put_off = retry_later
+        self._retry_later = retry_later
         self._executor: Executor | None = None
         self._running: dict[Future[Outcome], GradingJob] = {}
         self._once_more: deque[GradingJob] = deque()
@@ -103,7 +103,7 @@ class WorkerPool:
                 outcomes.append((job, outcome))
             else:
                 self._once_more.append(job)
-                self._put_off(job, outcome)
+                self._retry_later(job, outcome)
         return outcomes
 
     def close(self) -> None:

@@ -22,12 +22,12 @@ def enter_all(console: Console, results: Sequence[Graded], out: Path) -> tuple[l
 
     Returns a sentence for each that failed, and the grades with what a person has given there.
     """
-    entering = GradebookWriter(out)
+    writer = GradebookWriter(out)
     grades: list[Grade] = []
     with _bar(console) as progress:
         for result in progress.track(results, description="gradebook"):
-            grades.append(entering.enter(result))
-    return entering.problems(), grades
+            grades.append(writer.enter(result))
+    return writer.problems(), grades
 
 
 def sources_of(results: Sequence[Graded]) -> dict[tuple[str, str], Mapping[str, str] | None]:

@@ -52,7 +52,7 @@ class _Watch:
     def __init__(self, setting: Setting) -> None:
         self._setting = setting
         self._folder = WatchedFolder(setting.request.submitted)
-        self._entering = GradebookWriter(setting.request.out)
+        self._writer = GradebookWriter(setting.request.out)
         self._grades = list(setting.before)
         self._record = setting.record
         self._results: dict[tuple[str, str], Graded] = {}
@@ -100,7 +100,7 @@ class _Watch:
     def _keep(self, result: Graded) -> None:
         """Enter a result into the gradebook, write its pages and its program; the class follows when it is due."""
         out = self._setting.request.out
-        grade = self._entering.enter(result)
+        grade = self._writer.enter(result)
         self._grades = with_others([grade], self._grades)
         self._record = self._record.with_results([result]).with_points([grade])
         self._results[grade.student, grade.exercise] = result
@@ -134,7 +134,7 @@ class _Watch:
         self._is_written = True
 
     def _tell_the_end(self) -> int:
-        console, problems = self._setting.console, self._entering.problems()
+        console, problems = self._setting.console, self._writer.problems()
         for line in problems:
             console.print(f"not in the gradebook: {line}", style="red", markup=False)
         not_graded = tell_what_is_left(console, self._folder.collection, list(self._results.values()))

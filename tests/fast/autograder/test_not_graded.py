@@ -12,7 +12,7 @@ from pathlib import Path
 PROJECT = Path(__file__).parents[3]
 SAYING = ("CannotBeJudged", "NotGraded", "NoOccasion", "unseen", "not_shown", "held_up", "not_graded")
 
-# What the grader itself writes down is not there: the program left, was ended or held the robot up before.
+# The record lacks an event of the grader: the program had exited, been killed, or delayed the robot.
 LEAVES = "arena/autograder/test_evidence.py::test_a_program_that_leaves_at_any_moment_is_judged"
 HOLDS_UP = "fast/autograder/test_missing.py::test_a_submission_that_holds_the_robot_up_fails"
 LATE = "fast/autograder/test_missing.py::test_a_command_that_took_effect_late_is_the_fault_of_who_held_the_robot_up"
