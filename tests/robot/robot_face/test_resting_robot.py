@@ -34,7 +34,7 @@ def robots():
 
 @pytest.fixture(scope="module")
 def received(robots):
-    """By topic: what was heard of the one, and of the other."""
+    """By topic: what was received of the one, and of the other."""
     return {
         topic: [robot.collect(kind, topic, count, qos) for robot in robots]
         for topic, (kind, qos, count, _) in HEARD.items()
@@ -70,38 +70,38 @@ def test_it_offers_the_same_topics_with_the_same_terms(robots):
 
 
 @pytest.mark.parametrize("topic", HEARD)
-def test_it_speaks_as_often_and_stamps_as_evenly(heard, topic):
+def test_it_speaks_as_often_and_stamps_as_evenly(received, topic):
     rate = HEARD[topic][3]
-    for messages in heard[topic]:
+    for messages in received[topic]:
         stamps = [message.header.stamp.sec + message.header.stamp.nanosec * 1e-9 for message in messages]
         said_since_we_listen = np.diff(stamps[1:])  # what is latched was said before
         assert said_since_we_listen.mean() == pytest.approx(1 / rate / FASTER, rel=0.3)
 
 
-def test_it_is_where_the_other_is(heard):
+def test_it_is_where_the_other_is(received):
     fields = ("pose.pose.position", "pose.pose.orientation", "twist.twist.linear", "twist.twist.angular")
-    resting, integrated = (vectors(messages, *fields) for messages in heard["odom"])
+    resting, integrated = (vectors(messages, *fields) for messages in received["odom"])
     assert resting == pytest.approx(integrated, abs=1e-5)
-    resting, integrated = (vectors(messages, "position", "velocity") for messages in heard["joint_states"])
+    resting, integrated = (vectors(messages, "position", "velocity") for messages in received["joint_states"])
     assert resting == pytest.approx(integrated, abs=1e-5)
-    resting, integrated = (vectors(messages, "effort") for messages in heard["joint_states"])
+    resting, integrated = (vectors(messages, "effort") for messages in received["joint_states"])
     assert resting == pytest.approx(integrated, abs=1e-2)
 
 
-def test_its_hands_are_where_the_others_are_and_its_feet_carry_as_much(heard):
+def test_its_hands_are_where_the_others_are_and_its_feet_carry_as_much(received):
     resting, integrated = (
-        vectors(messages, "pose.position", "pose.orientation") for messages in heard["l_hand/pose"]
+        vectors(messages, "pose.position", "pose.orientation") for messages in received["l_hand/pose"]
     )
     assert resting == pytest.approx(integrated, abs=1e-5)
     resting, integrated = (
-        vectors(messages, "wrench.force", "wrench.torque") for messages in heard["r_foot/wrench"]
+        vectors(messages, "wrench.force", "wrench.torque") for messages in received["r_foot/wrench"]
     )
     assert resting == pytest.approx(integrated, abs=0.05)
 
 
-def test_its_inertial_sensor_is_as_noisy(heard):
+def test_its_inertial_sensor_is_as_noisy(received):
     for field, least in (("angular_velocity", 1e-4), ("linear_acceleration", 1e-3)):
-        resting, integrated = (vectors(messages, field) for messages in heard["imu"])
+        resting, integrated = (vectors(messages, field) for messages in received["imu"])
         assert (resting.std(axis=0) > least).all()
         assert resting.std(axis=0) == pytest.approx(integrated.std(axis=0), rel=0.5)
         assert resting.mean(axis=0) == pytest.approx(
@@ -110,21 +110,21 @@ def test_its_inertial_sensor_is_as_noisy(heard):
         assert len(np.unique(resting, axis=0)) == len(resting)  # no reading is given twice
 
 
-def test_its_battery_drains_as_fast(heard):
+def test_its_battery_drains_as_fast(received):
     def rate(messages):
         """From one message to the next; on a busy machine one may be lost."""
         return np.median(np.diff(vectors(messages, "percentage")[:, 0]))
 
-    resting, integrated = heard["battery_state"]
+    resting, integrated = received["battery_state"]
     assert rate(resting) < 0
     assert rate(resting) == pytest.approx(rate(integrated), rel=0.05)
     fields = ("voltage", "current")
     assert vectors(resting, *fields) == pytest.approx(vectors(integrated, *fields), rel=1e-3)
 
 
-def test_it_says_the_same_of_itself(heard):
+def test_it_says_the_same_of_itself(received):
     resting, integrated = (
-        vectors(messages, "mode", "motors_enabled", "steps") for messages in heard["robot_state"]
+        vectors(messages, "mode", "motors_enabled", "steps") for messages in received["robot_state"]
     )
     assert (resting == integrated).all()
 
