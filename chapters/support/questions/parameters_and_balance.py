@@ -104,7 +104,7 @@ QUESTIONS = (
             ),
             Choice(
                 "A warning in the node's log.",
-                "rclpy says nothing about it.",
+                "rclpy keeps the value for a parameter of that name, and nobody declares one: no reason to warn.",
             ),
             Choice(
                 "Nothing. The node starts with the default of speed.",

@@ -94,4 +94,4 @@ def test_every_choice_of_every_question_is_marked_with_its_own_reason(chapter: s
     verdicts = [quiz.mark(letter) for letter in "abcdefgh"[: len(quiz.question.choices)]]
     assert len(verdicts) >= 3
     assert len(set(verdicts)) == len(verdicts)
-    assert all(len(verdict) > 40 for verdict in verdicts)
+    assert all(len(choice.why) >= 30 for choice in quiz.question.choices)
