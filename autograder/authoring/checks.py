@@ -104,9 +104,9 @@ def in_order(
     return Scenario("in_order", all_inputs, robot, namespace=namespace, parameters=parameters or {})
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Check:
-    """One check: `id` and `title` come from the function, `on` are the scenarios it judges, `needs` the ids of others.
+    """One check: `id` is the name of its variable, `on` are the scenarios it judges, `needs` the checks before it.
 
     `see` is the lesson that its failures point to, unless one names another: CHAPTER#cell, or an address.
     `hidden` is set when it is loaded: a check is hidden because it stands in hidden.py.
@@ -116,13 +116,13 @@ class Check:
     `obligations` are what it is made of, if it was made by `check_of`.
     """
 
-    id: str
     title: str
     points: int
     judge: Judge
     on: tuple[Scenario, ...]
-    needs: tuple[str, ...]
+    needs: tuple[Check, ...] = ()
     see: str = ""
+    id: str = ""
     hidden: bool = False
     clauses: tuple[int, ...] = ()
     promise: str = ""
@@ -170,17 +170,23 @@ def check(
         if not judge.__doc__:
             raise ValueError(f"the check {judge.__name__} needs a docstring: it is its title")
         title = judge.__doc__.strip().splitlines()[0].rstrip(".")
-        return named_check(
-            judge.__name__, title, judge, points=points, on=on, needs=needs, see=see, clauses=clauses
+        return check_by(
+            judge,
+            title,
+            points=points,
+            on=on,
+            needs=needs,
+            see=see,
+            clauses=clauses,
+            id=judge.__name__,
         )
 
     return make
 
 
-def named_check(
-    id: str,
-    title: str,
+def check_by(
     judge: Judge,
+    title: str,
     *,
     points: int = 1,
     on: Scenario | Sequence[Scenario],
@@ -188,16 +194,20 @@ def named_check(
     see: str = "",
     clauses: Sequence[int] = (),
     obligations: Sequence[Obligation] = (),
+    id: str = "",
 ) -> Check:
-    """Make a check of a function over transcripts; if it judges `obligations`, it takes one, and gets each."""
+    """Make a check of a function over transcripts; if it judges `obligations`, it takes one, and gets each.
+
+    Only a check that stands in a list needs an `id`: any other gets its variable's name.
+    """
     return Check(
-        id,
         title,
         points,
         judge,
         (on,) if isinstance(on, Scenario) else tuple(on),
-        tuple(need.id for need in ((needs,) if isinstance(needs, Check) else needs)),
+        (needs,) if isinstance(needs, Check) else tuple(needs),
         see,
+        id,
         clauses=tuple(clauses),
         each_run=bool(obligations),
         obligations=tuple(obligations),
@@ -205,9 +215,14 @@ def named_check(
 
 
 def checks_in(module: ModuleType, *, but: Sequence[Check] = ()) -> list[Check]:
-    """Return the checks that a module defines, in its order, also those in its lists; `but` are others' it imports."""
+    """Return the checks that a module defines, in its order, also those in its lists; `but` are others' it imports.
+
+    Each variable gives its check its name.
+    """
     found: list[Check] = []
-    for value in vars(module).values():
+    for name, value in vars(module).items():
+        if isinstance(value, Check):
+            value.id = value.id or name
         for one in value if isinstance(value, list | tuple) else (value,):
             if isinstance(one, Check) and one not in found and one not in but:
                 found.append(one)

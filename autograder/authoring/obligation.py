@@ -11,7 +11,7 @@ def tells_the_truth(call: Call) -> str | None:
 
 A check is one or more of them with a name, points and a lesson:
 
-tells_that_it_stands = check_of("tells_that_it_stands", tells_the_truth, points=1, on=ASK, needs=server_appears)
+tells_that_it_stands = check_of(tells_the_truth, on=ASK, needs=server_appears)
 '''
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from autograder.authoring.checks import Check, Scenario, named_check
+from autograder.authoring.checks import Check, Scenario, check_by
 from autograder.authoring.diagnosis.missing import unseen
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.call import Call
 from autograder.authoring.evidence.goal import Goal
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.authoring.failure import NoOccasion
+from autograder.authoring.failure import Failure, NoOccasion
 from autograder.authoring.sequence import require_all_steps
 
 Situation = str  # in which an obligation was judged, as the table of clauses names it
@@ -42,6 +42,7 @@ class Obligation:
         clauses: the numbers of the statement's clauses that it holds.
         occasions: finds in a run what it may be about: its calls, its goals, the run itself.
         require: raises a Failure; returns the situation, or None where the obligation says nothing.
+        see: the lesson that a failure points to: CHAPTER#cell, or an address.
     """
 
     name: str
@@ -49,6 +50,7 @@ class Obligation:
     clauses: tuple[int, ...]
     occasions: Callable[[Transcript], Iterable[Any]] = field(repr=False)
     require: Callable[[Any], Situation | None] = field(repr=False)
+    see: str = ""
 
     def judge(self, run: Transcript) -> Counter[Situation]:
         """Require it on every occasion of the run; return how often it was judged, by situation."""
@@ -57,15 +59,15 @@ class Obligation:
 
 
 def obligation(
-    *clauses: int, of: Callable[[Transcript], Iterable[Any]]
+    *clauses: int, of: Callable[[Transcript], Iterable[Any]], see: str = ""
 ) -> Callable[[Callable[[Any], Situation | None]], Obligation]:
-    """Make an obligation of a function whose docstring says what holds; `of` finds the occasions in a run."""
+    """Make an obligation of a function whose docstring says what holds; `of` finds the occasions in a run, `see` is a lesson."""
 
     def make(require: Callable[[Any], Situation | None]) -> Obligation:
         if not require.__doc__:
             raise ValueError(f"the obligation {require.__name__} needs a docstring: it says what must hold")
         sentence = require.__doc__.strip().splitlines()[0].rstrip(".")
-        return Obligation(require.__name__, sentence, clauses, of, require)
+        return Obligation(require.__name__, sentence, clauses, of, require, see)
 
     return make
 
@@ -101,8 +103,8 @@ def whole_run(run: Transcript) -> list[Transcript]:
 
 
 def check_of(
-    id: str,
-    *obligations: Obligation,
+    obligations: Obligation | Sequence[Obligation],
+    *,
     points: int = 1,
     on: Scenario | Sequence[Scenario],
     needs: Check | Sequence[Check] = (),
@@ -113,32 +115,36 @@ def check_of(
     """Make a check that judges obligations in every scenario of `on`, each of which has to give rise to each of them.
 
     Args:
-        id: of the check.
         obligations: which all must hold.
         points: for all of them; 1 unless said otherwise.
         on: the scenarios; one in which the submission fails is retried alone.
         needs: checks that must have passed.
         title: of the check; by default the sentence of its first obligation.
-        see: the lesson that its failures point to.
+        see: the lesson that its failures point to; by default that of the obligation that fails, or of the first.
         to_its_end: whether every step of a scenario must have been carried out.
     """
+    judged = (obligations,) if isinstance(obligations, Obligation) else tuple(obligations)
 
     def judge(run: Transcript) -> None:
-        for each in obligations:
-            if not each.judge(run):
+        for each in judged:
+            try:
+                occasions = each.judge(run)
+            except Failure as failure:
+                failure.see = failure.see or see or each.see
+                raise
+            if not occasions:
                 require_all_steps(run)
                 raise NoOccasion(each.sentence)
         if to_its_end:
             require_all_steps(run)
 
-    return named_check(
-        id,
-        title or obligations[0].sentence,
+    return check_by(
         judge,
+        title or judged[0].sentence,
         points=points,
         on=on,
         needs=needs,
-        see=see,
-        clauses=sorted({clause for each in obligations for clause in each.clauses}),
-        obligations=obligations,
+        see=see or judged[0].see,
+        clauses=sorted({clause for each in judged for clause in each.clauses}),
+        obligations=judged,
     )

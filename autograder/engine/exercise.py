@@ -192,9 +192,11 @@ def _require_sound_checks(exercise: Exercise) -> None:
     """Require that each check has an id of its own and needs only checks that come before it."""
     seen: set[str] = set()
     for check in exercise.checks:
+        if not check.id:
+            raise UnusableExercise(f"a check in a list of {exercise.name} has no id: “{check.title}”")
         if check.id in seen:
             raise UnusableExercise(f"two checks of {exercise.name} are called {check.id}")
-        if missing := set(check.needs) - seen:
+        if missing := {need.id for need in check.needs} - seen:
             raise UnusableExercise(
                 f"{check.id} of {exercise.name} needs {sorted(missing)}, which do not come before it"
             )

@@ -158,9 +158,9 @@ class _Session:
     def _settle(self) -> None:
         """Give a verdict on every check that can be judged now."""
         for check in self._exercise.checks:
-            if check.id in self._verdicts or not all(need in self._verdicts for need in check.needs):
+            if check.id in self._verdicts or not all(need.id in self._verdicts for need in check.needs):
                 continue
-            if unmet := [need for need in check.needs if self._verdicts[need].status != "passed"]:
+            if unmet := [need.id for need in check.needs if self._verdicts[need.id].status != "passed"]:
                 self._conclude(self._not_run(check, unmet))
                 continue
             while check.id not in self._verdicts and all(run and run.done() for run in self._runs_of(check)):
@@ -191,7 +191,7 @@ class _Session:
         for check in self._exercise.checks:
             if check.id in self._verdicts:
                 continue
-            met = all(need in self._verdicts for need in check.needs)
+            met = all(need.id in self._verdicts for need in check.needs)
             attempts = ((scenario, self._attempts[check.id, scenario]) for scenario in check.on)
             wanted = certain if met else possible
             wanted += [

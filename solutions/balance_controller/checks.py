@@ -8,14 +8,9 @@ from autograder.authoring import check_of, in_order, program, standard
 
 from . import model
 
-DECLARED = "10_parameters_and_balance#circle-why"
 TWO_CALLBACKS = "10_parameters_and_balance#book-why"
-ONE_BY_ONE = "10_parameters_and_balance#atomic-why"
 ALL_AT_ONCE = "10_parameters_and_balance#atomic-fix-why"
 WHO_SEES_IT = "10_parameters_and_balance#guarded-gap"
-FROM_THE_START = "10_parameters_and_balance#late-why"
-PUSHED = "10_parameters_and_balance#push-why"
-LATE = "01_robot_and_graph#late-why"
 
 SETS = in_order(
     *(["describe"], ["ask"], ["settle"], ["set_each", {"kp_pitch": 320.0}], ["settle"]),
@@ -49,36 +44,28 @@ PUSH = in_order(
 
 of_sets = partial(check_of, on=SETS)
 
-server_appears = of_sets("server_appears", model.offers_its_parameters, see=DECLARED)
+server_appears = of_sets(model.offers_its_parameters)
 declares_the_robots_gains = of_sets(
-    "declares_the_robots_gains",
     model.has_its_gains,
     title="The five parameters are doubles, and their defaults are the robot's own gains",
     needs=server_appears,
-    see=DECLARED,
 )
-describes_its_parameters = of_sets(
-    "describes_its_parameters", model.describes_each, needs=server_appears, see=DECLARED
-)
+describes_its_parameters = of_sets(model.describes_each, needs=server_appears)
 publishes_what_it_accepted = of_sets(
-    "publishes_what_it_accepted",
-    *(model.accepts_the_table, model.publishes_them_in_time),
+    [model.accepts_the_table, model.publishes_them_in_time],
     title="After an accepted set, balance_gains has all five gains as they are then",
     points=2,
     needs=declares_the_robots_gains,
     see=TWO_CALLBACKS,
 )
 publishes_once = of_sets(
-    "publishes_once",
     model.one_message_each,
     title="One message for each accepted set, also when a set has several gains",
     points=2,
     needs=publishes_what_it_accepted,
-    see=ONE_BY_ONE,
 )
 refuses_bad_gains = check_of(
-    "refuses_bad_gains",
-    *(model.refuses_weak_gains, model.refuses_limits, model.refuses_negative_gains, model.gives_a_reason),
+    [model.refuses_weak_gains, model.refuses_limits, model.refuses_negative_gains, model.gives_a_reason],
     title="A gain that is negative, or too weak to hold the trunk, is refused with a reason",
     points=2,
     on=REFUSALS,
@@ -86,17 +73,20 @@ refuses_bad_gains = check_of(
     see=TWO_CALLBACKS,
 )
 says_nothing_of_refused_gains = check_of(
-    "says_nothing_of_refused_gains",
-    *(model.says_nothing_when_it_refuses, model.accepts_the_table, model.one_message_each),
+    [model.says_nothing_when_it_refuses, model.accepts_the_table, model.one_message_each],
     on=REFUSALS,
     needs=[publishes_once, refuses_bad_gains],
-    see=TWO_CALLBACKS,
 )
 sets_all_or_none = check_of(
-    "sets_all_or_none",
-    *(model.refuses_negative_gains, model.refuses_weak_gains, model.gives_a_reason),
-    *(model.says_nothing_when_it_refuses, model.has_what_it_accepted),
-    *(model.accepts_the_table, model.publishes_only_what_was_accepted),
+    [
+        model.refuses_negative_gains,
+        model.refuses_weak_gains,
+        model.gives_a_reason,
+        model.says_nothing_when_it_refuses,
+        model.has_what_it_accepted,
+        model.accepts_the_table,
+        model.publishes_only_what_was_accepted,
+    ],
     title="Of an atomic set with one bad gain nothing is kept, published or applied later",
     points=2,
     on=ALL_OR_NONE,
@@ -104,36 +94,29 @@ sets_all_or_none = check_of(
     see=ALL_AT_ONCE,
 )
 keeps_the_last_gains = of_sets(
-    "keeps_the_last_gains",
     model.keeps_the_last,
     title="A robot that starts later gets the last gains, because the topic is latched",
     needs=publishes_what_it_accepted,
-    see=LATE,
 )
 publishes_at_the_start = check_of(
-    "publishes_at_the_start",
-    *(model.has_its_gains, model.publishes_its_start_once),
+    [model.has_its_gains, model.publishes_its_start_once],
     title=model.publishes_its_start_once.sentence,
     on=START,
     needs=keeps_the_last_gains,
     see=WHO_SEES_IT,
 )
 refuses_a_bad_start = check_of(
-    "refuses_a_bad_start",
     model.refuses_to_start,
     title="Started with a bad gain, it ends with status 1 and a line that says why",
     points=2,
     on=WEAK_START,
     needs=server_appears,
-    see=FROM_THE_START,
 )
 survives_a_push = check_of(
-    "survives_a_push",
-    *(model.accepts_the_table, model.publishes_them_in_time, model.survives),
+    [model.accepts_the_table, model.publishes_them_in_time, model.survives],
     title=model.survives.sentence,
     points=2,
     on=PUSH,
     needs=publishes_what_it_accepted,
-    see=PUSHED,
 )
 ends_cleanly = standard.ends_cleanly(on=START, needs=server_appears, clauses=[15])

@@ -100,38 +100,35 @@ OTHER_NAMESPACE = in_order(
 in_any_order = partial(check_of, on=ANY_ORDER)
 
 refuses_what_is_no_number = in_any_order(
-    "refuses_what_is_no_number",
-    *(model.refuses_no_numbers, model.gives_a_reason),
+    [model.refuses_no_numbers, model.gives_a_reason],
     title="NaN and infinity are refused with a reason",
     needs=checks.refuses_bad_gains,
     see="02_services#nan",
 )
 refuses_integers = in_any_order(
-    "refuses_integers",
-    *(model.takes_no_integer_for_a_double, model.gives_a_reason),
+    [model.takes_no_integer_for_a_double, model.gives_a_reason],
     title="An integer for a double is refused with a reason",
     needs=checks.refuses_bad_gains,
     see="10_parameters_and_balance#int-why",
 )
 refuses_the_limit_itself = in_any_order(
-    "refuses_the_limit_itself",
-    *(model.refuses_limits, model.refuses_weak_gains, model.refuses_negative_gains, model.gives_a_reason),
+    [model.refuses_limits, model.refuses_weak_gains, model.refuses_negative_gains, model.gives_a_reason],
     title="A kp of exactly 51 N·m/rad and a max_torque of 0 are refused, too",
     needs=checks.refuses_bad_gains,
     see=checks.TWO_CALLBACKS,
 )
 leaves_nothing_behind = in_any_order(
-    "leaves_nothing_behind",
-    *(model.says_nothing_when_it_refuses, model.has_what_it_accepted),
-    *(model.publishes_only_what_was_accepted, model.keeps_the_last),
+    [
+        model.says_nothing_when_it_refuses,
+        model.has_what_it_accepted,
+        model.publishes_only_what_was_accepted,
+        model.keeps_the_last,
+    ],
     title="What is refused leaves nothing behind, not in the parameters, nor on the topic, nor for a late robot",
     needs=[checks.sets_all_or_none, checks.keeps_the_last_gains],
-    see=checks.TWO_CALLBACKS,
 )
 publishes_any_gains = check_of(
-    "publishes_any_gains",
-    *(model.has_its_gains, model.accepts_the_table),
-    *(model.publishes_them_in_time, model.one_message_each),
+    [model.has_its_gains, model.accepts_the_table, model.publishes_them_in_time, model.one_message_each],
     title="All that the table accepts is accepted and published, once for each set, also one that changes nothing",
     points=2,
     on=ANY_ORDER,
@@ -139,21 +136,17 @@ publishes_any_gains = check_of(
     see=checks.TWO_CALLBACKS,
 )
 refuses_every_bad_start = check_of(
-    "refuses_every_bad_start",
     model.refuses_to_start,
     title="Started with 51.0, NaN, an integer or a negative gain, it ends with status 1 and a line",
     points=2,
     on=BAD_STARTS,
     needs=checks.refuses_a_bad_start,
-    see=checks.FROM_THE_START,
 )
 survives_any_push = check_of(
-    "survives_any_push",
-    *(model.accepts_the_table, model.publishes_them_in_time, model.survives),
+    [model.accepts_the_table, model.publishes_them_in_time, model.survives],
     title="With other gains, and from any side, the robot survives a push of 10 N·s",
     on=ANY_PUSH,
     needs=checks.survives_a_push,
-    see=checks.PUSHED,
 )
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
     "publishes",

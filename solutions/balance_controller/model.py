@@ -40,7 +40,7 @@ DESCRIBE = f"{SERVICES}describe_parameters"
 # -- the parameters ---------------------------------------------------------------------------------------------------
 
 
-@obligation(of=whole_run)
+@obligation(of=whole_run, see="10_parameters_and_balance#circle-why")
 def offers_its_parameters(run: Transcript) -> str:
     """The node offers its parameters, as the node balance_controller"""
     require_ready(run)
@@ -49,7 +49,7 @@ def offers_its_parameters(run: Transcript) -> str:
     return "its parameters"
 
 
-@obligation(1, 12, of=readings)
+@obligation(1, 12, of=readings, see="10_parameters_and_balance#circle-why")
 def has_its_gains(reading: Reading) -> str:
     """The five parameters are doubles, at first the robot's own gains, or those that the node was started with"""
     started_with = reading.call.run.params.get("started_with", {})
@@ -72,7 +72,7 @@ def has_its_gains(reading: Reading) -> str:
     return "later" if reading.before else "started with some" if started_with else "defaults"
 
 
-@obligation(2, of=calls(DESCRIBE))
+@obligation(2, of=calls(DESCRIBE), see="10_parameters_and_balance#circle-why")
 def describes_each(call: Call) -> str:
     """Each parameter has a description and a range that holds its default"""
     described = iter(call.response.descriptors)
@@ -134,7 +134,7 @@ def gives_a_reason(change: Change) -> str | None:
     return "refused"
 
 
-@obligation(6, of=record.changes)
+@obligation(6, of=record.changes, see="10_parameters_and_balance#push-why")
 def accepts_the_table(change: Change) -> str | None:
     """All other values of the table are accepted"""
     if change.faults or any(value > gains.HIGHEST[name] for name, value in change.values.items()):
@@ -194,7 +194,7 @@ def publishes_them_in_time(batch: Batch) -> str | None:
     return "nothing new" if last.after == old else "new gains"
 
 
-@obligation(8, of=record.batches)
+@obligation(8, of=record.batches, see="10_parameters_and_balance#atomic-why")
 def one_message_each(batch: Batch) -> str | None:
     """Each accepted set has one message, with the gains as they were then"""
     accepted, messages = batch.accepted, batch.messages
@@ -214,7 +214,7 @@ def one_message_each(batch: Batch) -> str | None:
     return f"{several}, one refused" if len(accepted) < len(batch.changes) else several
 
 
-@obligation(9, of=record.batches)
+@obligation(9, of=record.batches, see="10_parameters_and_balance#book-why")
 def says_nothing_when_it_refuses(batch: Batch) -> str | None:
     """Nothing is published for a set that is refused"""
     if batch.accepted:
@@ -255,7 +255,7 @@ def _listeners(run: Transcript) -> list[tuple[Transcript, str, float]]:
     return [(run, name, run.mark(name)) for name in names]
 
 
-@obligation(11, of=_listeners)
+@obligation(11, of=_listeners, see="01_robot_and_graph#late-why")
 def keeps_the_last(occasion: tuple[Transcript, str, float]) -> str:
     """A robot that starts later gets the last message, because the topic is latched"""
     run, name, began = occasion
@@ -295,7 +295,7 @@ def publishes_its_start_once(run: Transcript) -> str | None:
 # -- the node and the robot -------------------------------------------------------------------------------------------
 
 
-@obligation(13, of=whole_run)
+@obligation(13, of=whole_run, see="10_parameters_and_balance#late-why")
 def refuses_to_start(run: Transcript) -> str:
     """Started with a value that it would refuse, the program ends with status 1 and a line on stderr"""
     require_within_limits(run)

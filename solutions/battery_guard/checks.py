@@ -86,70 +86,50 @@ INTERRUPTED = guard(
 )
 
 sends_the_goal = check_of(
-    "sends_the_goal",
-    model.sends_one_goal,
-    model.sends_it_only_when_it_may,
+    [model.sends_one_goal, model.sends_it_only_when_it_may],
     title="With the battery at 0.80 it sends one goal, at x, y and yaw in frame odom",
     points=2,
     on=GOOD,
-    see="06_walk_to_a_pose#client-intro",
 )
 says_how_it_succeeded = check_of(
-    "says_how_it_succeeded",
-    model.compares_exactly,
-    model.ends_with_the_goal,
+    [model.compares_exactly, model.ends_with_the_goal],
     title="A goal that SUCCEEDED while the battery lasts is not cancelled, and ends it with status 0",
     points=2,
     on=GOOD,
     needs=sends_the_goal,
-    see="06_walk_to_a_pose#follow-task",
 )
 refuses_wrong_arguments = check_of(
-    "refuses_wrong_arguments",
     model.refuses_what_is_no_pose,
     title="Wrong arguments end it with status 2 and the usage, before a node is started",
     on=[TOO_FEW, NO_NUMBER],
     needs=sends_the_goal,
-    see="03_clients_that_survive#fix-frame",
 )
 gives_up_without_a_server = check_of(
-    "gives_up_without_a_server",
-    model.gives_up_on_a_missing_server,
-    model.says_why,
+    [model.gives_up_on_a_missing_server, model.says_why],
     title="Without a server it ends with status 1 after 5 s, and says so on stderr",
     on=NOBODY,
     see="03_clients_that_survive#fix-why",
 )
 says_how_it_failed = check_of(
-    "says_how_it_failed",
     model.says_why,
     title="A rejected goal ends it with status 2, an aborted one with 3 and error_msg on stderr",
     on=[REJECTING, ABORTING],
     needs=sends_the_goal,
-    see="06_walk_to_a_pose#hopeful-why",
 )
 does_not_set_out_on_a_low_battery = check_of(
-    "does_not_set_out_on_a_low_battery",
-    model.sends_it_only_when_it_may,
-    model.says_that_the_battery_is_low,
+    [model.sends_it_only_when_it_may, model.says_that_the_battery_is_low],
     title="With a latched battery_state of 0.12 it sends no goal, says so on stdout, and ends with status 4",
     points=2,
     on=LOW_BEFORE,
     needs=sends_the_goal,
-    see="08_navigation#guard-intro",
 )
 does_not_set_out_without_a_battery_state = check_of(
-    "does_not_set_out_without_a_battery_state",
-    model.sends_it_only_when_it_may,
-    model.gives_up_without_a_percentage,
-    model.says_why,
+    [model.sends_it_only_when_it_may, model.gives_up_without_a_percentage, model.says_why],
     title="Without any battery_state in 5 s it sends no goal and ends with status 1",
     on=WITHOUT_BATTERY,
     needs=sends_the_goal,
-    see="08_navigation#guard-intro",
 )
 cancels_when_the_battery_drops = check_of(
-    "cancels_when_the_battery_drops",
     model.cancels_when_low,
     title="When the percentage falls below 0.20 on the way, it cancels the goal within 1 s, once",
     points=2,
@@ -158,7 +138,6 @@ cancels_when_the_battery_drops = check_of(
     see="08_navigation#watch-run",
 )
 waits_until_the_robot_stands = check_of(
-    "waits_until_the_robot_stands",
     model.waits_for_canceled_and_standing,
     title="After the cancel it waits for CANCELED and for robot_state STANDING, then ends with status 4",
     points=2,
@@ -167,18 +146,14 @@ waits_until_the_robot_stands = check_of(
     see="08_navigation#standing-why",
 )
 ignores_what_is_no_percentage = check_of(
-    "ignores_what_is_no_percentage",
     model.ignores_what_is_none,
     title="NaN, before the goal and on the way, 20.0, 15.0 and -0.3 are ignored, with one warning line on stderr",
     points=2,
     on=NO_PERCENTAGE_AT_ALL,
     needs=sends_the_goal,
-    see="08_navigation#guard-traps-why",
 )
 ctrl_c_cancels_the_goal = check_of(
-    "ctrl_c_cancels_the_goal",
-    model.cancels_at_ctrl_c,
-    model.ends_after_ctrl_c,
+    [model.cancels_at_ctrl_c, model.ends_after_ctrl_c],
     title="Ctrl-C cancels the goal; it waits for its end and ends with status 4",
     on=INTERRUPTED,
     needs=sends_the_goal,

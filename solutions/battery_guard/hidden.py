@@ -140,17 +140,13 @@ SILENT = program("in_order", _silent)
 BY_ANOTHER = guard({"distances": way(5), "ends_after": 1.0, "status": GoalStatus.STATUS_CANCELED})
 
 goes_anywhere = check_of(
-    "goes_anywhere",
-    model.sends_one_goal,
-    model.compares_exactly,
-    model.ends_with_the_goal,
+    [model.sends_one_goal, model.compares_exactly, model.ends_with_the_goal],
     title="Negative numbers, a yaw that is left out, a battery at 1.0 and another namespace are no obstacle",
     on=[OTHER_NAMESPACE, WITHOUT_YAW],
     needs=checks.says_how_it_succeeded,
     see="01_robot_and_graph#names-why",
 )
 compares_with_the_limit_exactly = check_of(
-    "compares_with_the_limit_exactly",
     model.compares_exactly,
     title="0.20 as a float32 is not below 0.20; 0.1999 and 0.0 are",
     points=2,
@@ -159,7 +155,6 @@ compares_with_the_limit_exactly = check_of(
     see="08_navigation#float-why",
 )
 cancels_right_after_the_acceptance = check_of(
-    "cancels_right_after_the_acceptance",
     model.cancels_when_accepted,
     title="A battery that drops before the goal is accepted cancels it right after the acceptance",
     on=BEFORE_ACCEPTANCE,
@@ -167,7 +162,6 @@ cancels_right_after_the_acceptance = check_of(
     see="08_navigation#client-intro",
 )
 success_wins_the_race = check_of(
-    "success_wins_the_race",
     model.believes_the_end,
     title="A goal that ends otherwise in spite of the cancel: SUCCEEDED ends it with status 0, ABORTED with 3",
     points=2,
@@ -176,24 +170,18 @@ success_wins_the_race = check_of(
     see="07_cancel_and_preempt#late-why",
 )
 looks_at_the_battery_until_it_sends = check_of(
-    "looks_at_the_battery_until_it_sends",
-    model.sends_it_only_when_it_may,
-    model.says_that_the_battery_is_low,
+    [model.sends_it_only_when_it_may, model.says_that_the_battery_is_low],
     title="A battery that drops while it waits for the server keeps it from sending the goal",
     on=LATE_SERVER,
     needs=checks.does_not_set_out_on_a_low_battery,
-    see="08_navigation#guard-intro",
 )
 waits_for_a_percentage = check_of(
-    "waits_for_a_percentage",
     model.holds_whatever_happens,
     title="While battery_state holds no percentage it waits, at most 5 s, and then ends with status 1",
     on=[NEVER_A_PERCENTAGE, ANY_STORY],
     needs=[checks.ignores_what_is_no_percentage, checks.does_not_set_out_without_a_battery_state],
-    see="08_navigation#guard-traps-why",
 )
 takes_standing_and_canceled_in_any_order = check_of(
-    "takes_standing_and_canceled_in_any_order",
     model.waits_for_canceled_and_standing,
     title="When the robot stands before the goal is CANCELED, or has not moved yet, CANCELED ends it",
     on=[STANDS_FIRST, BEFORE_ACCEPTANCE],
@@ -201,7 +189,6 @@ takes_standing_and_canceled_in_any_order = check_of(
     see="08_navigation#standing-why",
 )
 waits_no_longer_than_5_s = check_of(
-    "waits_no_longer_than_5_s",
     model.waits_5_s_for_each,
     title="If CANCELED or STANDING does not come within 5 s, it ends all the same, with status 4",
     on=[NEVER_ANSWERED, NEVER_STANDS, NEVER_CANCELED],
@@ -209,16 +196,13 @@ waits_no_longer_than_5_s = check_of(
     see="08_navigation#standing-why",
 )
 gives_up_in_silence = check_of(
-    "gives_up_in_silence",
-    model.ends_in_silence,
-    model.says_why,
+    [model.ends_in_silence, model.says_why],
     title="5 s without an answer, or without feedback and result, end it with status 1; an accepted goal is canceled",
     on=[UNANSWERED, SILENT],
     needs=checks.gives_up_without_a_server,
     see="03_clients_that_survive#fix-why",
 )
 tells_a_cancel_by_another = check_of(
-    "tells_a_cancel_by_another",
     model.ends_with_the_goal,
     title="A goal that somebody else cancels ends it with status 4, and a line on stdout says CANCELED",
     on=BY_ANOTHER,
@@ -226,7 +210,6 @@ tells_a_cancel_by_another = check_of(
     see="08_navigation#stop-why",
 )
 a_refused_cancel_is_no_end = check_of(
-    "a_refused_cancel_is_no_end",
     model.believes_the_end,
     title="When the cancel is refused (empty goals_canceling), the goal is followed: SUCCEEDED ends it with status 0",
     on=REFUSED,

@@ -16,10 +16,10 @@ from .life import BATTERY, KNOWN, LIMIT, GuardLife, about_level, guards, is_perc
 # -- what it sends ----------------------------------------------------------------------------------------------------
 
 
-sends_one_goal = obligation(4, 18, of=guards)(owed.sends_one_goal)
+sends_one_goal = obligation(4, 18, of=guards, see="06_walk_to_a_pose#client-intro")(owed.sends_one_goal)
 
 
-@obligation(1, 3, of=guards)
+@obligation(1, 3, of=guards, see="08_navigation#guard-intro")
 def sends_it_only_when_it_may(life: GuardLife) -> str:
     """It sends no goal before it knows a percentage, and none while the last percentage is below 0.20"""
     lows = [low for low in life.lows if low.since < life.exited]
@@ -124,7 +124,7 @@ cancels_when_accepted = _cancels("A battery that is low at the acceptance cancel
 cancels_at_ctrl_c = _cancels("Ctrl-C cancels the goal", 16)
 
 
-@obligation(7, of=guards)
+@obligation(7, of=guards, see="06_walk_to_a_pose#follow-task")
 def compares_exactly(life: GuardLife) -> str | None:
     """Whatever the percentages were, the goal goes on down to 0.20 and is cancelled below it"""
     if life.goal is None or life.accepted == math.inf:
@@ -140,7 +140,7 @@ def compares_exactly(life: GuardLife) -> str | None:
     return ", ".join(said)
 
 
-@obligation(8, of=guards)
+@obligation(8, of=guards, see="08_navigation#guard-traps-why")
 def ignores_what_is_none(life: GuardLife) -> str | None:
     """NaN and numbers outside 0 to 1 are ignored, and one line on stderr tells of all of them together"""
     if not life.ignored:
@@ -236,7 +236,7 @@ ends_in_silence = _ends(
 ends_after_ctrl_c = _ends("After Ctrl-C it waits for the goal's end, at most 5 s", CTRL_C)
 
 
-@obligation(13, 15, of=guards)
+@obligation(13, 15, of=guards, see="06_walk_to_a_pose#hopeful-why")
 def says_why(life: GuardLife) -> str | None:
     """With status 1, 2 and 3 one line on stderr says why; after ABORTED, error_msg is in it and nowhere else"""
     right, exited = _require_ending(life)
@@ -246,7 +246,9 @@ def says_why(life: GuardLife) -> str | None:
     return right[0].because
 
 
-refuses_what_is_no_pose = obligation(17, of=whole_run)(owed.refuses_what_is_no_pose)
+refuses_what_is_no_pose = obligation(17, of=whole_run, see="03_clients_that_survive#fix-frame")(
+    owed.refuses_what_is_no_pose
+)
 
 EVERYTHING = (
     *(sends_it_only_when_it_may, sends_one_goal, compares_exactly, ignores_what_is_none),
@@ -254,7 +256,11 @@ EVERYTHING = (
 )
 
 
-@obligation(*sorted({clause for each in EVERYTHING for clause in each.clauses}), of=guards)
+@obligation(
+    *sorted({clause for each in EVERYTHING for clause in each.clauses}),
+    of=guards,
+    see="08_navigation#guard-traps-why",
+)
 def holds_whatever_happens(life: GuardLife) -> str:
     """Whatever the battery, the server and the robot do, and when Ctrl-C is pressed, every clause holds"""
     for each in EVERYTHING:

@@ -15,22 +15,19 @@ LEVELS = in_order(
 )
 INTERRUPT = in_order(robot=UNPLUGGED_ROBOT, interrupt=True)
 
-BATTERY_RULES, KNOWS_NOTHING = "02_services#battery-rules", "02_services#m9-fix-why"
+KNOWS_NOTHING = "02_services#m9-fix-why"
 
 server_appears = standard.server_appears("get_battery_status", on=INTERRUPT, clauses=[5])
 
 answers_with_the_last_message = check_of(
-    "answers_with_the_last_message",
     model.repeats_the_last_message,
     title="It answers with the robot's last battery_state, field by field",
     on=ASK_ONCE,
     needs=server_appears,
-    see=BATTERY_RULES,
 )
 
 says_when_it_knows_nothing = check_of(
-    "says_when_it_knows_nothing",
-    *(model.answers_in_time, model.never_waits, model.says_when_it_knows_nothing),
+    [model.answers_in_time, model.never_waits, model.says_when_it_knows_nothing],
     title="Before the first message it answers at once, with available: false and every number NaN",
     points=2,
     on=UNPLUGGED,
@@ -39,12 +36,10 @@ says_when_it_knows_nothing = check_of(
 )
 
 follows_the_battery = check_of(
-    "follows_the_battery",
     model.repeats_the_last_message,
     title="When the charge changes, so does the answer",
     on=LEVELS,
     needs=answers_with_the_last_message,
-    see=BATTERY_RULES,
 )
 
 ends_cleanly = standard.ends_cleanly(on=[INTERRUPT, ASK_ONCE], needs=server_appears, clauses=[6])

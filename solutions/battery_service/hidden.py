@@ -9,7 +9,7 @@ from autograder.authoring import Scenario, check_of, in_order, shuffled
 from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
-from .checks import BATTERY_RULES, UNPLUGGED, UNPLUGGED_ROBOT
+from .checks import UNPLUGGED, UNPLUGGED_ROBOT
 
 
 def _steps(random: Random) -> dict[str, Any]:
@@ -45,7 +45,6 @@ ANY_ORDER = Scenario("in_order", _steps, robot=UNPLUGGED_ROBOT)
 OTHER_NAMESPACE = in_order(["let_publish", 1], ["ask", 1], namespace="/lab_7/robot")
 
 recovers_when_the_sensor_appears = check_of(
-    "recovers_when_the_sensor_appears",
     model.repeats_the_last_message,
     title="Once the first message has come, it answers with it",
     on=UNPLUGGED,
@@ -54,17 +53,14 @@ recovers_when_the_sensor_appears = check_of(
 )
 
 keeps_the_last_message = check_of(
-    "keeps_the_last_message",
-    *(model.repeats_the_last_message, model.says_when_it_knows_nothing),
+    [model.repeats_the_last_message, model.says_when_it_knows_nothing],
     title="Whatever came before, and however long the sensor is silent, it answers with the last message",
     on=ANY_ORDER,
     needs=checks.follows_the_battery,
-    see=BATTERY_RULES,
 )
 
 answers_every_request = check_of(
-    "answers_every_request",
-    *(model.answers_in_time, model.never_waits),
+    [model.answers_in_time, model.never_waits],
     title="Every request is answered from memory, also eight at once",
     on=ANY_ORDER,
     needs=checks.server_appears,

@@ -35,7 +35,7 @@ answers_in_time = answered_within(2.0, SERVICE, clause=4)
 never_waits = answers_from_memory(SERVICE, _knowledge, clause=4)
 
 
-@obligation(1, 3, of=calls(SERVICE))
+@obligation(1, 3, of=calls(SERVICE), see="02_services#battery-rules")
 def repeats_the_last_message(call: Call) -> str | None:
     """`available` is true, and `battery` is the last battery_state that has arrived, every field as it came"""
     known = known_messages(call, BATTERY)

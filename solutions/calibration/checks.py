@@ -39,19 +39,14 @@ GROUPS = "05_executors#groups-why"
 ASKS = "05_executors#report-why"
 REFUSES = "02_services#set-refuse-why"
 KNOWS_NOTHING = "02_services#m9-fix-why"
-PUBLISHES = "01_robot_and_graph#conventions"
-LATCHES = "01_robot_and_graph#late-why"
 WALKS_LATER = "05_executors#await-why"
 MEASURED = (model.tells_the_means, model.tells_the_count)
 
 server_appears = standard.server_appears("calibrate_imu", on=INTERRUPT)
 
-keeps_its_heartbeat = check_of(
-    "keeps_its_heartbeat", model.beats, points=2, on=TWICE, needs=server_appears, see=GROUPS
-)
+keeps_its_heartbeat = check_of(model.beats, points=2, on=TWICE, needs=server_appears)
 
 refuses_before_the_first_state = check_of(
-    "refuses_before_the_first_state",
     model.ends_right(truth.UNKNOWN),
     title="As long as no robot_state has come, it refuses at once",
     on=SILENT_ROBOT,
@@ -60,7 +55,6 @@ refuses_before_the_first_state = check_of(
 )
 
 refuses_while_walking = check_of(
-    "refuses_while_walking",
     model.ends_right(truth.WALKS),
     title="While the robot walks, it refuses at once",
     points=2,
@@ -69,10 +63,9 @@ refuses_while_walking = check_of(
     see=REFUSES,
 )
 
-asks_get_status = check_of("asks_get_status", model.asks_get_status, on=TWICE, needs=server_appears, see=ASKS)
+asks_get_status = check_of(model.asks_get_status, on=TWICE, needs=server_appears)
 
 calibrates = check_of(
-    "calibrates",
     model.ends_right(*model.SUCCEEDS),
     title="When the robot stands, it succeeds after 3 s, also a second time",
     on=TWICE,
@@ -81,20 +74,20 @@ calibrates = check_of(
 )
 
 tells_what_it_measured = check_of(
-    "tells_what_it_measured",
-    *MEASURED,
+    MEASURED,
     title="The message holds the means of x, y and z, with four decimals at least, and the count of its own samples, "
     "also after a failure",
     points=2,
     on=[TWICE, WALK_BEGINS],
     needs=calibrates,
-    see=WAITS,
 )
 
 refuses_without_an_answer = check_of(
-    "refuses_without_an_answer",
-    *(model.ends_right(truth.SILENT), model.ends_right(truth.MISSING)),
-    model.ends_right(truth.SAYS_NO, after="a failure"),
+    [
+        model.ends_right(truth.SILENT),
+        model.ends_right(truth.MISSING),
+        model.ends_right(truth.SAYS_NO, after="a failure"),
+    ],
     title="Without an answer of get_status in 2 s the calibration fails and says so; with any answer the next succeeds",
     points=2,
     on=SILENT_STATUS,
@@ -103,18 +96,15 @@ refuses_without_an_answer = check_of(
 )
 
 lives_while_it_waits = check_of(
-    "lives_while_it_waits",
     model.beats,
     title="The heartbeat goes on while get_status is silent, or not there",
     points=2,
     on=SILENT_STATUS,
     needs=[asks_get_status, keeps_its_heartbeat],
-    see=GROUPS,
 )
 
 refuses_a_second_caller = check_of(
-    "refuses_a_second_caller",
-    *(model.ends_right(*model.BUSY), model.ends_right(*model.SUCCEEDS)),
+    [model.ends_right(*model.BUSY), model.ends_right(*model.SUCCEEDS)],
     title="While a calibration runs, a second caller is refused at once, and the first one gets its answer",
     points=2,
     on=TWO_CALLERS,
@@ -123,7 +113,6 @@ refuses_a_second_caller = check_of(
 )
 
 fails_when_it_begins_to_walk = check_of(
-    "fails_when_it_begins_to_walk",
     model.ends_right(*model.WALKED),
     title="When the robot begins to walk meanwhile, the calibration fails",
     points=2,
@@ -133,7 +122,6 @@ fails_when_it_begins_to_walk = check_of(
 )
 
 fails_without_samples = check_of(
-    "fails_without_samples",
     model.ends_right(truth.NO_SAMPLES),
     title="When the imu is silent, the calibration fails and the node lives on",
     on=NO_IMU,
@@ -141,12 +129,8 @@ fails_without_samples = check_of(
     see=KNOWS_NOTHING,
 )
 
-publishes_the_bias = check_of(
-    "publishes_the_bias", model.publishes_the_means, on=TWICE, needs=calibrates, see=PUBLISHES
-)
+publishes_the_bias = check_of(model.publishes_the_means, on=TWICE, needs=calibrates)
 
-latches_the_bias = check_of(
-    "latches_the_bias", model.latches_the_bias, on=LATE_LISTENER, needs=publishes_the_bias, see=LATCHES
-)
+latches_the_bias = check_of(model.latches_the_bias, on=LATE_LISTENER, needs=publishes_the_bias)
 
 ends_cleanly = standard.ends_cleanly(on=INTERRUPT, needs=server_appears, clauses=[19])

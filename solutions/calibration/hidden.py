@@ -77,25 +77,21 @@ OTHER_NAMESPACE = in_order(["set_bias", *BIASES[1]], SETTLE, ["calibrate"], SETT
 in_any_order = partial(check_of, on=ANY_ORDER)
 
 calibrates_afresh = check_of(
-    "calibrates_afresh",
-    *(*MEASURED, model.collects_for_three_seconds, model.publishes_the_means),
+    [*MEASURED, model.collects_for_three_seconds, model.publishes_the_means],
     title="Whatever came before, each calibration is made of its own samples",
     points=2,
     on=ANY_ORDER,
     needs=[checks.tells_what_it_measured, checks.publishes_the_bias],
-    see=WAITS,
 )
 
 waits_for_a_slow_status = in_any_order(
-    "waits_for_a_slow_status",
-    *(model.ends_right(truth.SLOW), model.ends_right(truth.SAYS_NO)),
+    [model.ends_right(truth.SLOW), model.ends_right(truth.SAYS_NO)],
     title="A slow answer of get_status will do, and so will success: false; then it collects for 3 s",
     needs=checks.calibrates,
     see=ASKS,
 )
 
 recovers_when_status_answers = check_of(
-    "recovers_when_status_answers",
     model.ends_right(truth.PROMPT, after="a failure"),
     title="However a calibration was refused or failed, the next one can succeed",
     on=[ANY_ORDER, WALKS_IN_ANY_ORDER],
@@ -104,17 +100,14 @@ recovers_when_status_answers = check_of(
 )
 
 takes_no_answer_for_another = in_any_order(
-    "takes_no_answer_for_another",
-    *(model.ends_right(*model.GETS_NO_ANSWER), model.ends_right(truth.ANOTHERS_ANSWER)),
-    model.wastes_no_time,
+    [model.ends_right(*model.GETS_NO_ANSWER), model.ends_right(truth.ANOTHERS_ANSWER), model.wastes_no_time],
     title="No answer within 2 s is none: a late one counts for nothing, nor does that of an earlier request",
     needs=recovers_when_status_answers,
     see="03b_clients_in_bad_company#late-fix-run",
 )
 
 refuses_without_a_server = check_of(
-    "refuses_without_a_server",
-    *(model.ends_right(truth.MISSING), model.ends_right(truth.PROMPT, after="a failure"), model.beats),
+    [model.ends_right(truth.MISSING), model.ends_right(truth.PROMPT, after="a failure"), model.beats],
     title="When nobody offers get_status, it fails after 2 s at most, heartbeat goes on, and the next can succeed",
     on=NO_STATUS,
     needs=[checks.refuses_without_an_answer, checks.lives_while_it_waits],
@@ -122,16 +115,14 @@ refuses_without_a_server = check_of(
 )
 
 is_busy_while_it_asks = in_any_order(
-    "is_busy_while_it_asks",
-    *(model.ends_right(truth.ASKS), model.ends_right(*model.BUSY), model.calibrates_one_at_a_time),
+    [model.ends_right(truth.ASKS), model.ends_right(*model.BUSY), model.calibrates_one_at_a_time],
     title="A calibration has begun as soon as it is asked for: any other is refused until it ends",
     needs=[checks.refuses_a_second_caller, recovers_when_status_answers],
     see=GROUPS,
 )
 
 fails_after_a_few_steps = check_of(
-    "fails_after_a_few_steps",
-    *(model.ends_right(truth.WALKED_SHORTLY), model.ends_right(truth.WALKED_ON, truth.WALKS)),
+    [model.ends_right(truth.WALKED_SHORTLY), model.ends_right(truth.WALKED_ON, truth.WALKS)],
     title="A robot that walked for a moment, and stands again at the end, has walked",
     on=WALKS_IN_ANY_ORDER,
     needs=checks.fails_when_it_begins_to_walk,
@@ -139,7 +130,6 @@ fails_after_a_few_steps = check_of(
 )
 
 fails_with_few_samples = in_any_order(
-    "fails_with_few_samples",
     model.ends_right(truth.FEW_SAMPLES),
     title="Some samples are not enough: with fewer than 100 the calibration fails",
     needs=[checks.fails_without_samples, recovers_when_status_answers],
@@ -147,7 +137,6 @@ fails_with_few_samples = in_any_order(
 )
 
 is_content_with_enough_samples = in_any_order(
-    "is_content_with_enough_samples",
     model.ends_right(truth.ENOUGH_SAMPLES),
     title="100 samples are enough, also when some are missing",
     needs=recovers_when_status_answers,
@@ -155,7 +144,6 @@ is_content_with_enough_samples = in_any_order(
 )
 
 recovers_when_the_robot_speaks = check_of(
-    "recovers_when_the_robot_speaks",
     model.ends_right(*model.SUCCEEDS, after="a failure"),
     title="Once the first robot_state has come, it calibrates",
     on=checks.SILENT_ROBOT,

@@ -122,7 +122,7 @@ def _require_no_success(call: Call, story: truth.Story) -> None:
     _require_silence(call)
 
 
-@obligation(1, of=those(*SUCCEEDS, *TOO_FEW))
+@obligation(1, of=those(*SUCCEEDS, *TOO_FEW), see="05_executors#report-why")
 def asks_get_status(call: Call) -> str | None:
     """It asks get_status from inside its callback"""
     story = story_of(call)
@@ -171,7 +171,7 @@ def wastes_no_time(run: Transcript) -> str | None:
 # -- what it has measured ---------------------------------------------------------------------------------------------
 
 
-@obligation(5, 6, 8, of=those(*SUCCEEDS))
+@obligation(5, 6, 8, of=those(*SUCCEEDS), see="05_executors#await-why")
 def tells_the_means(call: Call) -> str | None:
     """The message holds the means of x, y and z, with four decimals at least"""
     if not call.response.success:
@@ -242,7 +242,7 @@ def collects_for_three_seconds(run: Transcript) -> str | None:
     return "several"
 
 
-@obligation(6, of=those(*SUCCEEDS))
+@obligation(6, of=those(*SUCCEEDS), see="01_robot_and_graph#conventions")
 def publishes_the_means(call: Call) -> str | None:
     """Each success publishes one message on imu_bias: the means of its message, in frame imu_link"""
     if not call.response.success:
@@ -262,7 +262,7 @@ def publishes_the_means(call: Call) -> str | None:
     return _situation(call)
 
 
-@obligation(7, of=whole_run)
+@obligation(7, of=whole_run, see="01_robot_and_graph#late-why")
 def latches_the_bias(run: Transcript) -> str | None:
     """imu_bias is latched: a node that subscribes later gets the last one"""
     done = [call for call in those(*SUCCEEDS)(run) if call.response.success]
@@ -341,7 +341,7 @@ def _situation(call: Call) -> str:
     return f"{story.situation}, after {story.after or 'nothing'}" if story else ""
 
 
-@obligation(17, of=whole_run)
+@obligation(17, of=whole_run, see="05_executors#groups-why")
 def beats(run: Transcript) -> str:
     """The heartbeat goes on at 10 Hz, whatever the services do"""
     require_heartbeat(run)

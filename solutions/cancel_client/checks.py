@@ -19,26 +19,20 @@ REFUSING = walk({**ARRIVES, "cancel": {"agreed": False, "after": 0.5}}, *typed("
 INPUT_ENDS = walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, *typed(), ["end_input"])
 
 walks = check_of(
-    "walks",
-    model.sends_one_goal,
-    follows(1),
+    [model.sends_one_goal, follows(1)],
     title="It sends one goal, and says SUCCEEDED with the final pose and status 0",
     on=GOOD,
-    see="06_walk_to_a_pose#follow-task",
 )
 
 prints_feedback_at_once = check_of(
-    "prints_feedback_at_once",
     model.prints_each_feedback_in_time,
     title="It prints each feedback within 0.5 s, also while nobody types",
     points=2,
     on=GOOD,
     needs=walks,
-    see="05_executors#one-why",
 )
 
 q_cancels_the_goal = check_of(
-    "q_cancels_the_goal",
     follows(2, 3),
     title="A q and Enter cancel the goal; it waits for its end and ends with status 4",
     points=3,
@@ -48,7 +42,6 @@ q_cancels_the_goal = check_of(
 )
 
 believes_the_end = check_of(
-    "believes_the_end",
     follows(3),
     title="A goal that SUCCEEDED, although the server had agreed to cancel it, ends it with status 0",
     points=2,
@@ -58,7 +51,6 @@ believes_the_end = check_of(
 )
 
 remembers_an_early_q = check_of(
-    "remembers_an_early_q",
     follows(4),
     title="A q that is typed before the goal is accepted cancels it when it is",
     points=2,
@@ -68,9 +60,7 @@ remembers_an_early_q = check_of(
 )
 
 reports_a_refusal = check_of(
-    "reports_a_refusal",
-    follows(6),
-    model.says_what_was_refused,
+    [follows(6), model.says_what_was_refused],
     title="A refused cancel (code 0, empty goals_canceling) is reported, and the goal goes on to its own end",
     points=2,
     on=REFUSING,
@@ -79,7 +69,6 @@ reports_a_refusal = check_of(
 )
 
 goes_on_at_the_end_of_input = check_of(
-    "goes_on_at_the_end_of_input",
     follows(5),
     title="The end of the input (Ctrl-D) cancels nothing",
     on=INPUT_ENDS,

@@ -43,27 +43,18 @@ NO_INPUT = scene.walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, ["end_input"
 SILENT_ON_THE_WAY = program("in_order", lambda random: scene.silence_on_the_way(random, types=True))
 
 walks_anywhere = check_of(
-    "walks_anywhere",
-    model.sends_one_goal,
-    follows(1),
+    [model.sends_one_goal, follows(1)],
     title="Another namespace, another pose with negative numbers",
     on=ANY_WALK,
     needs=checks.walks,
     see="01_robot_and_graph#names-why",
 )
 
-refuses_wrong_arguments = check_of(
-    "refuses_wrong_arguments",
-    model.refuses_what_is_no_pose,
-    on=WRONG,
-    needs=checks.walks,
-    see="03_clients_that_survive#fix-frame",
-)
+refuses_wrong_arguments = check_of(model.refuses_what_is_no_pose, on=WRONG, needs=checks.walks)
 
 tells_an_abort = every_client.check("tells_an_abort", 1, needs=checks.walks)
 
 a_rejected_goal_needs_no_cancel = check_of(
-    "a_rejected_goal_needs_no_cancel",
     follows(1, 4),
     title="A goal that is rejected after a q ends it with status 2",
     on=REJECTED_EARLY,
@@ -72,7 +63,6 @@ a_rejected_goal_needs_no_cancel = check_of(
 )
 
 tells_an_abort_after_q = check_of(
-    "tells_an_abort_after_q",
     follows(3),
     title="A goal that is ABORTED after the server had agreed to cancel it ends it with status 3",
     on=ABORTED_ANYWAY,
@@ -81,9 +71,7 @@ tells_an_abort_after_q = check_of(
 )
 
 reports_a_late_cancel = check_of(
-    "reports_a_late_cancel",
-    follows(3, 7),
-    model.says_what_was_refused,
+    [follows(3, 7), model.says_what_was_refused],
     title="A cancel that comes when the goal has ended (code 3) is reported, and the goal's end decides",
     points=2,
     on=TOO_LATE,
@@ -92,7 +80,6 @@ reports_a_late_cancel = check_of(
 )
 
 does_not_wait_for_the_answer = check_of(
-    "does_not_wait_for_the_answer",
     follows(3, 8),
     title="A cancel that gets no answer holds up nothing; after a q, too, Ctrl-C ends it with status 4 in any case",
     points=2,
@@ -102,7 +89,6 @@ does_not_wait_for_the_answer = check_of(
 )
 
 cancels_once = check_of(
-    "cancels_once",
     follows(2),
     title="However early and often q is typed, and whatever the answer, the goal is cancelled once",
     on=OFTEN,
@@ -111,7 +97,6 @@ cancels_once = check_of(
 )
 
 other_lines_cancel_nothing = check_of(
-    "other_lines_cancel_nothing",
     follows(5),
     title="Only q cancels, also after an empty line or another word, such as quit",
     on=OTHER_LINES,
@@ -120,7 +105,6 @@ other_lines_cancel_nothing = check_of(
 )
 
 walks_without_an_input = check_of(
-    "walks_without_an_input",
     follows(5),
     title="Started where there is no input, it walks all the same",
     on=NO_INPUT,
@@ -133,7 +117,6 @@ gives_up_without_an_answer = every_client_hidden.check(
 )
 
 notices_silence_on_the_way = check_of(
-    "notices_silence_on_the_way",
     model.holds_whatever_happens,
     title="A server that falls silent or dies on the way ends it with status 1, after a q, too; whatever happens, "
     "every clause holds",

@@ -16,32 +16,40 @@ from autograder.authoring.walking.objections import (
 )
 from autograder.authoring.walking.obligations import cancels, ends, tells, walks
 
-accepts = obligation(1, 3, 11, of=goals)(
+accepts = obligation(1, 3, 11, of=goals, see="07_cancel_and_preempt#m2-why")(
     accepting(FRAME, NOT_FINITE, NO_POWER, UNSAID_ROTATION, UNSAID_VELOCITY)
 )
 rejects_frames = rejects(1, FRAME)
 rejects_nan = rejects(2, NOT_FINITE)
 rejects_without_power = rejects(3, NO_POWER)
 walks_at_its_own_velocity = obligation(4, of=goals)(walks.walks_at_its_own_velocity)
-succeeds = obligation(5, 6, of=goals)(ends.succeeds)
+succeeds = obligation(5, 6, of=goals, see="07_cancel_and_preempt#fix-intro")(ends.succeeds)
 status_in_order = obligation(5, of=goals)(ends.status_in_order)
 stands_at_success = obligation(5, of=goals)(walks.stands_at_success)
 stands_without_a_goal = obligation(5, 9, of=whole_run)(walks.stands_without_a_goal)
 turns_the_short_way = obligation(6, of=goals)(walks.turns_the_short_way)
 goes_on = obligation(1, of=goals)(ends.goes_on)
-feedback_at_5_hz = obligation(7, of=goals)(tells.feedback_at_5_hz)
-feedback_is_true = obligation(7, of=goals)(tells.feedback_is_true)
+feedback_at_5_hz = obligation(7, of=goals, see="07_cancel_and_preempt#conventions")(tells.feedback_at_5_hz)
+feedback_is_true = obligation(7, of=goals, see="07_cancel_and_preempt#turner-intro")(tells.feedback_is_true)
 estimates_the_time = obligation(7, of=goals)(tells.estimates_the_time)
-feedback_ends_with_the_goal = obligation(7, of=goals)(tells.feedback_ends_with_the_goal)
-reports_where_it_ended = obligation(8, of=goals)(tells.reports_where_it_ended)
+feedback_ends_with_the_goal = obligation(7, of=goals, see="07_cancel_and_preempt#m13-why")(
+    tells.feedback_ends_with_the_goal
+)
+reports_where_it_ended = obligation(8, of=goals, see="07_cancel_and_preempt#m13-why")(
+    tells.reports_where_it_ended
+)
 says_why_it_aborted = obligation(8, of=goals)(tells.says_why_it_aborted)
-grants_cancels = obligation(9, of=goals)(cancels.grants_cancels)
-stops_when_canceled = obligation(9, of=goals)(cancels.stops_when_canceled)
+grants_cancels = obligation(9, of=goals, see="07_cancel_and_preempt#why")(cancels.grants_cancels)
+stops_when_canceled = obligation(9, of=goals, see="07_cancel_and_preempt#m12-robot-why")(
+    cancels.stops_when_canceled
+)
 answers_every_cancel = obligation(9, of=goals)(cancels.answers_every_cancel)
-refuses_late_cancels = obligation(10, of=goals)(cancels.refuses_late_cancels)
+refuses_late_cancels = obligation(10, of=goals, see="07_cancel_and_preempt#late-why")(
+    cancels.refuses_late_cancels
+)
 gives_way = obligation(11, of=goals)(ends.gives_way)
 only_one_is_newest = obligation(11, of=goals)(ends.only_one_is_newest)
-tells_a_fall = obligation(12, of=goals)(ends.tells_a_fall)
+tells_a_fall = obligation(12, of=goals, see="07_cancel_and_preempt#fall-why")(ends.tells_a_fall)
 
 
 def _of(

@@ -8,7 +8,6 @@ from autograder.authoring import check_of, in_order, standard
 
 from . import model
 
-CODES_WHY, COSINE = "04_your_own_interfaces#server-why", "04_your_own_interfaces#cosine-why"
 FRAMES = ["shoulder", "base_link", "l_shoulder", "", "/shoulder", "Shoulder"]
 ROBOTS_ARM = {"upper_arm_length": 0.22, "forearm_length": 0.30}  # m: to elbow, and on to between the fingers
 OTHER_ARM = [["upper_arm_length", 0.35], ["forearm_length", 0.2]]  # m
@@ -36,42 +35,33 @@ REAL_ARM = in_order(
 server_appears = standard.server_appears("compute_ik", on=POINTS, clauses=[10])
 
 reaches_the_point = check_of(
-    "reaches_the_point",
-    *(model.reaches_the_point, model.answers_in_time, model.never_waits),
+    [model.reaches_the_point, model.answers_in_time, model.never_waits],
     title="The angles it answers with bring the hand to the point, within 1 mm, and come at once",
     points=2,
     on=POINTS,
     needs=server_appears,
-    see=COSINE,
 )
 
 bends_the_elbow_as_asked = check_of(
-    "bends_the_elbow_as_asked",
-    model.bends_the_elbow_as_asked,
-    points=2,
-    on=POINTS,
-    needs=reaches_the_point,
-    see=COSINE,
+    model.bends_the_elbow_as_asked, points=2, on=POINTS, needs=reaches_the_point
 )
 
 says_what_is_out_of_reach = check_of(
-    "says_what_is_out_of_reach",
-    *(model.refuses_nothing_within_reach, model.says_what_is_out_of_reach),
-    model.refuses_a_pose_that_is_not_finite,
+    [
+        model.refuses_nothing_within_reach,
+        model.says_what_is_out_of_reach,
+        model.refuses_a_pose_that_is_not_finite,
+    ],
     title="Too far and too near is NO_IK_SOLUTION, what can be reached is not, and NaN is no success",
     points=2,
     on=LIMITS,
     needs=server_appears,
-    see=COSINE,
 )
 
-refuses_other_frames = check_of(
-    "refuses_other_frames", model.refuses_other_frames, on=IN_FRAMES, needs=server_appears, see=CODES_WHY
-)
+refuses_other_frames = check_of(model.refuses_other_frames, on=IN_FRAMES, needs=server_appears)
 
 moves_the_real_hand = check_of(
-    "moves_the_real_hand",
-    *(model.reaches_the_point, model.moves_the_real_hand, model.uses_the_lengths_it_accepted),
+    [model.reaches_the_point, model.moves_the_real_hand, model.uses_the_lengths_it_accepted],
     title="Started with the robot's own lengths as parameters, its angles bring the robot's hand to the point; "
     "lengths that are set later are used, or refused",
     points=2,

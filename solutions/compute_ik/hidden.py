@@ -108,19 +108,22 @@ NO_NUMBER = Scenario("in_order", _no_numbers, robot=None)
 OTHER_NAMESPACE = in_order(["ask", [0.4, 0.3]], robot=None, namespace="/lab_7/robot")
 
 reaches_any_point = check_of(
-    "reaches_any_point",
-    *(model.answers_every_call, model.answers_in_time, model.reaches_the_point),
-    *(model.bends_the_elbow_as_asked, model.says_what_is_out_of_reach, model.refuses_other_frames),
+    [
+        model.answers_every_call,
+        model.answers_in_time,
+        model.reaches_the_point,
+        model.bends_the_elbow_as_asked,
+        model.says_what_is_out_of_reach,
+        model.refuses_other_frames,
+    ],
     title="All around the shoulder, up to both limits and in any frame, the answer is right, also of eight at once",
     points=2,
     on=ANY_TARGET,
     needs=[checks.bends_the_elbow_as_asked, checks.says_what_is_out_of_reach, checks.refuses_other_frames],
-    see=checks.COSINE,
 )
 
 refuses_what_is_no_number = check_of(
-    "refuses_what_is_no_number",
-    *(model.answers_every_call, model.refuses_a_pose_that_is_not_finite, model.refuses_nothing_within_reach),
+    [model.answers_every_call, model.refuses_a_pose_that_is_not_finite, model.refuses_nothing_within_reach],
     title="Coordinates and lengths that are no numbers: no success, and the node lives on and answers as ever",
     on=NO_NUMBER,
     needs=checks.says_what_is_out_of_reach,
@@ -129,7 +132,6 @@ refuses_what_is_no_number = check_of(
 
 
 declares_its_lengths = check_of(
-    "declares_its_lengths",
     model.lengths_are_parameters,
     on=ANY_LENGTH,
     needs=checks.server_appears,
@@ -138,16 +140,11 @@ declares_its_lengths = check_of(
 )
 
 does_what_it_says_of_new_lengths = check_of(
-    "does_what_it_says_of_new_lengths",
     model.uses_the_lengths_it_accepted,
     on=ANY_LENGTH,
     needs=[checks.bends_the_elbow_as_asked, checks.says_what_is_out_of_reach, declares_its_lengths],
-    see="04_your_own_interfaces#parameters-why",
 )
 
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    *("serves", model.reaches_the_point),
-    on=OTHER_NAMESPACE,
-    needs=checks.reaches_the_point,
-    clauses=[10],
+    *("serves", model.reaches_the_point), on=OTHER_NAMESPACE, needs=checks.reaches_the_point, clauses=[10]
 )

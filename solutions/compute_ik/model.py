@@ -35,14 +35,14 @@ answers_in_time = answered_within(2.0, SERVICE, clause=7, help=COMPUTE)
 never_waits = answers_from_memory(SERVICE, lambda call: "any request", clause=7, help=COMPUTE)
 
 
-@obligation(7, of=calls(SERVICE))
+@obligation(7, of=calls(SERVICE), see="04_your_own_interfaces#cosine-why")
 def answers_every_call(call: Call) -> str:
     """Every request gets an answer, whatever it asks for and whatever lengths were set"""
     Reply(call, DEFAULT)
     return "with lengths that are none" if _arm(call) is None else "with an arm"
 
 
-@obligation(1, of=calls(SERVICE))
+@obligation(1, of=calls(SERVICE), see="04_your_own_interfaces#cosine-why")
 def refuses_nothing_within_reach(call: Call) -> str | None:
     """What can be reached is SUCCESS"""
     reply = _reply(call)
@@ -57,7 +57,7 @@ def refuses_nothing_within_reach(call: Call) -> str | None:
     return "within reach"
 
 
-@obligation(1, 2, of=calls(SERVICE))
+@obligation(1, 2, of=calls(SERVICE), see="04_your_own_interfaces#cosine-why")
 def reaches_the_point(call: Call) -> str | None:
     """A success brings the hand to the point, within 1 mm; what is within reach is a success"""
     reply = _reply(call)
@@ -83,7 +83,7 @@ def reaches_the_point(call: Call) -> str | None:
     return "ahead" if reply.target[0] >= AHEAD else "above, below or behind"
 
 
-@obligation(3, of=calls(SERVICE))
+@obligation(3, of=calls(SERVICE), see="04_your_own_interfaces#cosine-why")
 def bends_the_elbow_as_asked(call: Call) -> str | None:
     """The elbow is above the line to a target ahead with elbow_up, below it without"""
     reply = _reply(call)
@@ -120,7 +120,7 @@ def says_what_is_out_of_reach(call: Call) -> str | None:
     return "too far" if reply.distance > reply.arm.farthest else "too near"
 
 
-@obligation(5, of=calls(SERVICE))
+@obligation(5, of=calls(SERVICE), see="04_your_own_interfaces#server-why")
 def refuses_other_frames(call: Call) -> str:
     """A target in any frame but "shoulder" is FRAME_TRANSFORM_FAILURE, and no other is"""
     reply = Reply(call, DEFAULT)
@@ -157,7 +157,7 @@ def refuses_a_pose_that_is_not_finite(call: Call) -> str | None:
     return "NaN" if any(map(math.isnan, reply.target)) else "infinite"
 
 
-@obligation(9, of=calls(SERVICE))
+@obligation(9, of=calls(SERVICE), see="04_your_own_interfaces#parameters-why")
 def uses_the_lengths_it_accepted(call: Call) -> str | None:
     """Lengths that were set are used from the next request on, if set_parameters accepted them; else the old ones"""
     if not _settings(call):
@@ -166,7 +166,7 @@ def uses_the_lengths_it_accepted(call: Call) -> str | None:
     return " and ".join(filter(None, (one.require(call) for one in each))) or None
 
 
-@obligation(8, of=whole_run)
+@obligation(8, of=whole_run, see="04_your_own_interfaces#parameters-intro")
 def lengths_are_parameters(run: Transcript) -> str:
     """upper_arm_length and forearm_length are parameters of type double: 0.30 and 0.25 m"""
     asked = [call for call in run.calls if call.service.endswith("/get_parameters")]

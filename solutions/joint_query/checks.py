@@ -31,35 +31,20 @@ UNPLUGGED = in_order(
     robot=UNPLUGGED_ROBOT,
 )
 
-ALL_JOINTS, ITS_JOINTS = "01_robot_and_graph#joints-intro", "01_robot_and_graph#joints-run"
-REFUSES, KNOWS_NOTHING = "02_services#set-refuse-why", "02_services#m9-fix-why"
+KNOWS_NOTHING = "02_services#m9-fix-why"
 
 server_appears = standard.server_appears("get_joint_positions", on=ASK, clauses=[7])
 
-finds_the_joints = check_of(
-    "finds_the_joints", model.finds_the_joints, on=ASK, needs=server_appears, see=ALL_JOINTS
-)
+finds_the_joints = check_of(model.finds_the_joints, on=ASK, needs=server_appears)
 
-keeps_the_order_asked = check_of(
-    "keeps_the_order_asked", model.keeps_the_order_asked, on=ASK, needs=finds_the_joints, see=ITS_JOINTS
-)
+keeps_the_order_asked = check_of(model.keeps_the_order_asked, on=ASK, needs=finds_the_joints)
 
-positions_are_the_robots = check_of(
-    "positions_are_the_robots",
-    model.positions_are_the_last,
-    points=2,
-    on=ASK,
-    needs=finds_the_joints,
-    see=ITS_JOINTS,
-)
+positions_are_the_robots = check_of(model.positions_are_the_last, points=2, on=ASK, needs=finds_the_joints)
 
-no_names_means_all = check_of(
-    "no_names_means_all", model.lists_every_joint_once, on=ASK, needs=finds_the_joints, see=ALL_JOINTS
-)
+no_names_means_all = check_of(model.lists_every_joint_once, on=ASK, needs=finds_the_joints)
 
 follows_the_robot = check_of(
-    "follows_the_robot",
-    *(model.finds_the_joints, model.positions_are_the_last),
+    [model.finds_the_joints, model.positions_are_the_last],
     title="When the arms have moved, so has the answer, in any order of the joints; in a silence the last one stays",
     on=MOVED,
     needs=positions_are_the_robots,
@@ -67,18 +52,15 @@ follows_the_robot = check_of(
 )
 
 names_every_unknown_joint = check_of(
-    "names_every_unknown_joint",
-    *(model.refuses_unknown_joints, model.names_every_unknown_joint, model.finds_the_joints),
+    [model.refuses_unknown_joints, model.names_every_unknown_joint, model.finds_the_joints],
     title="Unknown joints: success: false and a message that names each of them; then it serves on",
     points=2,
     on=STRANGE,
     needs=finds_the_joints,
-    see=REFUSES,
 )
 
 says_when_it_knows_nothing = check_of(
-    "says_when_it_knows_nothing",
-    *(model.never_waits, model.says_when_it_knows_nothing),
+    [model.never_waits, model.says_when_it_knows_nothing],
     title="Before the first joint_states it answers at once with success: false, whatever was asked",
     on=UNPLUGGED,
     needs=server_appears,

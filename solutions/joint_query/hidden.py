@@ -10,7 +10,7 @@ from autograder.authoring import Scenario, check_of, in_order, shuffled
 from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
-from .checks import ITS_JOINTS, KNOWS_NOTHING, SOME_JOINTS, STRANGERS, UNPLUGGED, UNPLUGGED_ROBOT
+from .checks import KNOWS_NOTHING, SOME_JOINTS, STRANGERS, UNPLUGGED, UNPLUGGED_ROBOT
 
 PARTS = [
     *("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll"),
@@ -90,8 +90,7 @@ OTHER_NAMESPACE = in_order(["let_arrive"], ["ask", SOME_JOINTS], namespace="/lab
 in_any_order = partial(check_of, on=ANY_ORDER)
 
 recovers_when_the_sensors_appear = check_of(
-    "recovers_when_the_sensors_appear",
-    *(model.finds_the_joints, model.positions_are_the_last),
+    [model.finds_the_joints, model.positions_are_the_last],
     title="Once the first message has come, it answers with it",
     on=UNPLUGGED,
     needs=[checks.positions_are_the_robots, checks.says_when_it_knows_nothing],
@@ -99,35 +98,30 @@ recovers_when_the_sensors_appear = check_of(
 )
 
 answers_in_any_posture = in_any_order(
-    "answers_in_any_posture",
-    *(model.finds_the_joints, model.positions_are_the_last, model.keeps_up_with_a_motion),
-    *(model.lists_every_joint_once, model.says_when_it_knows_nothing),
+    [
+        model.finds_the_joints,
+        model.positions_are_the_last,
+        model.keeps_up_with_a_motion,
+        model.lists_every_joint_once,
+        model.says_when_it_knows_nothing,
+    ],
     title="Whatever came before, and however long the robot is silent, it answers with the last message as it came",
     needs=checks.follows_the_robot,
-    see=checks.ALL_JOINTS,
 )
 
 answers_every_request = in_any_order(
-    "answers_every_request",
-    *(model.answers_in_time, model.never_waits, model.keeps_the_order_asked),
+    [model.answers_in_time, model.never_waits, model.keeps_the_order_asked],
     title="Every request is answered at once with its own joints, also eight different ones together",
     needs=checks.keeps_the_order_asked,
     see="02_services#m4-why",
 )
 
-looks_joints_up_by_name = in_any_order(
-    "looks_joints_up_by_name",
-    model.goes_by_names_not_places,
-    needs=checks.positions_are_the_robots,
-    see=ITS_JOINTS,
-)
+looks_joints_up_by_name = in_any_order(model.goes_by_names_not_places, needs=checks.positions_are_the_robots)
 
 takes_no_joint_for_another = in_any_order(
-    "takes_no_joint_for_another",
-    *(model.refuses_unknown_joints, model.names_every_unknown_joint),
+    [model.refuses_unknown_joints, model.names_every_unknown_joint],
     title="Names count letter by letter: unknown ones among known ones, parts, capitals and blanks are refused by name",
     needs=checks.names_every_unknown_joint,
-    see=checks.REFUSES,
 )
 
 works_in_any_namespace = standard_hidden.works_in_any_namespace(

@@ -37,7 +37,7 @@ answers_in_time = answered_within(2.0, SERVICE, clause=6)
 never_waits = answers_from_memory(SERVICE, _knowledge, clause=6)
 
 
-@obligation(1, 2, of=calls(SERVICE))
+@obligation(1, 2, of=calls(SERVICE), see="01_robot_and_graph#joints-intro")
 def finds_the_joints(call: Call) -> str | None:
     """Asked for joints that the robot has, or for all, it answers success: true"""
     if not truth.ought_to_succeed(call):
@@ -77,7 +77,7 @@ def _require_heard(call: Call) -> None:
     )
 
 
-@obligation(1, of=calls(SERVICE))
+@obligation(1, of=calls(SERVICE), see="01_robot_and_graph#joints-run")
 def keeps_the_order_asked(call: Call) -> str | None:
     """joint_state.name holds the names asked for, in the order of the request, one twice if it was asked for twice"""
     wanted, names = list(call.request.names), list(call.response.joint_state.name)
@@ -92,7 +92,7 @@ def keeps_the_order_asked(call: Call) -> str | None:
     return "a name twice" if len(set(wanted)) < len(wanted) else "different names"
 
 
-@obligation(2, of=calls(SERVICE))
+@obligation(2, of=calls(SERVICE), see="01_robot_and_graph#joints-intro")
 def lists_every_joint_once(call: Call) -> str | None:
     """To an empty list it answers with every joint of the robot, once"""
     _require_heard(call)
@@ -109,7 +109,7 @@ def lists_every_joint_once(call: Call) -> str | None:
     return "all joints"
 
 
-@obligation(1, 2, 5, of=calls(SERVICE))
+@obligation(1, 2, 5, of=calls(SERVICE), see="01_robot_and_graph#joints-run")
 def positions_are_the_last(call: Call) -> str | None:
     """Each position is that of the joint beside it, as it came in the last joint_states that has arrived"""
     names, positions = list(call.response.joint_state.name), list(call.response.joint_state.position)
@@ -140,7 +140,7 @@ def positions_are_the_last(call: Call) -> str | None:
     return truth.situation(call)
 
 
-@obligation(5, of=calls(SERVICE))
+@obligation(5, of=calls(SERVICE), see="01_robot_and_graph#joints-run")
 def goes_by_names_not_places(call: Call) -> str | None:
     """When joint_states lists the joints in another order, each position is still its own joint's"""
     orders = [message.names for message in known_messages(call, JOINTS) or ()]
@@ -165,7 +165,7 @@ def keeps_up_with_a_motion(run: Transcript) -> str | None:
     return "while a joint moves"
 
 
-@obligation(3, of=calls(SERVICE))
+@obligation(3, of=calls(SERVICE), see="02_services#set-refuse-why")
 def refuses_unknown_joints(call: Call) -> str | None:
     """Asked for a name that no joint of the robot has, letter by letter, it answers success: false"""
     _require_heard(call)

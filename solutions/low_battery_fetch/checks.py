@@ -16,7 +16,6 @@ GOES_DOWN = "11_capstone#careful-why"
 GIVES_UP = "11_capstone#ways-why"
 BATTERY_LESSON = "08_navigation#guard-traps-why"
 SILENCE_LESSON = "11_capstone#dead-why"
-REJECTS = "07_cancel_and_preempt#conventions"
 
 IMPOSSIBLE = Part(
     [
@@ -48,30 +47,26 @@ on_good = partial(check_of, on=GOOD, see=DEADLOCK)
 server_appears = standard.server_appears(
     "the action fetch", on=INTERRUPT, see="07_cancel_and_preempt#fix-file", clauses=[31]
 )
-goes_to_the_table = on_good("goes_to_the_table", model.sets_out, needs=server_appears)
+goes_to_the_table = on_good(model.sets_out, needs=server_appears)
 takes_the_object = on_good(
-    "takes_the_object",
     model.takes_it,
     title="When the robot has arrived, it has the object put onto the tray",
     points=2,
     needs=goes_to_the_table,
 )
 fetches = on_good(
-    "fetches",
-    *model.fetches_it,
+    model.fetches_it,
     title="It comes home, puts the object down, and then SUCCEEDS",
     points=2,
     needs=takes_the_object,
 )
 fills_the_result = on_good(
-    "fills_the_result",
     model.reports_the_object,
     title="The result tells where the object ended, the largest force, and error_code NONE",
     needs=fetches,
     see="07_cancel_and_preempt#m13-why",
 )
 passes_feedback_on = on_good(
-    "passes_feedback_on",
     model.hands_feedback_on,
     title="What pick_and_place says of its stage, fetch says in its own feedback, in order and within 1 s",
     needs=takes_the_object,
@@ -79,21 +74,17 @@ passes_feedback_on = on_good(
 )
 once_it_sets_out = partial(check_of, needs=goes_to_the_table)
 rejects_what_is_knowably_wrong = once_it_sets_out(
-    "rejects_what_is_knowably_wrong",
     model.rejects_the_impossible,
     title="It rejects a place in frame map, NaN, and a force that is not above 0",
     on=INTERRUPT,
-    see=REJECTS,
 )
 does_not_set_out_on_a_low_battery = once_it_sets_out(
-    "does_not_set_out_on_a_low_battery",
     model.does_nothing_when_low,
     title="With the battery at 0.12 it sends no goal to anybody, and ends ABORTED naming the battery",
     on=LOW_BEFORE,
     see=BATTERY_LESSON,
 )
 says_why_a_child_failed = once_it_sets_out(
-    "says_why_a_child_failed",
     model.says_who_failed,
     title="A child that is rejected or aborts ends fetch ABORTED; error_msg names the action and holds the child's "
     "reason",
@@ -102,34 +93,27 @@ says_why_a_child_failed = once_it_sets_out(
     see=ORPHANS,
 )
 cancels_a_silent_child = once_it_sets_out(
-    "cancels_a_silent_child",
-    *model.always,
-    model.cancels_the_silent,
-    model.gives_up_the_silent,
+    [*model.always, model.cancels_the_silent, model.gives_up_the_silent],
     title="A child that is silent for 5 s is canceled; when it has ended, fetch ends ABORTED naming the action",
     points=2,
     on=SILENT,
     see=SILENCE_LESSON,
 )
 cancel_goes_down = once_it_sets_out(
-    "cancel_goes_down",
-    *model.obeys_a_cancel,
+    model.obeys_a_cancel,
     title="A cancel goes down to the child at work, and fetch is CANCELED when the child has ended",
     points=3,
     on=CANCELED_WALK,
-    see=GOES_DOWN,
 )
 gives_up_before_the_grasp = once_it_sets_out(
-    "gives_up_before_the_grasp",
-    *model.stops_in_time,
+    model.stops_in_time,
     title="When the battery drops before the grasp, it cancels the child, waits for its end, goes home, and is ABORTED",
     points=3,
     on=TO_THE_TABLE,
     see=GIVES_UP,
 )
 finishes_placing_first = check_of(
-    "finishes_placing_first",
-    *model.finishes_first,
+    model.finishes_first,
     title="When the battery drops while the hand holds the object, it is placed first; then home, and ABORTED",
     points=3,
     on=HOLDING,

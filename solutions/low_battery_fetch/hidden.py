@@ -147,120 +147,101 @@ of_servers = partial(check_of, see=checks.SILENCE_LESSON)
 in_failures = partial(check_of, on=FAILURES, see=checks.SILENCE_LESSON)
 
 fetches_anything = check_of(
-    "fetches_anything",
-    *(*model.fetches_it, model.hands_feedback_on, model.reports_the_object, model.keeps_every_clause),
+    [*model.fetches_it, model.hands_feedback_on, model.reports_the_object, model.keeps_every_clause],
     title="NaN, 20.0 and -0.3 are no percentages, 0.20 is not low, and whatever else comes, every clause holds",
     on=[NO_PERCENTAGE, ANYTHING],
     needs=checks.fetches,
     see=checks.BATTERY_LESSON,
 )
 sends_nobody_without_a_battery = check_of(
-    "sends_nobody_without_a_battery",
-    *(model.does_nothing_when_unknown, model.serves_again),
+    [model.does_nothing_when_unknown, model.serves_again],
     title="As long as battery_state has said nothing it fetches nothing, and says so; then it does",
     on=NO_BATTERY,
     needs=[checks.fetches, checks.does_not_set_out_on_a_low_battery],
     see=checks.BATTERY_LESSON,
 )
 sets_out_when_it_is_charged = check_of(
-    "sets_out_when_it_is_charged",
     model.serves_again,
     title="A battery that was low and is charged again is no obstacle to the next goal",
     on=LOW_THEN_CHARGED,
     needs=[checks.fetches, checks.does_not_set_out_on_a_low_battery],
-    see=checks.BATTERY_LESSON,
 )
 gives_up_while_the_hand_is_empty = in_drops(
-    "gives_up_while_the_hand_is_empty",
-    *model.of(("approaching", "grasping"), *model.stops_in_time),
+    model.of(("approaching", "grasping"), *model.stops_in_time),
     title="While the stage is approaching or grasping, a drop cancels pick_and_place, too",
     points=2,
     needs=checks.gives_up_before_the_grasp,
 )
 gives_up_at_home = in_drops(
-    "gives_up_at_home",
-    *model.of(("at the tray",), *model.always, model.stops_with_empty_hands, model.gives_up_when_home),
+    model.of(("at the tray",), *model.always, model.stops_with_empty_hands, model.gives_up_when_home),
     title="When the battery drops before the grasp at home, it cancels the child and is ABORTED: it is home already",
     needs=[checks.fetches, checks.gives_up_before_the_grasp],
 )
 finishes_placing_to_the_end = in_drops(
-    "finishes_placing_to_the_end",
-    *model.of(("placing",), *model.finishes_first),
+    model.of(("placing",), *model.finishes_first),
     title="Also while the stage is placing, pick_and_place comes to its own end before the robot goes home",
     needs=checks.finishes_placing_first,
 )
 carries_it_home = in_drops(
-    "carries_it_home",
-    *model.of(("going home",), *model.always, model.lets_it_finish, model.gives_up_when_home),
+    model.of(("going home",), *model.always, model.lets_it_finish, model.gives_up_when_home),
     title="When the battery drops on the way home, the robot goes on home; then ABORTED, with the object on the tray",
     needs=[checks.fetches, checks.gives_up_before_the_grasp],
 )
 success_wins = in_drops(
-    "success_wins",
-    *model.of(("putting it down",), *model.always, model.lets_it_finish, model.ends_well),
+    model.of(("putting it down",), *model.always, model.lets_it_finish, model.ends_well),
     title="When the battery drops while the object is put down at home, all is done in the end: SUCCEEDED",
     needs=[checks.fetches, finishes_placing_to_the_end],
     see="07_cancel_and_preempt#late-why",
 )
 waits_for_a_child_that_goes_on = in_drops(
-    "waits_for_a_child_that_goes_on",
-    *(*model.of(("refused",), *model.stops_in_time), model.one_child_at_a_time),
+    [*model.of(("refused",), *model.stops_in_time), model.one_child_at_a_time],
     title="A child that refuses the cancel is waited for all the same; then the robot goes home",
     needs=checks.gives_up_before_the_grasp,
     see=checks.GOES_DOWN,
 )
 gives_up_for_good = in_drops(
-    "gives_up_for_good",
-    *model.of(("recovers",), *model.stops_in_time),
+    model.of(("recovers",), *model.stops_in_time),
     title="A battery that recovers while the child stops changes nothing: it goes home, and is ABORTED",
     needs=checks.gives_up_before_the_grasp,
     see=checks.BATTERY_LESSON,
 )
 gives_up_right_after_the_acceptance = in_drops(
-    "gives_up_right_after_the_acceptance",
-    *model.of(("early",), *model.stops_in_time),
+    model.of(("early",), *model.stops_in_time),
     title="A drop before the child is accepted cancels it right after the acceptance",
     needs=checks.gives_up_before_the_grasp,
     see="08_navigation#client-intro",
 )
 cancel_goes_down_to_the_arm = in_cancels(
-    "cancel_goes_down_to_the_arm",
-    *model.of(("taking", "putting it down"), *model.obeys_a_cancel),
+    model.of(("taking", "putting it down"), *model.obeys_a_cancel),
     title="A cancel goes down to pick_and_place, too, which knows itself how to end safely",
     points=2,
     needs=[checks.fetches, checks.cancel_goes_down],
     see=checks.GOES_DOWN,
 )
 waits_although_the_cancel_is_refused = in_cancels(
-    "waits_although_the_cancel_is_refused",
-    *(*model.of(("refused",), *model.obeys_a_cancel), model.one_child_at_a_time),
+    [*model.of(("refused",), *model.obeys_a_cancel), model.one_child_at_a_time],
     title="When the child refuses the cancel, fetch is CANCELED only when the child has ended by itself",
     points=2,
     needs=checks.cancel_goes_down,
     see=checks.ORPHANS,
 )
 remembers_a_cancel = in_cancels(
-    "remembers_a_cancel",
-    *model.of(("early",), *model.obeys_a_cancel),
+    model.of(("early",), *model.obeys_a_cancel),
     title="A cancel before the child is accepted goes down right after the acceptance",
     needs=checks.cancel_goes_down,
     see="07_cancel_and_preempt#late-why",
 )
 gives_up_without_an_answer = in_failures(
-    "gives_up_without_an_answer",
-    *model.of(("no answer",), model.gives_up_the_unanswered),
-    needs=checks.says_why_a_child_failed,
+    model.of(("no answer",), model.gives_up_the_unanswered), needs=checks.says_why_a_child_failed
 )
 cancels_a_late_child = in_failures(
-    "cancels_a_late_child",
-    *model.of(("late",), model.cancels_the_late, model.gives_up_the_unanswered),
+    model.of(("late",), model.cancels_the_late, model.gives_up_the_unanswered),
     title="A child that is accepted after its 5 s are over is canceled at once: nobody waits for it any more",
     points=2,
     needs=[checks.cancels_a_silent_child, gives_up_without_an_answer],
     see="03b_clients_in_bad_company#late-why",
 )
 survives_a_dying_server = of_servers(
-    "survives_a_dying_server",
     model.gives_up_the_silent,
     title="When a child's server dies, fetch ends ABORTED naming the action, and the node lives",
     points=2,
@@ -268,31 +249,27 @@ survives_a_dying_server = of_servers(
     needs=[checks.cancels_a_silent_child, checks.fetches],
 )
 waits_no_longer_than_it_must = in_failures(
-    "waits_no_longer_than_it_must",
-    *model.of(("deaf",), *model.always, model.cancels_the_silent, model.gives_up_the_silent),
+    model.of(("deaf",), *model.always, model.cancels_the_silent, model.gives_up_the_silent),
     title="A silent child that does not answer the cancel either is given up 5 s later, ABORTED naming the action",
     needs=[checks.cancels_a_silent_child, checks.fetches],
 )
 gives_up_without_a_server = of_servers(
-    "gives_up_without_a_server", model.gives_up_the_missing, on=MISSING, needs=checks.says_why_a_child_failed
+    model.gives_up_the_missing, on=MISSING, needs=checks.says_why_a_child_failed
 )
 fails_when_another_cancels_the_child = in_failures(
-    "fails_when_another_cancels_the_child",
-    *model.of(("canceled by another",), model.says_who_failed),
+    model.of(("canceled by another",), model.says_who_failed),
     title="A child that somebody else cancels has failed: ABORTED, not CANCELED",
     needs=checks.says_why_a_child_failed,
     see=checks.ORPHANS,
 )
 serves_the_next_goal = check_of(
-    "serves_the_next_goal",
     model.serves_again,
     on=REJECTED,
     needs=[checks.fetches, checks.says_why_a_child_failed],
     see=checks.ORPHANS,
 )
 new_goal_preempts_the_old = in_cancels(
-    "new_goal_preempts_the_old",
-    *model.of(("old", "new"), *model.gives_way, model.ends_well),
+    model.of(("old", "new"), *model.gives_way, model.ends_well),
     title="A new goal preempts the old one: its child is canceled and ends, then the old is ABORTED and the new begins",
     points=2,
     needs=[checks.cancel_goes_down, checks.fetches],

@@ -35,7 +35,7 @@ Sent = tuple[Fetch, Child]
 # -- goals -----------------------------------------------------------------------------------------------------------
 
 
-@obligation(8, of=goals)
+@obligation(8, of=goals, see="07_cancel_and_preempt#conventions")
 def rejects_the_impossible(goal: Goal) -> str | None:
     """It rejects what is not in odom, not finite, or no force above 0"""
     because = objection(goal.request)
@@ -48,7 +48,7 @@ def rejects_the_impossible(goal: Goal) -> str | None:
     return because.split(" is ")[0]
 
 
-@obligation(18, of=fetches)
+@obligation(18, of=fetches, see="11_capstone#careful-why")
 def grants_cancels(fetch: Fetch) -> str | None:
     """A cancel is agreed to at any moment at which fetch is active"""
     end = fetch.goal.result.t if fetch.goal.result else math.inf
@@ -118,7 +118,7 @@ def _after_a_failure(run: Transcript) -> list[Turn]:
     return [turn for turn in done if any(each.goal.sent.t < turn.fetch.goal.sent.t for each in failed)]
 
 
-@obligation(30, of=_after_a_failure)
+@obligation(30, of=_after_a_failure, see="08_navigation#guard-traps-why")
 def serves_again(turn: Turn) -> str:
     """After a goal that did not succeed the next one can"""
     return require_turn(turn)
@@ -282,7 +282,7 @@ def _is_given_up(child: Child, t: float) -> bool:
 # -- what it says ----------------------------------------------------------------------------------------------------
 
 
-@obligation(7, of=children)
+@obligation(7, of=children, see="06_walk_to_a_pose#slow-why")
 def hands_feedback_on(sent: Sent) -> str | None:
     """What pick_and_place publishes as feedback fetch publishes as its own, whole, in order and within 1 s"""
     fetch, child = sent
@@ -305,7 +305,7 @@ def hands_feedback_on(sent: Sent) -> str | None:
     return child.step
 
 
-@obligation(6, of=turns.turns(turns.DONE))
+@obligation(6, of=turns.turns(turns.DONE), see="07_cancel_and_preempt#m13-why")
 def reports_the_object(turn: Turn) -> str | None:
     """The result tells where the object ended, the larger of both forces, and error_code NONE"""
     goal = turn.fetch.goal

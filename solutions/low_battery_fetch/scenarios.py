@@ -17,7 +17,6 @@ from autograder.arena.stage import Goal, Stage
 from humanoid_interfaces.action import NavigateToPose, PickAndPlace
 
 NAVIGATE, PICK = "navigate_to_pose", "pick_and_place"
-TYPES = {NAVIGATE: NavigateToPose, PICK: PickAndPlace}
 STAGES = ("approaching", "grasping", "lifting", "moving", "placing", "retreating")
 KNOWN_TIME = 1.5  # s for the battery's level, and for the servers, to be known to the node
 WHOLE = 25.0  # s for a fetch

@@ -31,23 +31,19 @@ WALK = in_order(
     robot=(),
 )
 
-SERVES, SWITCHES = "02_services#first-file", "02_services#set-file"
 REFUSES, KNOWS_NOTHING = "02_services#set-refuse-why", "02_services#m9-fix-why"
 
 server_appears = standard.server_appears("enable_motors and get_status", on=INTERRUPT)
 
 tells_the_status = check_of(
-    "tells_the_status",
     model.tells_the_motors,
     title='get_status says "Motors: ON" while the motors are on',
     on=INTERRUPT,
     needs=server_appears,
-    see=SERVES,
 )
 
 follows_the_robot = check_of(
-    "follows_the_robot",
-    *(model.tells_the_motors, model.status_in_time, model.status_from_memory),
+    [model.tells_the_motors, model.status_in_time, model.status_from_memory],
     title="When somebody else cuts the power and returns it, get_status says so, at once, whatever was commanded",
     points=2,
     on=STATUS,
@@ -56,37 +52,35 @@ follows_the_robot = check_of(
 )
 
 says_when_it_knows_nothing = check_of(
-    "says_when_it_knows_nothing",
-    *(model.status_from_memory, model.says_when_it_knows_nothing),
+    [model.status_from_memory, model.says_when_it_knows_nothing],
     title="Before the first robot_state, get_status answers success: false, at once",
     on=SILENT_ROBOT,
     needs=server_appears,
     see=KNOWS_NOTHING,
 )
 
-powers_off = check_of(
-    "powers_off", model.grants_power_off, points=2, on=SWITCH, needs=server_appears, see=SWITCHES
-)
+powers_off = check_of(model.grants_power_off, points=2, on=SWITCH, needs=server_appears)
 
 powers_on = check_of(
-    "powers_on",
-    *(model.grants_power_on, model.power_in_time),
+    [model.grants_power_on, model.power_in_time],
     title="enable_motors with data: true is granted, also five at once and before the first robot_state, and the "
     "motors have their torque again",
     on=[SWITCH, SILENT_ROBOT],
     needs=powers_off,
-    see=SWITCHES,
 )
 
 refuses_off_while_walking = check_of(
-    "refuses_off_while_walking",
-    *(model.refuses_power_off, model.commands_only_what_was_granted, model.lets_it_walk),
-    *(model.power_never_sleeps, model.grants_power_off),
+    [
+        model.refuses_power_off,
+        model.commands_only_what_was_granted,
+        model.lets_it_walk,
+        model.power_never_sleeps,
+        model.grants_power_off,
+    ],
     title="While the robot walks, and only then, power off is refused with a sentence, and it walks on",
     points=3,
     on=WALK,
     needs=powers_off,
-    see=REFUSES,
 )
 
 ends_cleanly = standard.ends_cleanly(on=[INTERRUPT, UNHEARD], needs=server_appears, clauses=[7])

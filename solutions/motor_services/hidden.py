@@ -65,17 +65,14 @@ SWITCH_AND_ASK = [step for on in (False, True) for step in (["switch", on], ["se
 OTHER_NAMESPACE = in_order(*SWITCH_AND_ASK, robot=checks.ON_A_STAND, namespace="/lab_7/robot")
 
 refuses_however_it_walks = check_of(
-    "refuses_however_it_walks",
-    *(model.refuses_power_off, model.lets_it_walk),
+    [model.refuses_power_off, model.lets_it_walk],
     title="Turning on the spot, sideways or backwards is walking, too",
     on=FLOOR,
     needs=checks.refuses_off_while_walking,
-    see=checks.REFUSES,
 )
 
 refuses_nothing_else = check_of(
-    "refuses_nothing_else",
-    *(model.grants_power_on, model.grants_power_off, model.commands_only_what_was_granted),
+    [model.grants_power_on, model.grants_power_off, model.commands_only_what_was_granted],
     title="Power on is always granted, and power off whenever it does not walk; a refused request never takes effect",
     points=2,
     on=[FLOOR, STAND],
@@ -84,7 +81,6 @@ refuses_nothing_else = check_of(
 )
 
 recovers_when_the_robot_speaks = check_of(
-    "recovers_when_the_robot_speaks",
     model.tells_the_motors,
     title="Once a robot_state has come, get_status answers with the last one, whatever happened before",
     on=[checks.SILENT_ROBOT, STAND, FLOOR],
@@ -93,9 +89,13 @@ recovers_when_the_robot_speaks = check_of(
 )
 
 answers_every_request = check_of(
-    "answers_every_request",
-    *(model.status_in_time, model.status_from_memory, model.says_when_it_knows_nothing),
-    *(model.power_in_time, model.power_never_sleeps),
+    [
+        model.status_in_time,
+        model.status_from_memory,
+        model.says_when_it_knows_nothing,
+        model.power_in_time,
+        model.power_never_sleeps,
+    ],
     title="Every request is answered in time, get_status from memory, also while nothing is known",
     on=STAND,
     needs=checks.server_appears,

@@ -141,13 +141,13 @@ def _situation(call: Call) -> str:
 # -- power ------------------------------------------------------------------------------------------------------------
 
 
-@obligation(1, 2, of=calls(ENABLE))
+@obligation(1, 2, of=calls(ENABLE), see="02_services#set-file")
 def grants_power_on(call: Call) -> str | None:
     """Power on is always granted: success is true, and the command reaches the robot"""
     return _require_granted(call) if call.request.data else None
 
 
-@obligation(1, 2, of=calls(ENABLE))
+@obligation(1, 2, of=calls(ENABLE), see="02_services#set-file")
 def grants_power_off(call: Call) -> str | None:
     """Power off is granted unless the robot walks: success is true, and the command reaches the robot"""
     return _require_granted(call) if not call.request.data and _may_grant(call) == {True} else None
@@ -171,7 +171,7 @@ def _require_granted(call: Call) -> str:
     return _situation(call)
 
 
-@obligation(2, of=calls(ENABLE))
+@obligation(2, of=calls(ENABLE), see="02_services#set-refuse-why")
 def refuses_power_off(call: Call) -> str | None:
     """While the robot walks, power off is refused: success is false, and the message says why"""
     if (may := _may_grant(call)) == {True}:
@@ -251,7 +251,7 @@ def lets_it_walk(run: Transcript) -> str | None:
 # -- status -----------------------------------------------------------------------------------------------------------
 
 
-@obligation(3, 4, of=calls(STATUS))
+@obligation(3, 4, of=calls(STATUS), see="02_services#first-file")
 def tells_the_motors(call: Call) -> str | None:
     """get_status answers success true and the text, letter by letter, by motors_enabled in the last robot_state"""
     states = last_states(call)
@@ -335,7 +335,7 @@ def power_never_sleeps(run: Transcript) -> str | None:
     return ", ".join(sorted(judged)) or None
 
 
-@obligation(6, of=whole_run)
+@obligation(6, of=whole_run, see="01_robot_and_graph#names-why")
 def serves_the_robot(run: Transcript) -> str | None:
     """All names are relative: the robot in the node's namespace is commanded and heard"""
     judged = all(each.judge(run) for each in (grants_power_off, tells_the_motors, grants_power_on))

@@ -81,93 +81,68 @@ server_appears = standard.server_appears(
     "the action move_arm", on=INTERRUPT, see="07_cancel_and_preempt#fix-file", clauses=[17]
 )
 accepts_a_trajectory = check_of(
-    "accepts_a_trajectory",
     model.accepts,
     title="It accepts a trajectory of an arm's joints within their ranges",
     on=MOVE,
     needs=server_appears,
-    see=TRAJECTORY,
 )
 of_a_move = partial(check_of, on=MOVE, needs=accepts_a_trajectory)
 of_the_impossible = partial(check_of, on=IMPOSSIBLE, needs=accepts_a_trajectory, see=TRAJECTORY)
 arrives = of_a_move(
-    "arrives",
-    model.succeeds,
-    title="It SUCCEEDS, and every joint is then within 0.05 rad of the last point",
-    points=2,
-    see="09_arms#clock-why",
+    model.succeeds, title="It SUCCEEDS, and every joint is then within 0.05 rad of the last point", points=2
 )
 after_a_move = partial(check_of, on=MOVE, needs=arrives, see=THE_END)
-passes_every_point = of_a_move("passes_every_point", model.passes_points, see="09_arms#velocities-why")
-fills_the_result = after_a_move("fills_the_result", model.names_no_error)
-feedback_keeps_its_rate = of_a_move("feedback_keeps_its_rate", model.feedback_at_10_hz, see=LOOK)
-feedback_is_true = of_a_move("feedback_is_true", model.feedback_is_true, see=BEND)
-feedback_ends_with_the_goal = after_a_move("feedback_ends_with_the_goal", model.no_late_feedback)
+passes_every_point = of_a_move(model.passes_points)
+fills_the_result = after_a_move(model.names_no_error)
+feedback_keeps_its_rate = of_a_move(model.feedback_at_10_hz)
+feedback_is_true = of_a_move(model.feedback_is_true)
+feedback_ends_with_the_goal = after_a_move(model.no_late_feedback)
 rejects_foreign_joints = of_the_impossible(
-    "rejects_foreign_joints",
-    model.rejects_arms,
-    model.rejects_joints,
+    [model.rejects_arms, model.rejects_joints],
     title="It rejects an arm that is neither l nor r, and joints that are not this arm's",
     see="09_arms#silent-why",
 )
 rejects_lists_that_do_not_fit = of_the_impossible(
-    "rejects_lists_that_do_not_fit",
-    model.rejects_no_point,
-    model.rejects_lengths,
+    [model.rejects_no_point, model.rejects_lengths],
     title="It rejects a trajectory without a point, and points with too few or too many positions",
 )
-rejects_times_that_do_not_rise = of_the_impossible("rejects_times_that_do_not_rise", model.rejects_times)
-rejects_nan = of_the_impossible("rejects_nan", model.rejects_not_finite)
-rejects_out_of_range = of_the_impossible(
-    "rejects_out_of_range", model.rejects_beyond, see="09_arms#silent-why"
-)
-of_a_block = partial(check_of, on=BLOCK, see=BEND)
-aborts_when_the_arm_is_blocked = of_a_block(
-    "aborts_when_the_arm_is_blocked", model.strays, points=2, needs=arrives
-)
+rejects_times_that_do_not_rise = of_the_impossible(model.rejects_times)
+rejects_nan = of_the_impossible(model.rejects_not_finite)
+rejects_out_of_range = of_the_impossible(model.rejects_beyond, see="09_arms#silent-why")
+of_a_block = partial(check_of, on=BLOCK)
+aborts_when_the_arm_is_blocked = of_a_block(model.strays, points=2, needs=arrives)
 names_the_blocked_joint = of_a_block(
-    "names_the_blocked_joint",
     model.names_the_joint,
     title="error_msg names the joint that was blocked, and no other",
     needs=aborts_when_the_arm_is_blocked,
 )
 holds_when_the_arm_was_blocked = of_a_block(
-    "holds_when_the_arm_was_blocked",
     model.holds_when_given_up,
     title="After that the arm does not go on, also when nothing blocks it any more",
     needs=aborts_when_the_arm_is_blocked,
-    see="09_arms#release-why",
 )
-short_of_the_end = partial(check_of, on=HOLD_SHORT, see=BEND)
-aborts_when_the_end_is_missed = short_of_the_end(
-    "aborts_when_the_end_is_missed", model.misses, points=2, needs=arrives
-)
+short_of_the_end = partial(check_of, on=HOLD_SHORT)
+aborts_when_the_end_is_missed = short_of_the_end(model.misses, points=2, needs=arrives)
 names_the_worst_joint = short_of_the_end(
-    "names_the_worst_joint",
     model.names_the_joint,
     title="error_msg names the joint that is farthest from its end, and no other",
     needs=aborts_when_the_end_is_missed,
 )
-of_a_cancel = partial(check_of, on=CANCEL, see="09_arms#brake-why")
+of_a_cancel = partial(check_of, on=CANCEL)
 cancels = of_a_cancel(
-    "cancels",
-    model.grants_cancels,
-    model.moves_until_canceled,
+    [model.grants_cancels, model.moves_until_canceled],
     title="A cancel while the arm moves is agreed to and ends CANCELED",
     points=2,
     needs=accepts_a_trajectory,
-    see="07_cancel_and_preempt#m1-why",
 )
-stops_when_canceled = of_a_cancel("stops_when_canceled", model.stops_when_canceled, points=2, needs=cancels)
+stops_when_canceled = of_a_cancel(model.stops_when_canceled, points=2, needs=cancels)
 holds_by_an_empty_trajectory = of_a_cancel(
-    "holds_by_an_empty_trajectory",
     model.stops_by_an_empty_trajectory,
     title="What stops the arm is an empty trajectory",
     needs=stops_when_canceled,
 )
 new_goal_preempts_the_old = check_of(
-    "new_goal_preempts_the_old",
-    *(model.accepts, model.gives_way, model.succeeds),
+    [model.accepts, model.gives_way, model.succeeds],
     title="A new goal for the same arm aborts the old one with PREEMPTED and is carried out",
     points=2,
     on=PREEMPT,
@@ -175,9 +150,7 @@ new_goal_preempts_the_old = check_of(
     see="07_cancel_and_preempt#preempt-why",
 )
 moves_both_arms = check_of(
-    "moves_both_arms",
-    model.accepts,
-    model.succeeds_beside_the_other,
+    [model.accepts, model.succeeds_beside_the_other],
     title="Goals for both arms are carried out at the same time",
     points=2,
     on=BOTH,

@@ -96,71 +96,81 @@ OTHER_NAMESPACE = in_order(
 
 in_any_order = partial(check_of, on=ANY_ORDER)
 moves_the_right_arm = in_any_order(
-    "moves_the_right_arm",
-    *(model.accepts, model.passes_points, model.succeeds, model.names_no_error, model.misses, model.strays),
-    *(model.names_the_joint, model.holds_when_given_up, model.feedback_at_10_hz, model.feedback_is_true),
-    *(model.no_late_feedback, model.grants_cancels, model.answers_cancels),
-    *(model.stops_by_an_empty_trajectory, model.keeps_order, model.gives_way, model.stays_without_a_goal),
+    [
+        model.accepts,
+        model.passes_points,
+        model.succeeds,
+        model.names_no_error,
+        model.misses,
+        model.strays,
+        model.names_the_joint,
+        model.holds_when_given_up,
+        model.feedback_at_10_hz,
+        model.feedback_is_true,
+        model.no_late_feedback,
+        model.grants_cancels,
+        model.answers_cancels,
+        model.stops_by_an_empty_trajectory,
+        model.keeps_order,
+        model.gives_way,
+        model.stays_without_a_goal,
+    ],
     title="It moves both arms through points that are drawn, whatever happens meanwhile, and keeps every clause",
     points=2,
     needs=[checks.arrives, checks.passes_every_point],
     see="09_arms#clock-why",
 )
 reads_joint_states_by_name = in_any_order(
-    "reads_joint_states_by_name", model.succeeds_by_name, needs=checks.arrives, see="02_services#first-file"
+    model.succeeds_by_name, needs=checks.arrives, see="02_services#first-file"
 )
 knows_each_joints_range = in_any_order(
-    "knows_each_joints_range",
-    *(model.accepts, model.rejects_beyond, model.rejects_not_finite, model.rejects_arms),
-    *(model.rejects_joints, model.rejects_no_point, model.rejects_lengths, model.rejects_times),
+    [
+        model.accepts,
+        model.rejects_beyond,
+        model.rejects_not_finite,
+        model.rejects_arms,
+        model.rejects_joints,
+        model.rejects_no_point,
+        model.rejects_lengths,
+        model.rejects_times,
+    ],
     title="It knows each joint's range: a little outside is rejected, at any point, as is all that is no trajectory",
     points=2,
     needs=checks.rejects_out_of_range,
     see="09_arms#silent-why",
 )
 feedback_shows_a_blocked_arm = check_of(
-    "feedback_shows_a_blocked_arm",
     model.feedback_is_true,
     title="max_error grows while the arm is blocked",
     on=checks.BLOCK,
     needs=[checks.aborts_when_the_arm_is_blocked, checks.feedback_is_true],
-    see=checks.BEND,
 )
 short_of_the_end = partial(
     check_of, on=ANY_ORDER, needs=checks.aborts_when_the_end_is_missed, see=checks.BEND
 )
-obeys_goal_tolerance = short_of_the_end("obeys_goal_tolerance", model.succeeds_by_its_tolerance)
-waits_a_second_for_the_end = short_of_the_end("waits_a_second_for_the_end", model.succeeds_late)
+obeys_goal_tolerance = short_of_the_end(model.succeeds_by_its_tolerance)
+waits_a_second_for_the_end = short_of_the_end(model.succeeds_late)
 cancels_at_the_start = in_any_order(
-    "cancels_at_the_start",
-    model.grants_cancels,
-    model.stops_when_canceled,
+    [model.grants_cancels, model.stops_when_canceled],
     title="A cancel right after the acceptance ends CANCELED with the arm still",
     needs=checks.stops_when_canceled,
-    see="07_cancel_and_preempt#m1-why",
 )
 moves_again_after_a_cancel = in_any_order(
-    "moves_again_after_a_cancel",
     model.succeeds_after_a_cancel,
     needs=[checks.stops_when_canceled, checks.arrives],
     see="07_cancel_and_preempt#fix-intro",
 )
 a_cancel_spares_the_other_arm = in_any_order(
-    "a_cancel_spares_the_other_arm",
-    model.succeeds_beside_the_other,
-    model.stops_when_canceled,
+    [model.succeeds_beside_the_other, model.stops_when_canceled],
     title="When one arm's goal is cancelled, that arm stops and the other goes on",
     points=2,
     needs=[checks.stops_when_canceled, checks.moves_both_arms],
     see="09_arms#replace-why",
 )
 aborts_without_joint_states = in_any_order(
-    "aborts_without_joint_states",
-    model.notices_silence,
-    model.holds_when_given_up,
+    [model.notices_silence, model.holds_when_given_up],
     title="When joint_states say nothing for 1 s the goal ends with INVALID_JOINTS and the arm stops",
     needs=checks.arrives,
-    see=checks.TRAJECTORY,
 )
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
     "moves the arm of the robot", model.succeeds, clauses=[17], on=OTHER_NAMESPACE, needs=checks.arrives

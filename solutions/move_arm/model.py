@@ -16,7 +16,7 @@ from .objections import ARM, JOINT, LENGTH, NO_POINT, NOT_FINITE, RANGE, TIMES, 
 from .truth import require_accepted
 
 
-@obligation(1, 15, of=goals)
+@obligation(1, 15, of=goals, see="09_arms#conventions")
 def accepts(goal: Goal) -> str | None:
     """It accepts a trajectory of one arm's joints when nothing speaks against it, whatever the arms do."""
     if not is_sound(goal):
@@ -32,22 +32,28 @@ rejects_lengths = rejects(3, LENGTH)
 rejects_times = rejects(4, TIMES)
 rejects_not_finite = rejects(5, NOT_FINITE)
 rejects_beyond = rejects(5, RANGE)
-passes_points = obligation(6, of=goals)(motion.passes_every_point)
-succeeds = obligation(7, of=goals)(ends.succeeds)
-names_no_error = obligation(8, of=goals)(reports.names_no_error)
-misses = obligation(9, of=goals)(ends.misses)
-strays = obligation(10, of=goals)(ends.strays)
-holds_when_given_up = obligation(10, 12, of=goals)(motion.holds_when_given_up)
-names_the_joint = obligation(11, of=goals)(reports.names_the_joint)
-notices_silence = obligation(12, of=goals)(ends.notices_silence)
-feedback_at_10_hz = obligation(13, of=goals)(reports.feedback_at_10_hz)
-feedback_is_true = obligation(13, of=goals)(reports.feedback_is_true)
-no_late_feedback = obligation(13, of=goals)(tells.feedback_ends_with_the_goal)
-grants_cancels = obligation(14, of=goals)(ends.grants_cancels)
+passes_points = obligation(6, of=goals, see="09_arms#velocities-why")(motion.passes_every_point)
+succeeds = obligation(7, of=goals, see="09_arms#clock-why")(ends.succeeds)
+names_no_error = obligation(8, of=goals, see="07_cancel_and_preempt#m13-why")(reports.names_no_error)
+misses = obligation(9, of=goals, see="09_arms#bend-why")(ends.misses)
+strays = obligation(10, of=goals, see="09_arms#bend-why")(ends.strays)
+holds_when_given_up = obligation(10, 12, of=goals, see="09_arms#release-why")(motion.holds_when_given_up)
+names_the_joint = obligation(11, of=goals, see="09_arms#bend-why")(reports.names_the_joint)
+notices_silence = obligation(12, of=goals, see="09_arms#conventions")(ends.notices_silence)
+feedback_at_10_hz = obligation(13, of=goals, see="07_cancel_and_preempt#conventions")(
+    reports.feedback_at_10_hz
+)
+feedback_is_true = obligation(13, of=goals, see="09_arms#bend-why")(reports.feedback_is_true)
+no_late_feedback = obligation(13, of=goals, see="07_cancel_and_preempt#m13-why")(
+    tells.feedback_ends_with_the_goal
+)
+grants_cancels = obligation(14, of=goals, see="07_cancel_and_preempt#m1-why")(ends.grants_cancels)
 answers_cancels = obligation(14, of=goals)(cancels.answers_every_cancel)
 moves_until_canceled = obligation(14, of=goals)(motion.moves_until_canceled)
-stops_when_canceled = obligation(14, of=goals)(motion.stops_when_canceled)
-stops_by_an_empty_trajectory = obligation(14, of=goals)(motion.stops_by_an_empty_trajectory)
+stops_when_canceled = obligation(14, of=goals, see="09_arms#brake-why")(motion.stops_when_canceled)
+stops_by_an_empty_trajectory = obligation(14, of=goals, see="09_arms#brake-why")(
+    motion.stops_by_an_empty_trajectory
+)
 keeps_order = obligation(14, of=goals)(status_in_order)
 gives_way = obligation(15, of=goals)(ends.gives_way)
 stays_without_a_goal = obligation(16, of=whole_run)(motion.stays_without_a_goal)

@@ -55,49 +55,30 @@ GOING, RETURNING, HOLDING = (partial(check_of, on=scenario) for scenario in (GO,
 server_appears = standard.server_appears(
     "the action navigate_to_pose", on=INTERRUPT, see="06_walk_to_a_pose#small-intro", clauses=[21]
 )
-accepts_a_goal = GOING("accepts_a_goal", model.accepts, needs=server_appears, see=REJECT)
+accepts_a_goal = GOING(model.accepts, needs=server_appears)
 arrives = GOING(
-    "arrives",
-    *(model.succeeds, model.stands_at_success, model.names_no_error),
+    [model.succeeds, model.stands_at_success, model.names_no_error],
     title="It SUCCEEDS, and the robot then stands within 0.10 m and 0.15 rad of the goal (tolerance 0)",
     points=2,
     needs=accepts_a_goal,
-    see="06_walk_to_a_pose#settle-why",
 )
-faces_its_way = GOING("faces_its_way", model.faces_its_way, needs=arrives, see="08_navigation#why")
-feedback_keeps_its_rate = GOING(
-    "feedback_keeps_its_rate",
-    model.feedback_at_5_hz,
-    needs=accepts_a_goal,
-    see="06_walk_to_a_pose#settle-intro",
-)
+faces_its_way = GOING(model.faces_its_way, needs=arrives)
+feedback_keeps_its_rate = GOING(model.feedback_at_5_hz, needs=accepts_a_goal)
 TOLD = [arrives, feedback_keeps_its_rate]
 feedback_is_true = GOING(
-    "feedback_is_true",
     model.feedback_is_true,
     title="Pose and distance in the feedback are the robot's",
     needs=feedback_keeps_its_rate,
-    see="08_navigation#action-intro",
 )
-names_its_phases = GOING(
-    "names_its_phases", model.names_its_phases, needs=[faces_its_way, *TOLD], see="08_navigation#loops-intro"
-)
-tells_its_time = check_of(
-    "tells_its_time", model.tells_its_time, on=[GO, PREEMPT], needs=TOLD, see="08_navigation#conventions"
-)
-estimates_the_time = GOING(
-    "estimates_the_time", model.estimates_the_time, needs=TOLD, see="08_navigation#eta-why"
-)
+names_its_phases = GOING(model.names_its_phases, needs=[faces_its_way, *TOLD])
+tells_its_time = check_of(model.tells_its_time, on=[GO, PREEMPT], needs=TOLD)
+estimates_the_time = GOING(model.estimates_the_time, needs=TOLD)
 progress_rises_to_100 = GOING(
-    "progress_rises_to_100",
-    model.progress_rises,
-    model.half_done_half_way,
+    [model.progress_rises, model.half_done_half_way],
     title="progress_percentage rises, is about half where half of the distance is left, and ends at 100",
     needs=TOLD,
-    see="08_navigation#zero-why",
 )
 measures_its_path = check_of(
-    "measures_its_path",
     model.measures_its_path,
     title="distance_traveled is the path walked for this goal, within 15 %, though the pelvis sways",
     points=2,
@@ -106,102 +87,66 @@ measures_its_path = check_of(
     see="08_navigation#sway-why",
 )
 counts_no_detour_without_one = GOING(
-    "counts_no_detour_without_one",
     model.counts_no_recovery,
     title="number_of_recoveries stays 0 while nothing disturbs the robot",
     needs=feedback_keeps_its_rate,
-    see="08_navigation#recovery-why",
 )
-feedback_ends_with_the_goal = GOING(
-    "feedback_ends_with_the_goal",
-    model.feedback_ends_with_the_goal,
-    needs=TOLD,
-    see="07_cancel_and_preempt#m13-why",
-)
+feedback_ends_with_the_goal = GOING(model.feedback_ends_with_the_goal, needs=TOLD)
 succeeds_at_once_where_it_stands = check_of(
-    "succeeds_at_once_where_it_stands",
-    model.succeeds_where_it_stands,
-    model.progress_rises,
+    [model.succeeds_where_it_stands, model.progress_rises],
     title="A goal equal to the present pose SUCCEEDS at once, with 100 % and without a walk",
     on=HERE,
     needs=arrives,
-    see="08_navigation#zero-why",
 )
 rejects_a_wrong_pose = check_of(
-    "rejects_a_wrong_pose",
-    model.rejects_frames,
-    model.rejects_nan,
+    [model.rejects_frames, model.rejects_nan],
     title="It rejects a pose in frame map, and one that holds NaN",
     on=IMPOSSIBLE,
     needs=accepts_a_goal,
     see="08_navigation#map-why",
 )
 rejects_a_wrong_tolerance = check_of(
-    "rejects_a_wrong_tolerance", model.rejects_tolerances, on=IMPOSSIBLE, needs=accepts_a_goal, see=REJECT
+    model.rejects_tolerances, on=IMPOSSIBLE, needs=accepts_a_goal, see=REJECT
 )
-rejects_without_power = check_of(
-    "rejects_without_power", model.rejects_without_power, on=HERE, needs=accepts_a_goal, see=REJECT
-)
-gets_back_on_its_way = RETURNING(
-    "gets_back_on_its_way", model.finds_its_way_back, points=2, needs=arrives, see="08_navigation#loops-why"
-)
+rejects_without_power = check_of(model.rejects_without_power, on=HERE, needs=accepts_a_goal, see=REJECT)
+gets_back_on_its_way = RETURNING(model.finds_its_way_back, points=2, needs=arrives)
 counts_the_recovery = RETURNING(
-    "counts_the_recovery",
-    model.counts_the_detour,
-    model.counts_no_recovery,
+    [model.counts_the_detour, model.counts_no_recovery],
     title="number_of_recoveries counts it, once, and begins at 0 with the next goal",
     needs=[gets_back_on_its_way, feedback_keeps_its_rate],
-    see="08_navigation#recovery-why",
 )
 progress_never_falls = RETURNING(
-    "progress_never_falls",
-    model.progress_rises,
-    model.finds_its_way_back,
+    [model.progress_rises, model.finds_its_way_back],
     title="progress_percentage does not fall when the robot is led back",
     needs=[gets_back_on_its_way, progress_rises_to_100],
     see="08_navigation#zero-fix-why",
 )
 measures_a_detour = RETURNING(
-    "measures_a_detour",
     model.measures_its_path,
     title="distance_traveled includes the way back and forth",
     needs=[gets_back_on_its_way, measures_its_path],
-    see="08_navigation#odometer-why",
 )
 gives_up_in_time = HOLDING(
-    "gives_up_in_time",
-    model.gives_up_in_time,
-    model.says_why_it_aborted,
+    [model.gives_up_in_time, model.says_why_it_aborted],
     title="Held up, it ends ABORTED with TIMEOUT after 30 s and 15 s per metre",
     points=2,
     needs=arrives,
-    see="08_navigation#late-why",
 )
-stands_still_after_the_limit = HOLDING(
-    "stands_still_after_the_limit",
-    model.stands_after_the_limit,
-    needs=gives_up_in_time,
-    see="06_walk_to_a_pose#touch-why",
-)
+stands_still_after_the_limit = HOLDING(model.stands_after_the_limit, needs=gives_up_in_time)
 measures_what_was_walked = HOLDING(
-    "measures_what_was_walked",
     model.measures_its_path,
     title="distance_traveled is what was walked, not what was commanded",
     needs=[gives_up_in_time, measures_its_path],
-    see="08_navigation#odometer-why",
 )
 cancels_in_mid_stride = check_of(
-    "cancels_in_mid_stride",
-    *(model.grants_cancels, model.walks_until_canceled, model.stops_when_canceled, model.names_no_error),
+    [model.grants_cancels, model.walks_until_canceled, model.stops_when_canceled, model.names_no_error],
     title="A cancel while the robot walks ends CANCELED, and within 2 s the robot stands still and upright",
     points=2,
     on=MID_STRIDE,
     needs=accepts_a_goal,
-    see="07_cancel_and_preempt#fix-intro",
 )
 new_goal_preempts_the_old = check_of(
-    "new_goal_preempts_the_old",
-    *(model.accepts, model.gives_way, model.says_why_it_aborted, model.succeeds),
+    [model.accepts, model.gives_way, model.says_why_it_aborted, model.succeeds],
     title="A new goal aborts the old one with PREEMPTED and is walked to",
     points=2,
     on=PREEMPT,
@@ -209,13 +154,10 @@ new_goal_preempts_the_old = check_of(
     see="07_cancel_and_preempt#preempt-why",
 )
 aborts_when_the_robot_falls = check_of(
-    "aborts_when_the_robot_falls",
-    model.tells_a_fall,
-    model.says_why_it_aborted,
+    [model.tells_a_fall, model.says_why_it_aborted],
     title="When the robot falls the goal is ABORTED with FELL",
     on=FALL,
     needs=accepts_a_goal,
-    see="07_cancel_and_preempt#fall-why",
 )
 ends_cleanly = standard.ends_cleanly(
     on=[INTERRUPT, PREEMPT], needs=server_appears, see="07_cancel_and_preempt#conventions", clauses=[21]

@@ -78,45 +78,54 @@ TO_THE_OTHER_SIDE = Scenario("in_order", _to_the_other_side)
 
 in_any_order = partial(check_of, on=ANY_ORDER)
 arrives_within_the_tolerance = in_any_order(
-    "arrives_within_the_tolerance",
-    *(model.accepts, model.rejects_frames, model.rejects_without_power, model.goes_on, model.succeeds),
-    *(model.stands_at_success, model.stands_without_a_goal, model.status_in_order),
-    *(model.succeeds_where_it_stands, model.feedback_at_5_hz, model.feedback_ends_with_the_goal),
-    *(model.feedback_is_true, model.gives_way, model.tells_a_fall, model.names_no_error),
-    model.says_why_it_aborted,
+    [
+        model.accepts,
+        model.rejects_frames,
+        model.rejects_without_power,
+        model.goes_on,
+        model.succeeds,
+        model.stands_at_success,
+        model.stands_without_a_goal,
+        model.status_in_order,
+        model.succeeds_where_it_stands,
+        model.feedback_at_5_hz,
+        model.feedback_ends_with_the_goal,
+        model.feedback_is_true,
+        model.gives_way,
+        model.tells_a_fall,
+        model.names_no_error,
+        model.says_why_it_aborted,
+    ],
     title="It reaches poses with any heading, one after the other, each within its tolerance, and keeps every clause",
     points=2,
     needs=checks.arrives,
     see="06_walk_to_a_pose#settle-why",
 )
 tells_each_goal_its_own_story = in_any_order(
-    "tells_each_goal_its_own_story",
-    *(model.measures_its_path, model.counts_no_recovery, model.progress_rises),
+    [model.measures_its_path, model.counts_no_recovery, model.progress_rises],
     title="Path, recoveries and progress begin at 0 with each goal",
     needs=[arrives_within_the_tolerance, checks.measures_its_path, checks.counts_no_detour_without_one],
-    see="08_navigation#odometer-why",
 )
 cancels_in_any_phase = in_any_order(
-    "cancels_in_any_phase",
-    model.grants_cancels,
-    model.stops_when_canceled,
+    [model.grants_cancels, model.stops_when_canceled],
     title="Before its first step and while it turns, too, a cancel ends CANCELED, with the robot still",
     needs=checks.cancels_in_mid_stride,
-    see="07_cancel_and_preempt#fix-intro",
 )
 gets_back_from_anywhere = check_of(
-    "gets_back_from_anywhere",
-    *(model.counts_the_detour, model.finds_its_way_back, model.feedback_at_5_hz, model.feedback_is_true),
-    model.measures_its_path,
+    [
+        model.counts_the_detour,
+        model.finds_its_way_back,
+        model.feedback_at_5_hz,
+        model.feedback_is_true,
+        model.measures_its_path,
+    ],
     title="Led astray to the other side, it counts that, too, and arrives",
     on=TO_THE_OTHER_SIDE,
     needs=checks.counts_the_recovery,
     see="08_navigation#loops-why",
 )
 a_new_goal_has_a_time_of_its_own = in_any_order(
-    "a_new_goal_has_a_time_of_its_own",
-    model.succeeds,
-    model.tells_its_time,
+    [model.succeeds, model.tells_its_time],
     title="navigation_time of a goal that preempts begins at its own acceptance",
     needs=[checks.new_goal_preempts_the_old, checks.tells_its_time],
     see="08_navigation#conventions",

@@ -70,174 +70,81 @@ server_appears = standard.server_appears(
     "the action pick_and_place", on=INTERRUPT, see="07_cancel_and_preempt#fix-file", clauses=[21]
 )
 accepts_a_goal = check_of(
-    "accepts_a_goal",
     model.accepts,
     title="It accepts a goal with a place in frame odom and a force of 10 N",
     on=FETCH,
     needs=server_appears,
-    see="07_cancel_and_preempt#m2-why",
 )
-places_the_cup = check_of(
-    "places_the_cup",
-    model.places,
-    model.puts_down,
-    points=3,
-    on=FETCH,
-    needs=accepts_a_goal,
-    see="09_arms#careful-why",
-)
-lifts_the_cup = check_of("lifts_the_cup", model.lifts, on=FETCH, needs=places_the_cup, see="09_arms#firm-why")
-keeps_the_force = check_of(
-    "keeps_the_force", model.keeps_force, points=2, on=FETCH, needs=lifts_the_cup, see="09_arms#force-why"
-)
-fills_the_result = check_of(
-    "fills_the_result",
-    model.filled_result,
-    on=FETCH,
-    needs=places_the_cup,
-    see="06_walk_to_a_pose#late-why",
-)
-feedback_keeps_its_rate = check_of(
-    "feedback_keeps_its_rate", model.feedback_at_5_hz, on=FETCH, needs=accepts_a_goal, see=LOOK
-)
-names_its_stages = check_of(
-    "names_its_stages",
-    model.names_stages,
-    on=FETCH,
-    needs=places_the_cup,
-    see="09_arms#phases-intro",
-)
-stages_are_true = check_of(
-    "stages_are_true",
-    model.true_stages,
-    on=FETCH,
-    needs=[names_its_stages, lifts_the_cup],
-    see="09_arms#phases-why",
-)
-feedback_is_measured = check_of(
-    "feedback_is_measured", model.measured, on=FETCH, needs=accepts_a_goal, see="09_arms#force-why"
-)
-percentage_rises = check_of(
-    "percentage_rises", model.percentage, on=FETCH, needs=places_the_cup, see="08_navigation#zero-fix-why"
-)
-feedback_ends_with_the_goal = check_of(
-    "feedback_ends_with_the_goal",
-    model.no_late_feedback,
-    on=FETCH,
-    needs=places_the_cup,
-    see="07_cancel_and_preempt#m13-why",
-)
+places_the_cup = check_of([model.places, model.puts_down], points=3, on=FETCH, needs=accepts_a_goal)
+lifts_the_cup = check_of(model.lifts, on=FETCH, needs=places_the_cup)
+keeps_the_force = check_of(model.keeps_force, points=2, on=FETCH, needs=lifts_the_cup)
+fills_the_result = check_of(model.filled_result, on=FETCH, needs=places_the_cup)
+feedback_keeps_its_rate = check_of(model.feedback_at_5_hz, on=FETCH, needs=accepts_a_goal)
+names_its_stages = check_of(model.names_stages, on=FETCH, needs=places_the_cup)
+stages_are_true = check_of(model.true_stages, on=FETCH, needs=[names_its_stages, lifts_the_cup])
+feedback_is_measured = check_of(model.measured, on=FETCH, needs=accepts_a_goal)
+percentage_rises = check_of(model.percentage, on=FETCH, needs=places_the_cup)
+feedback_ends_with_the_goal = check_of(model.no_late_feedback, on=FETCH, needs=places_the_cup)
 rejects_a_wrong_place = check_of(
-    "rejects_a_wrong_place",
-    model.rejects_frames,
-    model.rejects_not_finite,
+    [model.rejects_frames, model.rejects_not_finite],
     title="It rejects a place in another frame than odom, and one that holds NaN or infinity",
     on=IMPOSSIBLE,
     needs=accepts_a_goal,
     see="09_arms#base-intro",
 )
 rejects_a_wrong_force = check_of(
-    "rejects_a_wrong_force",
-    model.rejects_forces,
-    on=IMPOSSIBLE,
-    needs=accepts_a_goal,
-    see="09_arms#force-why",
+    model.rejects_forces, on=IMPOSSIBLE, needs=accepts_a_goal, see="09_arms#force-why"
 )
 knows_no_teapot = check_of(
-    "knows_no_teapot",
-    model.unknown_objects,
-    model.says_why_it_aborted,
-    on=UNKNOWN,
-    needs=accepts_a_goal,
-    see="09_arms#phases-why",
+    [model.unknown_objects, model.says_why_it_aborted], on=UNKNOWN, needs=accepts_a_goal
 )
 refuses_a_far_place = check_of(
-    "refuses_a_far_place",
-    model.out_of_reach,
-    model.says_why_it_aborted,
+    [model.out_of_reach, model.says_why_it_aborted],
     title="A place out of reach ends the goal with UNREACHABLE before anything moves",
     on=FAR_PLACE,
     needs=accepts_a_goal,
-    see="09_arms#conventions",
 )
 refuses_a_far_cup = check_of(
-    "refuses_a_far_cup",
-    model.out_of_reach,
-    model.says_why_it_aborted,
+    [model.out_of_reach, model.says_why_it_aborted],
     title="A cup out of reach ends the goal with UNREACHABLE before anything moves",
     on=FAR_CUP,
     needs=accepts_a_goal,
-    see="09_arms#conventions",
 )
 notices_an_empty_hand = check_of(
-    "notices_an_empty_hand",
-    model.empty_hand,
-    model.says_why_it_aborted,
-    points=2,
-    on=TAKEN,
-    needs=places_the_cup,
-    see="09_arms#force-why",
+    [model.empty_hand, model.says_why_it_aborted], points=2, on=TAKEN, needs=places_the_cup
 )
 withdraws_an_empty_hand = check_of(
-    "withdraws_an_empty_hand",
     model.withdraws_empty,
     title="After that the hand is open and withdrawn",
     on=TAKEN,
     needs=notices_an_empty_hand,
-    see="09_arms#force-why",
 )
 notices_a_lost_cup = check_of(
-    "notices_a_lost_cup",
-    model.lost_object,
-    model.says_why_it_aborted,
+    [model.lost_object, model.says_why_it_aborted],
     title="When the cup is lost while it is lifted the goal ends with DROPPED",
     points=2,
     on=SNATCHED,
     needs=lifts_the_cup,
-    see="09_arms#slip-why",
 )
 gives_up_when_blocked = check_of(
-    "gives_up_when_blocked",
-    model.gives_up_in_time,
-    model.says_why_it_aborted,
-    on=BLOCKED,
-    needs=places_the_cup,
-    see="09_arms#phases-intro",
+    [model.gives_up_in_time, model.says_why_it_aborted], on=BLOCKED, needs=places_the_cup
 )
 cancels_before_the_grasp = check_of(
-    "cancels_before_the_grasp",
     model.leaves_the_cup,
     title="A cancel on the way to the cup ends CANCELED, with the hand withdrawn and the cup where it was",
     points=2,
     on=CANCEL,
     needs=accepts_a_goal,
-    see="07_cancel_and_preempt#m1-why",
 )
 puts_the_cup_back = check_of(
-    "puts_the_cup_back",
-    model.puts_away,
-    model.puts_down,
+    [model.puts_away, model.puts_down],
     title="A cancel soon after the cup was lifted puts it back where it stood, then ends CANCELED",
     points=3,
     on=HOLDING,
     needs=[lifts_the_cup, cancels_before_the_grasp],
-    see="09_arms#lift-why",
 )
-has_one_hand = check_of(
-    "has_one_hand",
-    model.one_hand,
-    model.places,
-    points=2,
-    on=TWO,
-    needs=lifts_the_cup,
-    see="07_cancel_and_preempt#preempt-why",
-)
+has_one_hand = check_of([model.one_hand, model.places], points=2, on=TWO, needs=lifts_the_cup)
 aborts_when_the_robot_falls = check_of(
-    "aborts_when_the_robot_falls",
-    model.tells_a_fall,
-    model.says_why_it_aborted,
-    on=FALL,
-    needs=accepts_a_goal,
-    see="07_cancel_and_preempt#fall-why",
+    [model.tells_a_fall, model.says_why_it_aborted], on=FALL, needs=accepts_a_goal
 )
 ends_cleanly = standard.ends_cleanly(on=INTERRUPT, needs=server_appears, see=LOOK, clauses=[21])

@@ -115,14 +115,15 @@ EVERY_GOAL = (  # what holds of it, however it ends
 )
 
 fetches_from_anywhere = check_of(
-    "fetches_from_anywhere",
-    model.rejects_frames,
-    model.rejects_not_finite,
-    model.rejects_forces,
-    *EVERY_GOAL,
-    model.places,
-    model.lifts,
-    model.filled_result,
+    [
+        model.rejects_frames,
+        model.rejects_not_finite,
+        model.rejects_forces,
+        *EVERY_GOAL,
+        model.places,
+        model.lifts,
+        model.filled_result,
+    ],
     title="It finds the cup wherever it stands, puts it down wherever it has to stand, and keeps every clause",
     points=2,
     on=FETCHING,
@@ -130,9 +131,7 @@ fetches_from_anywhere = check_of(
     see="09_arms#careful-why",
 )
 obeys_any_force = check_of(
-    "obeys_any_force",
-    model.places,
-    model.keeps_force,
+    [model.places, model.keeps_force],
     title="It holds the cup with whatever force is asked for, firm or gentle",
     points=2,
     on=FETCHING,
@@ -140,46 +139,33 @@ obeys_any_force = check_of(
     see="09_arms#force-why",
 )
 fetches_twice = check_of(
-    "fetches_twice",
-    model.accepts,
-    model.places_again,
+    [model.accepts, model.places_again],
     title="After a goal it carries out another",
     on=FETCHING,
     needs=places_the_cup,
     see="09_arms#careful-why",
 )
 survives_a_name_that_is_none = check_of(
-    "survives_a_name_that_is_none",
-    model.unknown_objects,
-    model.says_why_it_aborted,
+    [model.unknown_objects, model.says_why_it_aborted],
     title="An object_id that cannot be part of a topic's name is an unknown object, too",
     on=FETCHING,
     needs=knows_no_teapot,
-    see="09_arms#phases-why",
 )
 notices_a_loss_on_the_way = check_of(
-    "notices_a_loss_on_the_way",
-    model.lost_object,
-    model.says_why_it_aborted,
+    [model.lost_object, model.says_why_it_aborted],
     title="When the cup is lost on its way across the goal ends with DROPPED, too",
     on=ON_THE_WAY,
     needs=notices_a_lost_cup,
-    see="09_arms#slip-why",
 )
 cancels_while_closing = check_of(
-    "cancels_while_closing",
-    model.leaves_the_cup,
-    model.answers_cancels,
+    [model.leaves_the_cup, model.answers_cancels],
     title="A cancel while the fingers close opens them and leaves the cup where it is",
     on=STARTING_OVER,
     needs=cancels_before_the_grasp,
     see="09_arms#lift-why",
 )
 puts_the_cup_at_the_nearer_place = check_of(
-    "puts_the_cup_at_the_nearer_place",
-    model.puts_away,
-    *EVERY_GOAL,
-    model.keeps_force,
+    [model.puts_away, *EVERY_GOAL, model.keeps_force],
     title="A cancel when the cup is nearly there puts it at place_pose, then ends CANCELED",
     points=2,
     on=ON_THE_WAY,
@@ -187,9 +173,7 @@ puts_the_cup_at_the_nearer_place = check_of(
     see="09_arms#put-down-gap",
 )
 fetches_after_a_cancel = check_of(
-    "fetches_after_a_cancel",
-    model.accepts,
-    model.places_after_a_cancel,
+    [model.accepts, model.places_after_a_cancel],
     title="After a cancel it carries out another goal",
     on=STARTING_OVER,
     needs=[cancels_before_the_grasp, places_the_cup],

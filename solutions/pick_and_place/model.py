@@ -14,7 +14,7 @@ from .life import rivals
 from .objections import FORCE, FRAME, MOST_FORCE, NOT_FINITE, is_sound
 
 
-@obligation(1, of=goals)
+@obligation(1, of=goals, see="07_cancel_and_preempt#m2-why")
 def accepts(goal: Goal) -> str | None:
     """It accepts a place in frame odom and a force of the hand's, whatever came before, when no goal is under way."""
     if not is_sound(goal) or rivals(goal):
@@ -29,30 +29,32 @@ def accepts(goal: Goal) -> str | None:
 
 
 rejects_frames, rejects_not_finite, rejects_forces = (rejects(1, each) for each in (FRAME, NOT_FINITE, FORCE))
-places = obligation(2, 3, of=goals)(placing.places)
-lifts = obligation(4, of=goals)(holding.lifts)
+places = obligation(2, 3, of=goals, see="09_arms#careful-why")(placing.places)
+lifts = obligation(4, of=goals, see="09_arms#firm-why")(holding.lifts)
 puts_down = obligation(4, of=goals)(placing.puts_down)
-keeps_force = obligation(5, of=goals)(holding.keeps_the_force_asked_for)
-names_stages = obligation(6, of=goals)(reports.names_stages_in_order)
-true_stages = obligation(6, of=goals)(reports.stages_are_true_at)
-feedback_at_5_hz = obligation(7, of=goals)(reports.feedback_at_5_hz)
-no_late_feedback = obligation(7, of=goals)(tells.feedback_ends_with_the_goal)
-measured = obligation(8, of=goals)(reports.values_are_measured)
-percentage = obligation(9, of=goals)(reports.percentage_never_falls)
-filled_result = obligation(10, of=goals)(placing.fills_the_result_in)
-unknown_objects = obligation(11, of=goals)(safe_ends.knows_what_is_unknown)
-out_of_reach = obligation(12, of=goals)(safe_ends.refuses_what_is_out_of_reach)
-empty_hand = obligation(13, of=goals)(safe_ends.notices_what_it_does_not_hold)
-withdraws_empty = obligation(13, of=goals)(safe_ends.withdraws_what_is_empty)
-gives_up_in_time = obligation(14, of=goals)(safe_ends.gives_up_in_time)
-lost_object = obligation(15, of=goals)(safe_ends.notices_what_it_loses)
-tells_a_fall = obligation(16, of=goals)(safe_ends.tells_a_fall)
+keeps_force = obligation(5, of=goals, see="09_arms#force-why")(holding.keeps_the_force_asked_for)
+names_stages = obligation(6, of=goals, see="09_arms#phases-intro")(reports.names_stages_in_order)
+true_stages = obligation(6, of=goals, see="09_arms#phases-why")(reports.stages_are_true_at)
+feedback_at_5_hz = obligation(7, of=goals, see="07_cancel_and_preempt#conventions")(reports.feedback_at_5_hz)
+no_late_feedback = obligation(7, of=goals, see="07_cancel_and_preempt#m13-why")(
+    tells.feedback_ends_with_the_goal
+)
+measured = obligation(8, of=goals, see="09_arms#force-why")(reports.values_are_measured)
+percentage = obligation(9, of=goals, see="08_navigation#zero-fix-why")(reports.percentage_never_falls)
+filled_result = obligation(10, of=goals, see="06_walk_to_a_pose#late-why")(placing.fills_the_result_in)
+unknown_objects = obligation(11, of=goals, see="09_arms#phases-why")(safe_ends.knows_what_is_unknown)
+out_of_reach = obligation(12, of=goals, see="09_arms#conventions")(safe_ends.refuses_what_is_out_of_reach)
+empty_hand = obligation(13, of=goals, see="09_arms#force-why")(safe_ends.notices_what_it_does_not_hold)
+withdraws_empty = obligation(13, of=goals, see="09_arms#force-why")(safe_ends.withdraws_what_is_empty)
+gives_up_in_time = obligation(14, of=goals, see="09_arms#phases-intro")(safe_ends.gives_up_in_time)
+lost_object = obligation(15, of=goals, see="09_arms#slip-why")(safe_ends.notices_what_it_loses)
+tells_a_fall = obligation(16, of=goals, see="07_cancel_and_preempt#fall-why")(safe_ends.tells_a_fall)
 says_why_it_aborted = obligation(17, of=goals)(tells.says_why_it_aborted)
-leaves_the_cup = obligation(18, of=goals)(safe_ends.leaves_the_cup)
-puts_away = obligation(19, of=goals)(safe_ends.puts_away)
+leaves_the_cup = obligation(18, of=goals, see="07_cancel_and_preempt#m1-why")(safe_ends.leaves_the_cup)
+puts_away = obligation(19, of=goals, see="09_arms#lift-why")(safe_ends.puts_away)
 answers_cancels = obligation(18, 19, of=goals)(answers_every_cancel)
 keeps_order = obligation(18, 19, of=goals)(status_in_order)
-one_hand = obligation(20, of=goals)(safe_ends.gives_the_hand_to_one)
+one_hand = obligation(20, of=goals, see="07_cancel_and_preempt#preempt-why")(safe_ends.gives_the_hand_to_one)
 
 
 # -- a goal after others ----------------------------------------------------------------------------------------------

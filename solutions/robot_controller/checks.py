@@ -27,25 +27,22 @@ FIRST_LOST = program("servers", replies([ENABLED_TOO_LATE, ENABLED], [None, EMPT
 LATE_AND_SILENT = program("late_and_silent", {"appears": 1.6, "answers": 1.7})
 REFUSING_ONCE = program("servers", replies([REFUSED, ENABLED], [ON]))
 
-FRAME, WHY = "03_clients_that_survive#fix-frame", "03_clients_that_survive#fix-why"
+WHY = "03_clients_that_survive#fix-why"
 FAILS = (model.ends_as_it_went, model.says_why_it_fails, model.keeps_one_deadline)
 
 
-enables_then_asks = check_of("enables_then_asks", model.enables_then_asks, points=2, on=GOOD, see=FRAME)
+enables_then_asks = check_of(model.enables_then_asks, points=2, on=GOOD)
 
 prints_the_status = check_of(
-    "prints_the_status",
-    *(model.ends_as_it_went, model.prints_the_status, model.keeps_one_deadline),
+    [model.ends_as_it_went, model.prints_the_status, model.keeps_one_deadline],
     title="It prints “Robot status: ” with the message of the answer, and ends with status 0",
     points=2,
     on=GOOD,
     needs=enables_then_asks,
-    see=FRAME,
 )
 
 gives_up_without_servers = check_of(
-    "gives_up_without_servers",
-    *(*FAILS, model.looks_for_two_seconds),
+    [*FAILS, model.looks_for_two_seconds],
     title="Without any server it looks for one for 2 s, ends with status 1 within 10 s, and says so on stderr",
     points=2,
     on=NOBODY,
@@ -54,29 +51,29 @@ gives_up_without_servers = check_of(
 )
 
 asks_once_more = check_of(
-    "asks_once_more",
-    *(model.repeats_enable_once, model.ends_as_it_went, model.says_why_it_fails, model.switches_on),
+    [model.repeats_enable_once, model.ends_as_it_went, model.says_why_it_fails, model.switches_on],
     title="Without an answer it asks once more after 2 s, then gives up with status 1",
     points=2,
     on=SILENT_ENABLE,
     needs=enables_then_asks,
-    see=WHY,
 )
 
 makes_use_of_the_second_answer = check_of(
-    "makes_use_of_the_second_answer",
-    *(model.repeats_enable_once, model.repeats_status_once, model.ends_as_it_went, model.tells_one_status),
-    model.enables_then_asks,
+    [
+        model.repeats_enable_once,
+        model.repeats_status_once,
+        model.ends_as_it_went,
+        model.tells_one_status,
+        model.enables_then_asks,
+    ],
     title="When the first request of a service is lost, or answered too late, the second one counts, and an empty "
     "answer is one, too",
     on=FIRST_LOST,
     needs=enables_then_asks,
-    see=WHY,
 )
 
 keeps_one_deadline = check_of(
-    "keeps_one_deadline",
-    *(model.repeats_enable_once, *FAILS),
+    [model.repeats_enable_once, *FAILS],
     title="It gives up within 10 s in all, also when servers come late and answer late; a refusal ends it, too",
     on=[LATE_AND_SILENT, REFUSING_ONCE],
     needs=[gives_up_without_servers, asks_once_more],

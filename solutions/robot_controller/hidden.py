@@ -82,8 +82,7 @@ REFUSING = program("servers", _refusal)
 ANY_SERVERS = program("servers", _any_servers)
 
 prints_any_status = check_of(
-    "prints_any_status",
-    *(model.ends_as_it_went, model.prints_the_status),
+    [model.ends_as_it_went, model.prints_the_status],
     title="Whatever the status says, it is printed as it came, also one with success: false",
     on=ANY_STATUS,
     needs=checks.prints_the_status,
@@ -91,17 +90,14 @@ prints_any_status = check_of(
 )
 
 works_in_any_namespace = check_of(
-    "works_in_any_namespace",
-    *(model.asks_here, *SUCCEEDS),
+    [model.asks_here, *SUCCEEDS],
     title="Started in another namespace, it asks the robot there",
     on=OTHER_NAMESPACE,
     needs=checks.enables_then_asks,
-    see="01_robot_and_graph#names-why",
 )
 
 needs_both_services = check_of(
-    "needs_both_services",
-    *(*FAILS, model.looks_for_two_seconds),
+    [*FAILS, model.looks_for_two_seconds],
     title="A get_status that is missing, or of another type, ends it with status 1 after 2 s",
     on=[ONE_OF_TWO, ANOTHER_TYPE],
     needs=checks.gives_up_without_servers,
@@ -109,8 +105,7 @@ needs_both_services = check_of(
 )
 
 gives_up_on_a_silent_status = check_of(
-    "gives_up_on_a_silent_status",
-    *(*ASKS, model.repeats_status_once, *FAILS),
+    [*ASKS, model.repeats_status_once, *FAILS],
     title="get_status is also asked twice and then given up, whatever enable_motors needed",
     on=SILENT_STATUS,
     needs=checks.asks_once_more,
@@ -118,8 +113,7 @@ gives_up_on_a_silent_status = check_of(
 )
 
 waits_for_slow_answers = check_of(
-    "waits_for_slow_answers",
-    *(*ASKS, model.repeats_status_once, *SUCCEEDS),
+    [*ASKS, model.repeats_status_once, *SUCCEEDS],
     title="Answers that take 1 s are waited for",
     on=SLOW,
     needs=checks.enables_then_asks,
@@ -127,17 +121,14 @@ waits_for_slow_answers = check_of(
 )
 
 is_not_confused_by_a_late_answer = check_of(
-    "is_not_confused_by_a_late_answer",
-    *(model.repeats_status_once, *SUCCEEDS),
+    [model.repeats_status_once, *SUCCEEDS],
     title="An answer that comes after its time, while another is waited for, does no harm",
     on=LATE,
     needs=checks.makes_use_of_the_second_answer,
-    see="03b_clients_in_bad_company#late-why",
 )
 
 survives_a_dying_server = check_of(
-    "survives_a_dying_server",
-    *FAILS,
+    FAILS,
     title="A server that dies in the middle of a request ends it with status 1",
     on=DYING,
     needs=checks.asks_once_more,
@@ -145,17 +136,14 @@ survives_a_dying_server = check_of(
 )
 
 finds_a_restarted_server = check_of(
-    "finds_a_restarted_server",
     model.holds_whatever_servers_do,
     title="A server that dies and comes back is asked again; whatever servers do, every clause holds",
     on=[RESTARTING, ANY_SERVERS],
     needs=checks.makes_use_of_the_second_answer,
-    see="03_clients_that_survive#restart-why",
 )
 
 copes_with_two_servers = check_of(
-    "copes_with_two_servers",
-    *(*ASKS, *SUCCEEDS),
+    [*ASKS, *SUCCEEDS],
     title="Two servers of one name give one status",
     on=TWO,
     needs=checks.enables_then_asks,
@@ -163,10 +151,8 @@ copes_with_two_servers = check_of(
 )
 
 reports_a_refusal = check_of(
-    "reports_a_refusal",
-    *(model.switches_on, model.repeats_enable_once, *FAILS),
+    [model.switches_on, model.repeats_enable_once, *FAILS],
     title="When enable_motors answers success: false, it asks no more, and ends with status 1",
     on=REFUSING,
     needs=checks.enables_then_asks,
-    see="03b_clients_in_bad_company#success-why",
 )

@@ -44,7 +44,7 @@ REFUSING = "03b_clients_in_bad_company#success-why"  # the lesson
 # -- how it ends ------------------------------------------------------------------------------------------------------
 
 
-@obligation(3, 4, 6, 8, 9, 12, of=whole_run)
+@obligation(3, 4, 6, 8, 9, 12, of=whole_run, see="03_clients_that_survive#fix-frame")
 def ends_as_it_went(run: Transcript) -> str:
     """It ends with status 0 if both services answered, and with 1 if one was missing, silent or refused"""
     exited, ends = require_end(run, WHOLE_DEADLINE), expected_ends(run)
@@ -129,7 +129,7 @@ def looks_for_two_seconds(run: Transcript) -> str | None:
 # -- what it asks -----------------------------------------------------------------------------------------------------
 
 
-@obligation(1, of=whole_run)
+@obligation(1, of=whole_run, see="03b_clients_in_bad_company#success-why")
 def switches_on(run: Transcript) -> str | None:
     """Each request to enable_motors, also the second one, has data true"""
     sent = asked(run, ENABLE)
@@ -147,7 +147,7 @@ def switches_on(run: Transcript) -> str | None:
     return "asked"
 
 
-@obligation(1, of=whole_run)
+@obligation(1, of=whole_run, see="03_clients_that_survive#fix-frame")
 def enables_then_asks(run: Transcript) -> str | None:
     """It asks enable_motors with data true, each time, and get_status only after the answer"""
     switches_on.judge(run)
@@ -266,13 +266,13 @@ def _require_patience(run: Transcript, service: str, last: Asked) -> None:
     )
 
 
-@obligation(5, 7, of=whole_run)
+@obligation(5, 7, of=whole_run, see="03_clients_that_survive#fix-why")
 def repeats_enable_once(run: Transcript) -> str | None:
     """enable_motors is asked once more, with 2 s for each request, if and only if the first has no answer"""
     return _repeats(ENABLE, run)
 
 
-@obligation(5, 7, of=whole_run)
+@obligation(5, 7, of=whole_run, see="03b_clients_in_bad_company#late-why")
 def repeats_status_once(run: Transcript) -> str | None:
     """get_status is asked once more, with 2 s for each request, if and only if the first has no answer"""
     return _repeats(STATUS, run)
@@ -330,7 +330,7 @@ def _require_one(run: Transcript, told: Sequence[str], expected: str) -> str | N
 # -- all of it --------------------------------------------------------------------------------------------------------
 
 
-@obligation(13, of=whole_run)
+@obligation(13, of=whole_run, see="01_robot_and_graph#names-why")
 def asks_here(run: Transcript) -> str:
     """It asks the robot in whose namespace it is started"""
     require_end(run, WHOLE_DEADLINE)
@@ -346,7 +346,11 @@ EVERYTHING = (
 )
 
 
-@obligation(*sorted({clause for each in EVERYTHING for clause in each.clauses}), of=whole_run)
+@obligation(
+    *sorted({clause for each in EVERYTHING for clause in each.clauses}),
+    of=whole_run,
+    see="03_clients_that_survive#restart-why",
+)
 def holds_whatever_servers_do(run: Transcript) -> str:
     """Whatever its servers do, it asks, prints and ends as the clauses say"""
     for each in EVERYTHING:

@@ -53,115 +53,73 @@ INTERRUPT = Scenario("in_order", {"steps": [["interrupt"]]}, robot=RESTING)
 
 LOOK = "07_cancel_and_preempt#conventions"
 STILL, PHASES = "09_arms#still-why", "09_arms#phases-why"
-REJECT = "06_walk_to_a_pose#reject-task"
 of_a_rise = partial(check_of, on=RISE)
 
 server_appears = standard.server_appears(
     "the action stand_up", on=INTERRUPT, see="06_walk_to_a_pose#small-intro", clauses=[18]
 )
 accepts_a_goal = of_a_rise(
-    "accepts_a_goal",
-    model.accepts,
-    title="It accepts a goal while the robot crouches",
-    needs=server_appears,
-    see=REJECT,
+    model.accepts, title="It accepts a goal while the robot crouches", needs=server_appears
 )
-rises = of_a_rise(
-    "rises",
-    *(model.succeeds, model.names_no_error),
-    points=2,
-    needs=accepts_a_goal,
-    see="09_arms#rise-why",
-)
-rises_on_the_spot = of_a_rise(
-    "rises_on_the_spot", model.rises_in_place, needs=rises, see="01_robot_and_graph#walk-intro"
-)
+rises = of_a_rise([model.succeeds, model.names_no_error], points=2, needs=accepts_a_goal)
+rises_on_the_spot = of_a_rise(model.rises_in_place, needs=rises)
 settles_before_it_succeeds = of_a_rise(
-    "settles_before_it_succeeds",
     model.settles,
     title="When it SUCCEEDS the robot has been high, still and upright for 0.5 s",
     points=2,
     needs=rises,
-    see=STILL,
 )
 waits_until_it_is_still = check_of(
-    "waits_until_it_is_still",
-    *(model.settles, model.succeeds),
+    [model.settles, model.succeeds],
     title="It does not succeed while the pelvis moves faster than 0.02 m/s",
     on=GLIDES,
     needs=rises,
-    see=STILL,
 )
 waits_until_it_is_upright = check_of(
-    "waits_until_it_is_upright",
-    *(model.settles, model.succeeds),
+    [model.settles, model.succeeds],
     title="It does not succeed while the pelvis leans by more than 0.05 rad",
     on=LEANS,
     needs=rises,
-    see=STILL,
 )
-feedback_keeps_its_rate = of_a_rise(
-    "feedback_keeps_its_rate",
-    model.feedback_at_5_hz,
-    needs=accepts_a_goal,
-    see="06_walk_to_a_pose#settle-intro",
-)
+feedback_keeps_its_rate = of_a_rise(model.feedback_at_5_hz, needs=accepts_a_goal)
 names_its_phases = of_a_rise(
-    "names_its_phases",
     model.names_its_phase,
     title="Phase is shifting, rising, settling, each while the robot does it",
     needs=rises,
-    see=PHASES,
 )
 percent_is_measured = of_a_rise(
-    "percent_is_measured",
     model.measures_percent,
     title="percent_complete is the share of the height gained, and ends at 100",
     needs=rises,
-    see="08_navigation#zero-why",
 )
 percent_never_falls = check_of(
-    "percent_never_falls",
     model.never_loses_percent,
     title="percent_complete does not fall when the pelvis bobs",
     on=GLIDES,
     needs=accepts_a_goal,
-    see="08_navigation#zero-why",
 )
-feedback_ends_with_the_goal = of_a_rise(
-    "feedback_ends_with_the_goal",
-    model.feedback_ends,
-    needs=rises,
-    see="07_cancel_and_preempt#m13-why",
-)
+feedback_ends_with_the_goal = of_a_rise(model.feedback_ends, needs=rises)
 rejects_before_anything_is_known = check_of(
-    "rejects_before_anything_is_known",
-    *(model.rejects_the_unknown, model.accepts),
+    [model.rejects_the_unknown, model.accepts],
     title="It rejects a goal before the first messages of the robot, and accepts one after them",
     on=UNKNOWN,
     needs=accepts_a_goal,
-    see=REJECT,
 )
 waits_for_even_loads = check_of(
-    "waits_for_even_loads",
-    *(model.stays_down_while_uneven, model.names_shifting, model.succeeds),
+    [model.stays_down_while_uneven, model.names_shifting, model.succeeds],
     title="While somebody leans on the robot it stays down, in shifting; then it rises",
     points=2,
     on=LEANED_ON,
     needs=rises,
-    see=STILL,
 )
 shifts_again_after_a_push = check_of(
-    "shifts_again_after_a_push",
-    *(model.shifts_again, model.names_shifting, model.succeeds),
+    [model.shifts_again, model.names_shifting, model.succeeds],
     title="Leaned on while it rises, it stops and goes back to shifting; then it rises",
     points=2,
     on=PUSHED,
     needs=rises,
-    see=PHASES,
 )
 accepts_a_goal_when_it_stands = check_of(
-    "accepts_a_goal_when_it_stands",
     model.accepts,
     title="It accepts a goal for a robot that stands already, because a rejection carries no reason",
     on=STANDING,
@@ -169,51 +127,40 @@ accepts_a_goal_when_it_stands = check_of(
     see=PHASES,
 )
 says_that_it_stands_already = check_of(
-    "says_that_it_stands_already",
-    *(model.says_that_it_stands, model.says_why_it_aborted),
+    [model.says_that_it_stands, model.says_why_it_aborted],
     title="That goal is ABORTED at once with ALREADY_STANDING and a sentence",
     points=2,
     on=STANDING,
     needs=accepts_a_goal_when_it_stands,
-    see=PHASES,
 )
 cancels_under_way = check_of(
-    "cancels_under_way",
-    *(model.cancels, model.names_no_error),
+    [model.cancels, model.names_no_error],
     title="A cancel while the robot rises is agreed to and ends CANCELED",
     points=2,
     on=CANCEL,
     needs=accepts_a_goal,
-    see="07_cancel_and_preempt#m1-why",
 )
 stays_where_it_was_canceled = check_of(
-    "stays_where_it_was_canceled",
     model.stays_where_it_ended,
     title="After the cancel the pelvis stays at the height it had reached",
     points=2,
     on=CANCEL,
     needs=cancels_under_way,
-    see="07_cancel_and_preempt#m12-robot-why",
 )
 rejects_a_second_goal = check_of(
-    "rejects_a_second_goal",
-    *(model.rejects_while_busy, model.succeeds),
+    [model.rejects_while_busy, model.succeeds],
     title="It rejects a goal while another runs, and the first goes on",
     on=TWICE,
     needs=rises,
-    see=LOOK,
 )
 gives_up_in_time = check_of(
-    "gives_up_in_time",
-    *(model.keeps_the_limit, model.names_no_error, model.says_why_it_aborted),
+    [model.keeps_the_limit, model.names_no_error, model.says_why_it_aborted],
     title="Held down, it ends ABORTED after 12 s, with a sentence",
     points=2,
     on=HELD,
     needs=accepts_a_goal,
-    see="08_navigation#late-why",
 )
 stays_down_after_the_limit = check_of(
-    "stays_down_after_the_limit",
     model.stays_where_it_ended,
     title="After that the robot stays down, also when it is let go",
     on=HELD,
@@ -221,18 +168,10 @@ stays_down_after_the_limit = check_of(
     see="08_navigation#late-why",
 )
 aborts_when_the_robot_falls = check_of(
-    "aborts_when_the_robot_falls",
-    *(model.ends_with_a_fall, model.says_why_it_aborted),
+    [model.ends_with_a_fall, model.says_why_it_aborted],
     title="When the robot falls the goal is ABORTED with FELL and a sentence",
     on=FALL,
     needs=accepts_a_goal,
-    see="07_cancel_and_preempt#fall-why",
 )
-knows_that_a_fall_is_the_end = check_of(
-    "knows_that_a_fall_is_the_end",
-    model.refuses_the_floor,
-    on=FALLEN,
-    needs=server_appears,
-    see="07_cancel_and_preempt#fall-why",
-)
+knows_that_a_fall_is_the_end = check_of(model.refuses_the_floor, on=FALLEN, needs=server_appears)
 ends_cleanly = standard.ends_cleanly(on=INTERRUPT, needs=server_appears, see=LOOK, clauses=[18])

@@ -95,7 +95,7 @@ def _is_known(goal: Goal) -> bool | None:
     return True if all(first[0].t < goal.sent.t - ON_ITS_WAY for first in firsts) else None
 
 
-@obligation(1, 2, of=goals)
+@obligation(1, 2, of=goals, see="06_walk_to_a_pose#reject-task")
 def accepts(goal: Goal) -> str | None:
     """It accepts a goal for a robot that crouches or stands, also after others have ended"""
     if (
@@ -120,7 +120,7 @@ def accepts(goal: Goal) -> str | None:
     return f"{'standing' if stands else 'crouching'}, {'after another' if later else 'at first'}"
 
 
-@obligation(1, of=goals)
+@obligation(1, of=goals, see="06_walk_to_a_pose#reject-task")
 def rejects_the_unknown(goal: Goal) -> str | None:
     """It rejects a goal before the first messages of the robot"""
     if _is_known(goal) is not False:
@@ -129,7 +129,7 @@ def rejects_the_unknown(goal: Goal) -> str | None:
     return "before the first messages"
 
 
-rejects_while_busy = obligation(13, of=goals)(
+rejects_while_busy = obligation(13, of=goals, see="07_cancel_and_preempt#conventions")(
     rejecting("rejects_while_busy", BUSY, "It rejects a goal while another is active")
 )
 takes_one_of_several = obligation(13, of=goals)(one_of_several)
@@ -138,7 +138,7 @@ takes_one_of_several = obligation(13, of=goals)(one_of_several)
 # -- how goals end ----------------------------------------------------------------------------------------------------
 
 
-@obligation(5, 6, of=goals)
+@obligation(5, 6, of=goals, see="09_arms#rise-why")
 def succeeds(goal: Goal) -> str | None:
     """It SUCCEEDS, and base_link is then at 0.59 m or higher"""
     accepts.require(goal)
@@ -159,13 +159,13 @@ def succeeds(goal: Goal) -> str | None:
     return "pushed" if was_pushed(goal) else "undisturbed"
 
 
-@obligation(5, 7, of=goals)
+@obligation(5, 7, of=goals, see="09_arms#phases-why")
 def rises_though_pushed(goal: Goal) -> str | None:
     """Pushed on its way, it rises all the same"""
     return succeeds.require(goal) if was_pushed(goal) else None
 
 
-@obligation(6, of=goals)
+@obligation(6, of=goals, see="09_arms#still-why")
 def settles(goal: Goal) -> str | None:
     """When it SUCCEEDS base_link has been high, still and upright for 0.5 s"""
     if goal.status != SUCCEEDED or not goal.result:
@@ -183,7 +183,7 @@ def settles(goal: Goal) -> str | None:
     return "simulated" if goal.run.ground_truth else "played"
 
 
-@obligation(2, of=goals)
+@obligation(2, of=goals, see="09_arms#phases-why")
 def says_that_it_stands(goal: Goal) -> str | None:
     """A goal for a robot that stands is ABORTED at once, with ALREADY_STANDING"""
     if not accepted(goal) or not began_high(goal) or interrupted(goal):
@@ -196,7 +196,7 @@ def says_that_it_stands(goal: Goal) -> str | None:
     return "after a rise" if others(goal) else "at first"
 
 
-@obligation(15, of=goals)
+@obligation(15, of=goals, see="07_cancel_and_preempt#fall-why")
 def ends_with_a_fall(goal: Goal) -> str | None:
     """When the robot falls the goal is ABORTED with FELL"""
     if not began_low(goal) or granted(goal) or goal.status == SUCCEEDED:
@@ -208,7 +208,7 @@ def ends_with_a_fall(goal: Goal) -> str | None:
     return "a fall"
 
 
-@obligation(16, of=goals)
+@obligation(16, of=goals, see="07_cancel_and_preempt#fall-why")
 def refuses_the_floor(goal: Goal) -> str | None:
     """A goal for a robot that has fallen is rejected, or ABORTED at once with FELL"""
     if not lay_on_the_floor(goal):
@@ -222,7 +222,7 @@ def refuses_the_floor(goal: Goal) -> str | None:
     return "aborted"
 
 
-@obligation(12, of=goals)
+@obligation(12, of=goals, see="07_cancel_and_preempt#m1-why")
 def cancels(goal: Goal) -> str | None:
     """A cancel at any moment is agreed to, and the goal ends CANCELED"""
     over = ended_at(goal) if goal.status == SUCCEEDED else goal.run.end
@@ -241,7 +241,7 @@ def cancels(goal: Goal) -> str | None:
     return _phase_at(goal, asked[0].sent.t)
 
 
-@obligation(14, of=goals)
+@obligation(14, of=goals, see="08_navigation#late-why")
 def keeps_the_limit(goal: Goal) -> str | None:
     """A goal that has not succeeded within 12 s is ABORTED then, and not before"""
     if not accepted(goal) or not began_low(goal) or granted(goal) or fallen_during(goal) or interrupted(goal):
@@ -287,7 +287,7 @@ status_in_order = obligation(12, of=goals)(ends.status_in_order)
 # -- what the robot does ----------------------------------------------------------------------------------------------
 
 
-@obligation(3, of=whole_run)
+@obligation(3, of=whole_run, see="01_robot_and_graph#walk-intro")
 def rises_in_place(run: Transcript) -> str | None:
     """The robot rises without a step"""
     if not run.ground_truth or pushes(run):
@@ -303,7 +303,7 @@ def rises_in_place(run: Transcript) -> str | None:
     return "all the time"
 
 
-@obligation(4, of=goals)
+@obligation(4, of=goals, see="09_arms#still-why")
 def stays_down_while_uneven(goal: Goal) -> str | None:
     """It stays down until the loads have been even for 0.3 s in a row"""
     if not began_low(goal):
@@ -349,7 +349,7 @@ def _first_even(goal: Goal, end: float) -> float | None:
     return last
 
 
-@obligation(7, of=goals)
+@obligation(7, of=goals, see="09_arms#phases-why")
 def shifts_again(goal: Goal) -> str | None:
     """Uneven loads while it rises or settles stop it, and it does not succeed before they are even again"""
     if not began_low(goal):
@@ -402,7 +402,7 @@ def names_shifting(goal: Goal) -> str | None:
     return "uneven loads" if judged else None
 
 
-@obligation(12, 14, of=goals)
+@obligation(12, 14, of=goals, see="07_cancel_and_preempt#m12-robot-why")
 def stays_where_it_ended(goal: Goal) -> str | None:
     """After the end, or a cancel, the pelvis stays at the height that it has reached"""
     if not accepted(goal) or goal.status not in (CANCELED, ABORTED) or not goal.run.ground_truth:
@@ -445,7 +445,7 @@ def stays_where_it_ended(goal: Goal) -> str | None:
 # -- what the feedback says -------------------------------------------------------------------------------------------
 
 
-@obligation(8, of=goals)
+@obligation(8, of=goals, see="06_walk_to_a_pose#settle-intro")
 def feedback_at_5_hz(goal: Goal) -> str | None:
     """Feedback comes at 5 Hz without a gap over 1 s"""
     if (
@@ -459,10 +459,12 @@ def feedback_at_5_hz(goal: Goal) -> str | None:
     return "all the time"
 
 
-feedback_ends = obligation(8, of=goals)(tells.feedback_ends_with_the_goal)
+feedback_ends = obligation(8, of=goals, see="07_cancel_and_preempt#m13-why")(
+    tells.feedback_ends_with_the_goal
+)
 
 
-@obligation(9, of=goals)
+@obligation(9, of=goals, see="09_arms#phases-why")
 def names_its_phase(goal: Goal) -> str | None:
     """The phase is shifting, rising or settling, each while the robot does it"""
     feedback = _before_the_end(goal)
@@ -517,7 +519,7 @@ def _require_seen_phase(goal: Goal, each: ev.FeedbackReceived) -> None:
     )
 
 
-@obligation(10, of=goals)
+@obligation(10, of=goals, see="08_navigation#zero-why")
 def measures_percent(goal: Goal) -> str | None:
     """percent_complete is the share of the height gained since the acceptance, and 100 at success"""
     feedback = _before_the_end(goal)
@@ -548,7 +550,7 @@ def measures_percent(goal: Goal) -> str | None:
     return f"from {math.floor(10 * start) / 10:.1f} m"
 
 
-@obligation(11, of=goals)
+@obligation(11, of=goals, see="08_navigation#zero-why")
 def never_loses_percent(goal: Goal) -> str | None:
     """percent_complete never falls, except where uneven loads lead back to shifting"""
     feedback = _before_the_end(goal)

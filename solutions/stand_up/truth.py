@@ -10,10 +10,10 @@ from geometry_msgs.msg import Quaternion
 from autograder.authoring import Goal, Transcript, ev, fall_after, unseen
 from autograder.authoring.walking.life import accepted, ended_at, granted, interrupted, next_sent, run_of
 
-STANCE, RISEN, CROUCHED = 0.60, 0.59, 0.47  # m, heights of the pelvis
+STANCE, RISEN = 0.60, 0.59  # m, heights of the pelvis
 HEIGHT_SLACK = 0.005  # m
 GAIN = 0.02  # m that a pelvis may still come up that should stay where it is
-UNEVEN, EVEN = 0.6, 0.8  # of the larger load
+UNEVEN = 0.6  # of the larger load
 STILL, UPRIGHT = 0.035, 0.06  # m/s, rad; 0.02 and 0.05 are asked for
 CAN_RISE = 6.0  # s that the robot needs for all of its way, at most
 TIME_LIMIT, EARLY, LATE = 12.0, 0.7, 2.5  # s

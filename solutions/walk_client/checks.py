@@ -12,21 +12,11 @@ from . import model
 WRONG = [walk({}, arguments=arguments) for arguments in WRONG_ARGUMENTS]
 REJECTING = walk({"accepted": False})
 
-sends_the_goal = check_of(
-    "sends_the_goal", model.sends_one_goal, points=2, on=GOOD, see="06_walk_to_a_pose#client-intro"
-)
+sends_the_goal = check_of(model.sends_one_goal, points=2, on=GOOD)
 
-prints_the_feedback = check_of(
-    "prints_the_feedback",
-    model.prints_each_feedback,
-    points=2,
-    on=GOOD,
-    needs=sends_the_goal,
-    see="06_walk_to_a_pose#field-why",
-)
+prints_the_feedback = check_of(model.prints_each_feedback, points=2, on=GOOD, needs=sends_the_goal)
 
 says_how_it_succeeded = check_of(
-    "says_how_it_succeeded",
     follows(3, 4),
     title="When the goal SUCCEEDED it prints so with the final pose, and ends with status 0",
     points=2,
@@ -35,18 +25,11 @@ says_how_it_succeeded = check_of(
     see="06_walk_to_a_pose#follow-task",
 )
 
-refuses_wrong_arguments = check_of(
-    "refuses_wrong_arguments",
-    model.refuses_what_is_no_pose,
-    on=WRONG,
-    needs=says_how_it_succeeded,
-    see="03_clients_that_survive#fix-frame",
-)
+refuses_wrong_arguments = check_of(model.refuses_what_is_no_pose, on=WRONG, needs=says_how_it_succeeded)
 
 gives_up_without_a_server = every_client.check("gives_up_without_a_server", 6, 9)
 
 tells_a_rejection = check_of(
-    "tells_a_rejection",
     follows(5, 9),
     title="A rejected goal ends it with status 2",
     on=REJECTING,

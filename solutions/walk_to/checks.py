@@ -49,102 +49,55 @@ server_appears = standard.server_appears(
     "the action walk_to", on=INTERRUPT, clauses=[13], see="06_walk_to_a_pose#small-intro"
 )
 accepts_a_goal = check_of(
-    "accepts_a_goal",
-    model.accepts,
-    title="It accepts a pose in frame odom",
-    on=FALL,
-    needs=server_appears,
-    see=REJECT,
+    model.accepts, title="It accepts a pose in frame odom", on=FALL, needs=server_appears, see=REJECT
 )
 of_the_impossible = partial(check_of, on=IMPOSSIBLE, needs=accepts_a_goal, see=REJECT)
 rejects_a_wrong_frame, rejects_nan = server_checks.rejections(
     model, on=IMPOSSIBLE, needs=accepts_a_goal, see=REJECT
 )
-rejects_what_is_no_rotation = of_the_impossible("rejects_what_is_no_rotation", model.rejects_no_rotation)
+rejects_what_is_no_rotation = of_the_impossible(model.rejects_no_rotation)
 rejects_a_senseless_velocity = of_the_impossible(
-    "rejects_a_senseless_velocity",
-    model.rejects_velocities,
-    title="It rejects a max_velocity that is negative or NaN",
+    model.rejects_velocities, title="It rejects a max_velocity that is negative or NaN"
 )
 rejects_before_the_first_odom = check_of(
-    "rejects_before_the_first_odom", model.rejects_before_odom, on=UNREADY, needs=accepts_a_goal, see=REJECT
+    model.rejects_before_odom, on=UNREADY, needs=accepts_a_goal, see=REJECT
 )
 rejects_without_power = check_of(
-    "rejects_without_power",
-    model.rejects_without_power,
-    model.accepts_unless_busy,
+    [model.rejects_without_power, model.accepts_unless_busy],
     title="It rejects a goal while the motors are off, also later on, and accepts it when they are on",
     on=[UNREADY, FALL],
     needs=accepts_a_goal,
     see=REJECT,
 )
 refuses_a_cancel = check_of(
-    "refuses_a_cancel",
-    model.refuses_cancels,
-    title="It refuses to cancel",
-    on=INTERFERE,
-    needs=accepts_a_goal,
-    see="06_walk_to_a_pose#small-intro",
+    model.refuses_cancels, title="It refuses to cancel", on=INTERFERE, needs=accepts_a_goal
 )
 rejects_a_second_goal = check_of(
-    "rejects_a_second_goal",
-    model.rejects_while_busy,
-    model.goes_on,
+    [model.rejects_while_busy, model.goes_on],
     title="A goal while another runs is rejected, and the first goes on",
     on=[INTERFERE, UNREADY],
     needs=refuses_a_cancel,
     see="06_walk_to_a_pose#small-intro",
 )
 of_a_walk = partial(check_of, on=WALK)
-walks_to_the_goal = of_a_walk(
-    "walks_to_the_goal",
-    model.comes_near,
-    model.turns_the_short_way,
-    points=2,
-    needs=accepts_a_goal,
-    see=FRAMES,
-)
+walks_to_the_goal = of_a_walk([model.comes_near, model.turns_the_short_way], points=2, needs=accepts_a_goal)
 obeys_max_velocity = of_a_walk(
-    "obeys_max_velocity",
-    model.obeys_max_velocity,
-    title="On the way it is no faster than max_velocity",
-    needs=walks_to_the_goal,
-    see=VELOCITY,
+    model.obeys_max_velocity, title="On the way it is no faster than max_velocity", needs=walks_to_the_goal
 )
-chooses_its_own_velocity = check_of(
-    "chooses_its_own_velocity",
-    model.walks_at_its_own_velocity,
-    on=INTERFERE,
-    needs=accepts_a_goal,
-    see=VELOCITY,
-)
-arrives = of_a_walk(
-    "arrives", model.succeeds, points=2, needs=walks_to_the_goal, see="06_walk_to_a_pose#settle-why"
-)
+chooses_its_own_velocity = check_of(model.walks_at_its_own_velocity, on=INTERFERE, needs=accepts_a_goal)
+arrives = of_a_walk(model.succeeds, points=2, needs=walks_to_the_goal)
 at_the_end = partial(check_of, on=WALK, needs=arrives, see="06_walk_to_a_pose#touch-why")
-ends_with_a_zero_twist = at_the_end(
-    "ends_with_a_zero_twist", model.ends_with_a_zero_twist, model.does_not_steer_without_a_goal
-)
-stands_when_it_succeeds = at_the_end(
-    "stands_when_it_succeeds", model.stands_at_success, model.stands_without_a_goal
-)
+ends_with_a_zero_twist = at_the_end([model.ends_with_a_zero_twist, model.does_not_steer_without_a_goal])
+stands_when_it_succeeds = at_the_end([model.stands_at_success, model.stands_without_a_goal])
 fills_the_result, feedback_keeps_its_rate, feedback_is_true, feedback_ends_with_the_goal = (
     server_checks.reports(
         model,
         on=WALK,
         under_way=walks_to_the_goal,
         arrives=arrives,
-        see=(
-            "06_walk_to_a_pose#settle-why",
-            "06_walk_to_a_pose#conventions",
-            "06_walk_to_a_pose#settle-intro",
-            "06_walk_to_a_pose#settle-intro",
-        ),
     )
 )
-aborts_when_the_robot_falls = server_checks.fall_is_reported(
-    model, on=FALL, needs=walks_to_the_goal, see="06_walk_to_a_pose#fall-why"
-)
+aborts_when_the_robot_falls = server_checks.fall_is_reported(model, on=FALL, needs=walks_to_the_goal)
 ends_cleanly = standard.ends_cleanly(
     clauses=[13], on=[INTERRUPT, INTERFERE], needs=server_appears, see="01_robot_and_graph#listen-intro"
 )

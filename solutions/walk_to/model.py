@@ -25,7 +25,7 @@ def _accept_unless_busy(goal: Goal) -> str | None:
     return "while another is active" if BUSY.because(goal) != "" else _accept(goal)
 
 
-accepts = obligation(1, 4, 5, of=goals)(_accept)
+accepts = obligation(1, 4, 5, of=goals, see="01_robot_and_graph#frames-intro")(_accept)
 accepts_unless_busy = obligation(4, of=goals)(_accept_unless_busy)
 rejects_frames = rejects(1, FRAME)
 rejects_nan = rejects(2, NOT_FINITE)
@@ -35,22 +35,30 @@ rejects_before_odom = rejects(4, NO_ODOM)
 rejects_without_power = rejects(4, NO_POWER)
 rejects_while_busy = rejects(5, BUSY)
 takes_one_of_several = obligation(5, of=goals)(one_of_several)
-refuses_cancels = obligation(5, of=goals)(cancels.refuses_cancels)
+refuses_cancels = obligation(5, of=goals, see="06_walk_to_a_pose#small-intro")(cancels.refuses_cancels)
 goes_on = obligation(5, of=goals)(ends.goes_on)
-comes_near = obligation(6, of=goals)(ends.comes_near)
+comes_near = obligation(6, of=goals, see="01_robot_and_graph#frames-intro")(ends.comes_near)
 turns_the_short_way = obligation(6, of=goals)(walks.turns_the_short_way)
-obeys_max_velocity = obligation(7, of=goals)(walks.obeys_max_velocity)
-walks_at_its_own_velocity = obligation(7, of=goals)(walks.walks_at_its_own_velocity)
-ends_with_a_zero_twist = obligation(8, of=goals)(walks.ends_with_a_zero_twist)
+obeys_max_velocity = obligation(7, of=goals, see="06_walk_to_a_pose#show-intro")(walks.obeys_max_velocity)
+walks_at_its_own_velocity = obligation(7, of=goals, see="06_walk_to_a_pose#show-intro")(
+    walks.walks_at_its_own_velocity
+)
+ends_with_a_zero_twist = obligation(8, of=goals, see="06_walk_to_a_pose#touch-why")(
+    walks.ends_with_a_zero_twist
+)
 does_not_steer_without_a_goal = obligation(8, of=whole_run)(walks.does_not_steer_without_a_goal)
-succeeds = obligation(9, of=goals)(ends.succeeds)
+succeeds = obligation(9, of=goals, see="06_walk_to_a_pose#settle-why")(ends.succeeds)
 status_in_order = obligation(9, of=goals)(ends.status_in_order)
-stands_at_success = obligation(9, of=goals)(walks.stands_at_success)
+stands_at_success = obligation(9, of=goals, see="06_walk_to_a_pose#touch-why")(walks.stands_at_success)
 stands_without_a_goal = obligation(9, of=whole_run)(walks.stands_without_a_goal)
-reports_where_it_ended = obligation(10, of=goals)(tells.reports_where_it_ended)
-feedback_at_5_hz = obligation(11, of=goals)(tells.feedback_at_5_hz)
-feedback_is_true = obligation(11, of=goals)(tells.feedback_is_true)
+reports_where_it_ended = obligation(10, of=goals, see="06_walk_to_a_pose#settle-why")(
+    tells.reports_where_it_ended
+)
+feedback_at_5_hz = obligation(11, of=goals, see="06_walk_to_a_pose#conventions")(tells.feedback_at_5_hz)
+feedback_is_true = obligation(11, of=goals, see="06_walk_to_a_pose#settle-intro")(tells.feedback_is_true)
 estimates_the_time = obligation(11, of=goals)(tells.estimates_the_time)
-feedback_ends_with_the_goal = obligation(11, of=goals)(tells.feedback_ends_with_the_goal)
-tells_a_fall = obligation(12, of=goals)(ends.tells_a_fall)
+feedback_ends_with_the_goal = obligation(11, of=goals, see="06_walk_to_a_pose#settle-intro")(
+    tells.feedback_ends_with_the_goal
+)
+tells_a_fall = obligation(12, of=goals, see="06_walk_to_a_pose#fall-why")(ends.tells_a_fall)
 says_why_it_aborted = obligation(12, of=goals)(tells.says_why_it_aborted)

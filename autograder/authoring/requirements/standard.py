@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from autograder.authoring.checks import Check, Scenario, named_check
+from autograder.authoring.checks import Check, Scenario, check_by
 from autograder.authoring.diagnosis.readiness import require_ready
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.obligation import check_of, obligation, whole_run
-from autograder.authoring.requirements.feedback import require_feedback
 from autograder.authoring.requirements.server_checks import require_clean_exit
 
 Needs = Check | Sequence[Check]
@@ -28,7 +27,7 @@ def server_appears(
 ) -> Check:
     """Make the check that the node offers `what`; choose the shortest scenario, as this verdict comes first."""
     title = f"The node offers {what}"
-    return named_check("server_appears", title, require_ready, points=points, on=on, see=see, clauses=clauses)
+    return check_by(require_ready, title, points=points, on=on, see=see, clauses=clauses)
 
 
 def ends_cleanly(
@@ -47,32 +46,4 @@ def ends_cleanly(
         return "Ctrl-C"
 
     exits = obligation(*clauses, of=whole_run)(exits_with_status_0)
-    return check_of("ends_cleanly", exits, points=points, on=on, needs=needs, see=see, to_its_end=False)
-
-
-def feedback_ends_with_the_goal(
-    goal: str,
-    *,
-    points: int = 1,
-    on: Scenario,
-    needs: Needs,
-    see: str = "07_cancel_and_preempt#m13-why",
-    clauses: Sequence[int] = (),
-) -> Check:
-    """Nothing comes after the end: no feedback of the goal of this name, once its result is there."""
-
-    def require(run: Transcript) -> None:
-        require_feedback(run.goal(goal))
-        run.goal(goal).require_silence_afterwards()
-
-    title = "After the result no more feedback comes"
-    return named_check(
-        "feedback_ends_with_the_goal",
-        title,
-        require,
-        points=points,
-        on=on,
-        needs=needs,
-        see=see,
-        clauses=clauses,
-    )
+    return check_of(exits, points=points, on=on, needs=needs, see=see, to_its_end=False)

@@ -43,4 +43,4 @@ def check(
 ) -> Check:
     """Return the check of this name."""
     on, title, see = among[id]
-    return check_of(id, follows(*clauses), title=title, points=points, on=on, needs=needs, see=see)
+    return check_of(follows(*clauses), title=title, points=points, on=on, needs=needs, see=see)

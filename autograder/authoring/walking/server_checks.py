@@ -37,48 +37,39 @@ def rejections(model: ModuleType, *, on: Scenario, needs: Check, see: str) -> tu
     """Return the checks rejects_a_wrong_frame and rejects_nan, of an exercise's model."""
     rejecting = partial(check_of, on=on, needs=needs, see=see)
     return (
-        rejecting("rejects_a_wrong_frame", model.rejects_frames, title="It rejects a pose in frame map"),
-        rejecting("rejects_nan", model.rejects_nan, title="It rejects a pose that holds NaN"),
+        rejecting(model.rejects_frames, title="It rejects a pose in frame map"),
+        rejecting(model.rejects_nan, title="It rejects a pose that holds NaN"),
     )
 
 
 def reports(
-    model: ModuleType, *, on: Scenario, under_way: Check, arrives: Check, see: tuple[str, str, str, str]
+    model: ModuleType, *, on: Scenario, under_way: Check, arrives: Check
 ) -> tuple[Check, Check, Check, Check]:
     """Return the checks fills_the_result, feedback_keeps_its_rate, feedback_is_true and feedback_ends_with_the_goal.
 
-    `on` has two goals; without `under_way` there is no feedback to be judged, without `arrives` no result; `see` has
-    the lesson of each.
+    `on` has two goals; without `under_way` there is no feedback to be judged, without `arrives` no result.
     """
     of_both = partial(check_of, on=on)
     result = of_both(
-        "fills_the_result",
-        *(model.accepts, model.reports_where_it_ended),
+        [model.accepts, model.reports_where_it_ended],
         title="Each result, also of a second goal, holds where the robot ended, the steps for this goal, and NONE",
         needs=arrives,
-        see=see[0],
     )
-    rate = of_both("feedback_keeps_its_rate", model.feedback_at_5_hz, needs=under_way, see=see[1])
+    rate = of_both(model.feedback_at_5_hz, needs=under_way)
     truth = of_both(
-        "feedback_is_true",
-        *(model.feedback_is_true, model.estimates_the_time),
+        [model.feedback_is_true, model.estimates_the_time],
         title="Pose, distance and steps in the feedback are the robot's, and the estimate of the time left is one",
         needs=rate,
-        see=see[2],
     )
-    end = of_both(
-        "feedback_ends_with_the_goal", model.feedback_ends_with_the_goal, needs=[arrives, rate], see=see[3]
-    )
+    end = of_both(model.feedback_ends_with_the_goal, needs=[arrives, rate])
     return result, rate, truth, end
 
 
-def fall_is_reported(model: ModuleType, *, on: Scenario, needs: Check, see: str) -> Check:
+def fall_is_reported(model: ModuleType, *, on: Scenario, needs: Check) -> Check:
     """Return the check aborts_when_the_robot_falls, of an exercise's model."""
     return check_of(
-        "aborts_when_the_robot_falls",
-        *(model.tells_a_fall, model.says_why_it_aborted),
+        [model.tells_a_fall, model.says_why_it_aborted],
         title="When the robot falls the goal is ABORTED with FELL, and says so",
         on=on,
         needs=needs,
-        see=see,
     )

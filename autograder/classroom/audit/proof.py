@@ -50,7 +50,7 @@ def enough_to_catch(known: KnownSubmission, exercise: Exercise) -> Exercise:
         return exercise
     wanted = [*known.caught_by, *known.also_fails]
     for check_id in wanted:  # grows as it goes
-        wanted += [need for need in checks[check_id].needs if need not in wanted]
+        wanted += [need.id for need in checks[check_id].needs if need.id not in wanted]
     return replace(exercise, checks=[check for check in exercise.checks if check.id in wanted])
 
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 from autograder.authoring import Check, Obligation, Scenario, Transcript, check_of
-from autograder.authoring.checks import named_check
+from autograder.authoring.checks import check_by
 from autograder.authoring.requirements.standard import Needs
 
 
@@ -28,8 +28,8 @@ def works_in_any_namespace(
 
     Where `require` is an obligation, `clauses` take the place of its own: here it holds that names are relative.
     """
-    id, title = "works_in_any_namespace", f"Started in another namespace, it {does} there"
+    title = f"Started in another namespace, it {does} there"
     if isinstance(require, Obligation):
         there = replace(require, sentence=title, clauses=tuple(clauses)) if clauses else require
-        return check_of(id, there, title=title, points=points, on=on, needs=needs, see=see)
-    return named_check(id, title, require, points=points, on=on, needs=needs, see=see, clauses=clauses)
+        return check_of(there, title=title, points=points, on=on, needs=needs, see=see)
+    return check_by(require, title, points=points, on=on, needs=needs, see=see, clauses=clauses)

@@ -199,9 +199,9 @@ def test_whole_transcripts_have_the_verdicts_that_are_known(exercise):
 def unmet(case, submission):
     """Whether the check needs one that fails for the submission."""
     checks = {check.id: check for check in load_exercise(submission.exercise, hidden=True).checks}
-    needs = list(case.check.needs)
+    needs = [need.id for need in case.check.needs]
     for need in needs:
-        needs += checks[need].needs
+        needs += [each.id for each in checks[need].needs]
     return bool({*submission.caught_by, *submission.also_fails} & set(needs))
 
 

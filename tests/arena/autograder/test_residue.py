@@ -37,7 +37,7 @@ AT_FIRST = (
 def caught_only(known: KnownSubmission) -> Exercise:
     """The exercise with the checks that must catch it, and those they need; the audit's test makes all of them."""
     exercise = load_exercise(known.exercise, hidden=True)
-    needed = {need for check in exercise.checks if check.id in known.caught_by for need in check.needs}
+    needed = {need.id for check in exercise.checks if check.id in known.caught_by for need in check.needs}
     wanted = {*known.caught_by, *needed}
     return replace(exercise, checks=[check for check in exercise.checks if check.id in wanted])
 

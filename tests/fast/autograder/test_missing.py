@@ -212,7 +212,7 @@ def test_a_record_that_breaks_off_gives_no_grade():
 
 
 def check_that(judge_run):
-    return Check("it", "It does", 2, judge_run, (WITHOUT,), (), False)
+    return Check("It does", 2, judge_run, (WITHOUT,))
 
 
 def test_a_verdict_of_each_kind():
@@ -236,7 +236,7 @@ def test_what_the_submission_alone_decides_and_does_not_show_costs_it_the_points
     def never_walks(run):
         raise not_shown(run, "the robot comes near the goal")
 
-    check = Check("walks", "It walks", 1, never_walks, on=(WITH_ROBOT,), needs=())
+    check = Check("It walks", 1, never_walks, on=(WITH_ROBOT,))
     assert judge(check, [quiet]).status == "error"
     verdict = judge(check, [quiet], finally_=True)
     assert (verdict.status, verdict.expected) == (

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from test_grading import BEGINNING, ISOLATED, SUBMISSION, arenas, exercise, robot, statuses
 
-from autograder.authoring.checks import RESTING, Scenario
+from autograder.authoring.checks import RESTING, Scenario, checks_in
 from autograder.authoring.diagnosis.missing import Missing
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
@@ -47,13 +48,29 @@ def prints(run):
 
 
 def check_on(*scenarios):
-    return check_of("prints", prints, points=2, on=scenarios)
+    return replace(check_of(prints, points=2, on=scenarios), id="prints")
 
 
 def test_it_says_its_clauses_its_sentence_and_its_situations():
     check = check_on(ASK)
     assert (check.clauses, check.title, check.obligations) == ((2,), "It prints something good", (prints,))
     assert prints.judge(run_of(ASK, said="good")) == {"good": 1}
+
+
+def test_a_failure_points_to_the_lesson_of_the_obligation_unless_its_check_names_one():
+    whole = replace(prints, require=lambda run: "always", see="02_services#first-file")
+    taught = replace(prints, see="02_services#conventions")
+    for see, expected in (("", taught.see), ("02_services#nan", "02_services#nan")):
+        with pytest.raises(Failure) as failed:
+            check_of([whole, taught], on=ASK, see=see).run([run_of(ASK, said="bad")])
+        assert failed.value.see == expected
+    assert check_of([whole, taught], on=ASK).see == whole.see  # where none of them fails alone
+
+
+def test_its_id_is_the_name_of_its_variable():
+    first, second = check_of(prints, on=ASK), check_of(prints, on=ASK)
+    module = SimpleNamespace(prints_something=first, again=second, alias=first)
+    assert [check.id for check in checks_in(module)] == ["prints_something", "again"]
 
 
 def test_a_submission_that_never_gives_occasion_has_failed_and_is_not_ungraded(monkeypatch):

@@ -91,8 +91,8 @@ def test_what_a_visible_check_sees_is_drawn_with_the_same_seed_in_every_batch(tm
 
     shown, both, kept_back = (Scenario(name) for name in ("shown", "both", "kept_back"))
     checks = [
-        Check("a", "A", 1, lambda *_: None, (shown, both), ()),
-        Check("b", "B", 1, lambda *_: None, (both, kept_back), (), hidden=True),
+        Check("A", 1, lambda *_: None, (shown, both), id="a"),
+        Check("B", 1, lambda *_: None, (both, kept_back), id="b", hidden=True),
     ]
     monkeypatch.setattr(grading, "run_in_arena", look)
     monkeypatch.setattr(grading, "require_hidden", lambda paths: None)
