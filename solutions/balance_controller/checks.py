@@ -58,12 +58,7 @@ publishes_what_it_accepted = of_sets(
     needs=declares_the_robots_gains,
     see=TWO_CALLBACKS,
 )
-publishes_once = of_sets(
-    model.one_message_each,
-    title="One message for each accepted set, also when a set has several gains",
-    points=2,
-    needs=publishes_what_it_accepted,
-)
+publishes_once = of_sets(model.one_message_each, points=2, needs=publishes_what_it_accepted)
 refuses_bad_gains = check_of(
     [model.refuses_weak_gains, model.refuses_limits, model.refuses_negative_gains, model.gives_a_reason],
     title="A gain that is negative, or too weak to hold the trunk, is refused with a reason",
@@ -93,11 +88,7 @@ sets_all_or_none = check_of(
     needs=says_nothing_of_refused_gains,
     see=ALL_AT_ONCE,
 )
-keeps_the_last_gains = of_sets(
-    model.keeps_the_last,
-    title="A robot that starts later gets the last gains, because the topic is latched",
-    needs=publishes_what_it_accepted,
-)
+keeps_the_last_gains = of_sets(model.keeps_the_last, needs=publishes_what_it_accepted)
 publishes_at_the_start = check_of(
     [model.has_its_gains, model.publishes_its_start_once],
     title=model.publishes_its_start_once.sentence,

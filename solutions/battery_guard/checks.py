@@ -99,10 +99,7 @@ says_how_it_succeeded = check_of(
     needs=sends_the_goal,
 )
 refuses_wrong_arguments = check_of(
-    model.refuses_what_is_no_pose,
-    title="Wrong arguments end it with status 2 and the usage, before a node is started",
-    on=[TOO_FEW, NO_NUMBER],
-    needs=sends_the_goal,
+    model.refuses_what_is_no_pose, on=[TOO_FEW, NO_NUMBER], needs=sends_the_goal
 )
 gives_up_without_a_server = check_of(
     [model.gives_up_on_a_missing_server, model.says_why],
@@ -146,11 +143,7 @@ waits_until_the_robot_stands = check_of(
     see="08_navigation#standing-why",
 )
 ignores_what_is_no_percentage = check_of(
-    model.ignores_what_is_none,
-    title="NaN, before the goal and on the way, 20.0, 15.0 and -0.3 are ignored, with one warning line on stderr",
-    points=2,
-    on=NO_PERCENTAGE_AT_ALL,
-    needs=sends_the_goal,
+    model.ignores_what_is_none, points=2, on=NO_PERCENTAGE_AT_ALL, needs=sends_the_goal
 )
 ctrl_c_cancels_the_goal = check_of(
     [model.cancels_at_ctrl_c, model.ends_after_ctrl_c],

@@ -66,12 +66,7 @@ cancels_in_mid_stride = of_a_cancel(
     needs=accepts_a_goal,
     see="07_cancel_and_preempt#m1-why",
 )
-stops_when_canceled = of_a_cancel(
-    model.stops_when_canceled,
-    title="Within 2 s of the cancel the robot stands still and upright",
-    points=2,
-    needs=cancels_in_mid_stride,
-)
+stops_when_canceled = of_a_cancel(model.stops_when_canceled, points=2, needs=cancels_in_mid_stride)
 walks_again_after_a_cancel = of_a_cancel(
     [model.accepts, model.grants_cancels, model.succeeds, model.reports_where_it_ended],
     title="A new goal after a cancel, also an early or a hasty one, is walked to, and results hold what was measured",

@@ -60,24 +60,12 @@ fetches = on_good(
     points=2,
     needs=takes_the_object,
 )
-fills_the_result = on_good(
-    model.reports_the_object,
-    title="The result tells where the object ended, the largest force, and error_code NONE",
-    needs=fetches,
-    see="07_cancel_and_preempt#m13-why",
-)
+fills_the_result = on_good(model.reports_the_object, needs=fetches, see="07_cancel_and_preempt#m13-why")
 passes_feedback_on = on_good(
-    model.hands_feedback_on,
-    title="What pick_and_place says of its stage, fetch says in its own feedback, in order and within 1 s",
-    needs=takes_the_object,
-    see="06_walk_to_a_pose#slow-why",
+    model.hands_feedback_on, needs=takes_the_object, see="06_walk_to_a_pose#slow-why"
 )
 once_it_sets_out = partial(check_of, needs=goes_to_the_table)
-rejects_what_is_knowably_wrong = once_it_sets_out(
-    model.rejects_the_impossible,
-    title="It rejects a place in frame map, NaN, and a force that is not above 0",
-    on=INTERRUPT,
-)
+rejects_what_is_knowably_wrong = once_it_sets_out(model.rejects_the_impossible, on=INTERRUPT)
 does_not_set_out_on_a_low_battery = once_it_sets_out(
     model.does_nothing_when_low,
     title="With the battery at 0.12 it sends no goal to anybody, and ends ABORTED naming the battery",

@@ -88,9 +88,7 @@ accepts_a_trajectory = check_of(
 )
 of_a_move = partial(check_of, on=MOVE, needs=accepts_a_trajectory)
 of_the_impossible = partial(check_of, on=IMPOSSIBLE, needs=accepts_a_trajectory, see=TRAJECTORY)
-arrives = of_a_move(
-    model.succeeds, title="It SUCCEEDS, and every joint is then within 0.05 rad of the last point", points=2
-)
+arrives = of_a_move(model.succeeds, points=2)
 after_a_move = partial(check_of, on=MOVE, needs=arrives, see=THE_END)
 passes_every_point = of_a_move(model.passes_points)
 fills_the_result = after_a_move(model.names_no_error)
@@ -116,11 +114,7 @@ names_the_blocked_joint = of_a_block(
     title="error_msg names the joint that was blocked, and no other",
     needs=aborts_when_the_arm_is_blocked,
 )
-holds_when_the_arm_was_blocked = of_a_block(
-    model.holds_when_given_up,
-    title="After that the arm does not go on, also when nothing blocks it any more",
-    needs=aborts_when_the_arm_is_blocked,
-)
+holds_when_the_arm_was_blocked = of_a_block(model.holds_when_given_up, needs=aborts_when_the_arm_is_blocked)
 short_of_the_end = partial(check_of, on=HOLD_SHORT)
 aborts_when_the_end_is_missed = short_of_the_end(model.misses, points=2, needs=arrives)
 names_the_worst_joint = short_of_the_end(
@@ -136,11 +130,7 @@ cancels = of_a_cancel(
     needs=accepts_a_trajectory,
 )
 stops_when_canceled = of_a_cancel(model.stops_when_canceled, points=2, needs=cancels)
-holds_by_an_empty_trajectory = of_a_cancel(
-    model.stops_by_an_empty_trajectory,
-    title="What stops the arm is an empty trajectory",
-    needs=stops_when_canceled,
-)
+holds_by_an_empty_trajectory = of_a_cancel(model.stops_by_an_empty_trajectory, needs=stops_when_canceled)
 new_goal_preempts_the_old = check_of(
     [model.accepts, model.gives_way, model.succeeds],
     title="A new goal for the same arm aborts the old one with PREEMPTED and is carried out",

@@ -65,11 +65,7 @@ arrives = GOING(
 faces_its_way = GOING(model.faces_its_way, needs=arrives)
 feedback_keeps_its_rate = GOING(model.feedback_at_5_hz, needs=accepts_a_goal)
 TOLD = [arrives, feedback_keeps_its_rate]
-feedback_is_true = GOING(
-    model.feedback_is_true,
-    title="Pose and distance in the feedback are the robot's",
-    needs=feedback_keeps_its_rate,
-)
+feedback_is_true = GOING(model.feedback_is_true, needs=feedback_keeps_its_rate)
 names_its_phases = GOING(model.names_its_phases, needs=[faces_its_way, *TOLD])
 tells_its_time = check_of(model.tells_its_time, on=[GO, PREEMPT], needs=TOLD)
 estimates_the_time = GOING(model.estimates_the_time, needs=TOLD)
@@ -86,11 +82,7 @@ measures_its_path = check_of(
     needs=arrives,
     see="08_navigation#sway-why",
 )
-counts_no_detour_without_one = GOING(
-    model.counts_no_recovery,
-    title="number_of_recoveries stays 0 while nothing disturbs the robot",
-    needs=feedback_keeps_its_rate,
-)
+counts_no_detour_without_one = GOING(model.counts_no_recovery, needs=feedback_keeps_its_rate)
 feedback_ends_with_the_goal = GOING(model.feedback_ends_with_the_goal, needs=TOLD)
 succeeds_at_once_where_it_stands = check_of(
     [model.succeeds_where_it_stands, model.progress_rises],

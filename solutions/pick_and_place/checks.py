@@ -113,12 +113,7 @@ refuses_a_far_cup = check_of(
 notices_an_empty_hand = check_of(
     [model.empty_hand, model.says_why_it_aborted], points=2, on=TAKEN, needs=places_the_cup
 )
-withdraws_an_empty_hand = check_of(
-    model.withdraws_empty,
-    title="After that the hand is open and withdrawn",
-    on=TAKEN,
-    needs=notices_an_empty_hand,
-)
+withdraws_an_empty_hand = check_of(model.withdraws_empty, on=TAKEN, needs=notices_an_empty_hand)
 notices_a_lost_cup = check_of(
     [model.lost_object, model.says_why_it_aborted],
     title="When the cup is lost while it is lifted the goal ends with DROPPED",

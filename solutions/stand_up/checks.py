@@ -82,16 +82,8 @@ waits_until_it_is_upright = check_of(
     needs=rises,
 )
 feedback_keeps_its_rate = of_a_rise(model.feedback_at_5_hz, needs=accepts_a_goal)
-names_its_phases = of_a_rise(
-    model.names_its_phase,
-    title="Phase is shifting, rising, settling, each while the robot does it",
-    needs=rises,
-)
-percent_is_measured = of_a_rise(
-    model.measures_percent,
-    title="percent_complete is the share of the height gained, and ends at 100",
-    needs=rises,
-)
+names_its_phases = of_a_rise(model.names_its_phase, needs=rises)
+percent_is_measured = of_a_rise(model.measures_percent, needs=rises)
 percent_never_falls = check_of(
     model.never_loses_percent,
     title="percent_complete does not fall when the pelvis bobs",

@@ -69,9 +69,7 @@ rejects_without_power = check_of(
     needs=accepts_a_goal,
     see=REJECT,
 )
-refuses_a_cancel = check_of(
-    model.refuses_cancels, title="It refuses to cancel", on=INTERFERE, needs=accepts_a_goal
-)
+refuses_a_cancel = check_of(model.refuses_cancels, on=INTERFERE, needs=accepts_a_goal)
 rejects_a_second_goal = check_of(
     [model.rejects_while_busy, model.goes_on],
     title="A goal while another runs is rejected, and the first goes on",
@@ -81,9 +79,7 @@ rejects_a_second_goal = check_of(
 )
 of_a_walk = partial(check_of, on=WALK)
 walks_to_the_goal = of_a_walk([model.comes_near, model.turns_the_short_way], points=2, needs=accepts_a_goal)
-obeys_max_velocity = of_a_walk(
-    model.obeys_max_velocity, title="On the way it is no faster than max_velocity", needs=walks_to_the_goal
-)
+obeys_max_velocity = of_a_walk(model.obeys_max_velocity, needs=walks_to_the_goal)
 chooses_its_own_velocity = check_of(model.walks_at_its_own_velocity, on=INTERFERE, needs=accepts_a_goal)
 arrives = of_a_walk(model.succeeds, points=2, needs=walks_to_the_goal)
 at_the_end = partial(check_of, on=WALK, needs=arrives, see="06_walk_to_a_pose#touch-why")
