@@ -82,7 +82,7 @@ install_everything() {
 # Arenas start hundreds of Python processes that may write nothing; without compiled files each start takes twice as long.
 # A file that cannot be compiled (a template, an old test) is no reason to stop.
 compile_bytecode() {
-    local packages=("$root"/{autograder,bench,book,course_cli,lab,replay,robot_sim,ros_cli,ros_runtime})
+    local packages=("$root"/{autograder,course_cli,lab,robot_sim,ros_cli,ros_runtime})
     logged env -u PYTHONDONTWRITEBYTECODE "$venv/bin/python" -m compileall -q -j 0 "$venv/lib" "${packages[@]}" || true
 }
 

@@ -61,7 +61,10 @@ class Obligation:
 def obligation(
     *clauses: int, of: Callable[[Transcript], Iterable[Any]], see: str = ""
 ) -> Callable[[Callable[[Any], Situation | None]], Obligation]:
-    """Make an obligation of a function whose docstring says what holds; `of` finds the occasions in a run, `see` is a lesson."""
+    """Make an obligation of a function whose docstring says what holds.
+
+    `of` finds the occasions in a run, `see` is the lesson that its failures point to.
+    """
 
     def make(require: Callable[[Any], Situation | None]) -> Obligation:
         if not require.__doc__:

@@ -8,11 +8,11 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from autograder.recording.replay.film import film, require_known_format
+from autograder.recording.replay.recording import NoRecording, Recording
+from autograder.recording.replay.span import Span, require_postures, span_of
+from autograder.recording.replay.text import line, time_line, title
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
-from replay.film import film, require_known_format
-from replay.recording import NoRecording, Recording
-from replay.span import Span, require_postures, span_of
-from replay.text import line, time_line, title
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 
@@ -63,7 +63,7 @@ def replay(
 
 
 def _in_the_browser(console: Console, recording: Recording, span: Span, port: int) -> None:
-    from replay.web import play
+    from autograder.recording.replay.web import play
 
     try:
         play(

@@ -28,7 +28,6 @@ PARTS = (
     "ros_cli",
     "robot_sim",
     "lab",
-    "replay",
     "autograder",
     "course_cli",
     "chapters/*.ipynb",

@@ -11,9 +11,9 @@ import typer
 from nbformat import NotebookNode
 from rich.console import Console
 
-from book.chapter_run import execute as execute_chapter
-from book.kept_runs import KeptRuns
-from book.site import make_site
+from autograder.classroom.book.chapter_run import execute as execute_chapter
+from autograder.classroom.book.kept_runs import KeptRuns
+from autograder.classroom.book.site import make_site
 from course_cli.ending import COULD_NOT, ended
 from ros_runtime.project import PROJECT
 

@@ -20,8 +20,8 @@ from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.recording.kept import keep
 from autograder.recording.recorder import Recorder
-from replay.recording import Recording
-from replay.span import span_of
+from autograder.recording.replay.recording import Recording
+from autograder.recording.replay.span import span_of
 
 EXERCISE = "cancellable_walk"
 KNOWN = known_submission(EXERCISE, "faulty/cuts_the_motors")  # the robot falls when it is canceled

@@ -11,7 +11,7 @@ from chromium import CHROMIUM, OFFLINE, needs_chromium
 from nbformat.v4 import new_output
 from playwright.sync_api import Page, sync_playwright
 
-from book.site import make_site
+from autograder.classroom.book.site import make_site
 from ros_runtime.project import PROJECT
 
 DOT = "data:image/webp;base64,UklGRhoAAABXRUJQVlA4TA0AAAAvAAAAEAcQERGIiP4HAA=="

@@ -8,11 +8,11 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from book.chapter_run import answered
-from book.kept_runs import KeptRuns
-from book.links import Links
-from book.reader_copy import HIDDEN_INPUT, reader_copy
-from book.still_widgets import LIVE, STATE, VIEW, still
+from autograder.classroom.book.chapter_run import answered
+from autograder.classroom.book.kept_runs import KeptRuns
+from autograder.classroom.book.links import Links
+from autograder.classroom.book.reader_copy import HIDDEN_INPUT, reader_copy
+from autograder.classroom.book.still_widgets import LIVE, STATE, VIEW, still
 from lab.learning.question import read_question
 
 PAGES = {PurePosixPath(page) for page in ("docs/glossary.md", "docs/robot.md", "chapters/01_a.ipynb")}

@@ -9,7 +9,7 @@ from urllib.parse import unquote, urldefrag
 
 import pytest
 
-from book.site import BookFailed, make_site, parts_of
+from autograder.classroom.book.site import BookFailed, make_site, parts_of
 from ros_runtime.project import PROJECT
 
 

@@ -11,7 +11,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
 ROOMS = (
-    *("autograder", "bench", "course_cli", "lab"),
+    *("autograder", "course_cli", "lab"),
     *("robot_sim", "ros_cli", "ros_runtime", "setup", "solutions", "tests"),
 )
 # A Sphinx role such as :class:`Name`, or code in double backticks.

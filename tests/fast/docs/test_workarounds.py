@@ -51,7 +51,7 @@ def test_the_tests_that_tell_when_it_can_go_are_there(piece: str) -> None:
 
 
 def test_the_files_that_it_names_are_there() -> None:
-    roots = ("autograder", "bench", "lab", "ros_runtime", "robot_sim", "setup")
+    roots = ("autograder", "lab", "ros_runtime", "robot_sim", "setup", "tests")
     named = re.findall(rf"`((?:{'|'.join(roots)})/[\w/.]*)`", PAGE)
     assert named
     assert [name for name in named if not (PROJECT / name).exists()] == []

@@ -24,8 +24,8 @@ from autograder.engine.verdict import Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
 from autograder.recording.kept import FOLDER
+from autograder.recording.replay.recording import Recording
 from course_cli.app import app
-from replay.recording import Recording
 
 ISOLATED = Isolation(Kind.NAMESPACES, "as a test says")
 asked: list[bool] = []

@@ -26,15 +26,15 @@ from typer.testing import CliRunner
 
 from autograder.authoring.evidence import events as ev
 from autograder.recording.entry import METADATA
+from autograder.recording.replay import web
+from autograder.recording.replay.body import RecordedBody
+from autograder.recording.replay.captioned_picture import band_height
+from autograder.recording.replay.film import RATE, film
+from autograder.recording.replay.moment import Kind, Moment
+from autograder.recording.replay.recording import NoRecording, Recording
+from autograder.recording.replay.span import Span, span_of
+from autograder.recording.replay.text import time_line
 from course_cli.app import app
-from replay import web
-from replay.body import RecordedBody
-from replay.captioned_picture import band_height
-from replay.film import RATE, film
-from replay.moment import Kind, Moment
-from replay.recording import NoRecording, Recording
-from replay.span import Span, span_of
-from replay.text import time_line
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.view import View
 

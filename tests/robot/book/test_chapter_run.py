@@ -11,10 +11,10 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
-from book.chapter_run import ChapterFailed, execute, processes_in
-from book.links import Links
-from book.reader_copy import reader_copy
-from book.still_widgets import LIVE, VIEW
+from autograder.classroom.book.chapter_run import ChapterFailed, execute, processes_in
+from autograder.classroom.book.links import Links
+from autograder.classroom.book.reader_copy import reader_copy
+from autograder.classroom.book.still_widgets import LIVE, VIEW
 
 
 def write_chapter(file: Path, *sources: str) -> nbformat.NotebookNode:

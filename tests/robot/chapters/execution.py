@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from book.chapter_run import Executed, processes_in
-from book.chapter_run import execute as execute_file
+from autograder.classroom.book.chapter_run import Executed, processes_in
+from autograder.classroom.book.chapter_run import execute as execute_file
 
 __all__ = ["CHAPTERS", "Executed", "execute", "in_order", "number", "numbers", "processes_in"]
 

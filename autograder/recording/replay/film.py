@@ -9,10 +9,10 @@ from typing import Literal
 
 from PIL import Image
 
-from replay.body import RecordedBody
-from replay.captioned_picture import with_captions
-from replay.recording import Recording
-from replay.span import Span
+from autograder.recording.replay.body import RecordedBody
+from autograder.recording.replay.captioned_picture import with_captions
+from autograder.recording.replay.recording import Recording
+from autograder.recording.replay.span import Span
 from robot_sim.views.film import save_frames
 from robot_sim.views.view import View
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
-from replay.body import RecordedBody
-from replay.captions import captions
-from replay.moment import Moment
-from replay.recording import Recording
-from replay.span import Span
+from autograder.recording.replay.body import RecordedBody
+from autograder.recording.replay.captions import captions
+from autograder.recording.replay.moment import Moment
+from autograder.recording.replay.recording import Recording
+from autograder.recording.replay.span import Span
 from robot_sim.views.web_view import WebView
 
 FRAME = 0.04  # s, between two postures

@@ -7,7 +7,7 @@ from bisect import bisect_right
 import mujoco
 import numpy as np
 
-from replay.recording import NoRecording, Posture, Recording
+from autograder.recording.replay.recording import NoRecording, Posture, Recording
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.scenes import SCENES
 

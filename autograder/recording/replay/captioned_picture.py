@@ -10,8 +10,8 @@ import matplotlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from replay.captions import LINES, captions
-from replay.moment import Moment
+from autograder.recording.replay.captions import LINES, captions
+from autograder.recording.replay.moment import Moment
 
 SIZE = 13  # px, of the letters
 LEADING = 17  # px from line to line

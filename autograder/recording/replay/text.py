@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from rich.text import Text
 
-from replay.moment import Kind, Moment
-from replay.recording import Recording
+from autograder.recording.replay.moment import Kind, Moment
+from autograder.recording.replay.recording import Recording
 
 COLOURS = {
     Kind.EVENT: "",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from replay.recording import NoRecording, Recording
+from autograder.recording.replay.recording import NoRecording, Recording
 
 AROUND = 6.0  # s shown around a check
 BEFORE = 2 / 3  # of them lie before its verdict

@@ -11,8 +11,8 @@ from pathlib import Path, PurePosixPath
 import nbformat
 from nbformat import NotebookNode
 
-from book.links import Links
-from book.reader_copy import reader_copy
+from autograder.classroom.book.links import Links
+from autograder.classroom.book.reader_copy import reader_copy
 from ros_runtime.course_error import COULD_NOT, CourseError
 from ros_runtime.project import PROJECT
 

@@ -9,9 +9,9 @@ import nbformat
 from nbformat import NotebookNode
 from nbformat.v4 import new_markdown_cell, new_output
 
-from book import still_questions
-from book.links import Links
-from book.still_widgets import VIEW, Models, models_of, still
+from autograder.classroom.book import still_questions
+from autograder.classroom.book.links import Links
+from autograder.classroom.book.still_widgets import VIEW, Models, models_of, still
 from lab.learning.question import Question, read_question
 
 ASKS = re.compile(r'(?P<name>\w+) = lab\.(?P<way>predict|quiz)\("(?P<chapter>\w+)", (?P<number>\d+)\)')

@@ -1,11 +1,13 @@
 """Sphinx's settings of the book. Nothing in its pages comes from another site, so it is read without a network."""
 
+from __future__ import annotations
+
 project = html_title = "ROS 2 services and actions on a humanoid"
 author = "the course's authors"
 html_show_copyright = False
 language = "en"
 
-extensions = ["myst_nb", "book.mathml"]
+extensions = ["myst_nb", "autograder.classroom.book.mathml"]
 exclude_patterns: list[str] = []
 
 html_theme = "furo"

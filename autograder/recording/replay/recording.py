@@ -15,7 +15,7 @@ from rclpy.serialization import deserialize_message
 from autograder.recording.definitions import class_of
 from autograder.recording.entry import CHECKS, EVENTS, FORMAT, METADATA, ROSOUT
 from autograder.recording.narration import brief
-from replay.moment import Kind, Moment, Verdict, readable
+from autograder.recording.replay.moment import Kind, Moment, Verdict, readable
 from ros_runtime.course_error import CourseError
 
 LARGEST_FILE = 128 * 2**20  # bytes
