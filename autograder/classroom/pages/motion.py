@@ -7,11 +7,13 @@ from collections.abc import Iterator
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
-from ros_runtime.drawing.line_plot import Flag, Plot, plot_svg
+from autograder.classroom.pages.plots import CURVE, DOT, FLAG, plotted
 from ros_runtime.message_constants import GoalStatus, name_of
 
 LEAST_MOTION = 0.1  # m; a robot that stands sways by less
+LEAST_SPEED = 0.2  # m/s that the axis shows
 MOST_FLAGS = 12
+ROW = 11.0  # pt, of a moment's words above the panel
 FARTHEST = 20.0  # m from the origin, of a goal on a map where the way is still to be seen
 
 
@@ -20,31 +22,66 @@ def motion_svgs(transcript: Transcript, title: str) -> list[str]:
     truth = transcript.ground_truth
     if not truth or math.dist(*_corners(transcript)) < LEAST_MOTION:
         return []
-    speed = Plot(
-        f"How fast the robot was: {title}",
-        "time, s",
-        "speed, m/s",
-        [(robot.t, robot.speed) for robot in truth],
-        flags=list(_moments(transcript))[:MOST_FLAGS],
-        ticks=[event.t for event in transcript.events if isinstance(event, ev.FeedbackReceived)],
-        ticks_are="feedback messages",
-        least=0.2,
-    )
-    first, last = truth[0], truth[-1]
-    path = Plot(
-        f"Where the robot went, from above: {title}",
-        "x in odom, m",
-        "y in odom, m",
-        [(robot.x, robot.y) for robot in truth],
-        flags=[
-            Flag("start", first.x, first.y),
-            *_goal_places(transcript),
-            Flag("end", last.x, last.y),
-        ],
-        equal=True,
-        least=0.5,
-    )
-    return [plot_svg(speed), plot_svg(path, width=560, height=340)]
+    return [
+        _speed_svg(transcript, f"How fast the robot was: {title}"),
+        _path_svg(transcript, f"Where the robot went, from above: {title}"),
+    ]
+
+
+def _speed_svg(transcript: Transcript, title: str) -> str:
+    times = [robot.t for robot in transcript.ground_truth]
+    speeds = [robot.speed for robot in transcript.ground_truth]
+    moments = list(_moments(transcript))[:MOST_FLAGS]
+    feedback = [event.t for event in transcript.events if isinstance(event, ev.FeedbackReceived)]
+    said = [
+        f"speed, m/s: {speeds[0]:.2f} at first, {speeds[-1]:.2f} at last, {max(speeds):.2f} at most; "
+        f"time, s: {times[0]:.2f} to {times[-1]:.2f}.",
+        *(f"{label}: at {t:.2f}." for label, t in moments),
+    ]
+    if feedback:
+        said.append(f"{len(feedback)} feedback messages from {feedback[0]:.2f} to {feedback[-1]:.2f}.")
+    above = ROW * len(moments)
+    with plotted(title, " ".join(said), width=8.0, height=2.6 + above / 72, pad=6.0 + above) as plot:
+        plot.axes.plot(times, speeds, color=CURVE)
+        plot.axes.set_ylim(0.0, max(LEAST_SPEED, 1.1 * max(speeds)))
+        plot.axes.plot(feedback, [0.0] * len(feedback), "|", color=DOT, markersize=14)
+        plot.axes.set(xlabel="time, s" + "; green: feedback messages" * bool(feedback), ylabel="speed, m/s")
+        for row, (label, t) in enumerate(sorted(moments, key=lambda moment: -moment[1])):
+            plot.axes.axvline(t, color=FLAG, linestyle="--", linewidth=1)
+            is_late = t > (times[0] + times[-1]) / 2
+            plot.axes.annotate(
+                label,
+                (t, 1.0),
+                xycoords=("data", "axes fraction"),
+                xytext=(-3 if is_late else 3, 4 + ROW * row),
+                textcoords="offset points",
+                ha="right" if is_late else "left",
+                color=FLAG,
+            )
+    return plot.svg
+
+
+def _path_svg(transcript: Transcript, title: str) -> str:
+    truth = transcript.ground_truth
+    places = [
+        ("start", truth[0].x, truth[0].y),
+        *_goal_places(transcript),
+        ("end", truth[-1].x, truth[-1].y),
+    ]
+    words = " ".join(f"{label}: at {x:.2f}, {y:.2f}." for label, x, y in places)
+    with plotted(title, f"x and y in odom, m. {words}", width=6.0, height=4.0) as plot:
+        plot.axes.plot([robot.x for robot in truth], [robot.y for robot in truth], color=CURVE)
+        plot.axes.set_aspect("equal", adjustable="datalim")
+        plot.axes.margins(0.15)
+        plot.axes.set(xlabel="x in odom, m", ylabel="y in odom, m")
+        middle = sum(plot.axes.get_xlim()) / 2
+        for number, (label, x, y) in enumerate(places):
+            plot.axes.plot(x, y, "o", color=FLAG)
+            # Above and below in turn: neighbours are often close.
+            offset = (-6 if x > middle else 6, -13 if number % 2 else 6)
+            side = "right" if x > middle else "left"
+            plot.axes.annotate(label, (x, y), offset, textcoords="offset points", ha=side, color=FLAG)
+    return plot.svg
 
 
 def _corners(transcript: Transcript) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -53,23 +90,24 @@ def _corners(transcript: Transcript) -> tuple[tuple[float, float], tuple[float, 
     return (min(xs), min(ys)), (max(xs), max(ys))
 
 
-def _moments(transcript: Transcript) -> Iterator[Flag]:
+def _moments(transcript: Transcript) -> Iterator[tuple[str, float]]:
+    """Return what happened to goals and robot, in words, and when (s)."""
     for event in transcript.events:
         match event:
             case ev.GoalSent(t=t, goal=goal):
-                yield Flag(f"goal “{goal}”", t)
+                yield f"goal “{goal}”", t
             case ev.CancelSent(t=t, goal=goal):
-                yield Flag(f"cancel “{goal}”" if goal else "cancel every goal", t)
+                yield f"cancel “{goal}”" if goal else "cancel every goal", t
             case ev.ResultReceived(t=t, goal=goal, status=status):
-                yield Flag(f"“{goal}” ends {name_of(GoalStatus, status)}", t)
+                yield f"“{goal}” ends {name_of(GoalStatus, status)}", t
             case ev.RobotCommanded(t=t, verb=verb):
-                yield Flag(f"the grader: {verb}", t)
+                yield f"the grader: {verb}", t
 
 
-def _goal_places(transcript: Transcript) -> Iterator[Flag]:
-    """Where the goals that name a pose on the ground want the robot."""
+def _goal_places(transcript: Transcript) -> Iterator[tuple[str, float, float]]:
+    """Where (x, y in m) the goals that name a pose on the ground want the robot."""
     for sent in transcript.all(ev.GoalSent)[:MOST_FLAGS]:
         stamped = getattr(sent.request, "target_pose", None) or getattr(sent.request, "pose", None)
         position = getattr(getattr(stamped, "pose", None), "position", None)
         if position is not None and math.hypot(position.x, position.y) < FARTHEST:  # NaN is not
-            yield Flag(f"goal “{sent.goal}”", position.x, position.y)
+            yield f"goal “{sent.goal}”", position.x, position.y

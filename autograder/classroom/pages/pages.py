@@ -10,10 +10,10 @@ from markupsafe import Markup
 
 from autograder.classroom.pages.drawings import Drawings, Sources
 from autograder.classroom.pages.figures import NEEDS_HELP, cause, exercise_figures, who_needs_help
+from autograder.classroom.pages.plots import bars_svg
 from autograder.classroom.pages.student_view import student_view
 from autograder.engine.verdict import Grade
 from autograder.report.rendering import drawn, write_html
-from ros_runtime.drawing.bars import bars_svg
 
 CLASS_PAGE = "class.html"
 INDEX = "index.html"  # of a student's exercises

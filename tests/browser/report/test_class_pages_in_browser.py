@@ -10,8 +10,8 @@ from chromium import CHROMIUM, OFFLINE, needs_chromium
 from playwright.sync_api import Page, sync_playwright
 
 from autograder.classroom.pages.pages import write_class_page, write_submission_pages
+from autograder.classroom.pages.plots import bars_svg
 from autograder.engine.verdict import CheckVerdict, Grade
-from ros_runtime.drawing.line_plot import Plot, plot_svg
 
 HOSTILE = "<img src=x onerror=document.title='run'>"
 PHONE = {"width": 390, "height": 800}
@@ -37,7 +37,7 @@ def grade(student: str, status: str, exercise: str) -> Grade:
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The pages of a class of two, of which one failed a check in five exercises."""
     folder = tmp_path_factory.mktemp("graded")
-    drawing = plot_svg(Plot("How fast", "time, s", "speed, m/s", [(0.0, 0.0), (1.0, 0.2)]))
+    drawing = bars_svg({"0 to 9": 3, "10": 1}, title="How fast", across="speed", up="walks")
     grades = [
         grade(student, status, f"exercise_{number}")
         for number in range(5)
