@@ -29,7 +29,7 @@ def predict(chapter: str, number: int) -> Prediction:
 
 
 class Prediction:
-    """A choice to make: click a letter, press it with Tab and Space, or call `choose("b")` where there are no widgets.
+    """A choice to make: click an answer, or call `choose("b")` where there are no widgets.
 
     The choice is kept beside the notebook until it is changed or cleared, also when the kernel is restarted.
     """
@@ -78,16 +78,21 @@ class Prediction:
     def _wish(self) -> str:
         return (
             f"Predict first: click {self.question.letters()} under Prediction {self.number}, "
-            f'or run prediction_{self.number}.choose("a") in a cell'
+            f"or run {self._call()} in a cell"
         )
+
+    def _call(self) -> str:
+        return f'prediction_{self.number}.choose("a")'
 
     def _ipython_display_(self) -> None:
         display(self.question.text_under(f"Prediction {self.number}"))
-        display(self._panel())
+        self.question.show(self._panel(), self._call())
 
     def _panel(self) -> ipywidgets.VBox:
         note = ipywidgets.HTML()
-        clear = ipywidgets.Button(description="Clear", tooltip="Forget my prediction")
+        clear = ipywidgets.Button(
+            description="Clear", tooltip="Forget my prediction", layout={"width": "auto"}
+        )
         clear.on_click(lambda _: self.clear())
 
         def tell(_: dict | None = None) -> None:
@@ -96,4 +101,4 @@ class Prediction:
 
         self._buttons.observe(tell, "value")
         tell()
-        return ipywidgets.VBox([ipywidgets.HBox([self._buttons, clear]), note])
+        return ipywidgets.VBox([self._buttons, ipywidgets.HBox([note, clear])])

@@ -8,11 +8,17 @@ from html import escape
 from importlib import import_module
 
 import ipywidgets
-from IPython.display import HTML
+from IPython.display import HTML, display
 
 from lab.errors import LabError
 
 LETTERS = "abcdefgh"
+_STYLE = """<style>
+.course-choices > div { display: flex; flex-flow: column; align-items: flex-start; }
+.course-choices button {
+    width: auto; height: auto; line-height: 1.4; padding: 0.3em 0.8em; text-align: left; white-space: normal;
+}
+</style>"""  # ipywidgets' own buttons stand in a row and cut a text that is long
 
 
 @dataclass(frozen=True)
@@ -55,22 +61,27 @@ class Question:
         return choices[letter]
 
     def text_under(self, title: str) -> HTML:
-        """Show the question and its choices."""
+        """Show the question, without its choices."""
+        return HTML(f"<p><b>{escape(title)}.</b> {in_html(self.text)}</p>{_STYLE}")
+
+    def buttons(self) -> ipywidgets.ToggleButtons:
+        """Return a button for each choice, none of them pressed; Tab goes from one to the next, Space presses it."""
+        buttons = ipywidgets.ToggleButtons(
+            options=[
+                (f"{letter}  {choice.text.replace('`', '')}", letter)
+                for letter, choice in self.by_letter().items()
+            ],
+            value=None,
+        )
+        return buttons.add_class("course-choices")
+
+    def show(self, panel: ipywidgets.Widget, call: str) -> None:
+        """Show the buttons; where there are no widgets, show the choices and the `call` that does the same."""
         rows = "".join(
             f"<li><b>{letter}</b> {in_html(choice.text)}</li>" for letter, choice in self.by_letter().items()
         )
-        return HTML(
-            f"<p><b>{escape(title)}.</b> {in_html(self.text)}</p><ul style='list-style: none'>{rows}</ul>"
-        )
-
-    def buttons(self) -> ipywidgets.ToggleButtons:
-        """Return a button a letter, none of them chosen; Tab goes from one to the next, Space presses it."""
-        return ipywidgets.ToggleButtons(
-            options=list(self.by_letter()),
-            tooltips=[choice.text for choice in self.choices],
-            value=None,
-            style={"button_width": "3em"},
-        )
+        without = f"<ul style='list-style: none'>{rows}</ul><p>Run <code>{escape(call)}</code> in a cell.</p>"
+        display({**panel._repr_mimebundle_(), "text/html": without}, raw=True)
 
 
 def in_html(text: str) -> str:

@@ -18,7 +18,7 @@ def quiz(chapter: str, number: int) -> Quiz:
 
 
 class Quiz:
-    """A question in a notebook: click a button, or call `answer("b")` where there are no widgets.
+    """A question in a notebook: click an answer, or call `answer("b")` where there are no widgets.
 
     The last answer is kept beside the notebook.
     """
@@ -28,10 +28,10 @@ class Quiz:
         self.question = question
 
     def answer(self, letter: str) -> None:
-        """Print whether this choice is right, and why; "" is no answer yet."""
-        if not letter:
-            print(f"Not answered yet: choose {self.question.letters()}.")
-            return
+        """Print whether this choice is right, and why.
+
+        Raises LabError when there is no such letter.
+        """
         print(self.mark(letter))
         keep_letter("questions", self.question, letter)
 
@@ -45,7 +45,7 @@ class Quiz:
 
     def _ipython_display_(self) -> None:
         display(self.question.text_under(self.title))
-        display(self._buttons())
+        self.question.show(self._buttons(), f'{self.title.lower().replace(" ", "_")}.answer("a")')
 
     def _buttons(self) -> ipywidgets.VBox:
         verdict = ipywidgets.HTML()

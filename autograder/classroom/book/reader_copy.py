@@ -16,7 +16,6 @@ from lab.learning.question import Question, read_question
 
 ASKS = re.compile(r'(?P<name>\w+) = lab\.(?P<way>predict|quiz)\("(?P<chapter>\w+)", (?P<number>\d+)\)')
 KINDS = {"predict": "PREDICTIONS", "quiz": "QUESTIONS"}
-ANSWERS = re.compile(r'^\w+\.answer\(""\)')
 REPLIES = re.compile(r"^(?P<name>\w+)\.reply\(\)$")
 REQUIRES = re.compile(r"^\w+\.require\(\)\n+")
 HIDDEN_INPUT = "remove-input"  # a tag that myst-nb knows
@@ -54,8 +53,6 @@ def _shown(
     if cell.cell_type != "code":
         text = links.rewritten(cell.source)
         yield _changed(cell, source=f"{anchor}\n\n{text}" if anchored else text)
-        return
-    if ANSWERS.match(cell.source):
         return
     if anchored:
         yield new_markdown_cell(anchor)

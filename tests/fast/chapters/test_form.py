@@ -105,11 +105,7 @@ def test_an_experiment_begins_with_its_prediction(name: str) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_no_quiz_question_is_stored_with_an_answer(name: str) -> None:
-    answers = re.findall(
-        r"question_\d+\.answer\((.*?)\)", "\n".join(cell.source for cell in read(name).cells)
-    )
-    assert answers
-    assert set(answers) == {'""'}
+    assert not [cell.id for cell in read(name).cells if re.search(r"question_\d+\.answer", cell.source)]
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -25,7 +25,7 @@ M3 M4 M5 M6 M7 M8 M9 M10 M11 M12 M13 M14 M15 M16 M17 M18 M19 M20
 """,
 )
 NOT_BY_NAME = {
-    "quiz-7-answer",
+    "quiz-7",
     "patterns-choose",
 }  # cells whose tests take all quizzes, and the widgets of a run
 

@@ -32,10 +32,10 @@ def in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def panel(prediction: Prediction) -> tuple[ipywidgets.ToggleButtons, ipywidgets.Button, ipywidgets.HTML]:
-    """What a student sees below the question: the letters, the button "Clear", and a note."""
-    row, note = prediction._panel().children
-    letters, clear = row.children
-    return letters, clear, note
+    """What a student sees below the question: the answers, the button "Clear", and a note."""
+    answers, row = prediction._panel().children
+    note, clear = row.children
+    return answers, clear, note
 
 
 def test_an_experiment_waits_for_a_prediction() -> None:
@@ -49,16 +49,24 @@ def test_an_experiment_waits_for_a_prediction() -> None:
 
 def test_a_click_makes_the_prediction_and_says_what_to_do_next() -> None:
     prediction = Prediction(1, EXAMPLE)
-    letters, _, note = panel(prediction)
+    answers, _, note = panel(prediction)
     assert note.value == "Choose a or b."
-    letters.value = "b"
+    answers.value = "b"
     assert note.value == "You predict b. Run the next cell."
     prediction.require()
 
 
-def test_every_letter_tells_its_choice_to_a_screen_reader() -> None:
-    letters, _, _ = panel(Prediction(1, EXAMPLE))
-    assert dict(zip(letters.options, letters.tooltips, strict=True)) == {"a": "5", "b": "4"}
+def test_the_answers_themselves_are_clicked_and_shown_where_there_are_no_widgets(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    answers, _, _ = panel(Prediction(1, EXAMPLE))
+    assert answers.options == (("a  5", "a"), ("b  4", "b"))
+    shown: list[dict] = []
+    monkeypatch.setattr("lab.learning.question.display", lambda bundle, raw: shown.append(bundle))
+    EXAMPLE.show(answers, 'prediction_1.choose("a")')
+    assert "application/vnd.jupyter.widget-view+json" in shown[0]
+    assert "<b>b</b> 4" in shown[0]["text/html"]
+    assert "prediction_1.choose" in shown[0]["text/html"]
 
 
 def test_a_choice_is_kept_when_the_cell_or_the_kernel_starts_again() -> None:

@@ -41,12 +41,7 @@ def test_an_unknown_letter_names_the_choices() -> None:
         Quiz("Question 1", EXAMPLE).mark("c")
 
 
-def test_no_letter_yet_asks_for_one(capsys: pytest.CaptureFixture[str]) -> None:
-    Quiz("Question 1", EXAMPLE).answer("")
-    assert capsys.readouterr().out == "Not answered yet: choose a or b.\n"
-
-
-def test_clicking_a_button_shows_the_verdict() -> None:
+def test_clicking_an_answer_shows_the_verdict() -> None:
     buttons, verdict = Quiz("Question 1", EXAMPLE)._buttons().children
     buttons.value = "b"
     assert verdict.value == "b: Not this one. One too many."

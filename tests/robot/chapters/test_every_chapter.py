@@ -53,7 +53,7 @@ def test_each_prediction_gets_a_reply_after_its_experiment(
 @pytest.mark.parametrize("name", NAMES)
 def test_its_quiz_marks_every_answer_with_a_reason(name: str, executed: Callable[[str], Executed]) -> None:
     chapter = executed(name)
-    cells = [cell.id for cell in chapter.notebook.cells if re.fullmatch(r"quiz-\d+-answer", cell.id)]
+    cells = [cell.id for cell in chapter.notebook.cells if re.fullmatch(r"quiz-\d+-a", cell.id)]
     assert len(cells) >= 5
     for cell_id in cells:
         assert re.match(r"a: (Right|Not this one)\. .{30,}", chapter.text(cell_id)), cell_id
