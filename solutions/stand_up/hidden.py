@@ -65,6 +65,7 @@ SWAYS = Scenario(
         "even": random.choice((2, 3)),
         "uneven": random.choice((7, 8, 9)),
         "swings": 6,
+        "rests": round(random.uniform(0.83, 0.88) ** random.choice((-1, 1)), 3),
     },
     robot=None,
 )

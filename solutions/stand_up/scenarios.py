@@ -96,7 +96,9 @@ def ask_before_anything_is_known(stage: Stage) -> None:
         stand_up.send_and_wait(as_="after")
 
 
-def sway_before(stage: Stage, nearly: float, light: float, even: int, uneven: int, swings: int) -> None:
+def sway_before(
+    stage: Stage, nearly: float, light: float, even: int, uneven: int, swings: int, rests: float
+) -> None:
     """Play a robot whose weight rests nearly between its feet, swings from foot to foot, then rests between them.
 
     Args:
@@ -106,6 +108,7 @@ def sway_before(stage: Stage, nearly: float, light: float, even: int, uneven: in
         even: how long the loads are even in the middle of each swing, in periods of its messages.
         uneven: how long they are not, in periods.
         swings: from side to side.
+        rests: what the right foot carries at last, as a share of the left one's load.
     """
     with _PlayedRobot(stage, 0.45) as robot:
         stand_up = _open(stage)
@@ -116,7 +119,7 @@ def sway_before(stage: Stage, nearly: float, light: float, even: int, uneven: in
         for swing in range(swings):
             robot.follow([1.0] * even + [1.0 / light if swing % 2 else light] * uneven)
         stage.poll_until(lambda: robot.has_followed, HEIGHT_TIMEOUT)
-        robot.change("even", share=1.0)
+        robot.change("even", share=rests)
         robot.live_until_the_end(goal)
 
 
