@@ -114,10 +114,6 @@ def require_requests(run: Transcript, service: str, number: int) -> list[Request
     return requests
 
 
-def _ending(run: Transcript, exited: ev.NodeExited) -> str:
-    return f"exit status {exited.returncode}; the last line on stderr: {run.last_words or 'none'}"
-
-
 def how_it_ended(run: Transcript, exited: ev.NodeExited) -> str:
     """Return its exit status and its last words, as they were observed."""
     return f"exit status {exited.returncode}; the last line on stderr: {run.last_words or 'none'}"
