@@ -45,20 +45,20 @@ update_environment() {
     install_everything || { mv "$stamp.before" "$stamp"; explain_failure; }
 }
 
-# Set `python` to the first Python 3.10-3.13 found. One that cannot run, such as a version manager's
+# Set `python` to the first Python 3.10-3.14 found. One that cannot run, such as a version manager's
 # shim for a version that is not chosen, is passed over. COURSE_PYTHON names another one.
 find_python() {
-    local candidate candidates=(python3 python3.13 python3.12 python3.11 python3.10)
+    local candidate candidates=(python3 python3.13 python3.12 python3.11 python3.10 python3.14)
     [ "$ros" = apt ] && candidates=("$(basename "$(dirname "$ros_python")")")
     [ -n "${COURSE_PYTHON:-}" ] && candidates=("$COURSE_PYTHON")
     command -v "${candidates[0]}" >/dev/null || ensure_system_packages python3
     for candidate in "${candidates[@]}"; do
-        if "$candidate" -c 'import sys; sys.exit(not (3, 10) <= sys.version_info[:2] <= (3, 13))' 2>/dev/null; then
+        if "$candidate" -c 'import sys; sys.exit(not (3, 10) <= sys.version_info[:2] <= (3, 14))' 2>/dev/null; then
             python=$(command -v "$candidate")
             return 0
         fi
     done
-    say "no Python 3.10-3.13 was found (looked for: ${candidates[*]})."
+    say "no Python 3.10-3.14 was found (looked for: ${candidates[*]})."
     say "Next: install one, for example with  sudo apt-get install -y python3 python3-venv python3-dev,"
     say "or name one:  COURSE_PYTHON=/path/to/python3.12 ./course"
     return 1
