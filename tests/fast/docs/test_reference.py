@@ -16,6 +16,7 @@ from rclpy.client import Client
 from rclpy.node import Node
 
 import lab
+from autograder.engine.exercise import exercise_names, load_exercise
 
 ROOT = Path(__file__).resolve().parents[3]
 DOCS = ROOT / "docs"
@@ -112,6 +113,19 @@ def test_instructors_read_the_same_minutes_as_students() -> None:
         for exercise, number in re.findall(r"(\w+) \((\d+)\)", row[3]):
             assert students.pop(exercise) == int(number), exercise
     assert [name for name in students if not name[0].isdigit()] == []
+
+
+def test_instructors_read_how_many_points_are_hidden() -> None:
+    page = (DOCS / "for_instructors.md").read_text()
+    told = {
+        name: (int(shown), int(kept)) for name, shown, kept in re.findall(r"`(\w+)` \| (\d+) \| (\d+)", page)
+    }
+    for name in exercise_names():
+        checks = load_exercise(name, hidden=True).checks
+        assert told.pop(name) == tuple(
+            sum(check.points for check in checks if check.hidden is hidden) for hidden in (False, True)
+        )
+    assert told == {}
 
 
 def test_a_notebook_that_says_how_long_it_takes_says_what_the_start_page_says() -> None:
