@@ -65,7 +65,7 @@ def command_line(program: str) -> ArgumentParser:
         formatter_class=RawDescriptionHelpFormatter,
     )
     _show_help_without_verb(parser)
-    groups = parser.add_subparsers(title="Commands", metavar="")
+    groups = parser.add_subparsers(title="Commands", metavar="COMMAND")
     for name, (module, summary) in GROUPS.items():
         group = groups.add_parser(
             name,
@@ -75,7 +75,7 @@ def command_line(program: str) -> ArgumentParser:
             formatter_class=RawDescriptionHelpFormatter,
         )
         _show_help_without_verb(group)
-        module.add_verbs(group.add_subparsers(title="Verbs", metavar=""))
+        module.add_verbs(group.add_subparsers(title="Verbs", metavar="VERB"))
     return parser
 
 

@@ -13,7 +13,7 @@ from itertools import islice
 from posixpath import normpath
 from typing import Any
 
-RUN_THEIR_CELL = ("capture", "prun", "time")  # magics that hand their cell to IPython again
+RUN_THEIR_CELL = ("capture", "prun", "time", "timeit")  # magics that hand their cell to IPython again
 MOST_INSIDE = 3  # of those in each other
 MOST_CELLS, MOST_CODE = 2_000, 3_000_000  # code cells of a notebook, and characters in them
 MOST_ALIASES = 10  # in a cell
@@ -88,6 +88,8 @@ def written_by(cells: Sequence[str]) -> Written:
     for cell in cells:
         magics = list(_cell_magics(cell))
         for name, line, body in magics:
+            if re.match(r"(writefile|file)\s", name):
+                written.failures.append(f"{f'%%{name}'[:LONGEST_QUOTE]!r} has no space behind %%writefile")
             if name not in aliases or not body:  # IPython refuses to write an empty cell
                 continue
             line = f"{aliases[name]} {line}".strip()
@@ -198,6 +200,8 @@ def _texts_set_in(cell: str) -> dict[str, str]:
     texts = {}
     for statement in _statements(cell):
         match statement:
-            case ast.Assign([ast.Name(name)], ast.Constant(str(text))):
+            case ast.Assign([ast.Name(name)], ast.Constant(str(text))) | ast.AnnAssign(
+                ast.Name(name), _, ast.Constant(str(text))
+            ):
                 texts[name] = text
     return texts

@@ -21,10 +21,16 @@ _WHAT_BYTES_ARE: tuple[tuple[bytes, str], ...] = (  # what a file begins with; w
         for bom in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
     ),
     (b"PK\3\4", f"is a zip archive or an office document: {_BINARY}"),
+    (b"\x1f\x8b", f"is compressed by gzip: {_BINARY}"),
+    (
+        b"version https://git-lfs",
+        "is git-lfs's pointer to the file: type `git lfs pull`, and hand in the file",
+    ),
     (b"%PDF", f"is a PDF: {_BINARY}"),
     (b"\x89PNG", f"is a picture: {_BINARY}"),
     (b"{\\rtf", "is a document of a word processor (RTF): save it as plain text"),
 )
+_MERGE = ("\n<<<<<<< ", "\n=======\n", "\n>>>>>>> ")  # the marks of git
 _THE_NOTEBOOK = "hand in the notebook itself, the .ipynb file, or the file that its %%writefile cell writes"
 _WHAT_TEXT_IS: tuple[
     tuple[str, str], ...
@@ -62,8 +68,11 @@ def text_of(name: str, content: bytes) -> str:
     """
     if what := next((what for sign, what in _WHAT_BYTES_ARE if content.startswith(sign)), None):
         raise NoProgram(what)
-    if b"\0" in content:
-        raise NoProgram(f"is binary, or UTF-16 text, and Python reads UTF-8: {_UTF_8}")
+    if nulls := content.count(0):
+        is_text = nulls > len(content) // 3  # of Latin letters every second byte
+        raise NoProgram(
+            f"is UTF-16 text, and Python reads UTF-8: {_UTF_8}" if is_text else f"is no text: {_BINARY}"
+        )
     encoding = _declared(content) if name.endswith(".py") else "utf-8-sig"
     try:
         text = io.TextIOWrapper(io.BytesIO(content), encoding).read()
@@ -72,6 +81,12 @@ def text_of(name: str, content: bytes) -> str:
         raise NoProgram(
             f"is not {encoding.removesuffix('-sig').upper()} text in line {line}: {_UTF_8}"
         ) from error
+    if all(mark in f"\n{text}" for mark in _MERGE):
+        raise NoProgram(
+            "holds what git could not merge, between <<<<<<< and >>>>>>>: keep one of the two, and no mark"
+        )
+    if name.endswith((".py", ".ipynb")) and not text.strip():
+        raise NoProgram("is empty: save your work, and hand it in again")
     if name.endswith(".py"):
         for sign, what in _WHAT_TEXT_IS:
             if re.search(sign, text, re.MULTILINE | re.IGNORECASE):

@@ -9,6 +9,8 @@ from autograder.classroom.batch.collection import files_of_exercises
 from autograder.classroom.collect.handed_in import Assignment, HandedIn
 from autograder.engine.hand_in import Candidate, Names, choose_work, merged
 
+ARCHIVES = (".zip", ".gz", ".tgz", ".bz2", ".xz", ".tar", ".7z", ".rar")
+
 
 @dataclass
 class Choice:
@@ -28,7 +30,12 @@ def choose(files: Sequence[HandedIn], assignment: Assignment) -> Choice:
         only = one.exercise or assignment.exercise
         folders = [home for part in one.file.path.parts[:-1] if (home := names.exercise_of(part))]
         named = names.of(one.name) or (names.any_of(only, one.name) if only else None)
-        if not named:
+        if not named and one.file.path.suffix.lower() in ARCHIVES:
+            choice.left_aside.append(
+                f"{one.file.path} is an archive, and none is opened: unpack the download, and put the work beside it"
+                f" ({one.student})"
+            )
+        elif not named:
             choice.left_aside.append(f"{one.file.path} is of no exercise ({one.student})")
         elif only and named.exercise != only:
             choice.left_aside.append(f"{one.file.path} is of {named.exercise}, not of {only} ({one.student})")

@@ -7,6 +7,7 @@ elsewhere are refused, and no more of a file is read than a submission can have,
 from __future__ import annotations
 
 import os
+import re
 import stat
 import zipfile
 from collections.abc import Callable, Iterator
@@ -22,7 +23,7 @@ from ros_runtime.course_error import CourseError
 
 MOST_FILES = 200_000
 MOST_BYTES = 4 * 2**30  # read of one download
-_JUNK = (*NOT_THEIRS, ".git", ".ipynb_checkpoints", ".DS_Store")
+_HIDDEN = re.compile(r"\.[^.].*")  # of git, Jupyter, editors and virtual environments, and what macOS adds
 
 
 class UnusableDownload(CourseError):
@@ -168,7 +169,9 @@ def _from_folder(folder: Path, budget: Budget) -> Iterator[File | str]:
     for place, folders, names in os.walk(folder):
         inside = PurePosixPath(Path(place).relative_to(folder).as_posix())
         links = [name for name in folders if os.path.islink(os.path.join(place, name))]
-        folders[:] = sorted(name for name in folders if name not in _JUNK and name not in links)
+        folders[:] = sorted(
+            name for name in folders if not _is_junk(PurePosixPath(name)) and name not in links
+        )
         for name in sorted([*links, *names]):
             path = _place(str(inside / name))
             if _is_junk(path):
@@ -190,4 +193,4 @@ def _plain_opener(path: Path) -> Callable[[], BinaryIO]:
 
 
 def _is_junk(path: PurePosixPath) -> bool:
-    return not path.parts or path.name.startswith("._") or any(part in _JUNK for part in path.parts)
+    return not path.parts or any(part in NOT_THEIRS or _HIDDEN.fullmatch(part) for part in path.parts)

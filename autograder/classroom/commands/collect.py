@@ -65,6 +65,13 @@ def collect(
         raise ended(console, f"{out} cannot be written: {error}", COULD_NOT) from error
     for line in [*reading.unknown, *choice.left_aside]:
         console.print(f"left aside: {line}", style="yellow", markup=False)
+    if without := {one.student for one in reading.files} - {student for student, _ in choice.works}:
+        console.print(
+            f"nothing to grade from: {', '.join(sorted(without))}"
+            + ("" if exercise else "; --exercise NAME takes a file of any name"),
+            style="yellow",
+            markup=False,
+        )
     _tell(console, reading, placed, out)
     raise typer.Exit(COULD_NOT if reading.refused or placed.refused else 0)
 

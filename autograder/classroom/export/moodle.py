@@ -20,7 +20,7 @@ from autograder.report.verdict_text import verdict_text
 
 EMAIL, ID_NUMBER = ("useremail", "email address", "email"), ("useridnumber", "id number", "idnumber")
 _PARTICIPANT = re.compile(r"(?P<word>.*\D)(?P<number>\d+)\s*")  # "Participant 123456", in any language
-_TIME = re.compile(r"-|.*\d\d?[:.hH]\d\d.*", re.DOTALL)  # "-" is a grade that was never changed
+_TIME = re.compile(r"-|.*\d\d? ?[:.hH] ?\d\d.*", re.DOTALL)  # "-" is a grade that was never changed
 _LONGEST_FEEDBACK = 1000  # characters of one check
 
 
@@ -116,7 +116,8 @@ def _worksheet(roster: Table) -> Worksheet | None:
     ]
     if not grades:
         return None
-    times = [i for i in range(len(roster.heading)) if all(map(_TIME.fullmatch, roster.column(i)))]
+    behind = range(grades[-1] + 2, len(roster.heading))
+    times = [i for i in behind if all(map(_TIME.fullmatch, roster.column(i)))]
     last_change = max(times, default=len(roster.heading))
     return Worksheet(grades[-1], last_change + 1 if last_change + 1 < len(roster.heading) else None)
 

@@ -20,6 +20,7 @@ MOST_BYTES = 20_000_000  # of a roster
 _SEPARATOR_LINE = re.compile(
     r"sep=([,;\t])\r?\n", re.IGNORECASE
 )  # which Excel takes, and some programs write
+_WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # what they begin with, new ones and old ones
 # What begins a formula, also in the wide form that some spreadsheets take for the same.
 _FORMULA = (
     *("=", "+", "-", "@"),
@@ -97,11 +98,14 @@ def read_table(path: Path) -> Table:
             raise UnusableBatch(
                 f"{path} has more than {MOST_BYTES // 1_000_000} MB; expected a table of a class"
             )
-        text, encoding = _decoded(path.read_bytes())
+        content = path.read_bytes()
+        if content.startswith(_WORKBOOKS):
+            raise UnusableBatch(
+                f"{path} is a workbook of a spreadsheet program: save it there as “CSV UTF-8”"
+            )
+        text, encoding = _decoded(content)
     except (OSError, UnicodeDecodeError) as error:
         raise UnusableBatch(f"{path} cannot be read: {error}") from error
-    if text.startswith("PK\x03\x04"):
-        raise UnusableBatch(f"{path} is a workbook of a spreadsheet program: save it there as “CSV UTF-8”")
     told = _SEPARATOR_LINE.match(text)
     text = text[told.end() :] if told else text
     try:
@@ -127,8 +131,8 @@ def _decoded(content: bytes) -> tuple[str, str]:
     """
     if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return content.decode("utf-16"), ""
-    if content.startswith(b"PK\x03\x04"):
-        return content[:4].decode(), ""
+    if 0 in content[:2]:  # the same without its mark
+        return content.decode("utf-16-be" if content[0] == 0 else "utf-16-le"), ""
     try:
         return content.decode("utf-8-sig"), ""
     except UnicodeDecodeError:

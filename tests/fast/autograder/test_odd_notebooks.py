@@ -42,10 +42,10 @@ MAGICS = {
     "tabs": [f"\t%%writefile {NAME}.py\n\tx = 1\n"],
     "prompts": [f">>> %%writefile {NAME}.py\n>>> x = 1\n"],
     "numbered prompts": [f"In [1]: %%writefile {NAME}.py\n   ...: x = 1\n"],
-    "inside others": [f"%%capture out\n%%time\n%%writefile {NAME}.py\n{FIRST}{SECOND}"],
+    "inside others": [f"%%capture out\n%%timeit -n1 -r1\n%%time\n%%writefile {NAME}.py\n{FIRST}{SECOND}"],
     "as nbconvert says it": [f"get_ipython().run_cell_magic('writefile', '{NAME}.py', 'x = 1\\n')"],
     "variables": [
-        f"NAME = '{NAME}'\nFILE = '{NAME}.py'",
+        f"NAME = '{NAME}'\nFILE: str = '{NAME}.py'",
         f"%%writefile {{NAME}}.py\n{FIRST}",
         f"%%writefile -a $FILE\n{SECOND}",
     ],
@@ -67,6 +67,10 @@ WRITES_NOTHING = {
     "no cell": (
         [f"%%writefile {NAME}.py"],
         "no code cell that begins with '%%writefile battery_service.py'$",
+    ),
+    "a tab": (
+        [f"%%writefile\t{NAME}.py\nx"],
+        "'%%writefile.tbattery_service.py' has no space behind %%writefile",
     ),
     "below a comment": ([f"# mine\n%%writefile {NAME}.py\nx"], "is not the first line of its cell"),
 }

@@ -54,6 +54,11 @@ def test_a_program_is_read_in_its_encoding_and_runs_in_it(read, declaration: str
         (b"\n\n\n" + PROGRAM.encode("latin-1"), r"is not UTF-8 text in line 4: save it as UTF-8"),
         ("# coding: klingon\n" + PROGRAM, "unknown encoding: klingon"),
         ("# coding: unicode_escape\n" + PROGRAM, "no program is written in unicode_escape"),
+        (b"\xa7\r\r\n\0\0\0\0compiled", "is no text: hand in the text file"),
+        (b"\x1f\x8b\x08", "is compressed by gzip"),
+        (" \n", "is empty: save your work"),
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d\n", "git-lfs's pointer to the file"),
+        (f"<<<<<<< HEAD\r\n{PROGRAM}=======\r\n>>>>>>> theirs\r\n", "holds what git could not merge"),
         (b"PK\3\4", "a zip archive or an office document"),
         (json.dumps(NOTEBOOK), r"is a notebook: give it a name that ends in \.ipynb"),
         (
@@ -69,6 +74,15 @@ def test_a_program_is_read_in_its_encoding_and_runs_in_it(read, declaration: str
 def test_what_is_no_program_is_named_as_what_it_is(read, content: bytes | str, named: str) -> None:
     with pytest.raises(UnusableSubmission, match=rf"battery_service\.py .*{named}"):
         read(content)
+
+
+@pytest.mark.parametrize("content", ["", '<<<<<<< HEAD\n{"cells": [\n=======\n{\n>>>>>>> theirs\n'])
+def test_so_is_a_notebook_that_is_empty_or_half_merged(tmp_path: Path, content: str) -> None:
+    (tmp_path / "work.ipynb").write_text(content)
+    with pytest.raises(
+        UnusableSubmission, match=r"work\.ipynb (is empty: save|holds what git could not merge)"
+    ):
+        read_submission(tmp_path / "work.ipynb", EXERCISE)
 
 
 def test_a_program_that_keeps_the_magic_as_a_comment_is_one(read) -> None:

@@ -121,6 +121,7 @@ def test_a_folder_around_everything_is_nobodys(tmp_path: Path, platform: str) ->
                 "question.html is of no exercise",
                 "was handed in again as",
                 "late, as the platform says: oneil",
+                "nothing to grade from: kimcleo-103; --exercise NAME takes a file of any name",
             ],
         ),
         ("moodle", ["onlinetext.html is not called as Moodle calls"]),
@@ -153,6 +154,7 @@ def test_a_file_of_any_name_counts_where_the_exercise_is_given(tmp_path: Path) -
         "leeanna_1_5_final (2).ipynb": notebook(),
         "kim_2_6_walk_to.py": PROGRAM,
         "bo_3_7_notes.txt": "hm",
+        "jo_4_8_hw.zip": b"PK",
     }
     done = course(
         zipped(tmp_path / "d.zip", files),
@@ -166,6 +168,8 @@ def test_a_file_of_any_name_counts_where_the_exercise_is_given(tmp_path: Path) -
     assert programs(tmp_path / "s") == {"leeanna-1": PROGRAM}
     assert "walk_to.py is of walk_to, not of battery_service" in said(done)
     assert "notes.txt is of no exercise" in said(done)
+    assert "hw.zip is an archive, and none is opened: unpack the download" in said(done)
+    assert "nothing to grade from: bo-3, jo-4, kim-2 1 submissions" in said(done)
 
 
 def test_files_called_as_they_should_be_come_before_others(tmp_path: Path) -> None:
@@ -265,7 +269,7 @@ TOPS = {
 
 @pytest.mark.parametrize("platform", TOPS)
 def test_a_copy_in_a_folder_never_comes_before_the_work_at_the_top(tmp_path: Path, platform: str) -> None:
-    places = ["battery_service.py", "old/battery_service.py", "venv/lib/battery_service.py"]
+    places = [f"{folder}battery_service.py" for folder in ("", "old/", "venv/lib/", ".venv/", "a/.backup/")]
     files = {f"{TOPS[platform]}{place}": f"place = {place!r}\n" for place in places}
     files |= {"submission_metadata.yml": METADATA} if platform == "gradescope" else {}
     done = course(zipped(tmp_path / "d.zip", files), "--from", platform, "--out", tmp_path / "s")

@@ -189,6 +189,12 @@ WORKSHEETS = {
         "参加者4101,提出済み,3.00,5.00,2026年 10月 5日 09:00,前の\n参加者4102,提出済み,5.00,5.00,-,\n",
         (2, 5),
     ),
+    "French of Canada, in UTF-16 without its mark": (
+        "utf-16-le", "\t", "Anna Lee-4101",
+        "Identifiant,Nom complet,Note,Note maximale,Note modifiable,Dernière modification (note),Rétroaction\n"
+        "Participant 4101,Anna Lee,,5.00,Oui,5 octobre 2026 à 09 h 00,\n",
+        (2, 6),
+    ),
     "French, with numbers of students, a marker and online text, without feedback": (
         "cp1252", ";", "2101",
         "Identifiant,Nom complet,Numéro d'identification,Statut,Évaluateur,Note,Note maximale,Note modifiable,"
@@ -231,9 +237,10 @@ def test_a_worksheet_on_a_scale_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_workbook_is_told_from_a_table_and_excels_own_first_line_is_none(tmp_path: Path) -> None:
-    (tmp_path / "book.csv").write_bytes(b"PK\x03\x04\x14\x00\xff")
-    with pytest.raises(UnusableBatch, match="workbook"):
-        export("canvas", [ANNA], replace(OPTIONS, roster=tmp_path / "book.csv"))
+    for begins in (b"PK\x03\x04", b"\xd0\xcf\x11\xe0"):
+        (tmp_path / "book.csv").write_bytes(begins + b"\x14\x00\xff")
+        with pytest.raises(UnusableBatch, match="workbook"):
+            export("canvas", [ANNA], replace(OPTIONS, roster=tmp_path / "book.csv"))
     path = saved(tmp_path, CANVAS, separator=";")
     path.write_text("sep=;\n" + path.read_text())
     assert export("canvas", [ANNA], replace(OPTIONS, roster=path)).files
