@@ -323,3 +323,23 @@ SAID = {
 def test_a_recorded_failure_names_what_the_arena_saw(exercise, submission, check):
     failed = {(case.submission, case.check.id): verdict(case) for case in recorded(exercise)}
     assert SAID[exercise, submission, check] in failed[submission, check].help
+
+
+def slowed(transcript) -> Transcript:
+    """The same run of a robot that needs twice the time for everything."""
+    robots = [
+        replace(robot, t=2 * robot.t, speed=robot.speed / 2, turn_rate=robot.turn_rate / 2)
+        for robot in transcript.ground_truth
+    ]
+    events = [replace(event, t=2 * event.t) for event in transcript.events]
+    return replace(transcript, events=events, ground_truth=robots)
+
+
+@pytest.mark.parametrize("check", ["faces_its_way", "names_its_phases"])
+def test_a_slow_robot_is_judged_by_its_own_speed(check):
+    judged = [case for case in recorded("navigate_to_pose") if case.check.id == check]
+    assert {verdict(case).status for case in judged} == {"passed", "failed"}
+    for case in judged:
+        assert judge(case.check, [slowed(run) for run in case.transcripts]).status == verdict(case).status, (
+            case
+        )

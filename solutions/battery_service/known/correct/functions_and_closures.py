@@ -1,4 +1,4 @@
-"""Style: functions and closures over a dictionary, no class; spin_once in a loop that looks at rclpy.ok()."""
+"""Style: functions and closures over a dictionary, no class; an EventsExecutor."""
 
 import math
 import sys
@@ -6,6 +6,7 @@ import sys
 import rclpy
 from humanoid_interfaces.srv import GetBatteryStatus
 from rclpy.executors import ExternalShutdownException
+from rclpy.experimental import EventsExecutor
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import BatteryState
 
@@ -37,9 +38,10 @@ def main(args=None):
     rclpy.init(args=args)
     node = rclpy.create_node("battery")
     add_service(node)
+    executor = EventsExecutor()
+    executor.add_node(node)
     try:
-        while rclpy.ok():
-            rclpy.spin_once(node, timeout_sec=0.5)
+        executor.spin()
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     rclpy.try_shutdown()
