@@ -15,12 +15,13 @@ from autograder.authoring import (
     require_feedback,
     require_good_feedback_rate,
 )
+from autograder.authoring.evidence.robot_record import between
 from autograder.authoring.walking.life import accepted, ended_at, interrupted, left_alone
 from humanoid_interfaces.action import PickAndPlace
 from ros_runtime.message_constants import GoalStatus, name_of
 
 from .life import canceled_at, commanded, is_for_the_cup, robbed_at
-from .truth import Grip, around, as_tuple, grips, taken_from
+from .truth import Grip, as_tuple, grips, taken_from
 
 MIN_DURATION = 3.0  # s; a goal of less tells little about its feedback
 AGE = 0.7  # s that what feedback tells may be old
@@ -90,7 +91,7 @@ def stages_are_true_at(goal: Goal) -> str | None:
         if stage not in signs or event.t > cut:
             continue
         what, is_so = signs[stage]
-        seen = around(whole, event.t - AGE, event.t + AHEAD)
+        seen = between(whole, event.t - AGE, event.t + AHEAD)
         expect(
             any(map(is_so, seen)),
             expected=f"{what} while the stage is {stage!r}",
@@ -107,7 +108,7 @@ def values_are_measured(goal: Goal) -> str | None:
         return None
     whole = _seen_by(goal)
     for event in goal.feedback:
-        seen = around(whole, event.t - AGE, event.t)
+        seen = between(whole, event.t - AGE, event.t)
         _require_true_hand(event, seen)
         _require_between(
             event,
