@@ -13,7 +13,7 @@ from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
 from .checks import LATER
-from .ranges import RANGES
+from .objections import RANGES
 
 RIGHT = ["r_wrist_pitch", "r_elbow", "r_shoulder_roll"]
 REST_TIME = 0.5  # s

@@ -20,8 +20,8 @@ from autograder.authoring.walking.reports import require_error_code
 
 from .endings import GOAL_TOLERANCE, ErrorCode
 from .life import ends_by_itself, hold_of, is_carried_out, silent_since, situation
+from .objections import RANGES
 from .plan import Plan, errors, largest
-from .ranges import RANGES
 from .truth import joints_at, joints_between, plan_of
 
 AGE = 0.7  # s that what feedback tells may be old, or early
