@@ -18,25 +18,11 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any, Literal
 
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.authoring.failure import CannotBeJudged, Failure, expect
+from autograder.authoring.failure import Failure
 from autograder.authoring.sequence import steps_until
 
 if TYPE_CHECKING:
     from autograder.authoring.obligation import Obligation
-
-__all__ = [
-    "MAY_REST",
-    "RESTING",
-    "CannotBeJudged",
-    "Check",
-    "Failure",
-    "Scenario",
-    "check",
-    "checks_in",
-    "expect",
-    "in_order",
-    "program",
-]
 
 MAY_REST = "--may-rest"  # option of a robot that is not integrated while it only stands
 RESTING = (MAY_REST,)  # the robot of a scenario that asks nothing of its body

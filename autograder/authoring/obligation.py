@@ -61,7 +61,7 @@ class Obligation:
 def obligation(
     *clauses: int, of: Callable[[Transcript], Iterable[Any]], see: str = ""
 ) -> Callable[[Callable[[Any], Situation | None]], Obligation]:
-    """Make an obligation of a function whose docstring says what holds; `of` finds the occasions in a run, `see` is a lesson."""
+    """Make an obligation of a function: its docstring says what holds, `of` finds the occasions, `see` is a lesson."""
 
     def make(require: Callable[[Any], Situation | None]) -> Obligation:
         if not require.__doc__:

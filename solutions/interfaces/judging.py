@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from autograder.authoring import Failure, Transcript, ev, expect, require_within_limits, unseen
-from autograder.authoring.checks import CannotBeJudged
+from autograder.authoring.failure import CannotBeJudged
 
 BUSY = 60.0  # s of processor time; a correct file needs 25
 NO_FILE = "there is no definition in this folder"  # what the build says then

@@ -112,7 +112,13 @@ class Goal:
     @property
     def requests_to_cancel(self) -> Sequence[Cancel]:
         """The requests to cancel it, of which there must be at least one."""
-        return require_cancels(self.run, self.cancels, f"the goal “{self.name}”")
+        if not self.cancels:
+            raise Missing(
+                self.run,
+                expected=f"a server that gets as far as the request to cancel the goal “{self.name}”",
+                never=f"nobody asked to cancel the goal “{self.name}”",
+            )
+        return self.cancels
 
     @property
     def accepted_at(self) -> float:
@@ -227,14 +233,3 @@ class Goal:
     def _no_answer(self) -> str:
         given_up = self.run.given_up("goal", self.name)
         return f"no answer to the goal within {given_up.waited if given_up else self.run.end - self.sent.t:.0f} s"
-
-
-def require_cancels(run: RobotRecord, cancels: Sequence[Cancel], which: str) -> Sequence[Cancel]:
-    """Return the requests to cancel `which` goal, in words; there must be at least one."""
-    if not cancels:
-        raise Missing(
-            run,
-            expected=f"a server that gets as far as the request to cancel {which}",
-            never=f"nobody asked to cancel {which}",
-        )
-    return cancels

@@ -62,15 +62,6 @@ def scripted_goals(run: Record, action: str) -> list[ScriptedGoal]:
     return [_goal(run, event) for event in reversed(received.values()) if event.action == action]
 
 
-def scripted_cancels(run: Record, action: str) -> list[ScriptedCancel]:
-    """Return the requests to cancel that a scripted action got, in order."""
-    return [
-        ScriptedCancel(event, run.one(ev.CancelReplySent, "cancel", event.cancel))
-        for event in run.all(ev.CancelReceived)
-        if event.action == action
-    ]
-
-
 def _goal(run: Record, received: ev.GoalReceived) -> ScriptedGoal:
     name = received.goal
     return ScriptedGoal(
@@ -78,9 +69,9 @@ def _goal(run: Record, received: ev.GoalReceived) -> ScriptedGoal:
         run.one(ev.GoalReplySent, "goal", name),
         [event for event in run.all(ev.FeedbackSent) if event.goal == name],
         [
-            cancel
-            for cancel in scripted_cancels(run, received.action)
-            if cancel.received.t >= received.t and cancel.received.goal in ("", name)
+            ScriptedCancel(event, run.one(ev.CancelReplySent, "cancel", event.cancel))
+            for event in run.all(ev.CancelReceived)
+            if event.action == received.action and event.t >= received.t and event.goal in ("", name)
         ],
         run.one(ev.GoalFinished, "goal", name),
         run.one(ev.ResultRequested, "goal", name),

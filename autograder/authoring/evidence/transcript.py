@@ -6,13 +6,12 @@ part, there is no grade (`CannotBeJudged`).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
 
 from autograder.authoring.diagnosis.missing import Missing
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.call import Call, Request
-from autograder.authoring.evidence.goal import Cancel, Goal, require_cancels
+from autograder.authoring.evidence.goal import Cancel, Goal
 from autograder.authoring.evidence.robot_record import RobotRecord
 from autograder.authoring.evidence.scripted_goal import ScriptedGoal, scripted_goals
 
@@ -61,13 +60,6 @@ class Transcript(RobotRecord):
             Cancel(event, self.in_time(ev.CancelAnswered, "cancel", name, of="cancel"), self)
             for name, event in reversed(sent.items())
         ]
-
-    @property
-    def cancels_of_all(self) -> Sequence[Cancel]:
-        """The requests to cancel every goal, of which there must be at least one."""
-        return require_cancels(
-            self, [cancel for cancel in self.cancels if not cancel.sent.goal], "every goal"
-        )
 
     # -- services -----------------------------------------------------------------------------------------------------
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from autograder.authoring.checks import Failure, expect
 from autograder.authoring.diagnosis.exit_diagnosis import end_in_words, remedy_for_the_end
 from autograder.authoring.diagnosis.missing import unseen
 from autograder.authoring.diagnosis.readiness import require_within_limits
 from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import Failure, expect
 
 _CLEAN_END = (
     "Catch KeyboardInterrupt and ExternalShutdownException around spin(), destroy the node and call "

@@ -7,9 +7,9 @@ import math
 import pytest
 from geometry_msgs.msg import Twist
 
-from autograder.authoring.checks import CannotBeJudged, Failure
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import CannotBeJudged, Failure
 from autograder.authoring.walking.halt import require_final_zero, require_standing_at_success
 from autograder.authoring.walking.motion import (
     require_limited_velocity,

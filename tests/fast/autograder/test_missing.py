@@ -81,7 +81,6 @@ def test_the_reason_is_the_first_thing_that_went_wrong(events, because):
     [
         (lambda run: run.call("first"), "the request “first” was never sent"),
         (lambda run: run.goal("walk"), "the goal “walk” was never sent"),
-        (lambda run: run.cancels_of_all, "nobody asked to cancel every goal"),
         (lambda run: run.mark("fallen"), "it never got there"),
     ],
 )
