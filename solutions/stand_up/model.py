@@ -414,7 +414,7 @@ def stays_where_it_ended(goal: Goal) -> str | None:
         return None
     asked = min([each.sent.t for each in granted(goal)], default=goal.result.t)
     later = [other.sent.t for other in others(goal)]
-    moved = [each.t for each in goal.run.all(ev.RobotCommanded) if each.command.get("do") == "move_body"]
+    moved = [each.t for each in goal.run.commands("move_body")]
     disturbances = pushes(run_of(goal))
     next_ones = [*later, *moved, *(first for first, _ in disturbances)]
     end = min((t for t in next_ones if t > asked), default=goal.run.end)

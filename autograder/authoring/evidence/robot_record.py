@@ -34,6 +34,10 @@ class RobotRecord(Record):
         """Return what the simulator told of something in that time, by events of one kind, as `robot_between` does."""
         return self._known(self.all(kind), start, end, of)
 
+    def commands(self, do: str) -> list[ev.RobotCommanded]:
+        """Return the commands `do` of the scenario that the robot carried out, in order."""
+        return [event for event in self.all(ev.RobotCommanded) if event.command.get("do") == do]
+
     def told(self, do: str, *, before: float = math.inf, **arguments: Any) -> ev.RobotCommanded:
         """Return the last command `do` of the scenario that the robot carried out before a time.
 
@@ -46,9 +50,8 @@ class RobotRecord(Record):
             Failure: there was none, because of the submission.
             CannotBeJudged: there was none, for another reason.
         """
-        wanted = {"do": do, **arguments}
-        for event in reversed(self.all(ev.RobotCommanded)):
-            if event.t <= before and wanted.items() <= event.command.items():
+        for event in reversed(self.commands(do)):
+            if event.t <= before and arguments.items() <= event.command.items():
                 return event
         raise unseen(self, f"the robot did not get the command {do}")
 
