@@ -24,7 +24,7 @@ from autograder.authoring.requirements.standard_obligations import FROM_MEMORY_T
 from ros_runtime.message_constants import RobotMode, name_of
 
 from . import truth
-from .advice import advice_on_failing, advice_on_vector, published_instead, reasons_to_refuse
+from .advice import REASONS, advice_on_failing, advice_on_vector, published_instead
 from .heartbeat import require_heartbeat
 from .message import TOLERANCE, decimals, is_near, numbers_in, shown_vector, triples_in, whole_numbers
 from .truth import ASKING, CLOCK_SLACK, COLLECTING, FEWEST_SAMPLES, SERVICE, imu_between, story_of, those
@@ -97,7 +97,7 @@ def _require_success(call: Call, story: truth.Story) -> None:
 
 
 def _require_no_success(call: Call, story: truth.Story) -> None:
-    because, help = reasons_to_refuse(story.situation)
+    because, help = REASONS[story.situation]
     call.expect("success", False, because=because, help=help)
     text, unanswered = call.response.message, story.situation in GETS_NO_ANSWER
     never_asked = unanswered and story.situation != truth.MISSING and not truth.status_requests(call)

@@ -119,8 +119,7 @@ def _states_from(run: Transcript) -> float:
     """Return from when (s) on the robot published its state."""
     if all(verb != "publish_robot_state" for verb, *_ in run.params.get("steps", ())):
         return -math.inf
-    told = [event.t for event in run.all(ev.RobotCommanded) if event.command["do"] == "robot_state"]
-    return min(told, default=math.inf)
+    return min((event.t for event in run.commands("robot_state")), default=math.inf)
 
 
 def _at_work(call: Call) -> list[Call]:
