@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from autograder.authoring import Goal, RobotRecord, ev, why_nothing_is_heard
 
-from .plan import Plan
+from .plan import Plan, errors, largest
 
 _ACCEPT = (
     "goal_callback must return GoalResponse.ACCEPT for a trajectory in which nothing is wrong (True is not "
@@ -30,6 +30,11 @@ def plan_of(goal: Goal) -> Plan:
 def joints_at(run: RobotRecord, t: float) -> ev.JointsTruth:
     """Return the joints at a time (s): the last report not later, or the first there is."""
     return run.reported(ev.JointsTruth, t, t, of="the joints")[-1]
+
+
+def worst_at(goal: Goal, t: float, wanted: Mapping[str, float]) -> tuple[str, float]:
+    """Return the joint that was farthest from where it was wanted (rad) at a time (s), and how far."""
+    return largest(errors(joints_at(goal.run, t).positions, wanted))
 
 
 def joints_between(run: RobotRecord, start: float, end: float) -> Sequence[ev.JointsTruth]:
