@@ -131,13 +131,7 @@ def values_are_measured(goal: Goal) -> str | None:
 
 def _is_worth_telling(goal: Goal) -> bool:
     """Return whether there was a cup to tell of, and no fall or Ctrl-C ended it; then there has to be feedback."""
-    if (
-        not accepted(goal)
-        or left_alone(goal)
-        or interrupted(goal)
-        or not is_for_the_cup(goal)
-        or commanded(goal, "push")
-    ):
+    if not is_for_the_cup(goal) or left_alone(goal) or interrupted(goal) or commanded(goal, "push"):
         return False
     if ended_at(goal) < goal.accepted_at + MIN_DURATION:
         return False
