@@ -50,4 +50,4 @@ from autograder.authoring.requirements.standard_obligations import (
     require_fastest,
 )
 from autograder.authoring.rubric import Criterion
-from autograder.authoring.sequence import STEPS, shuffled, steps_until
+from autograder.authoring.sequence import NOT_FINITE, STEPS, rounded, shuffled, steps_until

@@ -98,8 +98,8 @@ class Check:
     `hidden` is set when it is loaded: a check is hidden because it stands in hidden.py.
     `clauses` are the numbers of the statement's clauses that it judges; `promise` is set when it is loaded: these
     clauses in words.
-    `each_run`: `judge` takes one transcript and is applied to each, so that only a scenario that failed is retried.
-    `obligations` are what it is made of, if it was made by `check_of`.
+    `obligations` are what it is made of, if it was made by `check_of`: then `judge` takes one transcript and is applied
+    to each, so that only a scenario that failed is retried.
     """
 
     title: str
@@ -112,7 +112,6 @@ class Check:
     hidden: bool = False
     clauses: tuple[int, ...] = ()
     promise: str = ""
-    each_run: bool = False
     obligations: tuple[Obligation, ...] = ()
 
     @property
@@ -127,7 +126,7 @@ class Check:
             Failure: the submission is at fault.
             CannotBeJudged: the record does not let anybody judge it.
         """
-        if not self.each_run:
+        if not self.obligations:
             self.judge(*transcripts)
             return
         for transcript in transcripts:
@@ -195,7 +194,6 @@ def check_by(
         see,
         id,
         clauses=tuple(clauses),
-        each_run=bool(obligations),
         obligations=tuple(obligations),
     )
 

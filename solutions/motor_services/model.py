@@ -8,7 +8,6 @@ from autograder.authoring import (
     DELIVERY,
     Call,
     Failure,
-    RobotRecord,
     Transcript,
     answered_within,
     answers_from_memory,
@@ -47,7 +46,7 @@ STARTS_TO_WALK = 3.0  # s
 # -- what the node can know -------------------------------------------------------------------------------------------
 
 
-def published_spans(run: RobotRecord) -> list[tuple[float, float]]:
+def published_spans(run: Transcript) -> list[tuple[float, float]]:
     """Return from when to when (s) the robot published robot_state to the node."""
     verbs = [step[1] for step in run.params.get("steps", ()) if step[0] == "publish_state"]
     ready = run.first(ev.NodeReady)

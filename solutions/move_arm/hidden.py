@@ -6,8 +6,7 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from autograder.authoring import Scenario, check_of
-from autograder.authoring.walking.drawn import NUMBERS, rounded
+from autograder.authoring import NOT_FINITE, Scenario, check_of, rounded
 from autograder.authoring.walking.server_checks import in_order
 from autograder.classroom.hidden_checks import standard_hidden
 
@@ -70,7 +69,7 @@ def _impossible(random: Random) -> list[list[Any]]:
             (RIGHT[2:], beyond)
             for beyond in (low - random.uniform(0.05, 0.1), high + random.uniform(0.05, 0.1))
         ),
-        (RIGHT[2:], random.choice(NUMBERS)),
+        (RIGHT[2:], random.choice(NOT_FINITE)),
     ]
     sent = []
     for number, (joints, position) in enumerate(wrong, start=1):

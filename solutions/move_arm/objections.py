@@ -7,8 +7,7 @@ from itertools import pairwise
 
 from autograder.authoring import Goal
 from autograder.authoring.walking.objections import objection
-
-from .plan import seconds_of
+from autograder.authoring.walking.obligations.tells import seconds
 
 ARMS = ("l", "r")
 AT_THE_END = 0.001  # rad; what is so near the end of a range may be rounded
@@ -71,7 +70,7 @@ def lengths(goal: Goal) -> str:
 )
 def times(goal: Goal) -> str:
     """It rejects a trajectory whose times do not rise from point to point."""
-    times = map(seconds_of, goal.request.trajectory.points)
+    times = (seconds(point.time_from_start) for point in goal.request.trajectory.points)
     for number, (earlier, later) in enumerate(pairwise(times), start=1):
         if later <= earlier:
             return f"point {number} is not later than the point before"
@@ -114,7 +113,7 @@ def beyond(goal: Goal) -> str | None:
 def _is_left_open(goal: Goal) -> bool:
     """Return whether it has no joint, a joint twice, a first time of 0, or a tolerance that is none."""
     names, points = list(goal.request.trajectory.joint_names), goal.request.trajectory.points
-    is_early = bool(points) and seconds_of(points[0]) <= 0.0
+    is_early = bool(points) and seconds(points[0].time_from_start) <= 0.0
     tolerance = goal.request.goal_tolerance
     return not names or len(set(names)) < len(names) or is_early or not 0.0 <= tolerance < math.inf
 

@@ -6,8 +6,7 @@ from collections.abc import Callable
 from random import Random
 from typing import Any
 
-from autograder.authoring import Scenario, check_of
-from autograder.authoring.walking.drawn import NUMBERS, rounded
+from autograder.authoring import NOT_FINITE, Scenario, check_of, rounded
 from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
@@ -34,9 +33,9 @@ def _fetching(random: Random) -> list[Any]:
         [
             "go",
             "not finite",
-            random.choice(([random.choice(NUMBERS), -0.25], [0.33, random.choice(NUMBERS)])),
+            random.choice(([random.choice(NOT_FINITE), -0.25], [0.33, random.choice(NOT_FINITE)])),
         ],
-        ["go", "no force", HERE, random.choice((-0.1, 0.0, 25.5, *NUMBERS))],
+        ["go", "no force", HERE, random.choice((-0.1, 0.0, 25.5, *NOT_FINITE))],
         ["go", "no name", HERE, 10.0, random.choice(NAMES)],
         ["go", "unknown", HERE, 10.0, random.choice(("teapot", "cups"))],
     ]

@@ -6,15 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 
-from autograder.authoring import (
-    SUCCEEDED,
-    Goal,
-    end_of_feedback,
-    ev,
-    expect,
-    require_feedback,
-    require_good_feedback_rate,
-)
+from autograder.authoring import SUCCEEDED, Goal, end_of_feedback, ev, expect, require_good_feedback_rate
 from autograder.authoring.evidence.robot_record import between
 from autograder.authoring.walking.life import accepted, ended_at, interrupted, left_alone
 from humanoid_interfaces.action import PickAndPlace
@@ -135,7 +127,6 @@ def _is_worth_telling(goal: Goal) -> bool:
         return False
     if ended_at(goal) < goal.accepted_at + MIN_DURATION:
         return False
-    require_feedback(goal)
     end_of_feedback(goal)
     return True
 

@@ -16,7 +16,7 @@ from autograder.authoring.diagnosis.goal_diagnosis import (
     why_no_result,
     why_starved,
 )
-from autograder.authoring.diagnosis.missing import Missing, unseen
+from autograder.authoring.diagnosis.missing import Missing
 from autograder.authoring.diagnosis.readiness import require_alive
 from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
@@ -26,8 +26,6 @@ from autograder.authoring.failure import Failure, expect
 from ros_runtime.message_constants import GoalStatus, name_of
 
 SUCCEEDED, CANCELED, ABORTED = GoalStatus.SUCCEEDED, GoalStatus.CANCELED, GoalStatus.ABORTED
-LISTENED = 1.2  # s after a result for which a scenario has to listen for feedback that must not come
-ON_ITS_WAY = 0.3  # s a message may be overtaken by the result
 
 _BUSY = (
     "The executor was busy: on one thread a callback that sleeps or waits keeps goals and cancels from being served. "
@@ -205,20 +203,6 @@ class Goal:
             observed="it is empty",
             help="Set result.error_msg to a sentence for people before the terminal call.",
             at=self.result.t,
-        )
-
-    def require_silence_afterwards(self) -> None:
-        """Require that no feedback came after the result, while the scenario listened for it."""
-        if self.result is None or self.run.end < self.result.t + LISTENED:
-            raise unseen(self.run, f"nobody listened for feedback after the result of “{self.name}”")
-        end = self.result.t
-        late = [feedback for feedback in self.feedback if feedback.t > end + ON_ITS_WAY]
-        expect(
-            not late,
-            expected="no feedback after the result",
-            observed=f"{len(late)} message(s), the last {late[-1].t - end:.1f} s after it" if late else "",
-            help="Stop the timer or thread that publishes feedback before the terminal call.",
-            at=late[0].t if late else None,
         )
 
     def expect(self, path: str, value: Any, *, because: str, help: str, see: str = "") -> None:

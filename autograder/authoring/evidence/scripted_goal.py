@@ -56,13 +56,8 @@ class ScriptedGoal:
         return self.reply is not None and self.reply.accepted
 
 
-def scripted_goals(run: Record, action: str) -> list[ScriptedGoal]:
-    """Return the goals that a scripted action got, on any of its servers, in order."""
-    received = {event.goal: event for event in reversed(run.all(ev.GoalReceived))}
-    return [_goal(run, event) for event in reversed(received.values()) if event.action == action]
-
-
-def _goal(run: Record, received: ev.GoalReceived) -> ScriptedGoal:
+def scripted_goal(run: Record, received: ev.GoalReceived) -> ScriptedGoal:
+    """Return a goal that a scripted action got, with all that the record has of it."""
     name = received.goal
     return ScriptedGoal(
         received,

@@ -10,13 +10,16 @@ from geometry_msgs.msg import Twist
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged, Failure
-from autograder.authoring.walking.halt import require_final_zero, require_standing_at_success
 from autograder.authoring.walking.motion import (
     require_limited_velocity,
     require_reached,
     require_short_turn,
 )
-from autograder.authoring.walking.obligations.walks import does_not_steer_without_a_goal
+from autograder.authoring.walking.obligations.walks import (
+    does_not_steer_without_a_goal,
+    require_final_zero,
+    require_standing_at_success,
+)
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus

@@ -44,7 +44,6 @@ PLACES = {
     LEAVES: (
         f"{AUTHORING}/requirements/client_checks.py require_one_goal started_at",
         f"{AUTHORING}/requirements/falls.py require_knocked_over",
-        f"{AUTHORING}/evidence/goal.py require_silence_afterwards",
         f"{AUTHORING}/diagnosis/missing.py _exception_for",
         f"{AUTHORING}/obligation.py _require_sent",
         f"{AUTHORING}/diagnosis/readiness.py require_ready require_started",
@@ -68,7 +67,7 @@ PLACES = {
     NEVER_SHOWS: (
         f"{AUTHORING}/diagnosis/missing.py not_shown",
         f"{AUTHORING}/walking/client_life.py started",
-        f"{AUTHORING}/walking/halt.py require_final_zero",
+        f"{AUTHORING}/walking/obligations/walks.py require_final_zero",
         f"{AUTHORING}/walking/motion.py require_limited_velocity",
         f"{AUTHORING}/walking/obligations/ends.py tells_a_fall",
         "solutions/move_arm/motion.py stops_by_an_empty_trajectory",
