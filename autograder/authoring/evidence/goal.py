@@ -129,10 +129,11 @@ class Goal:
         """Require that the server accepted it."""
         if self.answer is None:
             require_alive(self.run)
+            place = where_it_waited(self.run)
             raise Failure(
                 expected="the goal to be accepted",
                 observed=self._no_answer(),
-                help=self._busy(),
+                help=f"It stood in {place}. {_BUSY}" if place else _BUSY,
                 at=self.sent.t,
             )
         expect(
@@ -186,13 +187,12 @@ class Goal:
         )
         return self.result
 
-    def require_canceled(self, request: Cancel | None = None) -> ev.CancelSent:
+    def require_canceled(self, request: Cancel | None = None) -> None:
         """Require that it was accepted, that its (last) cancel request was granted, and that it ended CANCELED."""
         self.require_accepted()
         request = request or self.requests_to_cancel[-1]  # earlier ones may have overtaken their goal
         request.require_agreed(self)
         self.require_result(CANCELED)
-        return request.sent
 
     def require_reason(self) -> None:
         """Require that its result has an error_msg that is not empty; the result must have come."""
@@ -209,10 +209,6 @@ class Goal:
         """Require that a field of its result, which must be there, has a value."""
         assert self.result, "ask for its result first"
         expect_field(self.result.result, path, value, because=because, help=help, at=self.result.t, see=see)
-
-    def _busy(self) -> str:
-        place = where_it_waited(self.run)
-        return f"It stood in {place}. {_BUSY}" if place else _BUSY
 
     def _no_answer(self) -> str:
         given_up = self.run.given_up("goal", self.name)

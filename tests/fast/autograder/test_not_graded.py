@@ -49,7 +49,7 @@ PLACES = {
         f"{AUTHORING}/diagnosis/readiness.py require_ready require_started",
         f"{AUTHORING}/evidence/robot_record.py _known told",
         f"{AUTHORING}/evidence/robot_topic.py known_messages",
-        f"{AUTHORING}/requirements/server_checks.py require_clean_exit",
+        f"{AUTHORING}/requirements/standard.py exits_with_status_0",
         f"{AUTHORING}/walking/client_record.py _require_acts require_record",
         f"{AUTHORING}/walking/life.py accepted",
         "solutions/balance_controller/record.py gains_at_first",
@@ -67,7 +67,7 @@ PLACES = {
     NEVER_SHOWS: (
         f"{AUTHORING}/diagnosis/missing.py not_shown",
         f"{AUTHORING}/walking/client_life.py started",
-        f"{AUTHORING}/walking/obligations/walks.py require_final_zero",
+        f"{AUTHORING}/walking/obligations/walks.py ends_with_a_zero_twist",
         f"{AUTHORING}/walking/motion.py require_limited_velocity",
         f"{AUTHORING}/walking/obligations/ends.py tells_a_fall",
         "solutions/move_arm/motion.py stops_by_an_empty_trajectory",

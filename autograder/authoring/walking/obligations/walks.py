@@ -77,10 +77,12 @@ def stands_at_success(goal: Goal) -> str | None:
     if goal.status != SUCCEEDED or life.successors(goal) or life.went_down(goal):
         return None
     assert goal.result
-    end = life.next_sent(goal, goal.result.t)
-    if end - goal.result.t < life.AT_LEAST:
+    since, end = goal.result.t, life.next_sent(goal, goal.result.t)
+    if end - since < life.AT_LEAST:
         return None
-    require_standing_at_success(goal, end)
+    require_accepted(goal)
+    watched = goal.run.robot_between(since, min(since + STANDING, end))
+    require_standing(watched, "when the goal SUCCEEDED, and", since, "the result", _SETTLE)
     return "a goal where it stands" if life.way_to(goal) < life.AT_IT else "a walk"
 
 
@@ -90,12 +92,21 @@ def ends_with_a_zero_twist(goal: Goal) -> str | None:
         return None
     assert goal.result
     run, end = life.run_of(goal), life.next_sent(goal, goal.result.t)
-    if (
-        not any(goal.sent.t <= each.t < end for each in run.received("cmd_vel"))
-        and life.way_to(goal) < life.AT_IT
-    ):
+    velocities = [each for each in run.received("cmd_vel") if each.t < end]
+    if not any(goal.sent.t <= each.t for each in velocities) and life.way_to(goal) < life.AT_IT:
         return "nothing published where it stands"
-    require_final_zero(run, goal, until=end)
+    require_accepted(goal)
+    if not velocities:
+        raise not_shown(run, "the last Twist before a success is zero")
+    before = [each for each in velocities if goal.sent.t <= each.t <= goal.result.t]
+    expect(
+        bool(before) and _is_zero(before[-1].message),
+        expected="a zero Twist as the last on cmd_vel before the goal SUCCEEDED",
+        observed=_shown(before[-1].message) if before else "none",
+        help="The robot would walk on for 0.5 s after the last one. Publish Twist(), all zeros, before you wait "
+        "for the robot to stand, and no other after it.",
+        at=goal.result.t,
+    )
     return "walked" if life.way_to(goal) >= life.AT_IT else "stood there"
 
 
@@ -131,30 +142,6 @@ def stands_without_a_goal(run: Transcript) -> str | None:
             at=robot.t,
         )
     return "all the time"
-
-
-def require_final_zero(run: Transcript, goal: Goal, until: float = math.inf) -> None:
-    """Require that the last Twist before a goal SUCCEEDED is zero; another goal was sent `until` s."""
-    result = require_accepted(goal).require_result(SUCCEEDED)
-    velocities = [each for each in run.received("cmd_vel") if each.t < until]
-    if not velocities:
-        raise not_shown(run, "the last Twist before a success is zero")
-    before = [each for each in velocities if goal.sent.t <= each.t <= result.t]
-    if not before or not _is_zero(before[-1].message):
-        raise Failure(
-            expected="a zero Twist as the last on cmd_vel before the goal SUCCEEDED",
-            observed=_shown(before[-1].message) if before else "none",
-            help="The robot would walk on for 0.5 s after the last one. Publish Twist(), all zeros, before you wait "
-            "for the robot to stand, and no other after it.",
-            at=result.t,
-        )
-
-
-def require_standing_at_success(goal: Goal, until: float = math.inf) -> None:
-    """Require that the robot stood still when the goal SUCCEEDED, and stayed so, at most until another came (s)."""
-    result = require_accepted(goal).require_result(SUCCEEDED)
-    watched = goal.run.robot_between(result.t, min(result.t + STANDING, until))
-    require_standing(watched, "when the goal SUCCEEDED, and", result.t, "the result", _SETTLE)
 
 
 def _is_zero(velocity: Twist) -> bool:
