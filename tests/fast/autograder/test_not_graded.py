@@ -54,7 +54,7 @@ PLACES = {
         f"{AUTHORING}/walking/life.py accepted",
         "solutions/balance_controller/record.py gains_at_first",
         "solutions/battery_guard/life.py guards",
-        "solutions/calibration/heartbeat.py require_heartbeat",
+        "solutions/calibration/heartbeat.py beats",
         "solutions/calibration/truth.py _status",
         "solutions/compute_ik/model.py lengths_are_parameters moves_the_real_hand",
         "solutions/low_battery_fetch/fetching.py _require_whole_lives",
