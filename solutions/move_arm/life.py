@@ -68,12 +68,9 @@ def silent_since(goal: Goal) -> float | None:
 
 def ends_by_itself(goal: Goal) -> bool:
     """Return whether nothing but the arm ends it: no cancel that was granted, no newer goal, silence or Ctrl-C."""
-    return is_carried_out(goal) and not (
-        goals.granted(goal)
-        or goals.successors(goal)
-        or goals.interrupted(goal)
-        or silent_since(goal) is not None
-    )
+    if not is_carried_out(goal) or silent_since(goal) is not None:
+        return False
+    return not (goals.granted(goal) or goals.successors(goal) or goals.interrupted(goal))
 
 
 def hold_of(goal: Goal) -> Hold | None:

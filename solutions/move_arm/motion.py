@@ -52,11 +52,9 @@ def passes_every_point(goal: Goal) -> str | None:
 def moves_until_canceled(goal: Goal) -> str | None:
     """The arm moves when the cancel comes."""
     asked = _first_cancel(goal)
-    if (
-        asked is None
-        or not goal.accepted_at + GETTING_GOING <= asked < plan_of(goal).end
-        or life.hold_of(goal)
-    ):
+    if asked is None or not goal.accepted_at + GETTING_GOING <= asked < plan_of(goal).end:
+        return None
+    if life.hold_of(goal):
         return None
     require_moving(goal, asked)
     return "on the way"
