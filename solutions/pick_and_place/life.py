@@ -64,13 +64,8 @@ def is_possible(goal: Goal) -> bool:
 
 def ends_by_itself(goal: Goal) -> bool:
     """Return whether it was accepted, and no cancel, other goal or Ctrl-C ended it."""
-    cut = (
-        goals.granted(goal)
-        or goals.successors(goal)
-        or goals.interrupted(goal)
-        or canceled_at(goal) is not None
-    )
-    return goals.accepted(goal) and is_sound(goal) and not cut
+    cut = goals.granted(goal) or goals.successors(goal) or goals.interrupted(goal)
+    return goals.accepted(goal) and is_sound(goal) and not cut and canceled_at(goal) is None
 
 
 def watched_until(goal: Goal) -> float:

@@ -55,12 +55,9 @@ def knows_what_is_unknown(goal: Goal) -> str | None:
 
 def refuses_what_is_out_of_reach(goal: Goal) -> str | None:
     """A cup or a place out of reach ends it with UNREACHABLE, before arm or hand move."""
-    if (
-        not life.ends_by_itself(goal)
-        or left_alone(goal)
-        or not life.is_for_the_cup(goal)
-        or not life.is_far(goal)
-    ):
+    if not life.ends_by_itself(goal) or left_alone(goal):
+        return None
+    if not life.is_for_the_cup(goal) or not life.is_far(goal):
         return None
     require_aborted(
         goal,

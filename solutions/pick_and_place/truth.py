@@ -78,9 +78,9 @@ def carried(goal: Goal, until: float) -> list[Grip]:
     return [grip for grip in grips(goal.run, goal.accepted_at, until) if grip.cup[2] > height]
 
 
-def taken_from(goal: Goal) -> tuple[float, float, float]:
+def taken_from(goal: Goal) -> Sequence[float]:
     """Return where the cup stood when the goal was sent, m in odom."""
-    return as_tuple(cup_at(goal.run, goal.sent.t).position)
+    return cup_at(goal.run, goal.sent.t).position
 
 
 def place_of(goal: Goal) -> tuple[float, float, float]:
@@ -88,9 +88,6 @@ def place_of(goal: Goal) -> tuple[float, float, float]:
     return as_tuple(goal.request.place_pose.pose.position)
 
 
-def as_tuple(position: Sequence[float] | Point) -> tuple[float, float, float]:
+def as_tuple(position: Point) -> tuple[float, float, float]:
     """Return (x, y, z) of a position."""
-    if isinstance(position, Point):
-        return position.x, position.y, position.z
-    x, y, z = position
-    return x, y, z
+    return position.x, position.y, position.z
