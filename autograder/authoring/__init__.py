@@ -33,6 +33,7 @@ from autograder.authoring.requirements.client_checks import (
     require_end,
     require_failure,
     require_one_goal,
+    require_requests,
     require_success,
     started_at,
     why_not_this_status,

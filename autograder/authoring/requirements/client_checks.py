@@ -8,6 +8,7 @@ from autograder.authoring.diagnosis.missing import Missing, unseen
 from autograder.authoring.diagnosis.readiness import require_within_limits
 from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.call import Request
 from autograder.authoring.evidence.scripted_goal import ScriptedGoal
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure, expect
@@ -97,6 +98,19 @@ def require_failure(run: Transcript, within: float, because: str) -> None:
         help="print(..., file=sys.stderr) before the program ends: a status alone tells people nothing.",
         at=exited.t,
     )
+
+
+def require_requests(run: Transcript, service: str, number: int) -> list[Request]:
+    """Require that the client sent exactly so many requests to a service."""
+    requests = run.requests(service)
+    expect(
+        len(requests) == number,
+        expected=f"{number} request{'s' if number != 1 else ''} to {service}",
+        observed=f"{len(requests)}",
+        help=_about_the_number(len(requests), number, service),
+        at=requests[-1].received.t if requests else run.end,
+    )
+    return requests
 
 
 def how_it_ended(run: Transcript, exited: ev.NodeExited) -> str:
@@ -228,3 +242,15 @@ def has_number(line: str, number: float) -> bool:
     """Return whether a number, rounded to 0.01 or better, stands in a line that is not a whole table of them."""
     numbers = NUMBER.findall(line)
     return len(numbers) <= MANY_NUMBERS and any(abs(float(found) - number) <= 0.0101 for found in numbers)
+
+
+def _about_the_number(observed: int, expected: int, service: str) -> str:
+    """Return what to do about too many requests, or too few."""
+    if observed == 0:
+        return f"Your program never asked {service}: compare its name and type, and wait until it is found."
+    if observed > expected:
+        few = "one retry is allowed" if expected == 2 else f"{expected} would do"
+        return f"{observed} request{'s' if observed != 1 else ''}: {few}."
+    if observed == 1:
+        return "Only one request, then it gave up. Where is the second try?"
+    return f"Only {observed} requests, then it gave up."
