@@ -87,10 +87,8 @@ def frames(goal: Goal) -> str:
 )
 def nan(goal: Goal) -> str:
     """It rejects a pose that holds NaN or infinity."""
-    bad = [
-        f"{name} is {number:g}" for name, number in numbers_of(target(goal)).items() if not isfinite(number)
-    ]
-    return ", ".join(bad)
+    bad = {name: number for name, number in numbers_of(target(goal)).items() if not isfinite(number)}
+    return ", ".join(f"{name} is {number:g}" for name, number in bad.items())
 
 
 @objection(

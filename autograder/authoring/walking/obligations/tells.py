@@ -91,12 +91,9 @@ def feedback_ends_with_the_goal(goal: Goal) -> str | None:
 
 def names_no_error(goal: Goal) -> str | None:
     """The error_code of a goal that is not ABORTED is NONE."""
-    if (
-        not life.accepted(goal)
-        or goal.result is None
-        or goal.status not in life.TERMINAL
-        or life.interrupted(goal)
-    ):
+    if not life.accepted(goal) or goal.result is None:
+        return None
+    if goal.status not in life.TERMINAL or life.interrupted(goal):
         return None
     status = name_of(GoalStatus, goal.result.status)
     if goal.status != ABORTED:
