@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from autograder.authoring import Transcript, check
+from autograder.authoring import check
 
-from .judging import ANSWERS, LESSON, require_answers, situation
+from . import judging
+from .judging import ANSWERS, LESSON, situation
 
-
-@check(on=ANSWERS, see=LESSON, clauses=[1, 2, 4])
-def answers_everything(run: Transcript) -> None:
-    """Each of the twelve situations has a pattern and a reason"""
-    require_answers(run)
-
-
+answers_everything = check(on=ANSWERS, see=LESSON, clauses=[1, 2, 4])(judging.answers_everything)
 situations = [
     situation(
         1,

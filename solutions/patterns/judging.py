@@ -34,8 +34,8 @@ def situation(number: int, about: str, answer: str, **against: str) -> Check:
     return check_by(judge, title, on=ANSWERS, see=LESSON, clauses=[1, 2, 3], id=id)
 
 
-def require_answers(run: Transcript) -> None:
-    """Require one printed answer for each situation."""
+def answers_everything(run: Transcript) -> None:
+    """Each of the twelve situations has a pattern and a reason"""
     answers = _answers(run)
     for number in SITUATIONS:
         if number in answers:
