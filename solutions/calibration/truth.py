@@ -161,11 +161,9 @@ def _calibration(call: Call) -> Story | None:
         return Story("fails", FEW_SAMPLES if published else NO_SAMPLES, since, after)
     if ended < over - DELIVERY / 4:  # the robot stood, and imu may have been unplugged only later
         usual = ALL_SAMPLES * (ended - since) / COLLECTING - 1
-        return (
-            Story("succeeds", situation, since, after)
-            if len(imu_between(run, since, ended)) >= usual
-            else None
-        )
+        if len(imu_between(run, since, ended)) < usual:
+            return None
+        return Story("succeeds", situation, since, after)
     if published < SURELY_ENOUGH:
         return None
     return Story("succeeds", situation if published >= ALL_SAMPLES else ENOUGH_SAMPLES, since, after)

@@ -65,9 +65,8 @@ def require_standing(goal: Goal, place: Sequence[float], name: str, help: str = 
     """
     since = ended_at(goal)
     cups = reports(goal.run, ev.ObjectTruth, since, watched_until(goal))
-    off, worst = max(
-        ((math.dist(cup.position[:2], place[:2]), cup) for cup in cups), key=lambda pair: pair[0]
-    )
+    worst = max(cups, key=lambda cup: math.dist(cup.position[:2], place[:2]))
+    off = math.dist(worst.position[:2], place[:2])
     if off > PLACED:
         raise Failure(
             expected=f"the cup within {PLACED:.2f} m of {name} (x {place[0]:.2f}, y {place[1]:.2f} m) at the end",

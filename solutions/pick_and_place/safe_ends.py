@@ -90,9 +90,8 @@ def _require_nothing_moved(goal: Goal) -> None:
             at=report.t,
         )
     seen = grips(run, start, end)
-    moved, worst = max(
-        ((abs(grip.opening - seen[0].opening), grip) for grip in seen), key=lambda pair: pair[0]
-    )
+    worst = max(seen, key=lambda grip: abs(grip.opening - seen[0].opening))
+    moved = abs(worst.opening - seen[0].opening)
     expect(
         moved <= OPENED_BY,
         expected="a hand that stays as it is until the goal is known to be possible",
