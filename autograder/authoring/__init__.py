@@ -12,7 +12,7 @@ from autograder.authoring.diagnosis.connections import (
     why_nothing_is_commanded,
     why_nothing_is_heard,
 )
-from autograder.authoring.diagnosis.goal_diagnosis import lesson_on_the_end, why_rclpy_aborted
+from autograder.authoring.diagnosis.goal_diagnosis import error_name, lesson_on_the_end, why_rclpy_aborted
 from autograder.authoring.diagnosis.missing import Missing, held_up, not_shown, unseen
 from autograder.authoring.diagnosis.readiness import require_alive, require_ready, require_within_limits
 from autograder.authoring.diagnosis.root_cause import why_it_went_no_further
@@ -51,4 +51,4 @@ from autograder.authoring.requirements.standard_obligations import (
     require_fastest,
 )
 from autograder.authoring.rubric import Criterion
-from autograder.authoring.sequence import STEPS, shuffled, steps_until
+from autograder.authoring.sequence import NOT_FINITE, STEPS, rounded, shuffled, steps_until

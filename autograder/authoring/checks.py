@@ -18,25 +18,11 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any, Literal
 
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.authoring.failure import CannotBeJudged, Failure, expect
+from autograder.authoring.failure import Failure
 from autograder.authoring.sequence import steps_until
 
 if TYPE_CHECKING:
     from autograder.authoring.obligation import Obligation
-
-__all__ = [
-    "MAY_REST",
-    "RESTING",
-    "CannotBeJudged",
-    "Check",
-    "Failure",
-    "Scenario",
-    "check",
-    "checks_in",
-    "expect",
-    "in_order",
-    "program",
-]
 
 MAY_REST = "--may-rest"  # option of a robot that is not integrated while it only stands
 RESTING = (MAY_REST,)  # the robot of a scenario that asks nothing of its body
@@ -112,8 +98,8 @@ class Check:
     `hidden` is set when it is loaded: a check is hidden because it stands in hidden.py.
     `clauses` are the numbers of the statement's clauses that it judges; `promise` is set when it is loaded: these
     clauses in words.
-    `each_run`: `judge` takes one transcript and is applied to each, so that only a scenario that failed is retried.
-    `obligations` are what it is made of, if it was made by `check_of`.
+    `obligations` are what it is made of, if it was made by `check_of`: then `judge` takes one transcript and is applied
+    to each, so that only a scenario that failed is retried.
     """
 
     title: str
@@ -126,7 +112,6 @@ class Check:
     hidden: bool = False
     clauses: tuple[int, ...] = ()
     promise: str = ""
-    each_run: bool = False
     obligations: tuple[Obligation, ...] = ()
 
     @property
@@ -141,7 +126,7 @@ class Check:
             Failure: the submission is at fault.
             CannotBeJudged: the record does not let anybody judge it.
         """
-        if not self.each_run:
+        if not self.obligations:
             self.judge(*transcripts)
             return
         for transcript in transcripts:
@@ -209,7 +194,6 @@ def check_by(
         see,
         id,
         clauses=tuple(clauses),
-        each_run=bool(obligations),
         obligations=tuple(obligations),
     )
 

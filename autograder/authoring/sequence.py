@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, MutableSequence, Sequence
 from random import Random
 from typing import Any
@@ -11,12 +12,20 @@ from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 
 STEPS = "steps"  # the input of a scenario that is a sequence
+NOT_FINITE = (math.nan, math.inf, -math.inf)
 
 
 def shuffled(random: Random, blocks: MutableSequence[list[Any]]) -> list[Any]:
     """Shuffle blocks of steps, and return the steps."""
     random.shuffle(blocks)
     return [step for block in blocks for step in block]
+
+
+def rounded(value: Any) -> Any:
+    """Return the same value, or list of values, with numbers rounded to three decimals."""
+    if isinstance(value, list):
+        return [rounded(each) for each in value]
+    return round(value, 3) if isinstance(value, float) else value
 
 
 def require_all_steps(run: Transcript) -> None:

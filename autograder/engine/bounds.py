@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from autograder.authoring.checks import Failure, Scenario
+from autograder.authoring.checks import Scenario
 from autograder.authoring.diagnosis.missing import held_up
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import Failure
 
 # Kinds of events in the words of a report.
 PLURALS: Mapping[str, str] = {

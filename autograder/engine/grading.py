@@ -285,7 +285,12 @@ class _Session:
         """
         runs = list(transcripts)
         index = next((check.on.index(scenario) for scenario in failed if scenario.is_drawn), None)
-        if not self._options.shortens or not check.each_run or index is None or not check.on[index].is_light:
+        if (
+            not self._options.shortens
+            or not check.obligations
+            or index is None
+            or not check.on[index].is_light
+        ):
             return None
         drawn, run = check.on[index], runs[index]
         steps = steps_until(run, judge(replace(check, on=(drawn,)), [run]).robot_time)

@@ -64,7 +64,7 @@ def judge(check: Check, transcripts: Sequence[Transcript], *, finally_: bool = F
 
 def at_fault(check: Check, transcripts: Sequence[Transcript]) -> list[Scenario]:
     """Return the scenarios in which a check does not pass: all of them, unless it judges each by itself."""
-    if not check.each_run:
+    if not check.obligations:
         return list(check.on)
     alone = (
         (replace(check, on=(scenario,)), run) for scenario, run in zip(check.on, transcripts, strict=True)

@@ -309,7 +309,7 @@ def refuses_to_start(run: Transcript) -> str:
             else "Declaring sets the values from the start: register the on-set callback before you declare.",
             at=run.end,
         )
-    require_failure(run, GIVING_UP, (1,), f"it was started with {name}:={value}")
+    require_failure(run, GIVING_UP, f"it was started with {name}:={value}")
     return f"{name}:={value}"
 
 

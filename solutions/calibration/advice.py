@@ -19,7 +19,7 @@ _LIMIT = "Set one limit of 2 s to the wait for get_status, and answer when there
 _BUSY = "Note that a calibration runs as soon as it is asked for, before any await, and refuse others until its answer."
 _TO_THE_END = "Look at robot_state until the 3 s are over, not only at the request."
 
-_REASONS = {  # because …, and what to do
+REASONS = {  # why a request is refused or fails, by its situation, and what to do if it is not
     truth.UNKNOWN: (
         "no robot_state had come",
         "Begin with no state (None), and refuse as long as it is None.",
@@ -51,11 +51,6 @@ _REASONS = {  # because …, and what to do
         "Fail with fewer than 100 samples, not only with none, and begin each calibration with an empty list.",
     ),
 }
-
-
-def reasons_to_refuse(situation: str) -> tuple[str, str]:
-    """Return why a request in this situation is refused or fails, and what to do if it is not."""
-    return _REASONS[situation]
 
 
 def advice_on_failing(call: Call, story: Story, published: int) -> str:

@@ -39,7 +39,6 @@ GROUPS = "05_executors#groups-why"
 ASKS = "05_executors#report-why"
 REFUSES = "02_services#set-refuse-why"
 KNOWS_NOTHING = "02_services#m9-fix-why"
-WALKS_LATER = "05_executors#await-why"
 MEASURED = (model.tells_the_means, model.tells_the_count)
 
 server_appears = standard.server_appears("calibrate_imu", on=INTERRUPT)
@@ -118,7 +117,7 @@ fails_when_it_begins_to_walk = check_of(
     points=2,
     on=WALK_BEGINS,
     needs=calibrates,
-    see=WALKS_LATER,
+    see=WAITS,
 )
 
 fails_without_samples = check_of(

@@ -126,7 +126,7 @@ fails_after_a_few_steps = check_of(
     title="A robot that walked for a moment, and stands again at the end, has walked",
     on=WALKS_IN_ANY_ORDER,
     needs=checks.fails_when_it_begins_to_walk,
-    see=checks.WALKS_LATER,
+    see=WAITS,
 )
 
 fails_with_few_samples = in_any_order(

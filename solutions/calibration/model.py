@@ -23,9 +23,8 @@ from autograder.authoring import (
 from autograder.authoring.requirements.standard_obligations import FROM_MEMORY_TIME
 from ros_runtime.message_constants import RobotMode, name_of
 
-from . import truth
-from .advice import advice_on_failing, advice_on_vector, published_instead, reasons_to_refuse
-from .heartbeat import require_heartbeat
+from . import heartbeat, truth
+from .advice import REASONS, advice_on_failing, advice_on_vector, published_instead
 from .message import TOLERANCE, decimals, is_near, numbers_in, shown_vector, triples_in, whole_numbers
 from .truth import ASKING, CLOCK_SLACK, COLLECTING, FEWEST_SAMPLES, SERVICE, imu_between, story_of, those
 
@@ -51,6 +50,8 @@ CLAUSES = {
     **dict.fromkeys(WALKED, (13, 15)),
     **dict.fromkeys(TOO_FEW, (14, 15)),
 }
+
+beats = obligation(17, of=whole_run, see="05_executors#groups-why")(heartbeat.beats)
 
 
 # -- how a request ends -----------------------------------------------------------------------------------------------
@@ -97,7 +98,7 @@ def _require_success(call: Call, story: truth.Story) -> None:
 
 
 def _require_no_success(call: Call, story: truth.Story) -> None:
-    because, help = reasons_to_refuse(story.situation)
+    because, help = REASONS[story.situation]
     call.expect("success", False, because=because, help=help)
     text, unanswered = call.response.message, story.situation in GETS_NO_ANSWER
     never_asked = unanswered and story.situation != truth.MISSING and not truth.status_requests(call)
@@ -339,10 +340,3 @@ def _rounding(triple: Sequence[str]) -> float:
 def _situation(call: Call) -> str:
     story = story_of(call)
     return f"{story.situation}, after {story.after or 'nothing'}" if story else ""
-
-
-@obligation(17, of=whole_run, see="05_executors#groups-why")
-def beats(run: Transcript) -> str:
-    """The heartbeat goes on at 10 Hz, whatever the services do"""
-    require_heartbeat(run)
-    return "whole run"

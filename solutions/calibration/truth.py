@@ -81,7 +81,10 @@ def story_of(call: Call) -> Story | None:
     if end <= known_from:
         return Story("is refused", UNKNOWN)
     before = run.robot_between(sent - DELIVERY, sent)
-    if known_from > sent - DELIVERY or {robot.mode for robot in before} - {*_STANDS_OR_WALKS}:
+    if known_from > sent - DELIVERY or {robot.mode for robot in before} - {
+        RobotMode.STANDING,
+        RobotMode.WALKING,
+    }:
         return None
     handled = run.robot_between(sent - DELIVERY, min(end, sent + DELIVERY))
     if all(robot.mode == RobotMode.WALKING for robot in handled):
@@ -108,9 +111,6 @@ def status_requests(call: Call) -> list[Request]:
     return [request for request in asked if call.sent.t <= request.received.t <= _end_of(call)]
 
 
-_STANDS_OR_WALKS = (RobotMode.STANDING, RobotMode.WALKING)
-
-
 def _end_of(call: Call) -> float:
     return call.answer.t if call.answer else call.run.end
 
@@ -119,8 +119,7 @@ def _states_from(run: Transcript) -> float:
     """Return from when (s) on the robot published its state."""
     if all(verb != "publish_robot_state" for verb, *_ in run.params.get("steps", ())):
         return -math.inf
-    told = [event.t for event in run.all(ev.RobotCommanded) if event.command["do"] == "robot_state"]
-    return min(told, default=math.inf)
+    return min((event.t for event in run.commands("robot_state")), default=math.inf)
 
 
 def _at_work(call: Call) -> list[Call]:
@@ -157,19 +156,17 @@ def _calibration(call: Call) -> Story | None:
     if _walking(run, sent, _end_of(call)):
         return None
     ended = _end_of(call)
-    published = _came(run, since, over)
-    if _came(run, since - DELIVERY / 4, max(over, ended)) <= SURELY_FEW:
+    published = len(imu_between(run, since, over))
+    if len(imu_between(run, since - DELIVERY / 4, max(over, ended))) <= SURELY_FEW:
         return Story("fails", FEW_SAMPLES if published else NO_SAMPLES, since, after)
     if ended < over - DELIVERY / 4:  # the robot stood, and imu may have been unplugged only later
         usual = ALL_SAMPLES * (ended - since) / COLLECTING - 1
-        return Story("succeeds", situation, since, after) if _came(run, since, ended) >= usual else None
+        if len(imu_between(run, since, ended)) < usual:
+            return None
+        return Story("succeeds", situation, since, after)
     if published < SURELY_ENOUGH:
         return None
     return Story("succeeds", situation if published >= ALL_SAMPLES else ENOUGH_SAMPLES, since, after)
-
-
-def _came(run: Transcript, start: float, end: float) -> int:
-    return len(imu_between(run, start, end))
 
 
 def _status(call: Call) -> tuple[str, float] | None:

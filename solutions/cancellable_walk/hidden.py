@@ -7,9 +7,8 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from autograder.authoring import Scenario, check_of
-from autograder.authoring.walking.drawn import impossible, rounded
-from autograder.authoring.walking.server_checks import OTHER_NAMESPACE
+from autograder.authoring import Scenario, check_of, rounded
+from autograder.authoring.walking.server_checks import OTHER_NAMESPACE, impossible
 from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model

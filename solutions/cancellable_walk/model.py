@@ -5,23 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from autograder.authoring import Goal, Obligation, Transcript, goals, obligation, whole_run
-from autograder.authoring.walking.objections import (
-    FRAME,
-    NO_POWER,
-    NOT_FINITE,
-    UNSAID_ROTATION,
-    UNSAID_VELOCITY,
-    accepting,
-    rejects,
-)
+from autograder.authoring.walking import objections
+from autograder.authoring.walking.objections import accepting, rejects
 from autograder.authoring.walking.obligations import cancels, ends, tells, walks
 
 accepts = obligation(1, 3, 11, of=goals, see="07_cancel_and_preempt#m2-why")(
-    accepting(FRAME, NOT_FINITE, NO_POWER, UNSAID_ROTATION, UNSAID_VELOCITY)
+    accepting(
+        objections.frames,
+        objections.nan,
+        objections.without_power,
+        objections.UNSAID_ROTATION,
+        objections.UNSAID_VELOCITY,
+    )
 )
-rejects_frames = rejects(1, FRAME)
-rejects_nan = rejects(2, NOT_FINITE)
-rejects_without_power = rejects(3, NO_POWER)
+rejects_frames = rejects(1, objections.frames)
+rejects_nan = rejects(2, objections.nan)
+rejects_without_power = rejects(3, objections.without_power)
 walks_at_its_own_velocity = obligation(4, of=goals)(walks.walks_at_its_own_velocity)
 succeeds = obligation(5, 6, of=goals, see="07_cancel_and_preempt#fix-intro")(ends.succeeds)
 status_in_order = obligation(5, of=goals)(ends.status_in_order)

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from autograder.authoring import Failure, Transcript, ev, expect, require_within_limits, unseen
-from autograder.authoring.checks import CannotBeJudged
+from autograder.authoring.failure import CannotBeJudged
 
 BUSY = 60.0  # s of processor time; a correct file needs 25
 NO_FILE = "there is no definition in this folder"  # what the build says then
@@ -132,18 +132,15 @@ def _why_this_type(wanted: str, written: str) -> str:
 
 def _part(run: Transcript, part: str) -> Any:
     found = require_built(run).get(part)
-    if not _is_whole(found):
+    is_whole = (
+        isinstance(found, dict)
+        and isinstance(found.get("fields"), dict)
+        and isinstance(found.get("constants"), dict)
+        and all({"type", "value"} <= set(constant) for constant in found["constants"].values())
+    )
+    if not is_whole:
         raise unseen(run, f"the build did not say all of the {part}")
     return found
-
-
-def _is_whole(part: Any) -> bool:
-    return (
-        isinstance(part, dict)
-        and isinstance(part.get("fields"), dict)
-        and isinstance(part.get("constants"), dict)
-        and all({"type", "value"} <= set(constant) for constant in part["constants"].values())
-    )
 
 
 def _report(run: Transcript) -> dict[str, Any]:

@@ -4,15 +4,7 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring import (
-    DELIVERY,
-    Call,
-    RobotRecord,
-    ev,
-    shown,
-    why_nothing_is_commanded,
-    why_nothing_is_heard,
-)
+from autograder.authoring import DELIVERY, Call, ev, shown, why_nothing_is_commanded, why_nothing_is_heard
 
 A_WAIT = 0.7  # s; an answer that takes longer waited for the robot
 LEAST_WAIT = 1.8  # s before an answer may say that the robot did not confirm: 2 s, less what clocks differ by
@@ -30,15 +22,16 @@ def on_status(call: Call, wanted: str) -> str:
         return f"The text is compared letter by letter, as a program would: {wanted!r}."
     if deaf := why_nothing_is_heard(call.run, "robot_state"):
         return f"{deaf} {_FROM_THE_LAST}"
-    if history := _history_of_the_status(call.run):
+    if history := _history_of_the_status(call):
         return f"{history} {_FROM_THE_LAST}"
     if not response.success:
         return "Your node gets robot_state: look at each request whether a message has come."
     return f"Your node gets robot_state. {_FROM_THE_LAST}"
 
 
-def _history_of_the_status(run: RobotRecord) -> str:
+def _history_of_the_status(call: Call) -> str:
     """Return how get_status has answered so far: never another text, after the requests, or the opposite each time."""
+    run = call.run
     said = [
         (_SAID[answer.response.message], asked.t)
         for asked in run.all(ev.ServiceCalled)

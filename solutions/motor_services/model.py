@@ -8,7 +8,6 @@ from autograder.authoring import (
     DELIVERY,
     Call,
     Failure,
-    RobotRecord,
     Transcript,
     answered_within,
     answers_from_memory,
@@ -23,10 +22,10 @@ from autograder.authoring import (
     whole_run,
 )
 from autograder.authoring.requirements.standard_obligations import (
-    ENOUGH_ANSWERS,
     FROM_MEMORY,
     FROM_MEMORY_TIME,
     TOGETHER,
+    enough_answers,
 )
 from ros_runtime.message_constants import RobotMode, name_of
 
@@ -47,15 +46,11 @@ STARTS_TO_WALK = 3.0  # s
 # -- what the node can know -------------------------------------------------------------------------------------------
 
 
-def published_spans(run: RobotRecord) -> list[tuple[float, float]]:
+def published_spans(run: Transcript) -> list[tuple[float, float]]:
     """Return from when to when (s) the robot published robot_state to the node."""
     verbs = [step[1] for step in run.params.get("steps", ()) if step[0] == "publish_state"]
     ready = run.first(ev.NodeReady)
-    changes = [
-        (event.t, event.command["published"])
-        for event in run.all(ev.RobotCommanded)
-        if event.command.get("do") == "robot_state"
-    ]
+    changes = [(event.t, event.command["published"]) for event in run.commands("robot_state")]
     begin = [(ready.t if ready else 0.0, not (verbs and verbs[0]))]
     return [
         (start, end)
@@ -318,16 +313,16 @@ def power_in_time(call: Call) -> str:
     return one_or_several(call)
 
 
+def _kind(call: Call) -> str | None:
+    if _may_grant(call) == {False}:
+        return "refused"
+    return None if _waits_in_vain(call) else "granted"
+
+
 @obligation(5, of=whole_run)
 def power_never_sleeps(run: Transcript) -> str | None:
     """A refusal comes from memory, and so does a grant, unless it waits for the next robot_state"""
-    by_kind: dict[str, list[Call]] = {}
-    for call in calls(ENABLE)(run):
-        if _may_grant(call) == {False}:
-            by_kind.setdefault("refused", []).append(call)
-        elif not _waits_in_vain(call):
-            by_kind.setdefault("granted", []).append(call)
-    judged = {kind: each for kind, each in by_kind.items() if len(each) >= ENOUGH_ANSWERS}
+    judged = enough_answers(calls(ENABLE)(run), _kind)
     for kind, each in judged.items():
         limit = FROM_MEMORY_TIME if kind == "refused" else CONFIRMED_TIME
         expected = f"answers to {ENABLE}, {kind}, without sleeping"

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
-from autograder.authoring import RESTING, Scenario, check_of, standard
+from autograder.authoring import RESTING, check_of, standard
 from autograder.authoring.walking.server_checks import in_order
 
 from . import model
@@ -16,10 +15,6 @@ LATER = 1.5  # s after a result in which nothing more may be published
 STOPPING = 2.5  # s in which an arm must stop and stay still
 TWO, THERE, FURTHER = ["l_elbow", "l_wrist_yaw"], [-0.8, 0.1], [-1.0, 0.2]
 SHORT = ["l_shoulder_pitch", "l_elbow"]
-
-
-def _unwatched(*steps: Sequence[Any]) -> Scenario:
-    return Scenario("in_order", {"steps": list(steps), "watched": False}, robot=RESTING)
 
 
 def far(name: str, arm: str) -> list[Any]:
@@ -35,7 +30,7 @@ MOVE = in_order(
     ["be_over", "move"],
     ["wait", LATER],
 )
-IMPOSSIBLE = _unwatched(
+IMPOSSIBLE = in_order(
     ["go", "no arm", "x", TWO, [[1.0, THERE]]],
     ["go", "unknown joint", "l", ["l_elbow", "l_elbow_2"], [[1.0, THERE]]],
     ["go", "other arm's joint", "l", ["l_elbow", "r_elbow"], [[1.0, [-0.8, -0.8]]]],
@@ -50,6 +45,8 @@ IMPOSSIBLE = _unwatched(
     ["go", "infinite", "l", TWO, [[1.0, [-0.8, -math.inf]]]],
     ["go", "above the range", "l", TWO, [[1.0, [0.2, 0.1]], [2.0, FURTHER]]],
     ["go", "below the range", "l", TWO, [[1.0, THERE], [2.0, [-2.6, 0.2]]]],
+    robot=RESTING,
+    watched=False,
 )
 BLOCK = in_order(
     ["go", "move", "l", ["l_shoulder_pitch", "l_elbow", "l_wrist_pitch"], [[4.0, [0.0, -2.1, 0.2]]]],

@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from enum import IntEnum
+from autograder.authoring import ABORTED, Failure, Goal, error_name, lesson_on_the_end, why_rclpy_aborted
 
-from autograder.authoring import ABORTED, Failure, Goal, lesson_on_the_end, why_rclpy_aborted
-from humanoid_interfaces.action import MoveArm
-from ros_runtime.message_constants import name_of
-
-from .plan import errors, largest
-from .truth import joints_at, plan_of
+from .truth import plan_of, worst_at
 
 GOAL_TOLERANCE = 0.05  # rad, where the goal says 0
 ARRIVAL_TIME = 1.0  # s after the last point in which the arm may still arrive
@@ -24,16 +19,6 @@ _DEAF = (
 )
 
 
-class ErrorCode(IntEnum):
-    """The codes of MoveArm's result, by name."""
-
-    NONE = MoveArm.Result.NONE
-    INVALID_JOINTS = MoveArm.Result.INVALID_JOINTS
-    PATH_TOLERANCE_VIOLATED = MoveArm.Result.PATH_TOLERANCE_VIOLATED
-    GOAL_TOLERANCE_VIOLATED = MoveArm.Result.GOAL_TOLERANCE_VIOLATED
-    PREEMPTED = MoveArm.Result.PREEMPTED
-
-
 def tolerance_of(goal: Goal) -> float:
     """Return how near (rad) each joint has to come to its last point."""
     return goal.request.goal_tolerance or GOAL_TOLERANCE
@@ -45,7 +30,7 @@ def require_not_given_up(goal: Goal, help: str = "") -> None:
         return
     assert goal.result
     result = goal.result.result
-    code = name_of(ErrorCode, result.error_code)
+    code = error_name(goal) or result.error_code
     raise Failure(
         expected="status SUCCEEDED",
         observed=f"status ABORTED, error_code {code}, error_msg {result.error_msg!r}",
@@ -60,16 +45,14 @@ def why_given_up(goal: Goal, help: str = "") -> str:
     assert goal.result
     if unmeant := why_rclpy_aborted(goal):
         return unmeant
-    match goal.result.result.error_code:
-        case ErrorCode.PREEMPTED:
+    match error_name(goal):
+        case "PREEMPTED":
             return _PREEMPTED
-        case ErrorCode.INVALID_JOINTS:
+        case "INVALID_JOINTS":
             return _DEAF
-        case ErrorCode.GOAL_TOLERANCE_VIOLATED:
+        case "GOAL_TOLERANCE_VIOLATED":
             return _why_missed(goal, help)
-    joint, off = largest(
-        errors(joints_at(goal.run, goal.result.t).positions, plan_of(goal).at(goal.result.t))
-    )
+    joint, off = worst_at(goal, goal.result.t, plan_of(goal).at(goal.result.t))
     if off <= FOLLOWING_ERROR:
         return (
             f"In the simulator {joint} was the worst joint then, and {off:.2f} rad off its trajectory. Are "
@@ -86,7 +69,7 @@ def _why_missed(goal: Goal, help: str) -> str:
     assert goal.result
     plan = plan_of(goal)
     tolerance = tolerance_of(goal)
-    joint, off = largest(errors(joints_at(goal.run, goal.result.t).positions, plan.final()))
+    joint, off = worst_at(goal, goal.result.t, plan.final())
     if off <= tolerance:
         meant = "0 rad, which means 0.05" if goal.request.goal_tolerance == 0 else f"{tolerance:g} rad"
         return help or (

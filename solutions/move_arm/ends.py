@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from autograder.authoring import ABORTED, CANCELED, SUCCEEDED, Goal, ev, expect
+from autograder.authoring import ABORTED, SUCCEEDED, Goal, error_name, expect
 from autograder.authoring.walking.life import cancels_on_the_way, granted, left_alone, phase, successors
 from autograder.authoring.walking.obligations.ends import require_preempted
 from autograder.authoring.walking.reports import require_error_code
 
 from . import life
-from .endings import ARRIVAL_TIME, ErrorCode, require_not_given_up, tolerance_of
+from .endings import ARRIVAL_TIME, require_not_given_up, tolerance_of
 from .motion import require_moving
-from .plan import errors, largest
-from .truth import joints_at, joints_between, plan_of
+from .truth import joints_between, plan_of, worst_at
 
 ANSWER_DELAY = 0.5  # s that a server may have begun before its answer was seen
 SOONER = 0.15  # rad less, at which a server may already see that a joint is off
@@ -50,7 +49,7 @@ def succeeds(goal: Goal) -> str | None:
         help="The arm may come by its last point on the way. Wait until the last point's time_from_start is over.",
         at=result.t,
     )
-    joint, error = largest(errors(joints_at(goal.run, result.t).positions, plan.final()))
+    joint, error = worst_at(goal, result.t, plan.final())
     expect(
         error <= tolerance + life.MEASURED,
         expected=f"every joint within {tolerance:.2f} rad of the last point when the goal SUCCEEDED",
@@ -138,9 +137,8 @@ def notices_silence(goal: Goal) -> str | None:
         return None
     require_moving(goal, lost)
     result = goal.require_result(ABORTED, help=_SILENT)
-    plan, known = plan_of(goal), joints_at(goal.run, lost).positions
-    seems_off = largest(errors(known, plan.at(lost + NOTICE_TIME)))[1] >= life.PATH_TOLERANCE - SOONER
-    if not (seems_off and result.result.error_code == ErrorCode.PATH_TOLERANCE_VIOLATED):
+    _, seems_off = worst_at(goal, lost, plan_of(goal).at(lost + NOTICE_TIME))
+    if seems_off < life.PATH_TOLERANCE - SOONER or error_name(goal) != "PATH_TOLERANCE_VIOLATED":
         because = "nothing is known of the joints any more"
         require_error_code(goal, "INVALID_JOINTS", because=because, help=_SILENT)
     expect(
@@ -171,8 +169,7 @@ def grants_cancels(goal: Goal) -> str | None:
             "too.",
             at=first.answer.t,
         )
-    first.require_agreed(goal)
-    goal.require_result(CANCELED)
+    goal.require_canceled(first)
     return "at once" if is_early else "on the way"
 
 
@@ -182,8 +179,7 @@ def gives_way(goal: Goal) -> str | None:
     if not life.is_carried_out(goal):
         return None
     if not newer:
-        code = goal.result.result.error_code if goal.result else ErrorCode.NONE
-        if code == ErrorCode.PREEMPTED and life.ends_by_itself(goal):
+        if error_name(goal) == "PREEMPTED" and life.ends_by_itself(goal):
             require_not_given_up(goal)
         return None
     came = newer[0].sent.t
@@ -203,7 +199,6 @@ def _ends_by(goal: Goal, fate: life.Fate) -> bool:
 
 def _why_given_up(goal: Goal) -> str:
     """Return what to do about a goal that was given up, where something happened that may have led there."""
-    commands = [each for each in goal.run.all(ev.RobotCommanded) if each.t < goal.sent.t]
-    if any(each.command["do"] == "joint_states" for each in commands):
+    if any(each.t < goal.sent.t for each in goal.run.commands("joint_states")):
         return _BY_NAME
     return _OTHER_ARM if life.situation(goal).endswith("arm") else ""

@@ -6,14 +6,13 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from autograder.authoring import Scenario, check_of
-from autograder.authoring.walking.drawn import NUMBERS, rounded
+from autograder.authoring import NOT_FINITE, Scenario, check_of, rounded
 from autograder.authoring.walking.server_checks import in_order
 from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
 from .checks import LATER
-from .ranges import RANGES
+from .objections import RANGES
 
 RIGHT = ["r_wrist_pitch", "r_elbow", "r_shoulder_roll"]
 REST_TIME = 0.5  # s
@@ -65,18 +64,12 @@ def _steps(random: Random) -> dict[str, Any]:
 def _impossible(random: Random) -> list[list[Any]]:
     """Return steps that send goals for the right arm, each wrong at one of three points, or in its names or times."""
     low, high = RANGES["r_shoulder_roll"]  # the left one's range is its mirror image
-    wrong: list[tuple[list[str], Any]] = [
-        *(
-            (RIGHT[2:], beyond)
-            for beyond in (low - random.uniform(0.05, 0.1), high + random.uniform(0.05, 0.1))
-        ),
-        (RIGHT[2:], random.choice(NUMBERS)),
-    ]
-    sent = []
-    for number, (joints, position) in enumerate(wrong, start=1):
-        points = [[t, [random.uniform(-0.6, -0.3)]] for t in (1.0, 2.0, 3.0)]
+    below, above = low - random.uniform(0.05, 0.1), high + random.uniform(0.05, 0.1)
+    sent: list[list[Any]] = []
+    for number, position in enumerate((below, above, random.choice(NOT_FINITE)), start=1):
+        points: list[list[Any]] = [[t, [random.uniform(-0.6, -0.3)]] for t in (1.0, 2.0, 3.0)]
         points[random.randrange(3)][1] = [position]
-        sent.append(["go", f"impossible {number}", "r", joints, points])
+        sent.append(["go", f"impossible {number}", "r", ["r_shoulder_roll"], points])
     there = [[1.0, [-0.5]]]
     sent += [
         ["go", "no such arm", random.choice(("", "left", "R", "lr")), ["r_elbow"], there],

@@ -8,20 +8,11 @@ from dataclasses import dataclass
 from enum import Enum
 
 from autograder.authoring import Goal, ev
-from autograder.authoring.walking.life import (
-    accepted,
-    ended_at,
-    granted,
-    interrupted,
-    others,
-    run_of,
-    successors,
-)
+from autograder.authoring.walking import life as goals
 
 from .endings import ARRIVAL_TIME, tolerance_of
 from .objections import is_sound
-from .plan import errors, largest
-from .truth import joints_at, plan_of
+from .truth import plan_of, worst_at
 
 PATH_TOLERANCE = 0.5  # rad
 NEARLY = 0.1  # rad less, from which on nobody can tell whether a joint is off its trajectory
@@ -49,38 +40,37 @@ class Hold:
 
 def is_carried_out(goal: Goal) -> bool:
     """Return whether it was accepted, and nothing speaks against it."""
-    return accepted(goal) and is_sound(goal)
+    return goals.accepted(goal) and is_sound(goal)
 
 
 def neighbours(goal: Goal) -> list[Goal]:
     """Return the accepted goals of the other arm that were active at the same time."""
     return [
         other
-        for other in others(goal)
-        if accepted(other)
+        for other in goals.others(goal)
+        if goals.accepted(other)
         and other.request.arm != goal.request.arm
-        and max(other.sent.t, goal.sent.t) < min(ended_at(other), ended_at(goal))
+        and max(other.sent.t, goal.sent.t) < min(goals.ended_at(other), goals.ended_at(goal))
     ]
 
 
 def next_for_the_arm(goal: Goal, after: float) -> float:
     """Return when (s) the next goal for its arm was sent after a moment, or the run's end."""
-    sent = [other.sent.t for other in others(goal) if other.request.arm == goal.request.arm]
+    sent = [other.sent.t for other in goals.others(goal) if other.request.arm == goal.request.arm]
     return min((t for t in sent if t > after), default=goal.run.end)
 
 
 def silent_since(goal: Goal) -> float | None:
     """Return when (s) joint_states stopped, if they were silent while the goal was active."""
-    commands = [each for each in goal.run.all(ev.RobotCommanded) if each.t < ended_at(goal)]
-    switches = [each for each in commands if each.command.get("do") == "joint_sensors"]
+    switches = [each for each in goal.run.commands("joint_sensors") if each.t < goals.ended_at(goal)]
     return switches[-1].t if switches and not switches[-1].command["connected"] else None
 
 
 def ends_by_itself(goal: Goal) -> bool:
     """Return whether nothing but the arm ends it: no cancel that was granted, no newer goal, silence or Ctrl-C."""
-    return is_carried_out(goal) and not (
-        granted(goal) or successors(goal) or interrupted(goal) or silent_since(goal) is not None
-    )
+    if not is_carried_out(goal) or silent_since(goal) is not None:
+        return False
+    return not (goals.granted(goal) or goals.successors(goal) or goals.interrupted(goal))
 
 
 def hold_of(goal: Goal) -> Hold | None:
@@ -106,14 +96,14 @@ def fate_of(goal: Goal) -> Fate | None:
     if hold is None:
         return Fate.ARRIVES
     plan, tolerance = plan_of(goal), tolerance_of(goal)
-    was_held_to_its_end = ended_at(goal) <= hold.until
+    was_held_to_its_end = goals.ended_at(goal) <= hold.until
     perhaps, surely = first_off(goal, hold, PATH_TOLERANCE - NEARLY), first_off(goal, hold, PATH_TOLERANCE)
     if was_held_to_its_end or perhaps < hold.until:
         if surely < math.inf:
             return Fate.STRAYS if was_held_to_its_end or surely < hold.until else None
         if perhaps < math.inf:
             return None
-    _, short = largest(errors(_held(goal, hold, plan.end), _only(plan.final(), hold)))
+    short = _off(goal, hold, plan.end, plan.final())
     if short <= tolerance - MEASURED or hold.until <= plan.end + IN_TIME:
         return Fate.ARRIVES
     return Fate.MISSES if was_held_to_its_end and short > tolerance + MEASURED else None
@@ -127,24 +117,21 @@ def first_off(goal: Goal, hold: Hold, off: float = PATH_TOLERANCE) -> float:
     plan = plan_of(goal)
     for number in range(math.ceil((plan.end - hold.since) / ROUND) + 1):
         t = hold.since + number * ROUND
-        if largest(errors(_held(goal, hold, t), _only(plan.at(t), hold)))[1] >= off:
+        if _off(goal, hold, t, plan.at(t)) >= off:
             return t
     return math.inf
 
 
-def _held(goal: Goal, hold: Hold, t: float) -> Mapping[str, float]:
-    """Return where the joints are at `t` s, if they are held until then."""
-    return joints_at(goal.run, min(t, hold.until, run_of(goal).end)).positions
-
-
-def _only(wanted: Mapping[str, float], hold: Hold) -> dict[str, float]:
-    return {joint: wanted[joint] for joint in hold.joints}
+def _off(goal: Goal, hold: Hold, t: float, wanted: Mapping[str, float]) -> float:
+    """Return how far (rad) the worst held joint is from where it is wanted at `t` s, if they are held until then."""
+    held_until = min(t, hold.until, goal.run.end)
+    return worst_at(goal, held_until, {joint: wanted[joint] for joint in hold.joints})[1]
 
 
 def situation(goal: Goal) -> str:
     """Return, for the table of clauses, what happened to a goal that ended by itself."""
     hold = hold_of(goal)
     how = "unhindered" if hold is None else "held"
-    if hold and hold.until < math.inf and hold.until < ended_at(goal):
+    if hold and hold.until < math.inf and hold.until < goals.ended_at(goal):
         how = "let go in time"
     return f"{how}, beside the other arm" if neighbours(goal) else how

@@ -10,28 +10,27 @@ from autograder.authoring.walking.objections import rejects
 from autograder.authoring.walking.obligations import cancels, tells
 from autograder.authoring.walking.obligations.ends import status_in_order
 
-from . import ends, motion, reports
+from . import ends, motion, objections, reports
 from .life import hold_of, is_carried_out, neighbours
-from .objections import ARM, JOINT, LENGTH, NO_POINT, NOT_FINITE, RANGE, TIMES, is_sound
 from .truth import require_accepted
 
 
 @obligation(1, 15, of=goals, see="09_arms#conventions")
 def accepts(goal: Goal) -> str | None:
     """It accepts a trajectory of one arm's joints when nothing speaks against it, whatever the arms do."""
-    if not is_sound(goal):
+    if not objections.is_sound(goal):
         return None
     require_accepted(goal)
     return f"arm {goal.request.arm}, {phase(goal)}"
 
 
-rejects_arms = rejects(2, ARM)
-rejects_joints = rejects(2, JOINT)
-rejects_no_point = rejects(3, NO_POINT)
-rejects_lengths = rejects(3, LENGTH)
-rejects_times = rejects(4, TIMES)
-rejects_not_finite = rejects(5, NOT_FINITE)
-rejects_beyond = rejects(5, RANGE)
+rejects_arms = rejects(2, objections.arms)
+rejects_joints = rejects(2, objections.joints)
+rejects_no_point = rejects(3, objections.no_point)
+rejects_lengths = rejects(3, objections.lengths)
+rejects_times = rejects(4, objections.times)
+rejects_not_finite = rejects(5, objections.not_finite)
+rejects_beyond = rejects(5, objections.beyond)
 passes_points = obligation(6, of=goals, see="09_arms#velocities-why")(motion.passes_every_point)
 succeeds = obligation(7, of=goals, see="09_arms#clock-why")(ends.succeeds)
 names_no_error = obligation(8, of=goals, see="07_cancel_and_preempt#m13-why")(reports.names_no_error)

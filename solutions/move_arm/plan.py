@@ -6,7 +6,9 @@ from bisect import bisect_right
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+from trajectory_msgs.msg import JointTrajectory
+
+from autograder.authoring.walking.obligations.tells import seconds
 
 
 @dataclass(frozen=True)
@@ -29,7 +31,7 @@ class Plan:
     def of(cls, trajectory: JointTrajectory, start: Mapping[str, float], begin: float) -> Plan:
         """Return the plan of a trajectory that begins at `begin` (s) with the joints at `start` (rad)."""
         joints = tuple(trajectory.joint_names)
-        times = (0.0, *map(seconds_of, trajectory.points))
+        times = (0.0, *(seconds(point.time_from_start) for point in trajectory.points))
         here = tuple(start[joint] for joint in joints)
         return cls(joints, begin, times, (here, *(tuple(point.positions) for point in trajectory.points)))
 
@@ -64,8 +66,3 @@ def largest(errors: Mapping[str, float]) -> tuple[str, float]:
 def errors(places: Mapping[str, float], wanted: Mapping[str, float]) -> dict[str, float]:
     """Return how far (rad) each wanted joint is from its place."""
     return {joint: abs(places[joint] - place) for joint, place in wanted.items()}
-
-
-def seconds_of(point: JointTrajectoryPoint) -> float:
-    """Return the time_from_start of a point in s."""
-    return point.time_from_start.sec + 1e-9 * point.time_from_start.nanosec

@@ -10,18 +10,18 @@ from autograder.authoring import (
     SUCCEEDED,
     Goal,
     end_of_feedback,
+    error_name,
     ev,
     expect,
-    require_feedback,
     require_good_feedback_rate,
 )
 from autograder.authoring.walking.life import ended_at, interrupted, left_alone
 from autograder.authoring.walking.reports import require_error_code
 
-from .endings import GOAL_TOLERANCE, ErrorCode
+from .endings import GOAL_TOLERANCE
 from .life import ends_by_itself, hold_of, is_carried_out, silent_since, situation
+from .objections import RANGES
 from .plan import Plan, errors, largest
-from .ranges import RANGES
 from .truth import joints_at, joints_between, plan_of
 
 AGE = 0.7  # s that what feedback tells may be old, or early
@@ -31,7 +31,7 @@ PROGRESS_SLACK = 15.0  # percent
 ROUNDING = 0.01  # percent
 MIN_DURATION = 1.5  # s; a goal of less tells little about its feedback
 ALIKE = 0.1  # rad by which errors differ so little that either joint may be named
-_TO_BLAME = (ErrorCode.PATH_TOLERANCE_VIOLATED, ErrorCode.GOAL_TOLERANCE_VIOLATED)
+_TO_BLAME = ("PATH_TOLERANCE_VIOLATED", "GOAL_TOLERANCE_VIOLATED")
 _NAME_THE_WORST = "Name the one joint with the largest error: max(errors, key=errors.get)."
 
 
@@ -47,7 +47,6 @@ def feedback_is_true(goal: Goal) -> str | None:
     """waypoint, max_error and progress_percentage in the feedback are the arm's."""
     if not _has_time_for_feedback(goal):
         return None
-    require_feedback(goal)
     end = min(end_of_feedback(goal), silent_since(goal) or math.inf)  # until then it has to be true
     plan, progress = plan_of(goal), 0.0
     for event in goal.feedback:
@@ -78,7 +77,7 @@ def names_the_joint(goal: Goal) -> str | None:
     said, at = goal.result.result.error_msg, goal.result.t
     off = errors(joints_at(goal.run, at).positions, plan_of(goal).at(at))
     worst, error = largest(off)
-    if goal.result.result.error_code not in _TO_BLAME or error < GOAL_TOLERANCE:
+    if error_name(goal) not in _TO_BLAME or error < GOAL_TOLERANCE:
         return None
     named = [joint for joint in RANGES if re.search(rf"(?<!\w){joint}(?!\w)", said)]
     right = [joint for joint in named if off.get(joint, 0.0) >= error - ALIKE]

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
-from autograder.authoring import Goal, RobotRecord, ev, unseen, why_nothing_is_heard
-from autograder.authoring.evidence.robot_record import LONGEST_GAP
+from autograder.authoring import Goal, RobotRecord, ev, why_nothing_is_heard
 
-from .plan import Plan
+from .plan import Plan, errors, largest
 
 _ACCEPT = (
     "goal_callback must return GoalResponse.ACCEPT for a trajectory in which nothing is wrong (True is not "
@@ -31,19 +29,15 @@ def plan_of(goal: Goal) -> Plan:
 
 def joints_at(run: RobotRecord, t: float) -> ev.JointsTruth:
     """Return the joints at a time (s): the last report not later, or the first there is."""
-    reports = run.all(ev.JointsTruth)
-    if not reports or reports[0].t > t + LONGEST_GAP or reports[-1].t < t - LONGEST_GAP:
-        raise unseen(run, f"nothing is known of the joints at {t:.1f} s")
-    return reports[max(0, bisect_right(reports, t, key=_time) - 1)]
+    return run.reported(ev.JointsTruth, t, t, of="the joints")[-1]
+
+
+def worst_at(goal: Goal, t: float, wanted: Mapping[str, float]) -> tuple[str, float]:
+    """Return the joint that was farthest from where it was wanted (rad) at a time (s), and how far."""
+    return largest(errors(joints_at(goal.run, t).positions, wanted))
 
 
 def joints_between(run: RobotRecord, start: float, end: float) -> Sequence[ev.JointsTruth]:
     """Return the reports from `start` to `end` (s); there must be some from end to end."""
-    joints_at(run, start)
-    last = joints_at(run, end)
-    reports = run.all(ev.JointsTruth)
-    return reports[bisect_left(reports, start, key=_time) : bisect_right(reports, end, key=_time)] or [last]
-
-
-def _time(report: ev.JointsTruth) -> float:
-    return report.t
+    joints_at(run, start)  # so that a gap there is named by its own time
+    return run.reported(ev.JointsTruth, start, end, of="the joints")

@@ -3,15 +3,8 @@
 from __future__ import annotations
 
 from autograder.authoring import Goal, goals, obligation, whole_run
-from autograder.authoring.walking.objections import (
-    FRAME,
-    NO_POWER,
-    NOT_FINITE,
-    UNSAID_ROTATION,
-    Objection,
-    accepting,
-    rejects,
-)
+from autograder.authoring.walking import objections
+from autograder.authoring.walking.objections import accepting, objection, rejects
 from autograder.authoring.walking.obligations import cancels, ends, tells, walks
 
 from . import odometer, phases, progress, recoveries, times
@@ -19,7 +12,12 @@ from . import odometer, phases, progress, recoveries, times
 SMALLEST = 0.05  # m
 
 
-def _is_no_tolerance(goal: Goal) -> str | None:
+@objection(
+    "0 asks for the default of 0.10 m; anything else below 0.05 m is rejected, negative numbers and NaN too: "
+    "NaN < 0.05 is false, so ask math.isfinite() as well."
+)
+def _tolerances(goal: Goal) -> str | None:
+    """It rejects a tolerance that is NaN, or below 0.05 m and not 0."""
     tolerance = goal.request.tolerance
     if abs(tolerance - SMALLEST) < 1e-6:
         return None  # as a float it may be a little less
@@ -27,21 +25,15 @@ def _is_no_tolerance(goal: Goal) -> str | None:
     return "" if can_be_kept else f"a tolerance of {tolerance:g} m cannot be kept"
 
 
-TOLERANCE = Objection(
-    _is_no_tolerance,
-    "0 asks for the default of 0.10 m; anything else below 0.05 m is rejected, negative numbers and NaN too: "
-    "NaN < 0.05 is false, so ask math.isfinite() as well.",
-    "rejects_tolerances",
-    "It rejects a tolerance that is NaN, or below 0.05 m and not 0",
-)
-
 accepts = obligation(1, 2, 18, of=goals, see="06_walk_to_a_pose#reject-task")(
-    accepting(FRAME, NOT_FINITE, UNSAID_ROTATION, TOLERANCE, NO_POWER)
+    accepting(
+        objections.frames, objections.nan, objections.UNSAID_ROTATION, _tolerances, objections.without_power
+    )
 )
-rejects_frames = rejects(1, FRAME)
-rejects_nan = rejects(1, NOT_FINITE)
-rejects_without_power = rejects(1, NO_POWER)
-rejects_tolerances = rejects(2, TOLERANCE)
+rejects_frames = rejects(1, objections.frames)
+rejects_nan = rejects(1, objections.nan)
+rejects_without_power = rejects(1, objections.without_power)
+rejects_tolerances = rejects(2, _tolerances)
 goes_on = obligation(1, of=goals)(ends.goes_on)
 faces_its_way = obligation(3, of=goals, see="08_navigation#why")(phases.faces_its_way)
 succeeds = obligation(2, 4, of=goals, see="06_walk_to_a_pose#settle-why")(ends.succeeds)

@@ -2,21 +2,13 @@
 
 from __future__ import annotations
 
-from autograder.authoring import Transcript, check, program
+from autograder.authoring import check
 
-from .judging import judge_of, require_answers, situation
+from . import judging
+from .judging import ANSWERS, LESSON, situation
 
-PATTERNS = "01_robot_and_graph#patterns"  # the lesson
-ANSWERS = program("print_answers", timed=False)
-
-
-@check(on=ANSWERS, see=PATTERNS, clauses=[1, 2, 4])
-def answers_everything(run: Transcript) -> None:
-    """Each of the twelve situations has a pattern and a reason"""
-    require_answers(run)
-
-
-SEEN = (
+answers_everything = check(on=ANSWERS, see=LESSON, clauses=[1, 2, 4])(judging.answers_everything)
+situations = [
     situation(
         1,
         "joint angles for whoever draws or logs them",
@@ -71,6 +63,4 @@ SEEN = (
         b="The answer of a service can hold a number, too.",
         c="The duration does not matter. What matters is that it can fail on the way and can be stopped.",
     ),
-)
-
-situations = [check(on=ANSWERS, see=PATTERNS, clauses=[1, 2, 3])(judge_of(one)) for one in SEEN]
+]

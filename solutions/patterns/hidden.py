@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from autograder.authoring import check
+from .judging import situation
 
-from .checks import ANSWERS, PATTERNS
-from .judging import judge_of, situation
-
-UNSEEN = (
+situations = [
     situation(
         7,
         "the robot's mode, also for those who come later",
@@ -62,6 +59,4 @@ UNSEEN = (
         a="A service can report a failure, too.",
         b="How many joints move does not matter. What matters is that a display needs the progress.",
     ),
-)
-
-situations = [check(on=ANSWERS, see=PATTERNS, clauses=[1, 2, 3])(judge_of(one)) for one in UNSEEN]
+]

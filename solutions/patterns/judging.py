@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
-from autograder.authoring import Failure, Transcript, expect, require_success
+from autograder.authoring import Check, Failure, Transcript, expect, program, require_success
+from autograder.authoring.checks import check_by
 
+LESSON = "01_robot_and_graph#patterns"
+ANSWERS = program("print_answers", timed=False)
 PRINT_TIMEOUT = 20.0  # s for printing twelve lines
 PATTERNS = ("topic", "service", "action")
 REASONS = "abc"
@@ -16,43 +17,25 @@ SITUATIONS = range(1, 13)
 _LINE = re.compile(r"\s*(\d{1,4})\W+(\w+)\W+(\w+)\s*")
 
 
-@dataclass(frozen=True)
-class Situation:
-    """The right answer to one situation, and what speaks `against` each of the others."""
-
-    number: int
-    about: str
-    pattern: str
-    reason: str
-    against: Mapping[str, str]
-
-
-def situation(number: int, about: str, answer: str, **against: str) -> Situation:
-    """Return a situation; its right answer is written as it is printed: "topic a"."""
-    pattern, reason = answer.split()
-    return Situation(number, about, pattern, reason, against)
-
-
-def judge_of(situation: Situation) -> Callable[[Transcript], None]:
-    """Return the check of one situation."""
+def situation(number: int, about: str, answer: str, **against: str) -> Check:
+    """Make the check of one situation: its right answer as it is printed, and what speaks `against` the others."""
+    right_pattern, right_reason = answer.split()
 
     def judge(run: Transcript) -> None:
         answers, expected = _answers(run), "the pattern that fits, and the reason that decides it"
-        how = _how_to_answer(run, situation.number)
-        expect(situation.number in answers, expected=expected, observed="no answer", help=how)
-        pattern, reason = answers[situation.number]
-        _require_form(situation.number, pattern, reason)
-        if (pattern, reason) != (situation.pattern, situation.reason):
-            help = situation.against[pattern if pattern != situation.pattern else reason]
+        expect(number in answers, expected=expected, observed="no answer", help=_how_to_answer(run, number))
+        pattern, reason = answers[number]
+        _require_form(number, pattern, reason)
+        if (pattern, reason) != (right_pattern, right_reason):
+            help = against[pattern if pattern != right_pattern else reason]
             raise Failure(expected=expected, observed=f"{pattern}, because of {reason}", help=help)
 
-    judge.__name__ = f"situation_{situation.number}"
-    judge.__doc__ = f"Situation {situation.number}: {situation.about}"
-    return judge
+    title, id = f"Situation {number}: {about}", f"situation_{number}"
+    return check_by(judge, title, on=ANSWERS, see=LESSON, clauses=[1, 2, 3], id=id)
 
 
-def require_answers(run: Transcript) -> None:
-    """Require one printed answer for each situation."""
+def answers_everything(run: Transcript) -> None:
+    """Each of the twelve situations has a pattern and a reason"""
     answers = _answers(run)
     for number in SITUATIONS:
         if number in answers:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from autograder.authoring import RESTING, Scenario, check_of, standard
+from autograder.authoring import Scenario, check_of, in_order, standard
 
 from . import model
 
@@ -18,23 +18,20 @@ HERE = [0.33, -0.25]
 
 def at_the_table(*steps: Sequence[Any], **inputs: Any) -> Scenario:
     """Return the scenario of steps with hand and cup watched, and some time more at the end."""
-    return Scenario("in_order", {"steps": [*steps, ["wait", AFTERWARDS]], **inputs}, robot=TABLE)
-
-
-def _resting(*steps: Sequence[Any]) -> Scenario:
-    return Scenario("in_order", {"steps": list(steps), "watched": []}, robot=RESTING)
+    return in_order(*steps, ["wait", AFTERWARDS], robot=TABLE, **inputs)
 
 
 FETCH = at_the_table(["go", "fetch", PLACE], ["arrive", "fetch"])
-IMPOSSIBLE = _resting(
+IMPOSSIBLE = in_order(
     ["go", "wrong frame", HERE, 10.0, "cup", "map"],
     ["go", "no frame", HERE, 10.0, "cup", ""],
     ["go", "NaN place", [math.nan, -0.25]],
     ["go", "infinite place", [0.33, -math.inf]],
     *(["go", f"force {force}", HERE, force] for force in (math.nan, 0.0, -8.0, 40.0)),
     ["wait", AFTERWARDS],
+    watched=[],
 )
-UNKNOWN = _resting(["go", "unknown", HERE, 10.0, "teapot"], ["arrive", "unknown"])
+UNKNOWN = in_order(["go", "unknown", HERE, 10.0, "teapot"], ["arrive", "unknown"], watched=[])
 FAR_PLACE = at_the_table(["go", "far", [0.75, -0.25]], ["arrive", "far"], watched=["hand", "joints"])
 FAR_CUP = at_the_table(
     ["put_cup", 0.57, 0.37], ["go", "far", [0.34, -0.20]], ["arrive", "far"], watched=["hand", "joints"]
@@ -62,7 +59,7 @@ BLOCKED = at_the_table(
 FALL = at_the_table(
     *(["go", "fetch", PLACE], ["wait_until", "near"], ["knock_over", 0.0, 60.0, 0.0], ["end", "fetch"])
 )
-INTERRUPT = _resting(["interrupt"])
+INTERRUPT = in_order(["interrupt"], watched=[])
 
 LOOK = "07_cancel_and_preempt#conventions"
 

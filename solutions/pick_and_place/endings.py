@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from autograder.authoring import ABORTED, SUCCEEDED, Failure, Goal, ev, why_rclpy_aborted
+from autograder.authoring import ABORTED, SUCCEEDED, Failure, Goal, error_name, ev, why_rclpy_aborted
 from humanoid_interfaces.action import PickAndPlace
 
 _WHY_IT_GAVE_UP = {
@@ -17,30 +17,20 @@ _WHY_IT_GAVE_UP = {
     "vanish: nothing is lost then.",
     "FELL": "Move the hand slowly, 0.2 m/s at most: a long reach in a jerk topples the robot.",
 }
-CODES = ("NONE", "UNKNOWN_OBJECT", "UNREACHABLE", "GRASP_FAILED", "DROPPED", "FELL", "PREEMPTED")
 
 
 def require_succeeded(goal: Goal) -> ev.ResultReceived:
     """Require that a goal that can be carried out SUCCEEDED, and return its result."""
     goal.require_accepted()
     if goal.status == ABORTED and not why_rclpy_aborted(goal) and goal.result:
-        said = goal.result.result
+        said, code = goal.result.result, error_name(goal) or "no constant"
         raise Failure(
             expected="status SUCCEEDED",
-            observed=f"status ABORTED, error_code {said.error_code} ({_code(goal)}): {said.error_msg[:200]!r}",
-            help=_WHY_IT_GAVE_UP.get(
-                _code(goal), "This goal can be carried out: find out why your server gave up."
-            ),
+            observed=f"status ABORTED, error_code {said.error_code} ({code}): {said.error_msg[:200]!r}",
+            help=_WHY_IT_GAVE_UP.get(code, "This goal can be carried out: find out why your server gave up."),
             at=goal.result.t,
         )
     return goal.require_result(SUCCEEDED)
-
-
-def _code(goal: Goal) -> str:
-    """Return the name of the result's error_code."""
-    assert goal.result
-    code = goal.result.result.error_code
-    return next((name for name in CODES if getattr(PickAndPlace.Result, name) == code), "no constant")
 
 
 def require_aborted(goal: Goal, code: str, *, because: str, help: str) -> ev.ResultReceived:
@@ -51,7 +41,7 @@ def require_aborted(goal: Goal, code: str, *, because: str, help: str) -> ev.Res
         "error_code",
         getattr(PickAndPlace.Result, code),
         because=f"{because}: {code}",
-        help=why_rclpy_aborted(goal) or f"It ended with {_code(goal)}. {help}",
+        help=why_rclpy_aborted(goal) or f"It ended with {error_name(goal) or 'no constant'}. {help}",
     )
     goal.require_reason()
     return result

@@ -6,22 +6,11 @@ from collections.abc import Callable
 from random import Random
 from typing import Any
 
-from autograder.authoring import Scenario, check_of
-from autograder.authoring.walking.drawn import NUMBERS, rounded
+from autograder.authoring import NOT_FINITE, Scenario, check_of, rounded
 from autograder.classroom.hidden_checks import standard_hidden
 
-from . import model
-from .checks import (
-    AFTERWARDS,
-    HERE,
-    TABLE,
-    cancels_before_the_grasp,
-    keeps_the_force,
-    knows_no_teapot,
-    notices_a_lost_cup,
-    places_the_cup,
-    puts_the_cup_back,
-)
+from . import checks, model
+from .checks import AFTERWARDS, HERE, TABLE
 
 NAMES = ("tea pot", "", "cup/", "7cups", "tasse-1")  # that no topic can have
 
@@ -44,9 +33,9 @@ def _fetching(random: Random) -> list[Any]:
         [
             "go",
             "not finite",
-            random.choice(([random.choice(NUMBERS), -0.25], [0.33, random.choice(NUMBERS)])),
+            random.choice(([random.choice(NOT_FINITE), -0.25], [0.33, random.choice(NOT_FINITE)])),
         ],
-        ["go", "no force", HERE, random.choice((-0.1, 0.0, 25.5, *NUMBERS))],
+        ["go", "no force", HERE, random.choice((-0.1, 0.0, 25.5, *NOT_FINITE))],
         ["go", "no name", HERE, 10.0, random.choice(NAMES)],
         ["go", "unknown", HERE, 10.0, random.choice(("teapot", "cups"))],
     ]
@@ -95,11 +84,8 @@ def _drawn(steps: Callable[[Random], list[Any]]) -> Scenario:
 
 
 FETCHING, STARTING_OVER, ON_THE_WAY = map(_drawn, (_fetching, _starting_over, _on_the_way))
-OTHER_NAMESPACE = Scenario(
-    "in_order",
-    {"steps": [["go", "fetch", [0.35, -0.25]], ["arrive", "fetch"], ["wait", AFTERWARDS]]},
-    robot=TABLE,
-    namespace="/lab_7/robot",
+OTHER_NAMESPACE = checks.at_the_table(
+    ["go", "fetch", [0.35, -0.25]], ["arrive", "fetch"], namespace="/lab_7/robot"
 )
 
 EVERY_GOAL = (  # what holds of it, however it ends
@@ -127,7 +113,7 @@ fetches_from_anywhere = check_of(
     title="It finds the cup wherever it stands, puts it down wherever it has to stand, and keeps every clause",
     points=2,
     on=FETCHING,
-    needs=places_the_cup,
+    needs=checks.places_the_cup,
     see="09_arms#careful-why",
 )
 obeys_any_force = check_of(
@@ -135,33 +121,33 @@ obeys_any_force = check_of(
     title="It holds the cup with whatever force is asked for, firm or gentle",
     points=2,
     on=FETCHING,
-    needs=[keeps_the_force, fetches_from_anywhere],
+    needs=[checks.keeps_the_force, fetches_from_anywhere],
     see="09_arms#force-why",
 )
 fetches_twice = check_of(
     [model.accepts, model.places_again],
     title="After a goal it carries out another",
     on=FETCHING,
-    needs=places_the_cup,
+    needs=checks.places_the_cup,
     see="09_arms#careful-why",
 )
 survives_a_name_that_is_none = check_of(
     [model.unknown_objects, model.says_why_it_aborted],
     title="An object_id that cannot be part of a topic's name is an unknown object, too",
     on=FETCHING,
-    needs=knows_no_teapot,
+    needs=checks.knows_no_teapot,
 )
 notices_a_loss_on_the_way = check_of(
     [model.lost_object, model.says_why_it_aborted],
     title="When the cup is lost on its way across the goal ends with DROPPED, too",
     on=ON_THE_WAY,
-    needs=notices_a_lost_cup,
+    needs=checks.notices_a_lost_cup,
 )
 cancels_while_closing = check_of(
     [model.leaves_the_cup, model.answers_cancels],
     title="A cancel while the fingers close opens them and leaves the cup where it is",
     on=STARTING_OVER,
-    needs=cancels_before_the_grasp,
+    needs=checks.cancels_before_the_grasp,
     see="09_arms#lift-why",
 )
 puts_the_cup_at_the_nearer_place = check_of(
@@ -169,16 +155,16 @@ puts_the_cup_at_the_nearer_place = check_of(
     title="A cancel when the cup is nearly there puts it at place_pose, then ends CANCELED",
     points=2,
     on=ON_THE_WAY,
-    needs=puts_the_cup_back,
+    needs=checks.puts_the_cup_back,
     see="09_arms#put-down-gap",
 )
 fetches_after_a_cancel = check_of(
     [model.accepts, model.places_after_a_cancel],
     title="After a cancel it carries out another goal",
     on=STARTING_OVER,
-    needs=[cancels_before_the_grasp, places_the_cup],
+    needs=[checks.cancels_before_the_grasp, checks.places_the_cup],
     see="07_cancel_and_preempt#fix-intro",
 )
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
-    "fetches the cup", model.places, clauses=[21], on=OTHER_NAMESPACE, needs=places_the_cup
+    "fetches the cup", model.places, clauses=[21], on=OTHER_NAMESPACE, needs=checks.places_the_cup
 )

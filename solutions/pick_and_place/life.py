@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring import Goal, ev
-from autograder.authoring.walking.life import accepted, ended_at, granted, interrupted, next_sent, others
-from autograder.authoring.walking.life import requests_to_cancel as _requests
+from autograder.authoring import Goal
+from autograder.authoring.walking import life as goals
 
 from .objections import is_sound
 from .truth import carried, cup_at, place_of, taken_from
@@ -20,9 +19,8 @@ HOLDING = 1.0  # N
 
 def commanded(goal: Goal, do: str) -> float | None:
     """Return the time (s) of the scenario's first command `do` while the goal was active, or None."""
-    end = min(ended_at(goal), goal.run.end)
-    commands = [each for each in goal.run.all(ev.RobotCommanded) if each.command.get("do") == do]
-    return next((each.t for each in commands if goal.sent.t < each.t < end), None)
+    end = min(goals.ended_at(goal), goal.run.end)
+    return next((each.t for each in goal.run.commands(do) if goal.sent.t < each.t < end), None)
 
 
 def robbed_at(goal: Goal) -> float | None:
@@ -32,7 +30,7 @@ def robbed_at(goal: Goal) -> float | None:
 
 def is_for_the_cup(goal: Goal) -> bool:
     """Return whether the goal was accepted, is valid, and asks for the cup."""
-    return accepted(goal) and is_sound(goal) and bool(goal.request.object_id == CUP)
+    return goals.accepted(goal) and is_sound(goal) and bool(goal.request.object_id == CUP)
 
 
 def is_far(goal: Goal) -> bool | None:
@@ -45,22 +43,16 @@ def rivals(goal: Goal) -> list[Goal]:
     """Return the other goals that were active when it came, or came while it was active; accepted or not."""
     return [
         other
-        for other in others(goal)
-        if (accepted(other) and other.sent.t < goal.sent.t < ended_at(other))
-        or (accepted(goal) and goal.sent.t < other.sent.t < ended_at(goal))
+        for other in goals.others(goal)
+        if (goals.accepted(other) and other.sent.t < goal.sent.t < goals.ended_at(other))
+        or (goals.accepted(goal) and goal.sent.t < other.sent.t < goals.ended_at(goal))
     ]
-
-
-def successor(goal: Goal) -> Goal | None:
-    """Return the goal that came while it was active and was accepted."""
-    later = (other for other in rivals(goal) if other.sent.t > goal.sent.t)
-    return next((other for other in later if accepted(other)), None)
 
 
 def canceled_at(goal: Goal) -> float | None:
     """Return when (s) it was first asked to cancel it while it was active."""
-    times = [cancel.sent.t for cancel in _requests(goal) if accepted(goal)]
-    return min((t for t in times if goal.accepted_at <= t < ended_at(goal)), default=None)
+    times = [cancel.sent.t for cancel in goals.requests_to_cancel(goal) if goals.accepted(goal)]
+    return min((t for t in times if goal.accepted_at <= t < goals.ended_at(goal)), default=None)
 
 
 def is_possible(goal: Goal) -> bool:
@@ -72,29 +64,20 @@ def is_possible(goal: Goal) -> bool:
 
 def ends_by_itself(goal: Goal) -> bool:
     """Return whether it was accepted, and no cancel, other goal or Ctrl-C ended it."""
-    cut = granted(goal) or successor(goal) or interrupted(goal) or canceled_at(goal) is not None
-    return accepted(goal) and is_sound(goal) and not cut
+    cut = goals.granted(goal) or goals.successors(goal) or goals.interrupted(goal)
+    return goals.accepted(goal) and is_sound(goal) and not cut and canceled_at(goal) is None
 
 
 def watched_until(goal: Goal) -> float:
     """Return until when (s) what it left behind can be looked at: the next goal, or somebody takes the cup."""
-    taken = [
-        each.t
-        for each in goal.run.all(ev.RobotCommanded)
-        if each.command.get("do") == "move_object" and each.t > ended_at(goal)
-    ]
-    return min([next_sent(goal, max(goal.sent.t, min(ended_at(goal), goal.run.end))), *taken])
+    taken = [each.t for each in goal.run.commands("move_object") if each.t > goals.ended_at(goal)]
+    return min([goals.next_sent(goal, max(goal.sent.t, min(goals.ended_at(goal), goal.run.end))), *taken])
 
 
 def holds_at(goal: Goal, t: float) -> bool:
     """Return whether the cup hung in the hand at a time (s)."""
     held = carried(goal, t)
     return bool(held) and held[-1].t >= t - HUNG and held[-1].force >= HOLDING
-
-
-def was_carried(goal: Goal, t: float) -> bool:
-    """Return whether the cup had been off the table before a time (s)."""
-    return bool(carried(goal, t))
 
 
 def nearer_place(goal: Goal, t: float, alike: float) -> str | None:

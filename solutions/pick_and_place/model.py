@@ -9,26 +9,28 @@ from autograder.authoring.walking.obligations import tells
 from autograder.authoring.walking.obligations.cancels import answers_every_cancel
 from autograder.authoring.walking.obligations.ends import status_in_order
 
-from . import holding, placing, reports, safe_ends
+from . import holding, objections, placing, reports, safe_ends
 from .life import rivals
-from .objections import FORCE, FRAME, MOST_FORCE, NOT_FINITE, is_sound
 
 
 @obligation(1, of=goals, see="07_cancel_and_preempt#m2-why")
 def accepts(goal: Goal) -> str | None:
     """It accepts a place in frame odom and a force of the hand's, whatever came before, when no goal is under way."""
-    if not is_sound(goal) or rivals(goal):
+    if not objections.is_sound(goal) or rivals(goal):
         return None
     if any(accepted(other) and other.sent.t < goal.sent.t for other in others(goal)):
         goal.require_accepted(
             help=f"Nothing speaks against it: a finite place in odom, {goal.request.grasp_force:g} N of at most "
-            f"{MOST_FORCE:g} N, and no goal under way any more. Does `finally` free the hand, however execute ends?"
+            f"{objections.MOST_FORCE:g} N, and no goal under way any more. Does `finally` free the hand, however "
+            "execute ends?"
         )
     goal.require_accepted()
     return phase(goal)
 
 
-rejects_frames, rejects_not_finite, rejects_forces = (rejects(1, each) for each in (FRAME, NOT_FINITE, FORCE))
+rejects_frames = rejects(1, objections.frames)
+rejects_not_finite = rejects(1, objections.not_finite)
+rejects_forces = rejects(1, objections.forces)
 places = obligation(2, 3, of=goals, see="09_arms#careful-why")(placing.places)
 lifts = obligation(4, of=goals, see="09_arms#firm-why")(holding.lifts)
 puts_down = obligation(4, of=goals)(placing.puts_down)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
-from autograder.authoring import SUCCEEDED, Goal, ev, expect
+from autograder.authoring import SUCCEEDED, Failure, Goal, ev, expect, fall_after
 from autograder.authoring.walking.life import ended_at, phase
 from autograder.authoring.walking.reports import require_error_code
-from humanoid_interfaces.msg import RobotState
 
 from .endings import require_succeeded
 from .life import commanded, ends_by_itself, is_for_the_cup, is_possible, robbed_at, watched_until
@@ -24,7 +23,6 @@ WITHDRAWN = 0.08  # m from the pads' middle to the cup's, or to where it was
 OPENED = 0.065  # m; the cup has 6 cm
 LOOSE = 0.3  # N
 SAMPLES = 2  # of the simulator's 50 a second that are no accident
-_FALLEN = RobotState.FALLEN
 
 
 def places(goal: Goal) -> str | None:
@@ -32,7 +30,7 @@ def places(goal: Goal) -> str | None:
     if not ends_by_itself(goal) or not is_possible(goal):
         return None
     result = require_succeeded(goal)
-    require_standing(goal, place_of(goal), "place_pose", lambda: _advice_on_the_place(goal, result.t))
+    require_standing(goal, place_of(goal), "place_pose")
     took = result.t - goal.accepted_at
     expect(
         took <= GOAL_TIMEOUT + TIMEOUT_SLACK,
@@ -44,8 +42,10 @@ def places(goal: Goal) -> str | None:
     return phase(goal)
 
 
-def _advice_on_the_place(goal: Goal, t: float) -> str:
+def _advice_on_the_place(goal: Goal) -> str:
     """Say why the cup is elsewhere, by how it came there."""
+    assert goal.result
+    t = goal.result.t
     if math.dist(cup_at(goal.run, t).position, taken_from(goal)) < LEFT_ALONE:
         return "The cup is where it was: succeed only when objects/cup/pose says that it has arrived."
     if not carried(goal, t):
@@ -58,27 +58,22 @@ def _advice_on_the_place(goal: Goal, t: float) -> str:
     )
 
 
-def require_standing(goal: Goal, place: Sequence[float], name: str, lesson: Callable[[], str]) -> None:
-    """Require that the cup stands at a place from the goal's end on, upright and at rest, with no hand on it.
+def require_standing(goal: Goal, place: Sequence[float], name: str, help: str = "") -> None:
+    """Require that the cup stands at a place (m) from the goal's end on, upright and at rest, with no hand on it.
 
-    Args:
-        goal: which has ended.
-        place: x, y and z in odom (m).
-        name: of the place.
-        lesson: what to do if the cup is elsewhere.
+    `help` is what to do if it is elsewhere, by default it follows from how it came there.
     """
     since = ended_at(goal)
     cups = reports(goal.run, ev.ObjectTruth, since, watched_until(goal))
-    off, worst = max(
-        ((math.dist(cup.position[:2], place[:2]), cup) for cup in cups), key=lambda pair: pair[0]
-    )
-    expect(
-        off <= PLACED,
-        expected=f"the cup within {PLACED:.2f} m of {name} (x {place[0]:.2f}, y {place[1]:.2f} m) at the end",
-        observed=f"{off:.2f} m away in the simulator (x {worst.position[0]:.2f}, y {worst.position[1]:.2f} m)",
-        help=lesson() if off > PLACED else "",
-        at=worst.t,
-    )
+    worst = max(cups, key=lambda cup: math.dist(cup.position[:2], place[:2]))
+    off = math.dist(worst.position[:2], place[:2])
+    if off > PLACED:
+        raise Failure(
+            expected=f"the cup within {PLACED:.2f} m of {name} (x {place[0]:.2f}, y {place[1]:.2f} m) at the end",
+            observed=f"{off:.2f} m away in the simulator (x {worst.position[0]:.2f}, y {worst.position[1]:.2f} m)",
+            help=help or _advice_on_the_place(goal),
+            at=worst.t,
+        )
     tilted = min(cups, key=lambda cup: cup.up)
     expect(
         tilted.up >= UPRIGHT and all(abs(cup.position[2] - place[2]) <= HEIGHT for cup in cups),
@@ -112,9 +107,7 @@ def puts_down(goal: Goal) -> str | None:
         help="Lower it until objects/cup/pose says that it stands, and only then open the hand.",
         at=loose[0].t if loose else None,
     )
-    fallen = next(
-        (each for each in goal.run.robot_between(goal.accepted_at, until) if each.mode == _FALLEN), None
-    )
+    fallen = fall_after(goal.run, goal.accepted_at, until)
     expect(
         fallen is None,
         expected="a robot that keeps its balance while it reaches",

@@ -6,21 +6,14 @@ import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 
-from autograder.authoring import (
-    SUCCEEDED,
-    Goal,
-    end_of_feedback,
-    ev,
-    expect,
-    require_feedback,
-    require_good_feedback_rate,
-)
+from autograder.authoring import SUCCEEDED, Goal, end_of_feedback, ev, expect, require_good_feedback_rate
+from autograder.authoring.evidence.robot_record import between
 from autograder.authoring.walking.life import accepted, ended_at, interrupted, left_alone
 from humanoid_interfaces.action import PickAndPlace
 from ros_runtime.message_constants import GoalStatus, name_of
 
 from .life import canceled_at, commanded, is_for_the_cup, robbed_at
-from .truth import Grip, around, as_tuple, grips, taken_from
+from .truth import Grip, as_tuple, grips, taken_from
 
 MIN_DURATION = 3.0  # s; a goal of less tells little about its feedback
 AGE = 0.7  # s that what feedback tells may be old
@@ -90,7 +83,7 @@ def stages_are_true_at(goal: Goal) -> str | None:
         if stage not in signs or event.t > cut:
             continue
         what, is_so = signs[stage]
-        seen = around(whole, event.t - AGE, event.t + AHEAD)
+        seen = between(whole, event.t - AGE, event.t + AHEAD)
         expect(
             any(map(is_so, seen)),
             expected=f"{what} while the stage is {stage!r}",
@@ -107,7 +100,7 @@ def values_are_measured(goal: Goal) -> str | None:
         return None
     whole = _seen_by(goal)
     for event in goal.feedback:
-        seen = around(whole, event.t - AGE, event.t)
+        seen = between(whole, event.t - AGE, event.t)
         _require_true_hand(event, seen)
         _require_between(
             event,
@@ -130,17 +123,10 @@ def values_are_measured(goal: Goal) -> str | None:
 
 def _is_worth_telling(goal: Goal) -> bool:
     """Return whether there was a cup to tell of, and no fall or Ctrl-C ended it; then there has to be feedback."""
-    if (
-        not accepted(goal)
-        or left_alone(goal)
-        or interrupted(goal)
-        or not is_for_the_cup(goal)
-        or commanded(goal, "push")
-    ):
+    if not is_for_the_cup(goal) or left_alone(goal) or interrupted(goal) or commanded(goal, "push"):
         return False
     if ended_at(goal) < goal.accepted_at + MIN_DURATION:
         return False
-    require_feedback(goal)
     end_of_feedback(goal)
     return True
 

@@ -4,29 +4,15 @@ from __future__ import annotations
 
 import re
 
-from autograder.authoring import ABORTED, CANCELED, Goal, ev, expect, require_fell_told, require_knocked_over
-from autograder.authoring.walking.life import accepted, left_alone
+from autograder.authoring import ABORTED, Goal, ev, expect, require_fell_told, require_knocked_over
+from autograder.authoring.walking.life import accepted, left_alone, successors
 from autograder.authoring.walking.reports import require_error_code
 
+from . import life
 from .endings import require_aborted
 from .holding import require_held_when
-from .life import (
-    CUP,
-    canceled_at,
-    commanded,
-    ends_by_itself,
-    holds_at,
-    is_far,
-    is_for_the_cup,
-    is_possible,
-    nearer_place,
-    rivals,
-    robbed_at,
-    successor,
-    was_carried,
-)
 from .placing import OPENED, TIMEOUT_SLACK, require_standing, require_withdrawn
-from .truth import grip_at, grips, place_of, reports, taken_from
+from .truth import carried, grip_at, grips, place_of, reports, taken_from
 
 FELL_OVER = 0.8
 MOVED = 0.05  # rad
@@ -44,7 +30,7 @@ ALIKE = 0.03  # m by which two places may be taken for equally near
 def knows_what_is_unknown(goal: Goal) -> str | None:
     """An object whose pose nobody publishes ends the goal with UNKNOWN_OBJECT after 1 s."""
     name = goal.request.object_id
-    if not accepted(goal) or goal.request.object_id == CUP:
+    if not accepted(goal) or goal.request.object_id == life.CUP:
         return None
     is_a_name = re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII) is not None
     result = require_aborted(
@@ -69,7 +55,9 @@ def knows_what_is_unknown(goal: Goal) -> str | None:
 
 def refuses_what_is_out_of_reach(goal: Goal) -> str | None:
     """A cup or a place out of reach ends it with UNREACHABLE, before arm or hand move."""
-    if not ends_by_itself(goal) or left_alone(goal) or not is_for_the_cup(goal) or not is_far(goal):
+    if not life.ends_by_itself(goal) or left_alone(goal):
+        return None
+    if not life.is_for_the_cup(goal) or not life.is_far(goal):
         return None
     require_aborted(
         goal,
@@ -102,9 +90,8 @@ def _require_nothing_moved(goal: Goal) -> None:
             at=report.t,
         )
     seen = grips(run, start, end)
-    moved, worst = max(
-        ((abs(grip.opening - seen[0].opening), grip) for grip in seen), key=lambda pair: pair[0]
-    )
+    worst = max(seen, key=lambda grip: abs(grip.opening - seen[0].opening))
+    moved = abs(worst.opening - seen[0].opening)
     expect(
         moved <= OPENED_BY,
         expected="a hand that stays as it is until the goal is known to be possible",
@@ -145,8 +132,8 @@ def withdraws_what_is_empty(goal: Goal) -> str | None:
 
 def notices_what_it_loses(goal: Goal) -> str | None:
     """When the cup is lost while it is lifted or moved the goal ends with DROPPED."""
-    taken = robbed_at(goal) if ends_by_itself(goal) and not left_alone(goal) else None
-    if taken is None or not was_carried(goal, taken):
+    taken = life.robbed_at(goal) if life.ends_by_itself(goal) and not left_alone(goal) else None
+    if taken is None or not carried(goal, taken):
         return None
     require_held_when(goal, taken)
     result = require_aborted(
@@ -158,12 +145,12 @@ def notices_what_it_loses(goal: Goal) -> str | None:
     _require_later(
         result, taken, "the cup was lost", "Compare the measured force with 1 N, not with grasp_force."
     )
-    return f"nearer to {nearer_place(goal, taken - BEFORE, 0.0)}"
+    return f"nearer to {life.nearer_place(goal, taken - BEFORE, 0.0)}"
 
 
 def gives_up_in_time(goal: Goal) -> str | None:
     """A hand that does not get to the cup ends the goal with GRASP_FAILED within 20 s."""
-    held = commanded(goal, "hold_joint") if ends_by_itself(goal) else None
+    held = life.commanded(goal, "hold_joint") if life.ends_by_itself(goal) else None
     if held is None:
         return None
     result = require_aborted(
@@ -184,7 +171,7 @@ def gives_up_in_time(goal: Goal) -> str | None:
 
 def tells_a_fall(goal: Goal) -> str | None:
     """When the robot falls the goal is ABORTED with FELL."""
-    if not ends_by_itself(goal) or commanded(goal, "push") is None:
+    if not life.ends_by_itself(goal) or life.commanded(goal, "push") is None:
         return None
     require_fell_told(goal, require_knocked_over(goal.run))
     return "pushed"
@@ -195,10 +182,10 @@ def tells_a_fall(goal: Goal) -> str | None:
 
 def leaves_the_cup(goal: Goal) -> str | None:
     """A cancel before the grasp ends CANCELED, with the hand withdrawn and the object where it was."""
-    asked = canceled_at(goal)
-    if asked is None or not is_possible(goal) or was_carried(goal, asked):
+    asked = life.canceled_at(goal)
+    if asked is None or not life.is_possible(goal) or carried(goal, asked):
         return None
-    _require_canceled(goal)
+    goal.require_canceled(goal.requests_to_cancel[0])
     grip = grip_at(goal.run, asked)
     expect(
         grip.distance <= CLOSE,
@@ -212,41 +199,37 @@ def leaves_the_cup(goal: Goal) -> str | None:
         goal,
         taken_from(goal),
         "where it stood",
-        lambda: (
-            "Nothing is held yet: open the hand and draw it straight back, away from the cup, then call canceled()."
-        ),
+        "Nothing is held yet: open the hand and draw it straight back, away from the cup, then call canceled().",
     )
     return "closing" if grip.force > 0.0 else "approaching"
 
 
 def puts_away(goal: Goal) -> str | None:
     """A cancel while it holds the object puts it down where it was taken or shall stand, whichever is nearer."""
-    asked = canceled_at(goal)
-    if asked is None or not is_possible(goal) or not was_carried(goal, asked) or not holds_at(goal, asked):
+    asked = life.canceled_at(goal)
+    if asked is None or not life.is_possible(goal) or not life.holds_at(goal, asked):
         return None
-    _require_canceled(goal)
+    goal.require_canceled(goal.requests_to_cancel[0])
     assert goal.result
-    nearer = nearer_place(goal, asked, ALIKE) or nearer_place(goal, goal.result.t, 0.0)
+    nearer = life.nearer_place(goal, asked, ALIKE) or life.nearer_place(goal, goal.result.t, 0.0)
     require_standing(
         goal,
         taken_from(goal) if nearer == "where it stood" else place_of(goal),
         f"{nearer}, which is nearer",
-        lambda: (
-            "When the cancel comes, compare how far the cup is from where it stood and from place_pose, in x and y; "
-            "carry it to the nearer one, put it down, open, withdraw, then call canceled()."
-        ),
+        "When the cancel comes, compare how far the cup is from where it stood and from place_pose, in x and y; "
+        "carry it to the nearer one, put it down, open, withdraw, then call canceled().",
     )
     return f"to {nearer}"
 
 
 def gives_the_hand_to_one(goal: Goal) -> str | None:
     """Of two goals one has the hand: the second is rejected, or the first ends safely with PREEMPTED."""
-    later = [other for other in rivals(goal) if other.sent.t > goal.sent.t]
-    if not later or not accepted(goal) or not is_possible(goal):
+    later = [other for other in life.rivals(goal) if other.sent.t > goal.sent.t]
+    if not later or not accepted(goal) or not life.is_possible(goal):
         return None
     require_held_when(goal, later[0].sent.t)
-    newer = successor(goal)
-    if newer is None:
+    newer = successors(goal)
+    if not newer:
         later[0].require_rejected(because="the hand is busy", help="Reject it in goal_callback.")
         return "rejected"
     end = goal.require_result(
@@ -257,11 +240,11 @@ def gives_the_hand_to_one(goal: Goal) -> str | None:
     goal.require_reason()
     _require_later(
         end,
-        newer.sent.t,
+        newer[0].sent.t,
         "the second one came",
         "Abort with PREEMPTED only when another goal has been accepted.",
     )
-    tilted = min(reports(goal.run, ev.ObjectTruth, newer.sent.t, goal.run.end), key=lambda cup: cup.up)
+    tilted = min(reports(goal.run, ev.ObjectTruth, newer[0].sent.t, goal.run.end), key=lambda cup: cup.up)
     expect(
         tilted.up >= FELL_OVER,
         expected="a cup that stays upright while one goal gives way to another",
@@ -274,8 +257,8 @@ def gives_the_hand_to_one(goal: Goal) -> str | None:
 
 def _robbed_of_its_grasp(goal: Goal) -> float | None:
     """Return when (s) the cup was taken from a goal that had not lifted it yet."""
-    taken = robbed_at(goal) if ends_by_itself(goal) and not left_alone(goal) else None
-    return None if taken is None or was_carried(goal, taken) else taken
+    taken = life.robbed_at(goal) if life.ends_by_itself(goal) and not left_alone(goal) else None
+    return None if taken is None or carried(goal, taken) else taken
 
 
 def _require_later(result: ev.ResultReceived, than: float, event: str, help: str) -> None:
@@ -286,9 +269,3 @@ def _require_later(result: ev.ResultReceived, than: float, event: str, help: str
         help=help,
         at=result.t,
     )
-
-
-def _require_canceled(goal: Goal) -> None:
-    """Require that its cancel was granted and that it ended CANCELED."""
-    goal.requests_to_cancel[0].require_agreed(goal)
-    goal.require_result(CANCELED)

@@ -17,9 +17,7 @@ Condition = Callable[[ev.HandTruth, ev.ObjectTruth], bool]
 
 ROBOT_TOPICS_TIME = 1.0  # s for the robot's topics to arrive, and for a moved cup to stand
 RESULT_TIMEOUT = 60.0  # s for a goal
-END_TIMEOUT = (
-    15.0  # s for a goal that something has ended, and for every one when another was waited for in vain
-)
+END_TIMEOUT = 15.0  # s for a goal that something has ended, and for any when another was waited for in vain
 HAND_TIMEOUT = 40.0  # s until the hand has come somewhere
 ON_THE_TABLE = 0.755  # m, the height of the cup's centre
 ASIDE = (0.50, 0.30, ON_THE_TABLE)  # m, out of the right hand's way

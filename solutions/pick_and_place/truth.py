@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_left, bisect_right
+from bisect import bisect_left
 from collections.abc import Sequence
 from typing import NamedTuple, TypeVar
 
 from geometry_msgs.msg import Point
 
-from autograder.authoring import Goal, RobotRecord, ev, unseen
-from autograder.authoring.evidence.robot_record import LONGEST_GAP
+from autograder.authoring import Goal, RobotRecord, ev
 
 LIFTED = 0.02  # m above where it stood: the table carries nothing of it
 
@@ -43,11 +42,7 @@ class Grip(NamedTuple):
 
 def reports(run: RobotRecord, kind: type[E], start: float, end: float) -> Sequence[E]:
     """Return the simulator's reports of one kind from `start` to `end` (s); there must be some from end to end."""
-    found = run.all(kind)
-    if not found or found[0].t > start + LONGEST_GAP or found[-1].t < end - LONGEST_GAP:
-        raise unseen(run, f"nothing is known of hand and cup at {end:.1f} s")
-    first, last = bisect_left(found, start, key=_time), bisect_right(found, end, key=_time)
-    return found[first:last] or [found[max(0, last - 1)]]
+    return run.reported(kind, start, end, of="hand and cup")
 
 
 def cup_at(run: RobotRecord, t: float) -> ev.ObjectTruth:
@@ -77,26 +72,15 @@ def grips(run: RobotRecord, start: float, end: float) -> list[Grip]:
     ]
 
 
-def around(seen: Sequence[Grip], start: float, end: float) -> Sequence[Grip]:
-    """Return those of some grips, in order of time, that are from `start` to `end` (s), or the last before."""
-    first = bisect_left(seen, start, key=_time)
-    last = bisect_right(seen, end, key=_time)
-    return seen[first:last] or seen[max(0, last - 1) : max(1, last)]
-
-
-def _time(seen: Grip | E) -> float:
-    return seen.t
-
-
 def carried(goal: Goal, until: float) -> list[Grip]:
     """Return hand and cup while the cup was off the table, from the goal's acceptance to `until` (s)."""
     height = max(cup_at(goal.run, goal.accepted_at).position[2], place_of(goal)[2]) + LIFTED
     return [grip for grip in grips(goal.run, goal.accepted_at, until) if grip.cup[2] > height]
 
 
-def taken_from(goal: Goal) -> tuple[float, float, float]:
+def taken_from(goal: Goal) -> Sequence[float]:
     """Return where the cup stood when the goal was sent, m in odom."""
-    return as_tuple(cup_at(goal.run, goal.sent.t).position)
+    return cup_at(goal.run, goal.sent.t).position
 
 
 def place_of(goal: Goal) -> tuple[float, float, float]:
@@ -104,9 +88,6 @@ def place_of(goal: Goal) -> tuple[float, float, float]:
     return as_tuple(goal.request.place_pose.pose.position)
 
 
-def as_tuple(position: Sequence[float] | Point) -> tuple[float, float, float]:
+def as_tuple(position: Point) -> tuple[float, float, float]:
     """Return (x, y, z) of a position."""
-    if isinstance(position, Point):
-        return position.x, position.y, position.z
-    x, y, z = position
-    return x, y, z
+    return position.x, position.y, position.z

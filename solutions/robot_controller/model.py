@@ -16,22 +16,9 @@ from autograder.authoring import (
     whole_run,
 )
 
+from . import truth
 from .advice import SOONEST, gave_up_at, how_to_print_one, why_it_failed, why_not_one
-from .truth import (
-    ANSWER_MARGIN,
-    ANSWER_TIMEOUT,
-    ENABLE,
-    REFUSED,
-    STATUS,
-    WHOLE_DEADLINE,
-    Asked,
-    asked,
-    died,
-    expected_ends,
-    is_gone,
-    is_missing,
-    offered,
-)
+from .truth import ENABLE, STATUS, WHOLE_DEADLINE, asked, expected_ends
 
 DEADLINE_SLACK = 0.8  # s for the line that says so; ending takes longer, for which `client_checks` allows
 LATEST = 3.5  # s between a request and its repetition; 2 s are asked for
@@ -64,7 +51,7 @@ def ends_as_it_went(run: Transcript) -> str:
             observed=observed,
             help=help,
             at=exited.t,
-            see=REFUSING if ends.why == REFUSED else "",
+            see=REFUSING if ends.why == truth.REFUSED else "",
         )
     return "both answer" if allowed == [0] else ends.why if allowed == [1] else f"either way: {ends.why}"
 
@@ -75,7 +62,7 @@ def says_why_it_fails(run: Transcript) -> str | None:
     exited, ends = require_end(run, WHOLE_DEADLINE), expected_ends(run)
     if not ends.may_fail or (exited.returncode == 0 and ends.may_succeed):
         return None
-    require_failure(run, WHOLE_DEADLINE, (1,), ends.why)
+    require_failure(run, WHOLE_DEADLINE, ends.why)
     printed = _status_lines(run)
     expect(
         not printed,
@@ -109,15 +96,15 @@ def keeps_one_deadline(run: Transcript) -> str | None:
 def looks_for_two_seconds(run: Transcript) -> str | None:
     """A server that is not there is looked for for 2 s, from the start on or when it is needed"""
     exited = require_end(run, WHOLE_DEADLINE)
-    missing = [service for service in (ENABLE, STATUS) if not offered(run, service)]
+    missing = [service for service in (ENABLE, STATUS) if not truth.offered(run, service)]
     if not missing or exited.returncode == 0:
         return None
     enabled = [reply.t for each in asked(run, ENABLE) for reply in each.replies]
     gave_up = gave_up_at(run, exited)
     least, most = gave_up - started_at(run), gave_up - max([started_at(run), *enabled[:1]])
     expect(
-        least >= SOONEST and most <= ANSWER_TIMEOUT * len(missing) + SEARCH_SLACK,
-        expected=f"{' and '.join(missing)} to be looked for for {ANSWER_TIMEOUT:g} s"
+        least >= SOONEST and most <= truth.ANSWER_TIMEOUT * len(missing) + SEARCH_SLACK,
+        expected=f"{' and '.join(missing)} to be looked for for {truth.ANSWER_TIMEOUT:g} s"
         + " each" * (len(missing) > 1),
         observed=f"it gave up {most:.1f} s after {'enable_motors had answered' if enabled else 'its start'}",
         help="A server that has not appeared after 2 s is missing: give wait_for_service timeout_sec=2.0.",
@@ -170,7 +157,7 @@ def enables_then_asks(run: Transcript) -> str | None:
 def _never_asked(run: Transcript, service: str) -> str | None:
     """Require that a service that was never asked did not have to be; only one that came late shows anything then."""
     if expected_ends(run).may_fail:
-        late = any(is_missing(run, each) is None for each in (ENABLE, STATUS))
+        late = any(truth.is_missing(run, each) is None for each in (ENABLE, STATUS))
         return "a server came late, and was not asked" if late else None
     after = " after enable_motors was answered" if service == STATUS else ""
     exited = require_end(run, WHOLE_DEADLINE)
@@ -195,7 +182,7 @@ def _repeats(service: str, run: Transcript) -> str | None:
         return _require_no_second(run, service, first, expected)
     second = sent[1]
     pause = second.t - first.t
-    answered = next((reply for reply in first.replies if reply.t < second.t - ANSWER_MARGIN), None)
+    answered = next((reply for reply in first.replies if reply.t < second.t - truth.ANSWER_MARGIN), None)
     if answered and first.is_answered:
         raise Failure(
             expected=f"1 request to {service}, which was answered",
@@ -219,17 +206,17 @@ def _repeats(service: str, run: Transcript) -> str | None:
     return "asked twice"
 
 
-def _require_no_second(run: Transcript, service: str, first: Asked, expected: str) -> str:
+def _require_no_second(run: Transcript, service: str, first: truth.Asked, expected: str) -> str:
     """Judge a service that was asked once: it answered, or died, or the time was over."""
     if first.is_answered:
         return "answered at once"
     exited = require_end(run, WHOLE_DEADLINE)
     late = first.replies and (
-        exited.returncode == 0 or first.replies[0].t <= first.t + ANSWER_TIMEOUT + ANSWER_MARGIN
+        exited.returncode == 0 or first.replies[0].t <= first.t + truth.ANSWER_TIMEOUT + truth.ANSWER_MARGIN
     )
-    if late or is_gone(run, service, first.t + ANSWER_TIMEOUT - ANSWER_MARGIN):
+    if late or truth.is_gone(run, service, first.t + truth.ANSWER_TIMEOUT - truth.ANSWER_MARGIN):
         return "its server died, or answered late"
-    if first.t + ANSWER_TIMEOUT > started_at(run) + WHOLE_DEADLINE - 1.0:
+    if first.t + truth.ANSWER_TIMEOUT > started_at(run) + WHOLE_DEADLINE - 1.0:
         return "the deadline came first"
     told = _status_lines(run)
     if exited.returncode == 0 and told:
@@ -244,21 +231,21 @@ def _require_no_second(run: Transcript, service: str, first: Asked, expected: st
         expected=expected,
         observed="Only one request, then it gave up.",
         help="The server was to come back: wait for the answer for 2 s all the same, and send the second request."
-        if died(run, service, run.end)
+        if truth.died(run, service, run.end)
         else "Where is the second try? Remove the request that was not answered, and send another.",
         at=exited.t,
     )
 
 
-def _require_patience(run: Transcript, service: str, last: Asked) -> None:
+def _require_patience(run: Transcript, service: str, last: truth.Asked) -> None:
     """Require that the second request got its 2 s, or what was left of the 10 s."""
     exited = require_end(run, WHOLE_DEADLINE)
-    if exited.returncode == 0 or is_gone(run, service, exited.t):
+    if exited.returncode == 0 or truth.is_gone(run, service, exited.t):
         return  # a late answer to the first was used, or nobody was left
     waited = gave_up_at(run, exited) - last.t
     left = started_at(run) + WHOLE_DEADLINE - last.t
     expect(
-        waited >= min(SOONEST, left - ANSWER_MARGIN),
+        waited >= min(SOONEST, left - truth.ANSWER_MARGIN),
         expected=f"2 s for the answer to the second request to {service}",
         observed=f"it gave up {waited:.1f} s after it",
         help="An answer may take 2 s, each time: wait with timeout_sec=2.0.",

@@ -21,6 +21,7 @@ from autograder.authoring import (
     why_nothing_is_heard,
     why_rclpy_aborted,
 )
+from autograder.authoring.walking import objections
 from autograder.authoring.walking.life import (
     accepted,
     ended_at,
@@ -31,7 +32,6 @@ from autograder.authoring.walking.life import (
     overlaps,
     run_of,
 )
-from autograder.authoring.walking.objections import BUSY, one_of_several, rejecting
 from autograder.authoring.walking.obligations import ends, tells
 from autograder.authoring.walking.reports import require_error_code
 from humanoid_interfaces.msg import RobotState
@@ -129,10 +129,13 @@ def rejects_the_unknown(goal: Goal) -> str | None:
     return "before the first messages"
 
 
-rejects_while_busy = obligation(13, of=goals, see="07_cancel_and_preempt#conventions")(
-    rejecting("rejects_while_busy", BUSY, "It rejects a goal while another is active")
+rejects_while_busy = objections.rejects(
+    13,
+    objections.while_busy,
+    sentence="It rejects a goal while another is active",
+    see="07_cancel_and_preempt#conventions",
 )
-takes_one_of_several = obligation(13, of=goals)(one_of_several)
+takes_one_of_several = obligation(13, of=goals)(objections.one_of_several)
 
 
 # -- how goals end ----------------------------------------------------------------------------------------------------
@@ -411,7 +414,7 @@ def stays_where_it_ended(goal: Goal) -> str | None:
         return None
     asked = min([each.sent.t for each in granted(goal)], default=goal.result.t)
     later = [other.sent.t for other in others(goal)]
-    moved = [each.t for each in goal.run.all(ev.RobotCommanded) if each.command.get("do") == "move_body"]
+    moved = [each.t for each in goal.run.commands("move_body")]
     disturbances = pushes(run_of(goal))
     next_ones = [*later, *moved, *(first for first, _ in disturbances)]
     end = min((t for t in next_ones if t > asked), default=goal.run.end)

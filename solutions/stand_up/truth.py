@@ -156,8 +156,7 @@ def life(goal: Goal) -> tuple[float, float]:
 
 def pushes(run: Transcript) -> list[tuple[float, float]]:
     """Return from when to when (s) the scenario pushed the robot or leaned on it, each time."""
-    told = [each for each in run.all(ev.RobotCommanded) if each.command.get("do") == "push"]
-    return [(each.t, each.t + each.command.get("duration", 0.0)) for each in told]
+    return [(each.t, each.t + each.command.get("duration", 0.0)) for each in run.commands("push")]
 
 
 def was_pushed(goal: Goal) -> bool:
@@ -170,8 +169,7 @@ def was_pushed(goal: Goal) -> bool:
 
 def was_held(goal: Goal) -> bool:
     """Return whether the robot could not rise, for the scenario held it down, or played one that is too weak."""
-    taken = [each for each in goal.run.all(ev.RobotCommanded) if each.command.get("do") == "take_over"]
-    before = [each for each in taken if each.t <= goal.accepted_at]
+    before = [each for each in goal.run.commands("take_over") if each.t <= goal.accepted_at]
     return goal.run.scenario == WEAK or bool(before and before[-1].command.get("velocity") is not None)
 
 

@@ -7,9 +7,8 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from autograder.authoring import Scenario, check_of
-from autograder.authoring.walking.drawn import NUMBERS, impossible, rounded
-from autograder.authoring.walking.server_checks import OTHER_NAMESPACE
+from autograder.authoring import NOT_FINITE, Scenario, check_of, rounded
+from autograder.authoring.walking.server_checks import OTHER_NAMESPACE, impossible
 from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
@@ -54,7 +53,7 @@ def _steps(random: Random) -> dict[str, Any]:
         ],
         *(["arrive", "one"], ["arrive", "other"], ["wait", AFTERWARDS]),
         *impossible(
-            random, ("pose.orientation.w", 0.0), ("max_velocity", random.choice((-0.01, -3.0, *NUMBERS)))
+            random, ("pose.orientation.w", 0.0), ("max_velocity", random.choice((-0.01, -3.0, *NOT_FINITE)))
         ),  # when all else is done, so that one that is accepted is in nobody's way
         *(["go", "far", 0.0, 0.0, 0.0, 0.3], ["walk_for", round(random.uniform(0.3, 1.0), 2)]),
         *(["cut_power"], ["end", "far"], ["wait", LISTENING], ["go", "lying", 0.0, 0.0, 0.0]),

@@ -3,37 +3,35 @@
 from __future__ import annotations
 
 from autograder.authoring import Goal, goals, obligation, whole_run
-from autograder.authoring.walking.objections import (
-    BUSY,
-    FRAME,
-    NO_ODOM,
-    NO_POWER,
-    NO_ROTATION,
-    NOT_FINITE,
-    VELOCITY,
-    accepting,
-    one_of_several,
-    rejects,
-)
+from autograder.authoring.walking import objections
+from autograder.authoring.walking.objections import accepting, one_of_several, rejects
 from autograder.authoring.walking.obligations import cancels, ends, tells, walks
 
-_accept = accepting(FRAME, NOT_FINITE, NO_ROTATION, VELOCITY, NO_ODOM, NO_POWER, BUSY)
+_accept = accepting(
+    objections.frames,
+    objections.nan,
+    objections.no_rotation,
+    objections.velocities,
+    objections.before_odom,
+    objections.without_power,
+    objections.while_busy,
+)
 
 
 def _accept_unless_busy(goal: Goal) -> str | None:
     """It accepts a pose in frame odom when nothing speaks against it but perhaps a goal that it should have rejected"""
-    return "while another is active" if BUSY.because(goal) != "" else _accept(goal)
+    return "while another is active" if objections.while_busy.because(goal) != "" else _accept(goal)
 
 
 accepts = obligation(1, 4, 5, of=goals, see="01_robot_and_graph#frames-intro")(_accept)
 accepts_unless_busy = obligation(4, of=goals)(_accept_unless_busy)
-rejects_frames = rejects(1, FRAME)
-rejects_nan = rejects(2, NOT_FINITE)
-rejects_no_rotation = rejects(2, NO_ROTATION)
-rejects_velocities = rejects(3, VELOCITY)
-rejects_before_odom = rejects(4, NO_ODOM)
-rejects_without_power = rejects(4, NO_POWER)
-rejects_while_busy = rejects(5, BUSY)
+rejects_frames = rejects(1, objections.frames)
+rejects_nan = rejects(2, objections.nan)
+rejects_no_rotation = rejects(2, objections.no_rotation)
+rejects_velocities = rejects(3, objections.velocities)
+rejects_before_odom = rejects(4, objections.before_odom)
+rejects_without_power = rejects(4, objections.without_power)
+rejects_while_busy = rejects(5, objections.while_busy)
 takes_one_of_several = obligation(5, of=goals)(one_of_several)
 refuses_cancels = obligation(5, of=goals, see="06_walk_to_a_pose#small-intro")(cancels.refuses_cancels)
 goes_on = obligation(5, of=goals)(ends.goes_on)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from autograder.authoring.diagnosis.exit_diagnosis import Remedy
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.record import Record
@@ -11,12 +9,11 @@ from autograder.authoring.evidence.record import Record
 OUTSIDE = "01_robot_and_graph#names-why"
 
 
-def hears(run: Record, topic: str, *, before: float = math.inf) -> bool | None:
+def _hears(run: Record, topic: str) -> bool | None:
     """Return whether the robot was connected to a subscription of its `topic`; None if nothing is known."""
     counts = [
         count
         for peers in run.all(ev.RobotPeers)
-        if peers.t <= before
         for name, count in peers.subscribers.items()
         if _base(name) == topic
     ]
@@ -37,7 +34,7 @@ def lesson_on_hearing(run: Record, topic: str) -> str:
 
 def _missing_subscription(run: Record, topic: str) -> Remedy | None:
     topics = run.first(ev.NodeTopics)
-    if topics is None or hears(run, topic) in (None, True):
+    if topics is None or _hears(run, topic) in (None, True):
         return None
     names = [name for name in topics.subscribes if _base(name) == topic]
     elsewhere = [name for name in names if name not in _robots_names(run)]

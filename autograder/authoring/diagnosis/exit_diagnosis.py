@@ -168,9 +168,8 @@ def raised_in(traceback: str) -> str | None:
     if not own or any(function.startswith("spin") for *_, function in frames[own[-1] + 1 :]):
         return None
     path, line, function = frames[own[-1]]
-    return f"line {line} of {path.rsplit('/', 1)[-1]}" + (
-        "" if function.startswith("<") else f", in {function}()"
-    )
+    where = "" if function.startswith("<") else f", in {function}()"
+    return f"line {line} of {path.rsplit('/', 1)[-1]}{where}"
 
 
 def _with_place(remedy: Remedy, run: Record) -> Remedy:

@@ -40,10 +40,10 @@ def why_it_ended_so(goal: Goal, wanted: int) -> str:
     ended = goal.status or GoalStatus.UNKNOWN
     if ended == GoalStatus.ABORTED and (unmeant := why_rclpy_aborted(goal)):
         return unmeant
-    if wanted == GoalStatus.CANCELED and ended == GoalStatus.ABORTED and (reason := _reason(goal)):
+    if wanted == GoalStatus.CANCELED and ended == GoalStatus.ABORTED and error_name(goal) not in ("", "NONE"):
         return (
-            f"After the cancel your server aborted the goal with {reason}: what it does first on a cancel led there. "
-            "Leave robot and object safe, and then call goal_handle.canceled()."
+            f"After the cancel your server aborted the goal with {error_name(goal)}: what it does first on a cancel "
+            "led there. Leave robot and object safe, and then call goal_handle.canceled()."
         )
     if wanted == GoalStatus.CANCELED and ended in _CANCELED_INSTEAD:
         return _CANCELED_INSTEAD[ended]
@@ -54,12 +54,11 @@ def why_it_ended_so(goal: Goal, wanted: int) -> str:
     return "Look at which terminal call (succeed, canceled, abort) execute makes on this path."
 
 
-def _reason(goal: Goal) -> str:
-    """Return the name of the error_code of its result, '' if that is none."""
+def error_name(goal: Goal) -> str:
+    """Return the name of its result's error_code, '' if it has none."""
     result = goal.result.result if goal.result else None
-    code = getattr(result, "error_code", 0)
-    names = [name for name in dir(type(result)) if name.isupper() and getattr(result, name, None) == code]
-    return names[0] if code and names else ""
+    code = getattr(result, "error_code", None)
+    return next((name for name in dir(type(result)) if name.isupper() and getattr(result, name) == code), "")
 
 
 def lesson_on_the_end(goal: Goal) -> str:

@@ -16,7 +16,7 @@ from autograder.authoring.diagnosis.goal_diagnosis import (
     why_no_result,
     why_starved,
 )
-from autograder.authoring.diagnosis.missing import Missing, unseen
+from autograder.authoring.diagnosis.missing import Missing
 from autograder.authoring.diagnosis.readiness import require_alive
 from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
@@ -26,8 +26,6 @@ from autograder.authoring.failure import Failure, expect
 from ros_runtime.message_constants import GoalStatus, name_of
 
 SUCCEEDED, CANCELED, ABORTED = GoalStatus.SUCCEEDED, GoalStatus.CANCELED, GoalStatus.ABORTED
-LISTENED = 1.2  # s after a result for which a scenario has to listen for feedback that must not come
-ON_ITS_WAY = 0.3  # s a message may be overtaken by the result
 
 _BUSY = (
     "The executor was busy: on one thread a callback that sleeps or waits keeps goals and cancels from being served. "
@@ -112,7 +110,13 @@ class Goal:
     @property
     def requests_to_cancel(self) -> Sequence[Cancel]:
         """The requests to cancel it, of which there must be at least one."""
-        return require_cancels(self.run, self.cancels, f"the goal “{self.name}”")
+        if not self.cancels:
+            raise Missing(
+                self.run,
+                expected=f"a server that gets as far as the request to cancel the goal “{self.name}”",
+                never=f"nobody asked to cancel the goal “{self.name}”",
+            )
+        return self.cancels
 
     @property
     def accepted_at(self) -> float:
@@ -125,10 +129,11 @@ class Goal:
         """Require that the server accepted it."""
         if self.answer is None:
             require_alive(self.run)
+            place = where_it_waited(self.run)
             raise Failure(
                 expected="the goal to be accepted",
                 observed=self._no_answer(),
-                help=self._busy(),
+                help=f"It stood in {place}. {_BUSY}" if place else _BUSY,
                 at=self.sent.t,
             )
         expect(
@@ -182,13 +187,12 @@ class Goal:
         )
         return self.result
 
-    def require_canceled(self, request: Cancel | None = None) -> ev.CancelSent:
+    def require_canceled(self, request: Cancel | None = None) -> None:
         """Require that it was accepted, that its (last) cancel request was granted, and that it ended CANCELED."""
         self.require_accepted()
         request = request or self.requests_to_cancel[-1]  # earlier ones may have overtaken their goal
         request.require_agreed(self)
         self.require_result(CANCELED)
-        return request.sent
 
     def require_reason(self) -> None:
         """Require that its result has an error_msg that is not empty; the result must have come."""
@@ -201,40 +205,11 @@ class Goal:
             at=self.result.t,
         )
 
-    def require_silence_afterwards(self) -> None:
-        """Require that no feedback came after the result, while the scenario listened for it."""
-        if self.result is None or self.run.end < self.result.t + LISTENED:
-            raise unseen(self.run, f"nobody listened for feedback after the result of “{self.name}”")
-        end = self.result.t
-        late = [feedback for feedback in self.feedback if feedback.t > end + ON_ITS_WAY]
-        expect(
-            not late,
-            expected="no feedback after the result",
-            observed=f"{len(late)} message(s), the last {late[-1].t - end:.1f} s after it" if late else "",
-            help="Stop the timer or thread that publishes feedback before the terminal call.",
-            at=late[0].t if late else None,
-        )
-
     def expect(self, path: str, value: Any, *, because: str, help: str, see: str = "") -> None:
         """Require that a field of its result, which must be there, has a value."""
         assert self.result, "ask for its result first"
         expect_field(self.result.result, path, value, because=because, help=help, at=self.result.t, see=see)
 
-    def _busy(self) -> str:
-        place = where_it_waited(self.run)
-        return f"It stood in {place}. {_BUSY}" if place else _BUSY
-
     def _no_answer(self) -> str:
         given_up = self.run.given_up("goal", self.name)
         return f"no answer to the goal within {given_up.waited if given_up else self.run.end - self.sent.t:.0f} s"
-
-
-def require_cancels(run: RobotRecord, cancels: Sequence[Cancel], which: str) -> Sequence[Cancel]:
-    """Return the requests to cancel `which` goal, in words; there must be at least one."""
-    if not cancels:
-        raise Missing(
-            run,
-            expected=f"a server that gets as far as the request to cancel {which}",
-            never=f"nobody asked to cancel {which}",
-        )
-    return cancels

@@ -75,9 +75,8 @@ class Record:
 
     def given_up(self, what: str, name: str) -> ev.Unanswered | None:
         """Return when the scenario stopped waiting for the answer to a call, goal, cancel or result, if it did."""
-        return next(
-            (event for event in self.all(ev.Unanswered) if (event.what, event.id) == (what, name)), None
-        )
+        given_up = (event for event in self.all(ev.Unanswered) if (event.what, event.id) == (what, name))
+        return next(given_up, None)
 
     def in_time(self, kind: type[A], key: str, value: str, *, of: str) -> A | None:
         """Return the answer to something, unless the scenario had stopped waiting for it."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
-from functools import cached_property
-from typing import Any
+from operator import attrgetter
+from typing import Any, TypeVar
 
 from autograder.authoring.diagnosis.missing import unseen
 from autograder.authoring.evidence import events as ev
@@ -15,19 +15,28 @@ from autograder.authoring.evidence.record import Record
 LONGEST_GAP = 0.5  # s from a moment asked about to the nearest sample of the robot; there are 50 a second
 
 
+E = TypeVar("E", bound=ev.Event)
+T = TypeVar("T")
+
+
 class RobotRecord(Record):
     """A record of which one may ask where the robot was and what it was told."""
 
     def robot_at(self, t: float) -> ev.RobotTruth:
         """Return the robot at time `t` (s): the last sample not later, or the first there is."""
-        self._require_samples(t, t)
-        return self.ground_truth[max(0, bisect_right(self._sample_times, t) - 1)]
+        return self.robot_between(t, t)[-1]
 
     def robot_between(self, start: float, end: float) -> Sequence[ev.RobotTruth]:
         """Return the samples from `start` to `end` (s), both included; there must be some from end to end."""
-        self._require_samples(start, end)
-        times = self._sample_times
-        return self.ground_truth[bisect_left(times, start) : bisect_right(times, end)] or [self.robot_at(end)]
+        return self._known(self.ground_truth, start, end, "the robot")
+
+    def reported(self, kind: type[E], start: float, end: float, of: str) -> Sequence[E]:
+        """Return what the simulator told of something in that time, by events of one kind, as `robot_between` does."""
+        return self._known(self.all(kind), start, end, of)
+
+    def commands(self, do: str) -> list[ev.RobotCommanded]:
+        """Return the commands `do` of the scenario that the robot carried out, in order."""
+        return [event for event in self.all(ev.RobotCommanded) if event.command.get("do") == do]
 
     def told(self, do: str, *, before: float = math.inf, **arguments: Any) -> ev.RobotCommanded:
         """Return the last command `do` of the scenario that the robot carried out before a time.
@@ -41,17 +50,19 @@ class RobotRecord(Record):
             Failure: there was none, because of the submission.
             CannotBeJudged: there was none, for another reason.
         """
-        wanted = {"do": do, **arguments}
-        for event in reversed(self.all(ev.RobotCommanded)):
-            if event.t <= before and wanted.items() <= event.command.items():
+        for event in reversed(self.commands(do)):
+            if event.t <= before and arguments.items() <= event.command.items():
                 return event
         raise unseen(self, f"the robot did not get the command {do}")
 
-    @cached_property
-    def _sample_times(self) -> list[float]:
-        return [sample.t for sample in self.ground_truth]
+    def _known(self, samples: Sequence[E], start: float, end: float, of: str) -> Sequence[E]:
+        if not samples or samples[0].t > start + LONGEST_GAP or samples[-1].t < end - LONGEST_GAP:
+            raise unseen(self, f"nothing is known of {of} at {end:.1f} s")
+        return between(samples, start, end)
 
-    def _require_samples(self, start: float, end: float) -> None:
-        times = self._sample_times
-        if not times or times[0] > start + LONGEST_GAP or times[-1] < end - LONGEST_GAP:
-            raise unseen(self, f"nothing is known of the robot at {end:.1f} s")
+
+def between(samples: Sequence[T], start: float, end: float) -> Sequence[T]:
+    """Return those of some samples, in order of time, that are from `start` to `end` (s), or the last before."""
+    time = attrgetter("t")
+    first, last = bisect_left(samples, start, key=time), bisect_right(samples, end, key=time)
+    return samples[first:last] or samples[max(0, last - 1) : max(1, last)]

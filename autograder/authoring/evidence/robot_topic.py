@@ -67,7 +67,7 @@ def known_messages(call: Call, sensor: Sensor) -> list[Any] | None:
 
 def _connected_for(run: RobotRecord, sensor: Sensor, start: float, end: float) -> float:
     """Return for how long (s) the sensor was connected up to `end`, at most since `start`."""
-    for event in reversed(run.all(ev.RobotCommanded)):
-        if start < event.t < end and event.command.get("do") == sensor.switch:
+    for event in reversed(run.commands(sensor.switch)):
+        if start < event.t < end:
             return end - event.t if event.command["connected"] else 0.0
     return end - start

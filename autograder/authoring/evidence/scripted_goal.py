@@ -56,31 +56,17 @@ class ScriptedGoal:
         return self.reply is not None and self.reply.accepted
 
 
-def scripted_goals(run: Record, action: str) -> list[ScriptedGoal]:
-    """Return the goals that a scripted action got, on any of its servers, in order."""
-    received = {event.goal: event for event in reversed(run.all(ev.GoalReceived))}
-    return [_goal(run, event) for event in reversed(received.values()) if event.action == action]
-
-
-def scripted_cancels(run: Record, action: str) -> list[ScriptedCancel]:
-    """Return the requests to cancel that a scripted action got, in order."""
-    return [
-        ScriptedCancel(event, run.one(ev.CancelReplySent, "cancel", event.cancel))
-        for event in run.all(ev.CancelReceived)
-        if event.action == action
-    ]
-
-
-def _goal(run: Record, received: ev.GoalReceived) -> ScriptedGoal:
+def scripted_goal(run: Record, received: ev.GoalReceived) -> ScriptedGoal:
+    """Return a goal that a scripted action got, with all that the record has of it."""
     name = received.goal
     return ScriptedGoal(
         received,
         run.one(ev.GoalReplySent, "goal", name),
         [event for event in run.all(ev.FeedbackSent) if event.goal == name],
         [
-            cancel
-            for cancel in scripted_cancels(run, received.action)
-            if cancel.received.t >= received.t and cancel.received.goal in ("", name)
+            ScriptedCancel(event, run.one(ev.CancelReplySent, "cancel", event.cancel))
+            for event in run.all(ev.CancelReceived)
+            if event.action == received.action and event.t >= received.t and event.goal in ("", name)
         ],
         run.one(ev.GoalFinished, "goal", name),
         run.one(ev.ResultRequested, "goal", name),

@@ -13,7 +13,7 @@ from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.call import Call, Request
 from autograder.authoring.evidence.goal import Cancel, Goal
 from autograder.authoring.evidence.robot_record import RobotRecord
-from autograder.authoring.evidence.scripted_goal import ScriptedGoal, scripted_goals
+from autograder.authoring.evidence.scripted_goal import ScriptedGoal, scripted_goal
 
 
 class Transcript(RobotRecord):
@@ -95,8 +95,9 @@ class Transcript(RobotRecord):
         ]
 
     def scripted_goals(self, action: str) -> list[ScriptedGoal]:
-        """Return the goals that the student's client sent to a scripted action, in order."""
-        return scripted_goals(self, action)
+        """Return the goals that the student's client sent to a scripted action, on any of its servers, in order."""
+        received = {event.goal: event for event in reversed(self.all(ev.GoalReceived))}
+        return [scripted_goal(self, event) for event in reversed(received.values()) if event.action == action]
 
     # -- topics -------------------------------------------------------------------------------------------------------
 

@@ -72,13 +72,12 @@ def require_success(run: Transcript, within: float) -> None:
     )
 
 
-def require_failure(run: Transcript, within: float, statuses: tuple[int, ...], because: str) -> None:
-    """Require that the program ended in time with one of the statuses and a message, not a traceback, on stderr."""
+def require_failure(run: Transcript, within: float, because: str) -> None:
+    """Require that the program ended in time with status 1 and a message, not a traceback, on stderr."""
     exited = require_end(run, within)
-    wanted = " or ".join(map(str, statuses))
     expect(
-        exited.returncode in statuses,
-        expected=f"exit status {wanted}: {because}",
+        exited.returncode == 1,
+        expected=f"exit status 1: {because}",
         observed=how_it_ended(run, exited),
         help="Return the status from main() and end the file with sys.exit(main()): a main() that returns nothing "
         "ends with 0, which says that all went well.",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from autograder.authoring.diagnosis.goal_diagnosis import why_rclpy_aborted
 from autograder.authoring.diagnosis.missing import unseen
 from autograder.authoring.evidence import events as ev
@@ -14,11 +16,10 @@ from humanoid_interfaces.msg import RobotState
 REACTION = 1.0  # s before the simulator calls it a fall, in which a server may already see one
 
 
-def fall_after(run: RobotRecord, since: float) -> ev.RobotTruth | None:
-    """Return the first sample from `since` (s) on in which the robot is down, or None."""
-    return next(
-        (robot for robot in run.robot_between(since, run.end) if robot.mode == RobotState.FALLEN), None
-    )
+def fall_after(run: RobotRecord, since: float, until: float = math.inf) -> ev.RobotTruth | None:
+    """Return the first sample from `since` to `until` (s) in which the robot is down, or None."""
+    robots = run.robot_between(since, min(until, run.end))
+    return next((robot for robot in robots if robot.mode == RobotState.FALLEN), None)
 
 
 def require_knocked_over(run: RobotRecord) -> ev.RobotTruth:

@@ -62,10 +62,11 @@ def require_good_feedback_rate(
 
 
 def end_of_feedback(goal: Goal) -> float:
-    """Return when (s) feedback may end: at the result, or with the last message if no result came."""
+    """Return when (s) feedback, of which there must be some, may end: at the result, or with the last message."""
+    require_feedback(goal)
     if goal.result:
         return goal.result.t
-    if goal.run.given_up("result", goal.name) and goal.feedback:
+    if goal.run.given_up("result", goal.name):
         return goal.feedback[-1].t
     raise Missing(
         goal.run, expected=f"feedback until the goal “{goal.name}” ends", never="nobody waited for its end"

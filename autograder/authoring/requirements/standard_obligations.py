@@ -54,16 +54,22 @@ def require_fastest(answers: Sequence[Call], limit: float, *, expected: str, hel
     )
 
 
+def enough_answers(answers: Sequence[Call], situation: Callable[[Call], str | None]) -> dict[str, list[Call]]:
+    """Return the answers by situation (None: any other), where there are so many that their fastest tells something."""
+    found: dict[str, list[Call]] = {}
+    for call in answers:
+        if name := situation(call):
+            found.setdefault(name, []).append(call)
+    return {name: each for name, each in found.items() if len(each) >= ENOUGH_ANSWERS}
+
+
 def answers_from_memory(
     service: str, situation: Callable[[Call], str], *, clause: int, help: str = FROM_MEMORY
 ) -> Obligation:
     """Make the obligation that the callback never waits, in any `situation` that a run has enough requests in."""
 
     def never_waits(run: Transcript) -> str | None:
-        by_situation: dict[str, list[Call]] = {}
-        for call in calls(service)(run):
-            by_situation.setdefault(situation(call), []).append(call)
-        judged = {name: each for name, each in by_situation.items() if len(each) >= ENOUGH_ANSWERS}
+        judged = enough_answers(calls(service)(run), situation)
         for name, each in judged.items():
             require_fastest(each, FROM_MEMORY_TIME, expected=f"answers from memory, {name}", help=help)
         return ", ".join(sorted(judged)) or None

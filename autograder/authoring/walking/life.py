@@ -104,9 +104,7 @@ def cancels_on_the_way(goal: Goal) -> list[Cancel]:
 
 def granted(goal: Goal) -> list[Cancel]:
     """Return the requests to cancel it that the server agreed to."""
-    return [
-        cancel for cancel in run_of(goal).cancels if cancel.answer and goal.name in cancel.answer.canceling
-    ]
+    return [each for each in run_of(goal).cancels if each.answer and goal.name in each.answer.canceling]
 
 
 def near_arrival(goal: Goal, t: float) -> bool:

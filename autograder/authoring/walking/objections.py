@@ -28,13 +28,15 @@ class Objection:
     Attributes:
         because: of a goal, why, in words; "": it is not so; None: nobody can tell, or the statement leaves it open.
         help: what to do if it was accepted.
-        name, sentence: of the obligation to reject such a goal.
     """
 
     because: Callable[[Goal], str | None]
     help: str = ""
-    name: str = ""
-    sentence: str = ""
+
+
+def objection(help: str) -> Callable[[Callable[[Goal], str | None]], Objection]:
+    """Make an objection of a function that says why: `frames`, whose docstring is the sentence of `rejects_frames`."""
+    return lambda because: Objection(because, help)
 
 
 def accepting(*objections: Objection) -> Callable[[Goal], str | None]:
@@ -51,41 +53,49 @@ def accepting(*objections: Objection) -> Callable[[Goal], str | None]:
     return accepts_what_can_be_walked_to
 
 
-def rejects(clause: int, objection: Objection) -> Obligation:
-    """Make the obligation that a goal with this objection is rejected."""
-    return obligation(clause, of=goals)(rejecting(objection.name, objection, objection.sentence))
+def rejects(clause: int, objection: Objection, *, sentence: str = "", see: str = "") -> Obligation:
+    """Make the obligation that a goal with this objection is rejected; `sentence` says so in other words."""
 
-
-def rejecting(name: str, objection: Objection, sentence: str) -> Callable[[Goal], str | None]:
-    """Make what an obligation requires: a goal with this objection is rejected; `name` and `sentence` say so."""
-
-    def rejects(goal: Goal) -> str | None:
+    def require(goal: Goal) -> str | None:
         because = objection.because(goal)
         if not because:
             return None
         goal.require_rejected(because=because, help=objection.help)
         return phase(goal)
 
-    rejects.__name__, rejects.__doc__ = name, sentence
-    return rejects
+    require.__name__ = f"rejects_{objection.because.__name__.lstrip('_')}"
+    require.__doc__ = sentence or objection.because.__doc__
+    return obligation(clause, of=goals, see=see)(require)
 
 
 # -- what the request holds -------------------------------------------------------------------------------------------
 
 
-def _of_another_frame(goal: Goal) -> str:
+@objection(
+    "Compare request.target_pose.header.frame_id with 'odom', the one frame that you know, and return "
+    "GoalResponse.REJECT for every other, instead of rejecting those that you have thought of."
+)
+def frames(goal: Goal) -> str:
+    """It rejects a pose in any other frame than odom."""
     frame = stamped_target(goal).header.frame_id
     return "" if frame == "odom" else f"frame {frame!r} is not 'odom'"
 
 
-def _is_not_finite(goal: Goal) -> str:
-    bad = [
-        f"{name} is {number:g}" for name, number in numbers_of(target(goal)).items() if not isfinite(number)
-    ]
-    return ", ".join(bad)
+@objection(
+    "Test every number of position and orientation with math.isfinite() in goal_callback: every `<` and `>` with "
+    "NaN is false."
+)
+def nan(goal: Goal) -> str:
+    """It rejects a pose that holds NaN or infinity."""
+    bad = {name: number for name, number in numbers_of(target(goal)).items() if not isfinite(number)}
+    return ", ".join(f"{name} is {number:g}" for name, number in bad.items())
 
 
-def _is_no_rotation(goal: Goal) -> str | None:
+@objection(
+    "Four zeros are no rotation, and no heading to turn to: reject it when x² + y² + z² + w² is not about 1."
+)
+def no_rotation(goal: Goal) -> str | None:
+    """It rejects an orientation of four zeros."""
     turned = target(goal).orientation
     length = math.hypot(turned.x, turned.y, turned.z, turned.w)
     if length == 0.0:
@@ -93,39 +103,15 @@ def _is_no_rotation(goal: Goal) -> str | None:
     return "" if abs(length - 1.0) <= UNIT or not isfinite(length) else None
 
 
-def _has_senseless_velocity(goal: Goal) -> str:
+@objection("Accept max_velocity only if math.isfinite(v) and v >= 0.0: NaN < 0.0 is false, too.")
+def velocities(goal: Goal) -> str:
+    """It rejects a max_velocity that is negative, NaN or infinite."""
     velocity = goal.request.max_velocity
     return "" if isfinite(velocity) and velocity >= 0.0 else f"max_velocity is {velocity:g}"
 
 
-FRAME = Objection(
-    _of_another_frame,
-    "Compare request.target_pose.header.frame_id with 'odom', the one frame that you know, and return "
-    "GoalResponse.REJECT for every other, instead of rejecting those that you have thought of.",
-    "rejects_frames",
-    "It rejects a pose in any other frame than odom",
-)
-NOT_FINITE = Objection(
-    _is_not_finite,
-    "Test every number of position and orientation with math.isfinite() in goal_callback: every `<` and `>` with "
-    "NaN is false.",
-    "rejects_nan",
-    "It rejects a pose that holds NaN or infinity",
-)
-NO_ROTATION = Objection(
-    _is_no_rotation,
-    "Four zeros are no rotation, and no heading to turn to: reject it when x² + y² + z² + w² is not about 1.",
-    "rejects_no_rotation",
-    "It rejects an orientation of four zeros",
-)
-VELOCITY = Objection(
-    _has_senseless_velocity,
-    "Accept max_velocity only if math.isfinite(v) and v >= 0.0: NaN < 0.0 is false, too.",
-    "rejects_velocities",
-    "It rejects a max_velocity that is negative, NaN or infinite",
-)
-UNSAID_VELOCITY = Objection(lambda goal: None if _has_senseless_velocity(goal) else "")
-UNSAID_ROTATION = Objection(lambda goal: None if _is_no_rotation(goal) else "")
+UNSAID_VELOCITY = Objection(lambda goal: None if velocities.because(goal) else "")
+UNSAID_ROTATION = Objection(lambda goal: None if no_rotation.because(goal) else "")
 
 
 # -- how robot and server are -----------------------------------------------------------------------------------------
@@ -150,14 +136,18 @@ def _answered(goal: Goal) -> float:
     return goal.answer.t if goal.answer else goal.sent.t
 
 
-def _has_no_odom(goal: Goal) -> str | None:
+@objection("Keep None until the first odom arrives, and reject while it is None.")
+def before_odom(goal: Goal) -> str | None:
+    """It rejects goals before the first odom, and accepts them after it."""
     known = _last_known(goal, "odom")
     if known == []:
         return "no odom has come, so nobody knows where the robot is"
     return None if known and None in known else ""
 
 
-def _has_no_power(goal: Goal) -> str | None:
+@objection("Keep the last robot_state, and reject in goal_callback while its motors_enabled is false.")
+def without_power(goal: Goal) -> str | None:
+    """It rejects a goal while the motors are off."""
     known = _last_known(goal, "robot_state")
     robots = goal.run.robot_between(goal.sent.t - DELIVERY, _answered(goal)) if known is None else known
     powered = {robot and robot.motors_enabled for robot in robots}
@@ -166,32 +156,16 @@ def _has_no_power(goal: Goal) -> str | None:
     return "" if powered == {True} else None
 
 
-def _is_busy(goal: Goal) -> str | None:
+@objection(
+    "Remember in goal_callback that a goal was accepted, forget it when execute ends, and reject meanwhile. Callback "
+    "groups do not do that: each accepted goal gets a thread of its own."
+)
+def while_busy(goal: Goal) -> str | None:
+    """It rejects a goal while another runs."""
     active = [overlaps(other, goal) for other in others(goal)]
     if True in active:
         return "another goal is under way, and the robot has one pair of legs"
     return None if None in active else ""
-
-
-NO_ODOM = Objection(
-    _has_no_odom,
-    "Keep None until the first odom arrives, and reject while it is None.",
-    "rejects_before_odom",
-    "It rejects goals before the first odom, and accepts them after it",
-)
-NO_POWER = Objection(
-    _has_no_power,
-    "Keep the last robot_state, and reject in goal_callback while its motors_enabled is false.",
-    "rejects_without_power",
-    "It rejects a goal while the motors are off",
-)
-BUSY = Objection(
-    _is_busy,
-    "Remember in goal_callback that a goal was accepted, forget it when execute ends, and reject meanwhile. Callback "
-    "groups do not do that: each accepted goal gets a thread of its own.",
-    "rejects_while_busy",
-    "It rejects a goal while another runs",
-)
 
 
 def one_of_several(goal: Goal) -> str | None:

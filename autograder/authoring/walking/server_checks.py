@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from functools import partial
+from random import Random
 from types import ModuleType
 from typing import Any
 
 from autograder.authoring import checks
 from autograder.authoring.checks import RESTING, Check, Scenario
 from autograder.authoring.obligation import check_of
+from autograder.authoring.sequence import NOT_FINITE
 
 in_order = partial(checks.in_order, robot=())  # the robot stands
 
@@ -21,6 +23,18 @@ WRONG_POSES: list[list[Any]] = [
 ]
 INTERRUPT = in_order(["interrupt"], robot=RESTING)
 OTHER_NAMESPACE = in_order(["go", "walk", 0.3, 0.0, 0.0], ["arrive", "walk"], namespace="/lab_7/robot")
+
+
+def impossible(random: Random, *more: tuple[str, Any]) -> list[list[Any]]:
+    """Return steps that send goals each of which is wrong in one field, in any order; `more` are fields and values."""
+    wrong: list[tuple[str, Any]] = [
+        ("header.frame_id", random.choice(("base_link", "world", "odometry", "", "odom_combined"))),
+        *((f"pose.position.{axis}", random.choice(NOT_FINITE)) for axis in "xyz"),
+        *((f"pose.orientation.{axis}", random.choice(NOT_FINITE)) for axis in "xyzw"),
+        *more,
+    ]
+    random.shuffle(wrong)
+    return [["ask", f"impossible {number}", *each] for number, each in enumerate(wrong, start=1)]
 
 
 def two_walks(first: float = 0.0, second: float = 0.0) -> Scenario:

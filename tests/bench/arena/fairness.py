@@ -7,8 +7,9 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import pairwise
 
-from autograder.authoring.checks import Failure, Scenario
+from autograder.authoring.checks import Scenario
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import Failure
 from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.engine.exercise import Exercise
 from autograder.engine.simulation_lag import lateness

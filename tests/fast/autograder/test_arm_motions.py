@@ -15,8 +15,8 @@ from humanoid_interfaces.action import MoveArm
 from robot_sim.arms.joint_trajectory import MOVABLE
 from robot_sim.humanoid import Humanoid
 from solutions.move_arm import ends, motion, reports
+from solutions.move_arm.objections import RANGES
 from solutions.move_arm.plan import Plan
-from solutions.move_arm.ranges import RANGES
 
 ELBOW = "l_elbow"
 START, HALF, END = -0.5, -1.5, -1.0  # rad, at 0, 2 and 4 s

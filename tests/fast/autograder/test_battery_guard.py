@@ -7,9 +7,9 @@ import pytest
 from action_msgs.msg import GoalStatus
 from sensor_msgs.msg import BatteryState
 
-from autograder.authoring.checks import CannotBeJudged, Failure
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import CannotBeJudged, Failure
 from autograder.engine.exercise import load_exercise
 from humanoid_interfaces.action import NavigateToPose
 from humanoid_interfaces.msg import RobotState

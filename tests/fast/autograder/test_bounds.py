@@ -7,9 +7,10 @@ from typing import Any
 
 import pytest
 
-from autograder.authoring.checks import CannotBeJudged, Failure, Scenario
+from autograder.authoring.checks import Scenario
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import CannotBeJudged, Failure
 from autograder.engine.bounds import require_bounded
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.action import WalkTo

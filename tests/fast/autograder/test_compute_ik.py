@@ -6,9 +6,9 @@ import pytest
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue, SetParametersResult
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 
-from autograder.authoring.checks import Failure
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import Failure
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.srv import ComputeIK
 

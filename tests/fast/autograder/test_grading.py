@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from autograder.authoring.checks import Scenario, check, expect
+from autograder.authoring.checks import Scenario, check
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.authoring.failure import CannotBeJudged
+from autograder.authoring.failure import CannotBeJudged, expect
 from autograder.engine import grading
 from autograder.engine.arena_run import NotGraded
 from autograder.engine.exercise import Exercise

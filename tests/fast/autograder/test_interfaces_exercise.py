@@ -5,9 +5,9 @@ from dataclasses import asdict
 
 import pytest
 
-from autograder.authoring.checks import Failure
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import Failure
 from autograder.engine.exercise import load_exercise
 from ros_runtime.interface_build.definitions import InvalidDefinitions, read_definitions
 from ros_runtime.interface_build.known_types import KnownTypes

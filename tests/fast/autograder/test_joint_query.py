@@ -2,9 +2,9 @@
 
 import pytest
 
-from autograder.authoring.checks import Failure
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import Failure
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.srv import GetJointPositions
 from ros_runtime.record.client_events import ServiceAnswered, ServiceCalled

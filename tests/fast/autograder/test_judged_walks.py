@@ -7,16 +7,19 @@ import math
 import pytest
 from geometry_msgs.msg import Twist
 
-from autograder.authoring.checks import CannotBeJudged, Failure
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.authoring.walking.halt import require_final_zero, require_standing_at_success
+from autograder.authoring.failure import CannotBeJudged, Failure
 from autograder.authoring.walking.motion import (
     require_limited_velocity,
     require_reached,
     require_short_turn,
 )
-from autograder.authoring.walking.obligations.walks import does_not_steer_without_a_goal
+from autograder.authoring.walking.obligations.walks import (
+    does_not_steer_without_a_goal,
+    ends_with_a_zero_twist,
+    stands_at_success,
+)
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus
@@ -116,7 +119,7 @@ def test_the_shorter_way_round_crosses_pi():
 
 def test_a_walk_ends_with_a_zero_twist():
     run = walked(straight(0.1), 12.0, commands=[(-2.0, 0.1), (-1.0, 0.0), (0.1, 0.0)])
-    require_final_zero(run, run.goal("walk"))
+    ends_with_a_zero_twist(run.goal("walk"))
 
 
 @pytest.mark.parametrize(
@@ -129,7 +132,7 @@ def test_a_walk_ends_with_a_zero_twist():
 def test_without_a_zero_twist_a_walk_has_no_end(commands, seen):
     run = walked(straight(0.1), 12.0, commands=commands)
     with pytest.raises(Failure, match=seen):
-        require_final_zero(run, run.goal("walk"))
+        ends_with_a_zero_twist(run.goal("walk"))
 
 
 def test_a_twist_after_the_end_steers_without_a_goal():
@@ -141,10 +144,10 @@ def test_a_twist_after_the_end_steers_without_a_goal():
 def test_without_any_twist_nothing_is_proved():
     run = walked(straight(0.1), 12.0)
     with pytest.raises(CannotBeJudged):
-        require_final_zero(run, run.goal("walk"))
+        ends_with_a_zero_twist(run.goal("walk"))
 
 
 def test_success_comes_when_the_robot_stands():
-    require_standing_at_success(walked(straight(0.1), 12.0).goal("walk"))
+    stands_at_success(walked(straight(0.1), 12.0).goal("walk"))
     with pytest.raises(Failure, match=r"0\.20 m/s"):
-        require_standing_at_success(walked(straight(0.1), 12.0, still_moving=0.2).goal("walk"))
+        stands_at_success(walked(straight(0.1), 12.0, still_moving=0.2).goal("walk"))

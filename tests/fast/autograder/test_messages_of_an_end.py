@@ -9,7 +9,7 @@ from records import answered, asked, failure_of, given_up, run_of, said, stack
 from sensor_msgs.msg import BatteryState
 
 from autograder.authoring.evidence import events as ev
-from autograder.authoring.requirements.server_checks import require_clean_exit
+from autograder.authoring.requirements.standard import exits_with_status_0
 
 NO_RETURN = said(
     "Traceback (most recent call last):",
@@ -79,7 +79,9 @@ def test_a_program_that_does_not_end_on_ctrl_c_is_told_where_it_stood() -> None:
     run = run_of(
         ev.NodeSignalled(t=8.0, signal="SIGINT"), stack('"/tmp/work/status.py", line 44 in main'), until=13.0
     )
-    assert failure_of(require_clean_exit, run).help.startswith("It stood in line 44 of status.py, in main():")
+    assert failure_of(exits_with_status_0, run).help.startswith(
+        "It stood in line 44 of status.py, in main():"
+    )
 
 
 def test_a_crash_below_python_is_named() -> None:
@@ -104,7 +106,7 @@ def test_a_server_that_ends_by_itself_is_told_to_spin() -> None:
 
 def test_ctrl_c_is_not_tested_where_the_node_had_already_ended() -> None:
     events = [ev.NodeExited(t=3.1, returncode=1), ev.NodeSignalled(t=8.0, signal="SIGINT")]
-    failure = failure_of(require_clean_exit, run_of(asked(), *NO_RETURN, *events))
+    failure = failure_of(exits_with_status_0, run_of(asked(), *NO_RETURN, *events))
     assert failure.observed == "Ctrl-C was not tested: the node had already ended with status 1: TypeError"
     assert "`return response`" in failure.help
 

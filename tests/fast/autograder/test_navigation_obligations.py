@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from autograder.arena.poses import pose_at
-from autograder.authoring.checks import Failure
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import Failure
 from autograder.authoring.walking.obligations import ends
 from humanoid_interfaces.action import NavigateToPose
 from humanoid_interfaces.msg import RobotState

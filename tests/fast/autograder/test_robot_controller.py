@@ -5,9 +5,9 @@ from itertools import count
 import pytest
 from std_srvs.srv import SetBool, Trigger
 
-from autograder.authoring.checks import Failure
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import Failure
 from autograder.engine.exercise import exercise_module, load_exercise
 
 CHECKS = {check.id: check for check in load_exercise("robot_controller", hidden=True).checks}

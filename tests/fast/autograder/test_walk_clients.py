@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 from action_msgs.msg import GoalStatus
 
-from autograder.authoring.checks import CannotBeJudged, Failure
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import CannotBeJudged, Failure
 from autograder.authoring.requirements.client_checks import require_end
 from autograder.engine.exercise import load_exercise
 from humanoid_interfaces.action import WalkTo

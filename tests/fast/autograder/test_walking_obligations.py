@@ -7,26 +7,24 @@ import math
 import pytest
 
 from autograder.arena.poses import pose_at
-from autograder.authoring.checks import Failure
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.authoring.walking.objections import (
-    BUSY,
-    FRAME,
-    NO_POWER,
-    NO_ROTATION,
-    NOT_FINITE,
-    VELOCITY,
-    accepting,
-    one_of_several,
-    rejecting,
-)
+from autograder.authoring.failure import Failure
+from autograder.authoring.walking import objections
+from autograder.authoring.walking.objections import accepting, one_of_several, rejects
 from autograder.authoring.walking.obligations import cancels, ends, tells, walks
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus
 
-ACCEPTS = accepting(FRAME, NOT_FINITE, NO_ROTATION, VELOCITY, NO_POWER, BUSY)
+ACCEPTS = accepting(
+    objections.frames,
+    objections.nan,
+    objections.no_rotation,
+    objections.velocities,
+    objections.without_power,
+    objections.while_busy,
+)
 PERIOD = 0.02  # s between two samples of the robot
 END = 30.0  # s
 
@@ -142,8 +140,8 @@ def test_a_goal_is_rejected_for_what_holds_when_it_comes():
     )
     assert ACCEPTS(run.goal("walk")) == "at first"
     assert ACCEPTS(run.goal("second")) is None
-    assert rejecting("busy", BUSY, "…")(run.goal("second")) == "while another is active"
-    assert rejecting("frames", FRAME, "…")(run.goal("in map"))
+    assert rejects(1, objections.while_busy).require(run.goal("second")) == "while another is active"
+    assert rejects(1, objections.frames).require(run.goal("in map"))
     assert ends.goes_on(run.goal("walk")) == "another was rejected"
 
 
@@ -160,14 +158,14 @@ def test_a_goal_that_comes_as_another_ends_may_get_either_answer():
         *goal("walk", 1.0, 1.0), ended("walk", 8.0, 0.97, 10), *goal("next", 8.1, 1.5, accepted=False)
     )
     assert ACCEPTS(run.goal("next")) is None
-    assert rejecting("busy", BUSY, "…")(run.goal("next")) is None
+    assert rejects(1, objections.while_busy).require(run.goal("next")) is None
 
 
 def test_a_goal_that_gives_way_was_active():
     gone = ended("walk", 3.15, 0.4, 4, status=GoalStatus.ABORTED)
     run = run_of(*goal("walk", 1.0, 2.0), *goal("second", 3.0, 0.5), gone, motions=[a_walk(1.2, 0.0, 0.4)])
     with pytest.raises(Failure, match="it was accepted"):
-        rejecting("busy", BUSY, "…")(run.goal("second"))
+        rejects(1, objections.while_busy).require(run.goal("second"))
 
 
 @pytest.mark.parametrize(("answers", "taken"), [((True, True), 2), ((False, False), 0)])

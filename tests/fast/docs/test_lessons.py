@@ -7,9 +7,10 @@ import re
 import pytest
 
 from autograder.authoring import lesson
-from autograder.authoring.checks import Failure, Scenario, check
+from autograder.authoring.checks import Scenario, check
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import Failure
 from autograder.engine.exercise import exercise_names, exercises_folder, load_exercise
 from autograder.engine.judging import judge
 from ros_runtime.project import PROJECT

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from autograder.authoring.diagnosis.goal_diagnosis import why_rclpy_aborted
-from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.goal import ABORTED, CANCELED, SUCCEEDED, Goal
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.walking import life
@@ -69,13 +68,12 @@ def grants_cancels(goal: Goal) -> str | None:
 def walks_until_canceled(goal: Goal) -> str | None:
     """The robot walks when the cancel comes."""
     asked = life.requests_to_cancel(goal)
-    if (
-        not asked
-        or asked[0].sent.t < goal.accepted_at + GETTING_GOING
-        or life.near_arrival(goal, asked[0].sent.t)
-    ):
+    if not asked:
         return None
-    require_walking(life.run_of(goal), asked[0].sent.t)
+    first = asked[0].sent.t
+    if first < goal.accepted_at + GETTING_GOING or life.near_arrival(goal, first):
+        return None
+    require_walking(life.run_of(goal), first)
     return "in mid-stride"
 
 
@@ -104,9 +102,7 @@ def answers_every_cancel(goal: Goal) -> str | None:
 def stops_when_canceled(goal: Goal) -> str | None:
     """Within 2 s of the cancel the robot stands still and upright, and stays so."""
     active = [cancel for cancel in life.requests_to_cancel(goal) if cancel.sent.t < life.ended_at(goal)]
-    obeyed = (
-        active if goal.status == SUCCEEDED else [cancel for cancel in active if cancel in life.granted(goal)]
-    )
+    obeyed = [each for each in active if goal.status == SUCCEEDED or each in life.granted(goal)]
     if not obeyed or life.successors(goal):
         return None
     asked = obeyed[0].sent.t
@@ -132,10 +128,8 @@ def _ends_canceled(goal: Goal, asked: float) -> str | None:
 
     A goal that comes after the cancel changes nothing about that, but what comes at once may overtake it.
     """
-    commands = [
-        each for each in goal.run.all(ev.RobotCommanded) if goal.sent.t <= each.t <= life.ended_at(goal)
-    ]
-    was_put_down = any(each.command.get("do") in ("push", "motor_power") for each in commands)
+    commands = (*goal.run.commands("push"), *goal.run.commands("motor_power"))
+    was_put_down = any(goal.sent.t <= each.t <= life.ended_at(goal) for each in commands)
     if life.left_alone(goal) or (life.went_down(goal) and was_put_down):
         return None
     if any(other.sent.t < asked + OVERTAKING for other in life.successors(goal)):

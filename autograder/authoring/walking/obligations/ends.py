@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import pairwise
 
-from autograder.authoring.diagnosis.goal_diagnosis import why_rclpy_aborted
+from autograder.authoring.diagnosis.goal_diagnosis import error_name, why_rclpy_aborted
 from autograder.authoring.diagnosis.missing import not_shown
 from autograder.authoring.evidence.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.failure import expect
-from autograder.authoring.requirements.falls import fall_after
+from autograder.authoring.requirements.falls import REACTION, fall_after
 from autograder.authoring.walking import life, reports
 from autograder.authoring.walking.motion import require_reached
 from autograder.authoring.walking.planar import error
@@ -17,7 +17,6 @@ from autograder.authoring.walking.truth import require_arrival
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus, name_of
 
-FALLING = 1.0  # s before the simulator calls it a fall, in which a server may already see one
 GIVING_WAY = 5.0  # s
 _WENT_ON = (
     "The old goal went on after the new one was accepted. How does its loop learn that it is no longer the newest? "
@@ -124,7 +123,7 @@ def tells_a_fall(goal: Goal) -> str | None:
         help=f"The robot fell at {fallen.t:.1f} s and execute went on. Look at robot_state.mode in every round.",
     )
     expect(
-        result.t >= down.t - FALLING,
+        result.t >= down.t - REACTION,
         expected="the goal to go on until the robot falls",
         observed=f"it ended {down.t - result.t:.1f} s before the robot fell",
         help="A push alone is no reason to give up: abort when robot_state.mode is FALLEN.",
@@ -182,5 +181,4 @@ def _require_no_preemption(goal: Goal) -> None:
 
 
 def _was_preempted(goal: Goal) -> bool:
-    result = goal.result
-    return bool(result and result.status == ABORTED and result.result.error_code == result.result.PREEMPTED)
+    return goal.status == ABORTED and error_name(goal) == "PREEMPTED"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from builtin_interfaces.msg import Duration
 
 from autograder.authoring.diagnosis.goal_diagnosis import why_rclpy_aborted
-from autograder.authoring.evidence.goal import ABORTED, LISTENED, SUCCEEDED, Goal
+from autograder.authoring.evidence.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.failure import expect
 from autograder.authoring.requirements.feedback import require_good_feedback_rate
 from autograder.authoring.walking import life, reports
@@ -13,6 +13,8 @@ from ros_runtime.message_constants import GoalStatus, name_of
 
 MIN_DURATION = 3.0  # s; a goal of less tells little about a rate
 MIN_FEEDBACK = 8  # feedback messages
+LISTENED = 1.2  # s after a result for which a scenario has to listen for feedback that must not come
+ON_ITS_WAY = 0.3  # s a message may be overtaken by the result
 FAR_DISTANCE, MIN_ESTIMATE = 0.5, 1.0  # m, s; the robot needs more than so long for so much
 
 
@@ -75,18 +77,23 @@ def feedback_ends_with_the_goal(goal: Goal) -> str | None:
         return None
     if not goal.feedback:
         return None
-    goal.require_silence_afterwards()
+    end = goal.result.t
+    late = [feedback for feedback in goal.feedback if feedback.t > end + ON_ITS_WAY]
+    expect(
+        not late,
+        expected="no feedback after the result",
+        observed=f"{len(late)} message(s), the last {late[-1].t - end:.1f} s after it" if late else "",
+        help="Stop the timer or thread that publishes feedback before the terminal call.",
+        at=late[0].t if late else None,
+    )
     return name_of(GoalStatus, goal.result.status)
 
 
 def names_no_error(goal: Goal) -> str | None:
     """The error_code of a goal that is not ABORTED is NONE."""
-    if (
-        not life.accepted(goal)
-        or goal.result is None
-        or goal.status not in life.TERMINAL
-        or life.interrupted(goal)
-    ):
+    if not life.accepted(goal) or goal.result is None:
+        return None
+    if goal.status not in life.TERMINAL or life.interrupted(goal):
         return None
     status = name_of(GoalStatus, goal.result.status)
     if goal.status != ABORTED:

@@ -4,19 +4,28 @@ from __future__ import annotations
 
 import math
 
+from geometry_msgs.msg import Twist
+
+from autograder.authoring.diagnosis.missing import not_shown
 from autograder.authoring.evidence.goal import SUCCEEDED, Goal
 from autograder.authoring.evidence.robot_topic import DELIVERY
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure, expect
-from autograder.authoring.walking import halt, life
+from autograder.authoring.walking import life
 from autograder.authoring.walking.motion import require_limited_velocity, require_short_turn
 from autograder.authoring.walking.planar import heading, target
-from autograder.authoring.walking.truth import STOP, STOP_SPEED, STOP_TIME
+from autograder.authoring.walking.truth import STOP, STOP_SPEED, STOP_TIME, require_accepted, require_standing
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.angles import wrap
 
 MIN_DISTANCE = 0.25  # m; a shorter way tells little about a speed
 BEGINNING = 3.0  # s in which a goal makes the robot walk
+STANDING = 1.2  # s after the result in which it must not move
+ZERO = 1e-6  # m/s, rad/s
+_SETTLE = (
+    "Stop, settle, measure, then succeed: a humanoid takes up to a second to finish its step after a zero Twist. Wait "
+    "until robot_state.mode has been STANDING for 0.5 s, and look at odom once more."
+)
 
 
 def obeys_max_velocity(goal: Goal) -> str | None:
@@ -68,10 +77,12 @@ def stands_at_success(goal: Goal) -> str | None:
     if goal.status != SUCCEEDED or life.successors(goal) or life.went_down(goal):
         return None
     assert goal.result
-    end = life.next_sent(goal, goal.result.t)
-    if end - goal.result.t < life.AT_LEAST:
+    since, end = goal.result.t, life.next_sent(goal, goal.result.t)
+    if end - since < life.AT_LEAST:
         return None
-    halt.require_standing_at_success(goal, end)
+    require_accepted(goal)
+    watched = goal.run.robot_between(since, min(since + STANDING, end))
+    require_standing(watched, "when the goal SUCCEEDED, and", since, "the result", _SETTLE)
     return "a goal where it stands" if life.way_to(goal) < life.AT_IT else "a walk"
 
 
@@ -81,23 +92,32 @@ def ends_with_a_zero_twist(goal: Goal) -> str | None:
         return None
     assert goal.result
     run, end = life.run_of(goal), life.next_sent(goal, goal.result.t)
-    if (
-        not any(goal.sent.t <= each.t < end for each in run.received("cmd_vel"))
-        and life.way_to(goal) < life.AT_IT
-    ):
+    velocities = [each for each in run.received("cmd_vel") if each.t < end]
+    if not any(goal.sent.t <= each.t for each in velocities) and life.way_to(goal) < life.AT_IT:
         return "nothing published where it stands"
-    halt.require_final_zero(run, goal, until=end)
+    require_accepted(goal)
+    if not velocities:
+        raise not_shown(run, "the last Twist before a success is zero")
+    before = [each for each in velocities if goal.sent.t <= each.t <= goal.result.t]
+    expect(
+        bool(before) and _is_zero(before[-1].message),
+        expected="a zero Twist as the last on cmd_vel before the goal SUCCEEDED",
+        observed=_shown(before[-1].message) if before else "none",
+        help="The robot would walk on for 0.5 s after the last one. Publish Twist(), all zeros, before you wait "
+        "for the robot to stand, and no other after it.",
+        at=goal.result.t,
+    )
     return "walked" if life.way_to(goal) >= life.AT_IT else "stood there"
 
 
 def does_not_steer_without_a_goal(run: Transcript) -> str | None:
     """Without an active goal it publishes no velocity but zero."""
-    moving = [each for each in run.received("cmd_vel") if not halt.is_zero(each.message)]
+    moving = [each for each in run.received("cmd_vel") if not _is_zero(each.message)]
     for each in moving:
         expect(
             _has_goal(run, each.t),
             expected="nothing but zeros on cmd_vel while no goal is active",
-            observed=halt.shown(each.message),
+            observed=_shown(each.message),
             help="Somebody steers without a goal: a timer or a thread that does not know that the goal is over, or a "
             "goal that was rejected.",
             at=each.t,
@@ -122,6 +142,18 @@ def stands_without_a_goal(run: Transcript) -> str | None:
             at=robot.t,
         )
     return "all the time"
+
+
+def _is_zero(velocity: Twist) -> bool:
+    """Return whether a velocity lets the robot stand."""
+    linear, angular = velocity.linear, velocity.angular
+    return all(abs(value) <= ZERO for value in (linear.x, linear.y, angular.z))
+
+
+def _shown(velocity: Twist) -> str:
+    """Return a velocity in words."""
+    linear = velocity.linear
+    return f"x {linear.x:.2f} m/s, y {linear.y:.2f} m/s, turn {velocity.angular.z:.2f} rad/s"
 
 
 def _has_goal(run: Transcript, t: float, afterwards: float = DELIVERY / 2) -> bool:
