@@ -12,23 +12,21 @@ TWO_CALLBACKS = "10_parameters_and_balance#book-why"
 ALL_AT_ONCE = "10_parameters_and_balance#atomic-fix-why"
 WHO_SEES_IT = "10_parameters_and_balance#guarded-gap"
 
-SETS = in_order(
+without_robot = partial(in_order, robot=None)
+SETS = without_robot(
     *(["describe"], ["ask"], ["settle"], ["set_each", {"kp_pitch": 320.0}], ["settle"]),
     *(["set_together", {"kp_roll": 350.0, "kd_roll": 44.0, "max_torque": 4000.0}], ["settle"]),
     *(["set_each", {"kd_roll": 40.0, "kp_pitch": 300.0}], ["settle"], ["ask"], ["listen", "a late robot"]),
-    robot=None,
 )
-REFUSALS = in_order(
+REFUSALS = without_robot(
     *(["ask"], ["settle"], ["set_each", {"kp_pitch": 40.0}], ["set_each", {"kp_roll": 12.5}]),
     *(["set_each", {"kd_pitch": -5.0}], ["set_each", {"max_torque": -1.0}], ["settle"]),
     *(["set_each", {"max_torque": 0.0}], ["settle"], ["set_each", {"kd_roll": 44.0}], ["settle"]),
-    robot=None,
 )
-ALL_OR_NONE = in_order(
+ALL_OR_NONE = without_robot(
     *(["ask"], ["settle"], ["set_together", {"kp_pitch": 333.0, "kd_roll": -3.0}], ["settle"]),
     *(["set_together", {"kd_pitch": 41.0, "kp_roll": 340.0, "kp_pitch": 20.0}], ["settle"]),
     *(["ask"], ["set_each", {"max_torque": 5000.0}], ["settle"]),
-    robot=None,
 )
 AT_START = {"kp_pitch": 310.0, "kd_roll": 41.5}
 # It has a robot, which notices a busy machine; on such a machine Python takes seconds to end.

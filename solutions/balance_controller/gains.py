@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from random import Random
 from typing import Any
 
@@ -47,6 +47,6 @@ def sound_gains(random: Random) -> dict[str, float]:
     return gains | {"max_torque": round(random.uniform(2000.0, 8000.0), 3)}
 
 
-def in_words(gains: Mapping[str, Any]) -> str:
-    """Return gains as people write them: 'kp_pitch 40.0, kd_roll -1.0'."""
-    return ", ".join(f"{name} {value!r}" for name, value in gains.items())
+def in_words(gains: Mapping[str, Any], names: Sequence[str] = ()) -> str:
+    """Return gains, or those with these names, as people write them: 'kp_pitch 40.0, kd_roll -1.0'."""
+    return ", ".join(f"{name} {gains[name]!r}" for name in names or gains)

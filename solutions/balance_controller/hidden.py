@@ -7,10 +7,11 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from autograder.authoring import Scenario, check_of, in_order, program, shuffled
+from autograder.authoring import Scenario, check_of, program, shuffled
 from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
+from .checks import without_robot
 from .gains import ABOVE, HIGHEST, NAMES, TOPPLE, sound_gains
 
 KP, KD = ("kp_pitch", "kp_roll"), ("kd_pitch", "kd_roll")
@@ -93,28 +94,26 @@ ANY_PUSH = Scenario("in_order", _any_push)
 LIMITS = {name: str(limit) for name, limit in ABOVE.items()}
 BAD_VALUES = [LIMITS, *(dict.fromkeys(NAMES, value) for value in (".nan", "300", "-2.0"))]
 BAD_STARTS = [_bad_start(number, values) for number, values in enumerate(BAD_VALUES)]
-OTHER_NAMESPACE = in_order(
-    *(["ask"], ["settle"], ["set_each", {"kd_roll": 45.0}], ["settle"]), robot=None, namespace="/lab_7/robot"
+OTHER_NAMESPACE = without_robot(
+    *(["ask"], ["settle"], ["set_each", {"kd_roll": 45.0}], ["settle"]), namespace="/lab_7/robot"
 )
 
 in_any_order = partial(check_of, on=ANY_ORDER)
+refuses_in_any_order = partial(in_any_order, needs=checks.refuses_bad_gains)
 
-refuses_what_is_no_number = in_any_order(
+refuses_what_is_no_number = refuses_in_any_order(
     [model.refuses_no_numbers, model.gives_a_reason],
     title="NaN and infinity are refused with a reason",
-    needs=checks.refuses_bad_gains,
     see="02_services#nan",
 )
-refuses_integers = in_any_order(
+refuses_integers = refuses_in_any_order(
     [model.takes_no_integer_for_a_double, model.gives_a_reason],
     title="An integer for a double is refused with a reason",
-    needs=checks.refuses_bad_gains,
     see="10_parameters_and_balance#int-why",
 )
-refuses_the_limit_itself = in_any_order(
+refuses_the_limit_itself = refuses_in_any_order(
     [model.refuses_limits, model.refuses_weak_gains, model.refuses_negative_gains, model.gives_a_reason],
     title="A kp of exactly 51 N·m/rad and a max_torque of 0 are refused, too",
-    needs=checks.refuses_bad_gains,
     see=checks.TWO_CALLBACKS,
 )
 leaves_nothing_behind = in_any_order(
@@ -127,11 +126,10 @@ leaves_nothing_behind = in_any_order(
     title="What is refused leaves nothing behind, not in the parameters, nor on the topic, nor for a late robot",
     needs=[checks.sets_all_or_none, checks.keeps_the_last_gains],
 )
-publishes_any_gains = check_of(
+publishes_any_gains = in_any_order(
     [model.has_its_gains, model.accepts_the_table, model.publishes_them_in_time, model.one_message_each],
     title="All that the table accepts is accepted and published, once for each set, also one that changes nothing",
     points=2,
-    on=ANY_ORDER,
     needs=checks.publishes_once,
     see=checks.TWO_CALLBACKS,
 )

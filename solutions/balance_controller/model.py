@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 from rcl_interfaces.msg import ParameterDescriptor, ParameterType
 
@@ -157,8 +156,8 @@ def has_what_it_accepted(reading: Reading) -> str | None:
     wrong = _wrong(found, last.after)
     reading.call.require(
         not wrong,
-        expected=f"the parameters {_shown(last.after, wrong)}, as they were accepted",
-        observed=_shown(found, wrong),
+        expected=f"the parameters {gains.in_words(last.after, wrong)}, as they were accepted",
+        observed=gains.in_words(found, wrong),
         help="Leave setting to rclpy: what an on-set callback sets itself may still be refused.",
     )
     how = "accepted" if last.accepted else "refused"
@@ -223,7 +222,7 @@ def says_nothing_when_it_refuses(batch: Batch) -> str | None:
         event = batch.messages[0]
         raise Failure(
             expected=f"nothing on {TOPIC}, because {batch.changes[0].words} was refused",
-            observed=_shown(_gains_in(event)),
+            observed=gains.in_words(_gains_in(event)),
             help="An on-set callback only says yes or no: publish in the post-set callback.",
             at=event.t,
         )
@@ -242,7 +241,7 @@ def publishes_only_what_was_accepted(run: Transcript) -> str | None:
         expect(
             not wrong,
             expected=f"{TOPIC} with gains that were accepted",
-            observed=f"{_shown(_gains_in(event), wrong)}, which never was",
+            observed=f"{gains.in_words(_gains_in(event), wrong)}, which never was",
             help=advice.KEEP_NO_COPY,
             at=event.t,
         )
@@ -330,7 +329,7 @@ def survives(run: Transcript) -> str | None:
         fallen is None and not off,
         expected="a robot that stays on its feet, its motors on, because gains that can never hold it are refused",
         observed=f"{how}; it was pushed at {pushed:.1f} s; the last on {TOPIC} before: "
-        + (_shown(_gains_in(heard[-1])) if heard else "nothing at all"),
+        + (gains.in_words(_gains_in(heard[-1])) if heard else "nothing at all"),
         help="Somebody switched its motors off: publish nothing but balance_gains."
         if off
         else "Compare these gains with the table of the task, and refuse in the on-set callback what is not in it.",
@@ -360,12 +359,8 @@ def _require_gains(event: ev.MessageReceived, wanted: gains.Gains, *, old: gains
     found = _gains_in(event)
     if wrong := _wrong(found, wanted):
         raise Failure(
-            expected=f"{TOPIC} with {_shown(wanted, wrong)}, because {after}",
-            observed=_shown(found, wrong),
+            expected=f"{TOPIC} with {gains.in_words(wanted, wrong)}, because {after}",
+            observed=gains.in_words(found, wrong),
             help=advice.about_values(found, wanted, old, wrong),
             at=event.t,
         )
-
-
-def _shown(values: gains.Gains, names: Sequence[str] = gains.NAMES) -> str:
-    return gains.in_words({name: values[name] for name in names})

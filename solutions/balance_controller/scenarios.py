@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParameters, SetParametersAtomically
+from rclpy.parameter import Parameter
 
 from autograder.arena.client_stage import ClientStage
 from autograder.arena.sequence import Steps, carry_out
@@ -22,11 +23,6 @@ LATCHED_TIME = 10.0  # s for a latched message to arrive
 STANDING = 1.0  # s of the robot's time with new gains before a push
 AFTERMATH = 4.0  # s of it after a push
 GIVING_UP = 12.0  # s for a program to refuse what it is started with
-
-_FIELDS = {
-    int: ("integer_value", ParameterType.PARAMETER_INTEGER),
-    float: ("double_value", ParameterType.PARAMETER_DOUBLE),
-}
 
 
 def in_order(
@@ -86,10 +82,6 @@ def start_with(stage: ClientStage, name: str, value: str) -> None:
     stage.wait_until(stage.has_ended, GIVING_UP)
 
 
-def _parameters(values: Mapping[str, Any]) -> list[Parameter]:
+def _parameters(values: Mapping[str, Any]) -> list[ParameterMsg]:
     """Return a parameter for each value, an integer or a double as the value's Python type says."""
-    found = []
-    for name, value in values.items():
-        field, kind = _FIELDS[type(value)]
-        found.append(Parameter(name=name, value=ParameterValue(type=kind, **{field: value})))
-    return found
+    return [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]

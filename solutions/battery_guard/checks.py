@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 from action_msgs.msg import GoalStatus
@@ -80,10 +81,7 @@ NO_PERCENTAGE_AT_ALL = guard(
     *(["wait", 1.0], ["battery", 0.9], *UNDER_WAY, *levels(math.nan, 20.0, 15.0, math.nan, -0.3)),
     battery=math.nan,
 )
-INTERRUPTED = guard(
-    {**ON_AND_ON, "cancel": {"ends_after": 1.0}},
-    *(*UNDER_WAY, ["press_ctrl_c"]),
-)
+INTERRUPTED = guard({**ON_AND_ON, "cancel": {"ends_after": 1.0}}, *UNDER_WAY, ["press_ctrl_c"])
 
 sends_the_goal = check_of(
     [model.sends_one_goal, model.sends_it_only_when_it_may],
@@ -91,47 +89,41 @@ sends_the_goal = check_of(
     points=2,
     on=GOOD,
 )
-says_how_it_succeeded = check_of(
+once_it_sends = partial(check_of, needs=sends_the_goal)
+says_how_it_succeeded = once_it_sends(
     [model.compares_exactly, model.ends_with_the_goal],
     title="A goal that SUCCEEDED while the battery lasts is not cancelled, and ends it with status 0",
     points=2,
     on=GOOD,
-    needs=sends_the_goal,
 )
-refuses_wrong_arguments = check_of(
-    model.refuses_what_is_no_pose, on=[TOO_FEW, NO_NUMBER], needs=sends_the_goal
-)
+refuses_wrong_arguments = once_it_sends(model.refuses_what_is_no_pose, on=[TOO_FEW, NO_NUMBER])
 gives_up_without_a_server = check_of(
     [model.gives_up_on_a_missing_server, model.says_why],
     title="Without a server it ends with status 1 after 5 s, and says so on stderr",
     on=NOBODY,
     see="03_clients_that_survive#fix-why",
 )
-says_how_it_failed = check_of(
+says_how_it_failed = once_it_sends(
     model.says_why,
     title="A rejected goal ends it with status 2, an aborted one with 3 and error_msg on stderr",
     on=[REJECTING, ABORTING],
-    needs=sends_the_goal,
 )
-does_not_set_out_on_a_low_battery = check_of(
+does_not_set_out_on_a_low_battery = once_it_sends(
     [model.sends_it_only_when_it_may, model.says_that_the_battery_is_low],
     title="With a latched battery_state of 0.12 it sends no goal, says so on stdout, and ends with status 4",
     points=2,
     on=LOW_BEFORE,
-    needs=sends_the_goal,
 )
-does_not_set_out_without_a_battery_state = check_of(
+does_not_set_out_without_a_battery_state = once_it_sends(
     [model.sends_it_only_when_it_may, model.gives_up_without_a_percentage, model.says_why],
     title="Without any battery_state in 5 s it sends no goal and ends with status 1",
     on=WITHOUT_BATTERY,
-    needs=sends_the_goal,
 )
-cancels_when_the_battery_drops = check_of(
+cancels_when_the_battery_drops = once_it_sends(
     model.cancels_when_low,
     title="When the percentage falls below 0.20 on the way, it cancels the goal within 1 s, once",
     points=2,
     on=DROP,
-    needs=sends_the_goal,
     see="08_navigation#watch-run",
 )
 waits_until_the_robot_stands = check_of(
@@ -142,13 +134,10 @@ waits_until_the_robot_stands = check_of(
     needs=cancels_when_the_battery_drops,
     see="08_navigation#standing-why",
 )
-ignores_what_is_no_percentage = check_of(
-    model.ignores_what_is_none, points=2, on=NO_PERCENTAGE_AT_ALL, needs=sends_the_goal
-)
-ctrl_c_cancels_the_goal = check_of(
+ignores_what_is_no_percentage = once_it_sends(model.ignores_what_is_none, points=2, on=NO_PERCENTAGE_AT_ALL)
+ctrl_c_cancels_the_goal = once_it_sends(
     [model.cancels_at_ctrl_c, model.ends_after_ctrl_c],
     title="Ctrl-C cancels the goal; it waits for its end and ends with status 4",
     on=INTERRUPTED,
-    needs=sends_the_goal,
     see="06_walk_to_a_pose#field-why",
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from random import Random
 from typing import Any
 
@@ -12,19 +13,7 @@ from autograder.authoring import Scenario, check_of, program
 from autograder.authoring.walking.client_scenarios import way
 
 from . import checks, model
-from .checks import (
-    ARRIVES,
-    ON_AND_ON,
-    STANDS,
-    UNDER_WAY,
-    WALKING,
-    WALKS,
-    Server,
-    called_off,
-    guard,
-    levels,
-    script,
-)
+from .checks import ON_AND_ON, UNDER_WAY, WALKS, Server, guard, levels, script
 
 NONE = (math.nan, 20.0, 1.001, -0.3, math.inf, 100.0)  # are no percentages
 ENDS = (GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_ABORTED)
@@ -44,7 +33,7 @@ def _any_walk(random: Random, arguments: int = 3) -> Server:
     """A pose with a negative x, and a battery that runs down, and up again, without getting low."""
     pose = [_between(random, -3.0, -0.3), _between(random, 0.3, 3.0), _between(random, -3.0, 3.0)]
     steps = [*UNDER_WAY, *levels(*(_between(random, 0.21, 1.0) for _ in range(4)))]
-    return script(ARRIVES, *steps, battery=1.0, arguments=[*map(str, pose[:arguments])])
+    return script(checks.ARRIVES, *steps, battery=1.0, arguments=[*map(str, pose[:arguments])])
 
 
 def _any_story(random: Random) -> Server:
@@ -73,7 +62,7 @@ def _any_story(random: Random) -> Server:
             ["press_ctrl_c"] if what == "Ctrl-C" else ["battery", random.choice((_low(random), 0.0))]
         )
         steps += [why, ["await_cancel"], *levels(random.choice(NONE), 0.6, 0.1, 0.5)]
-        steps += [["wait", _between(random, 0.0, 2.0)], STANDS]
+        steps += [["wait", _between(random, 0.0, 2.0)], checks.STANDS]
     return script(server, *steps, battery=first[0])
 
 
@@ -91,12 +80,12 @@ def _before_acceptance(random: Random) -> Server:
 
 
 def _late_server(random: Random) -> Server:
-    return script(ARRIVES, ["wait", 0.6], ["battery", _low(random)], ["wait", 0.6], ["offer"])
+    return script(checks.ARRIVES, ["wait", 0.6], ["battery", _low(random)], ["wait", 0.6], ["offer"])
 
 
 def _silent(random: Random) -> Server:
     """The server falls silent; battery_state and robot_state go on."""
-    news = [step for level in (0.8, 0.7, 0.6) for step in (["wait", 1.5], ["battery", level], WALKING)]
+    news = [step for level in (0.8, 0.7, 0.6) for step in (["wait", 1.5], ["battery", level], checks.WALKING)]
     return script({"distances": way(random.randrange(8)), "ends_after": None}, *WALKS, *news)
 
 
@@ -113,15 +102,15 @@ def _agreed(ends_after: float | None) -> Server:
 
 OTHER_NAMESPACE = program("in_order", _any_walk, namespace="/lab_7/robot")
 WITHOUT_YAW = program("in_order", lambda random: _any_walk(random, arguments=2))
-AT_THE_LIMIT = guard(ARRIVES, *UNDER_WAY, *levels(0.23, 0.2, 0.2001), battery=0.2)
+AT_THE_LIMIT = guard(checks.ARRIVES, *UNDER_WAY, *levels(0.23, 0.2, 0.2001), battery=0.2)
 RARE_FEEDBACK: Server = {"distances": way(2), "every": [0.4, 4.2]}  # s: the battery gets low in between
 JUST_BELOW = guard(
     {**_agreed(0.4), **RARE_FEEDBACK},
     *WALKS,
     *levels(0.2, 0.31, 0.2001, 0.31, 0.1999, apart=0.1),
-    *called_off(stands_after=0.9),
+    *checks.called_off(stands_after=0.9),
 )
-STANDS_FIRST = guard(_agreed(2.5), *WALKS, ["battery", 0.0], *called_off(stands_after=0.5))
+STANDS_FIRST = guard(_agreed(2.5), *WALKS, ["battery", 0.0], *checks.called_off(stands_after=0.5))
 BEFORE_ACCEPTANCE = program("in_order", _before_acceptance)
 SUCCEEDS = _dropping(ends_after=4.2, cancel={"ends_after": None})
 TOO_LATE = _dropping(ends_after=0.8, result_after=2.5, status=GoalStatus.STATUS_ABORTED, error_msg=REASON)
@@ -131,13 +120,16 @@ LATE_SERVER = program("in_order", _late_server)
 NEVER_A_PERCENTAGE = guard({}, *levels(1.001, 20.0, math.nan), battery=1.001, again=False)
 ANY_STORY = program("in_order", _any_story)
 NEVER_ANSWERED = guard(
-    {**ON_AND_ON, "cancel": {"agreed": None}}, *WALKS, ["battery", 0.1], *called_off(stands_after=0.5)
+    {**ON_AND_ON, "cancel": {"agreed": None}}, *WALKS, ["battery", 0.1], *checks.called_off(stands_after=0.5)
 )
-NEVER_STANDS = guard(_agreed(0.5), *WALKS, ["battery", 0.1], *called_off(stands_after=None))
+NEVER_STANDS = guard(_agreed(0.5), *WALKS, ["battery", 0.1], *checks.called_off(stands_after=None))
 NEVER_CANCELED = guard(_agreed(None), *UNDER_WAY, ["press_ctrl_c"])
 UNANSWERED = guard({"accepted": None})
 SILENT = program("in_order", _silent)
 BY_ANOTHER = guard({"distances": way(5), "ends_after": 1.0, "status": GoalStatus.STATUS_CANCELED})
+
+once_it_cancels = partial(check_of, needs=checks.cancels_when_the_battery_drops)
+once_it_waits = partial(check_of, needs=checks.waits_until_the_robot_stands, see="08_navigation#standing-why")
 
 goes_anywhere = check_of(
     [model.sends_one_goal, model.compares_exactly, model.ends_with_the_goal],
@@ -146,27 +138,24 @@ goes_anywhere = check_of(
     needs=checks.says_how_it_succeeded,
     see="01_robot_and_graph#names-why",
 )
-compares_with_the_limit_exactly = check_of(
+compares_with_the_limit_exactly = once_it_cancels(
     model.compares_exactly,
     title="0.20 as a float32 is not below 0.20; 0.1999 and 0.0 are",
     points=2,
     on=[AT_THE_LIMIT, JUST_BELOW, STANDS_FIRST],
-    needs=checks.cancels_when_the_battery_drops,
     see="08_navigation#float-why",
 )
-cancels_right_after_the_acceptance = check_of(
+cancels_right_after_the_acceptance = once_it_cancels(
     model.cancels_when_accepted,
     title="A battery that drops before the goal is accepted cancels it right after the acceptance",
     on=BEFORE_ACCEPTANCE,
-    needs=checks.cancels_when_the_battery_drops,
     see="08_navigation#client-intro",
 )
-success_wins_the_race = check_of(
+success_wins_the_race = once_it_cancels(
     model.believes_the_end,
     title="A goal that ends otherwise in spite of the cancel: SUCCEEDED ends it with status 0, ABORTED with 3",
     points=2,
     on=[SUCCEEDS, TOO_LATE, CTRL_C_IN_VAIN],
-    needs=checks.cancels_when_the_battery_drops,
     see="07_cancel_and_preempt#late-why",
 )
 looks_at_the_battery_until_it_sends = check_of(
@@ -181,19 +170,15 @@ waits_for_a_percentage = check_of(
     on=[NEVER_A_PERCENTAGE, ANY_STORY],
     needs=[checks.ignores_what_is_no_percentage, checks.does_not_set_out_without_a_battery_state],
 )
-takes_standing_and_canceled_in_any_order = check_of(
+takes_standing_and_canceled_in_any_order = once_it_waits(
     model.waits_for_canceled_and_standing,
     title="When the robot stands before the goal is CANCELED, or has not moved yet, CANCELED ends it",
     on=[STANDS_FIRST, BEFORE_ACCEPTANCE],
-    needs=checks.waits_until_the_robot_stands,
-    see="08_navigation#standing-why",
 )
-waits_no_longer_than_5_s = check_of(
+waits_no_longer_than_5_s = once_it_waits(
     model.waits_5_s_for_each,
     title="If CANCELED or STANDING does not come within 5 s, it ends all the same, with status 4",
     on=[NEVER_ANSWERED, NEVER_STANDS, NEVER_CANCELED],
-    needs=checks.waits_until_the_robot_stands,
-    see="08_navigation#standing-why",
 )
 gives_up_in_silence = check_of(
     [model.ends_in_silence, model.says_why],
@@ -209,10 +194,9 @@ tells_a_cancel_by_another = check_of(
     needs=[checks.says_how_it_failed, checks.ctrl_c_cancels_the_goal],
     see="08_navigation#stop-why",
 )
-a_refused_cancel_is_no_end = check_of(
+a_refused_cancel_is_no_end = once_it_cancels(
     model.believes_the_end,
     title="When the cancel is refused (empty goals_canceling), the goal is followed: SUCCEEDED ends it with status 0",
     on=REFUSED,
-    needs=checks.cancels_when_the_battery_drops,
     see="07_cancel_and_preempt#m1-why",
 )

@@ -239,13 +239,11 @@ class GuardLife(ClientLife):
         stands = self.stands_from(t)
         name = "no STANDING" if is_called_off and stands > t + SILENCE_LIMIT else end.name
         latest = t + SILENCE_LIMIT + LEAVES_SOON  # so long it may wait for STANDING in any case
+        earliest = end.earliest
         if is_called_off and self.for_the_battery:
-            earliest, latest = (
-                min(stands, t + SILENCE_LIMIT - ORDER_MARGIN),
-                min(stands + LEAVES_SOON, latest),
-            )
-            return replace(end, name=name, earliest=earliest, latest=latest)
-        return replace(end, name=name, latest=latest)
+            earliest = min(stands, t + SILENCE_LIMIT - ORDER_MARGIN)
+            latest = min(stands + LEAVES_SOON, latest)
+        return replace(end, name=name, earliest=earliest, latest=latest)
 
     def left_early(self, end: End, exited: ev.NodeExited) -> Failure:
         """Return the failure of a program that ended before it could know that it may end like this."""

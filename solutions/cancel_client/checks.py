@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from autograder.authoring import check_of
 from autograder.authoring.walking import every_client
 from autograder.authoring.walking.client_obligations import follows
@@ -24,49 +26,43 @@ walks = check_of(
     on=GOOD,
 )
 
-prints_feedback_at_once = check_of(model.prints_each_feedback_in_time, points=2, on=GOOD, needs=walks)
+once_it_walks = partial(check_of, needs=walks)
+prints_feedback_at_once = once_it_walks(model.prints_each_feedback_in_time, points=2, on=GOOD)
 
-q_cancels_the_goal = check_of(
+q_cancels_the_goal = once_it_walks(
     follows(2, 3),
     title="A q and Enter cancel the goal; it waits for its end and ends with status 4",
     points=3,
     on=CANCELED_BY_Q,
-    needs=walks,
     see="07_cancel_and_preempt#fix-read",
 )
 
-believes_the_end = check_of(
+once_q_cancels = partial(check_of, points=2, needs=q_cancels_the_goal)
+believes_the_end = once_q_cancels(
     follows(3),
     title="A goal that SUCCEEDED, although the server had agreed to cancel it, ends it with status 0",
-    points=2,
     on=OVERTAKEN,
-    needs=q_cancels_the_goal,
     see="07_cancel_and_preempt#late-why",
 )
 
-remembers_an_early_q = check_of(
+remembers_an_early_q = once_q_cancels(
     follows(4),
     title="A q that is typed before the goal is accepted cancels it when it is",
-    points=2,
     on=EARLY,
-    needs=q_cancels_the_goal,
     see="06_walk_to_a_pose#diagram",
 )
 
-reports_a_refusal = check_of(
+reports_a_refusal = once_q_cancels(
     [follows(6), model.says_what_was_refused],
     title="A refused cancel (code 0, empty goals_canceling) is reported, and the goal goes on to its own end",
-    points=2,
     on=REFUSING,
-    needs=q_cancels_the_goal,
     see="07_cancel_and_preempt#m1-why",
 )
 
-goes_on_at_the_end_of_input = check_of(
+goes_on_at_the_end_of_input = once_it_walks(
     follows(5),
     title="The end of the input (Ctrl-D) cancels nothing",
     on=INPUT_ENDS,
-    needs=walks,
     see="07_cancel_and_preempt#button-code",
 )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 from autograder.authoring import check_of, in_order, standard
 
@@ -34,19 +35,20 @@ REAL_ARM = in_order(
 
 server_appears = standard.server_appears("compute_ik", on=POINTS, clauses=[10])
 
-reaches_the_point = check_of(
+once_it_appears = partial(check_of, needs=server_appears)
+
+reaches_the_point = once_it_appears(
     [model.reaches_the_point, model.answers_in_time, model.never_waits],
     title="The angles it answers with bring the hand to the point, within 1 mm, and come at once",
     points=2,
     on=POINTS,
-    needs=server_appears,
 )
 
 bends_the_elbow_as_asked = check_of(
     model.bends_the_elbow_as_asked, points=2, on=POINTS, needs=reaches_the_point
 )
 
-says_what_is_out_of_reach = check_of(
+says_what_is_out_of_reach = once_it_appears(
     [
         model.refuses_nothing_within_reach,
         model.says_what_is_out_of_reach,
@@ -55,10 +57,9 @@ says_what_is_out_of_reach = check_of(
     title="Too far and too near is NO_IK_SOLUTION, what can be reached is not, and NaN is no success",
     points=2,
     on=LIMITS,
-    needs=server_appears,
 )
 
-refuses_other_frames = check_of(model.refuses_other_frames, on=IN_FRAMES, needs=server_appears)
+refuses_other_frames = once_it_appears(model.refuses_other_frames, on=IN_FRAMES)
 
 moves_the_real_hand = check_of(
     [model.reaches_the_point, model.moves_the_real_hand, model.uses_the_lengths_it_accepted],

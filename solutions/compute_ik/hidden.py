@@ -130,12 +130,10 @@ refuses_what_is_no_number = check_of(
     see="02_services#nan",
 )
 
-
 declares_its_lengths = check_of(
     model.lengths_are_parameters,
     on=ANY_LENGTH,
     needs=checks.server_appears,
-    see="04_your_own_interfaces#parameters-intro",
     to_its_end=False,  # whatever becomes of the node after that
 )
 

@@ -6,8 +6,9 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
+from rclpy.parameter import Parameter
 
 from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import Stage
@@ -40,23 +41,21 @@ def in_order(
             _move_to(stage, call.response.shoulder, call.response.elbow)
         return call.response is not None
 
-    def get(*names: str) -> bool:
-        return parameters.get.call(GetParameters.Request(names=list(names)))
-
-    def set_lengths(*lengths: tuple[str, float]) -> bool:
-        return parameters.set.call(SetParameters.Request(parameters=_parameters(lengths)))
-
-    def set_together(*lengths: tuple[str, float]) -> bool:
-        return parameters.set_together.call(SetParametersAtomically.Request(parameters=_parameters(lengths)))
-
-    vocabulary = {
-        "ask": ask,
-        "move_to": move_to,
-        "get": get,
-        "set": set_lengths,
-        "set_together": set_together,
-    }
-    carry_out(stage, steps, vocabulary)
+    carry_out(
+        stage,
+        steps,
+        {
+            "ask": ask,
+            "move_to": move_to,
+            "get": lambda *names: parameters.get.call(GetParameters.Request(names=list(names))),
+            "set": lambda *lengths: parameters.set.call(
+                SetParameters.Request(parameters=_parameters(lengths))
+            ),
+            "set_together": lambda *lengths: parameters.set_together.call(
+                SetParametersAtomically.Request(parameters=_parameters(lengths))
+            ),
+        },
+    )
     if interrupt:
         stage.interrupt_node()
 
@@ -70,12 +69,8 @@ def _request(
     return request
 
 
-def _parameters(lengths: Sequence[tuple[str, float]]) -> list[Parameter]:
-    double = ParameterType.PARAMETER_DOUBLE
-    return [
-        Parameter(name=name, value=ParameterValue(type=double, double_value=length))
-        for name, length in lengths
-    ]
+def _parameters(lengths: Sequence[tuple[str, float]]) -> list[ParameterMsg]:
+    return [Parameter(name, Parameter.Type.DOUBLE, length).to_parameter_msg() for name, length in lengths]
 
 
 def _move_to(stage: Stage, shoulder: float, elbow: float) -> None:
@@ -89,18 +84,13 @@ def _move_to(stage: Stage, shoulder: float, elbow: float) -> None:
 
 
 def _joint_positions(shoulder: float, elbow: float) -> dict[str, float]:
-    """Return the positions (rad) of the arm's joints for planar angles.
+    """Return the positions (rad, between -π and π) of the arm's joints for planar angles.
 
     At 0 the robot's arm hangs, which is -90° in the plane; and its joints turn about y, which points to the left, so
     what is counter-clockwise in the plane (x forward, y up) is negative for them.
     """
     return {
-        "l_shoulder_pitch": _one_turn(-(shoulder + math.pi / 2)),
-        "l_elbow": _one_turn(-elbow),
+        "l_shoulder_pitch": math.remainder(-(shoulder + math.pi / 2), math.tau),
+        "l_elbow": math.remainder(-elbow, math.tau),
         **{f"l_{joint}": 0.0 for joint in OTHER_ARM_JOINTS},
     }
-
-
-def _one_turn(angle: float) -> float:
-    """Return the same angle between -π and π."""
-    return math.remainder(angle, 2 * math.pi)

@@ -47,7 +47,7 @@ def finds_the_joints(call: Call) -> str | None:
         call.response.success,
         expected=f"success: true for {asked(call)}, which the robot has",
         observed=shown_fields(call.response, "success", "message"),
-        help=advice.not_heard(call.run) if deaf else advice.on_refusal(call),
+        help=advice.not_heard(call) if deaf else advice.on_refusal(call),
         see=lesson_on_hearing(call.run, "joint_states"),
     )
     return "without a message" if deaf else truth.situation(call)
@@ -72,7 +72,7 @@ def _require_heard(call: Call) -> None:
         not call.response.success,
         expected="an answer from the robot's joint_states",
         observed=f"{described(joints.name, joints.position)}, although no joint_states had reached your node",
-        help=advice.not_heard(call.run),
+        help=advice.not_heard(call),
         see=lesson_on_hearing(call.run, "joint_states"),
     )
 

@@ -60,10 +60,8 @@ fetches = on_good(
     points=2,
     needs=takes_the_object,
 )
-fills_the_result = on_good(model.reports_the_object, needs=fetches, see="07_cancel_and_preempt#m13-why")
-passes_feedback_on = on_good(
-    model.hands_feedback_on, needs=takes_the_object, see="06_walk_to_a_pose#slow-why"
-)
+fills_the_result = check_of(model.reports_the_object, on=GOOD, needs=fetches)
+passes_feedback_on = check_of(model.hands_feedback_on, on=GOOD, needs=takes_the_object)
 once_it_sets_out = partial(check_of, needs=goes_to_the_table)
 rejects_what_is_knowably_wrong = once_it_sets_out(model.rejects_the_impossible, on=INTERRUPT)
 does_not_set_out_on_a_low_battery = once_it_sets_out(

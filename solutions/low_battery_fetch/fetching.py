@@ -118,8 +118,9 @@ class Fetch:
     @property
     def canceled_at(self) -> float | None:
         """When its client asked to cancel it (s), while it was active."""
-        asked = [each.sent.t for each in self.goal.cancels if self.is_active(each.sent.t)]
-        return min(asked, default=None)
+        end = self.goal.result.t if self.goal.result else math.inf
+        asked = [each.sent.t for each in self.goal.cancels]
+        return min((t for t in asked if self.goal.sent.t <= t < end), default=None)
 
     @property
     def preempted_at(self) -> float | None:
@@ -136,10 +137,6 @@ class Fetch:
     def stopped_at(self) -> float:
         """When its client canceled it, or a newer goal came (s), infinity if neither was so."""
         return min(each for each in (self.canceled_at, self.preempted_at, math.inf) if each is not None)
-
-    def is_active(self, t: float) -> bool:
-        """Return whether it had no result yet at a time (s)."""
-        return self.goal.sent.t <= t and (self.goal.result is None or t < self.goal.result.t)
 
     def level(self, t: float) -> ev.MessagePublished | None:
         """Return the battery's last level before a time (s)."""
@@ -173,19 +170,8 @@ def objection(request: Any) -> str:
     return "" if math.isfinite(force) and force > 0 else f"nothing can be held with {force:g} N"
 
 
-_last: list[
-    tuple[Transcript, list[Fetch]]
-] = []  # what was asked for last: one record is judged by many obligations
-
-
 def fetches(run: Transcript) -> list[Fetch]:
     """Occasions: every goal of fetch that must be accepted."""
-    if not _last or _last[0][0] is not run:
-        _last[:] = [(run, _fetches(run))]
-    return _last[0][1]
-
-
-def _fetches(run: Transcript) -> list[Fetch]:
     _require_whole_lives(run)
     wanted = [goal for goal in goals(run) if not objection(goal.request)]
     sent = sorted(

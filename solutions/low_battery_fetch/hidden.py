@@ -141,8 +141,8 @@ MISSING = scenario(
     fetch("nobody walks", children=()),
 )
 
-in_drops = partial(check_of, on=DROPS, see=checks.GIVES_UP)
-in_cancels = partial(check_of, on=CANCELS)
+in_drops = partial(check_of, on=DROPS, needs=checks.gives_up_before_the_grasp, see=checks.GIVES_UP)
+in_cancels = partial(check_of, on=CANCELS, needs=checks.cancel_goes_down)
 of_servers = partial(check_of, see=checks.SILENCE_LESSON)
 in_failures = partial(check_of, on=FAILURES, see=checks.SILENCE_LESSON)
 
@@ -170,7 +170,6 @@ gives_up_while_the_hand_is_empty = in_drops(
     model.of(("approaching", "grasping"), *model.stops_in_time),
     title="While the stage is approaching or grasping, a drop cancels pick_and_place, too",
     points=2,
-    needs=checks.gives_up_before_the_grasp,
 )
 gives_up_at_home = in_drops(
     model.of(("at the tray",), *model.always, model.stops_with_empty_hands, model.gives_up_when_home),
@@ -196,19 +195,16 @@ success_wins = in_drops(
 waits_for_a_child_that_goes_on = in_drops(
     [*model.of(("refused",), *model.stops_in_time), model.one_child_at_a_time],
     title="A child that refuses the cancel is waited for all the same; then the robot goes home",
-    needs=checks.gives_up_before_the_grasp,
     see=checks.GOES_DOWN,
 )
 gives_up_for_good = in_drops(
     model.of(("recovers",), *model.stops_in_time),
     title="A battery that recovers while the child stops changes nothing: it goes home, and is ABORTED",
-    needs=checks.gives_up_before_the_grasp,
     see=checks.BATTERY_LESSON,
 )
 gives_up_right_after_the_acceptance = in_drops(
     model.of(("early",), *model.stops_in_time),
     title="A drop before the child is accepted cancels it right after the acceptance",
-    needs=checks.gives_up_before_the_grasp,
     see="08_navigation#client-intro",
 )
 cancel_goes_down_to_the_arm = in_cancels(
@@ -216,19 +212,16 @@ cancel_goes_down_to_the_arm = in_cancels(
     title="A cancel goes down to pick_and_place, too, which knows itself how to end safely",
     points=2,
     needs=[checks.fetches, checks.cancel_goes_down],
-    see=checks.GOES_DOWN,
 )
 waits_although_the_cancel_is_refused = in_cancels(
     [*model.of(("refused",), *model.obeys_a_cancel), model.one_child_at_a_time],
     title="When the child refuses the cancel, fetch is CANCELED only when the child has ended by itself",
     points=2,
-    needs=checks.cancel_goes_down,
     see=checks.ORPHANS,
 )
 remembers_a_cancel = in_cancels(
     model.of(("early",), *model.obeys_a_cancel),
     title="A cancel before the child is accepted goes down right after the acceptance",
-    needs=checks.cancel_goes_down,
     see="07_cancel_and_preempt#late-why",
 )
 gives_up_without_an_answer = in_failures(

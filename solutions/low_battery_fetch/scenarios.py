@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import reduce
 from typing import Any
@@ -11,6 +10,7 @@ from action_msgs.msg import GoalStatus
 from geometry_msgs.msg import PoseStamped
 from sensor_msgs.msg import BatteryState
 
+from autograder.arena.poses import pose_at
 from autograder.arena.scripted_action import CancelScript, GoalScript, ScriptedAction
 from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import Goal, Stage
@@ -105,14 +105,11 @@ def _walk(script: Script) -> GoalScript:
     takes = script.get("takes", WALK)
     way = [
         NavigateToPose.Feedback(
-            status="walking", distance_remaining=1.2 * 0.95**number, current_pose=_pose((0.0, 0.0, 0.0))
+            status="walking", distance_remaining=1.2 * 0.95**number, current_pose=_pose(0.0, 0.0, 0.0)
         )
         for number in range(_messages(takes))
     ]
-    result = NavigateToPose.Result(
-        error_code=script.get("code", 0), error_msg=script.get("said", ""), distance_traveled=1.2
-    )
-    return _script(script, way, takes, result)
+    return _script(script, way, takes, NavigateToPose.Result(distance_traveled=1.2))
 
 
 def _pick(script: Script, force: float) -> GoalScript:
@@ -122,25 +119,21 @@ def _pick(script: Script, force: float) -> GoalScript:
         PickAndPlace.Feedback(
             stage=each,
             percent_complete=100.0 * number / len(stages),
-            hand_pose=_pose((0.4, -0.2, 0.8)),
+            hand_pose=_pose(0.4, -0.2, 0.8),
             distance_to_object=0.01 * number,
             grasp_force=force,
         )
         for number, each in enumerate(stages)
     ]
-    tilted = _pose((0.03 * force, -0.1, 0.75), yaw=0.4)
+    tilted = _pose(0.03 * force, -0.1, 0.75, yaw=0.4)
     tilted.pose.orientation.x, tilted.pose.orientation.y = 0.0123, -0.0456
-    result = PickAndPlace.Result(
-        error_code=script.get("code", 0),
-        error_msg=script.get("said", ""),
-        final_object_pose=tilted,
-        max_grasp_force=force,
-    )
+    result = PickAndPlace.Result(final_object_pose=tilted, max_grasp_force=force)
     return _script(script, work, sum(seconds.values()), result)
 
 
 def _script(script: Script, feedback: Sequence[Any], takes: float, result: Any) -> GoalScript:
     agreed, stops_after = script.get("stops", (True, 1.0))
+    result.error_code, result.error_msg = script.get("code", 0), script.get("said", "")
     return GoalScript(
         accepted=script.get("accepted", True),
         after=script.get("answered_after", 0.0),
@@ -165,12 +158,10 @@ def _goal(
     force: float = 12.0,
     yaw: float = 0.6,
 ) -> PickAndPlace.Goal:
-    return PickAndPlace.Goal(object_id=object_id, place_pose=_pose((x, y, z), yaw), grasp_force=force)
+    return PickAndPlace.Goal(object_id=object_id, place_pose=_pose(x, y, z, yaw), grasp_force=force)
 
 
-def _pose(position: Sequence[float], yaw: float = 0.0) -> PoseStamped:
-    pose = PoseStamped()
-    pose.header.frame_id = "odom"
-    pose.pose.position.x, pose.pose.position.y, pose.pose.position.z = map(float, position)
-    pose.pose.orientation.z, pose.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+def _pose(x: float, y: float, z: float, yaw: float = 0.0) -> PoseStamped:
+    pose = pose_at(x, y, yaw)
+    pose.pose.position.z = z
     return pose

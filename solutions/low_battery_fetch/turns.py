@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from copy import deepcopy
 from dataclasses import dataclass
-from functools import lru_cache, reduce
+from functools import reduce
 from itertools import product
 
 from geometry_msgs.msg import Quaternion
@@ -29,22 +29,8 @@ from autograder.authoring import (
 )
 from ros_runtime.message_constants import GoalStatus, name_of
 
-from .fetching import (
-    ACTION_OF,
-    HOME,
-    NAVIGATE,
-    PICK,
-    PUT,
-    SILENCE,
-    SLACK,
-    TABLE,
-    TAKE,
-    Child,
-    Fetch,
-    fetches,
-    is_low,
-    is_offered,
-)
+from . import fetching
+from .fetching import HOME, NAVIGATE, PICK, PUT, SILENCE, SLACK, TABLE, TAKE, Child, Fetch
 
 AT_ONCE_TIME = 2.5  # s for what follows at once, and that 5 s may be exceeded by
 PLACES = {TABLE: (1.2, 0.0), HOME: (0.0, 0.0), TAKE: (1.45, 0.0, 0.72)}  # m in odom
@@ -90,15 +76,13 @@ class Plan:
         for each in self.moves:
             if isinstance(each, End) and isinstance(made, ev.ResultReceived) and each.status == made.status:
                 return each
-            if isinstance(each, str) and isinstance(made, Child) and ACTION_OF[each] == made.action:
+            if isinstance(each, str) and isinstance(made, Child) and fetching.ACTION_OF[each] == made.action:
                 return each
         return None
 
     def __str__(self) -> str:
         ways = [
-            f"the end of fetch, {name_of(GoalStatus, each.status)}"
-            if isinstance(each, End)
-            else f"a goal to {ACTION_OF[each]}: {each}"
+            _in_words(each) if isinstance(each, End) else f"a goal to {fetching.ACTION_OF[each]}: {each}"
             for each in self.moves
         ]
         return f"{' or '.join(ways)}, because {self.why}"
@@ -122,14 +106,13 @@ class Turn:
 def turns(*whys: str) -> Callable[[Transcript], list[Turn]]:
     """Occasions: the decisions of every fetch that have one of these reasons; by default all of them."""
     return lambda run: [
-        turn for fetch in fetches(run) for turn in _turns(fetch) if turn.plan.why in whys or not whys
+        turn for fetch in fetching.fetches(run) for turn in _turns(fetch) if turn.plan.why in whys or not whys
     ]
 
 
 # -- what must follow ------------------------------------------------------------------------------------------------
 
 
-@lru_cache(maxsize=32)
 def _turns(fetch: Fetch) -> list[Turn]:
     found: list[Turn] = []
     end = fetch.goal.result
@@ -173,7 +156,7 @@ def _plan(fetch: Fetch, after: Child | None, t: float, *reasons: bool) -> Plan |
     given_up = (End(ABORTED, ("battery",), latest=t + AT_ONCE_TIME),)
     if after is None:
         level = fetch.level(fetch.begun)
-        if level and not is_low(level):
+        if level and not fetching.is_low(level):
             return _next(fetch, TABLE, BEGINS, t)
         return Plan(LOW_BEFORE if level else UNKNOWN, given_up)
     if failure := _failure_of(after, t, low):
@@ -194,10 +177,10 @@ def _next(fetch: Fetch, step: str, why: str, t: float) -> Plan:
     missing = {
         action: End(ABORTED, (action,), soonest=given_up - SLACK, latest=given_up + AT_ONCE_TIME)
         for action in (NAVIGATE, PICK)
-        if not is_offered(fetch.run, action, t, given_up)
+        if not fetching.is_offered(fetch.run, action, t, given_up)
     }
-    if ACTION_OF[step] in missing:
-        return Plan(NO_SERVER, (missing[ACTION_OF[step]],))
+    if fetching.ACTION_OF[step] in missing:
+        return Plan(NO_SERVER, (missing[fetching.ACTION_OF[step]],))
     return Plan(why, (step, *(missing.values() if step == TABLE else ())))
 
 
@@ -281,7 +264,7 @@ def _not_made(turn: Turn) -> Exception:
     )
 
 
-def _in_words(made: Child | ev.ResultReceived) -> str:
+def _in_words(made: Child | ev.ResultReceived | End) -> str:
     if isinstance(made, Child):
         return f"a goal to {made.action}"
     return f"the end of fetch, {name_of(GoalStatus, made.status)}"

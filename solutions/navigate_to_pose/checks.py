@@ -56,12 +56,14 @@ server_appears = standard.server_appears(
     "the action navigate_to_pose", on=INTERRUPT, see="06_walk_to_a_pose#small-intro", clauses=[21]
 )
 accepts_a_goal = GOING(model.accepts, needs=server_appears)
+once_it_accepts = partial(check_of, needs=accepts_a_goal)
 arrives = GOING(
     [model.succeeds, model.stands_at_success, model.names_no_error],
     title="It SUCCEEDS, and the robot then stands within 0.10 m and 0.15 rad of the goal (tolerance 0)",
     points=2,
     needs=accepts_a_goal,
 )
+once_it_arrives = partial(check_of, needs=arrives)
 faces_its_way = GOING(model.faces_its_way, needs=arrives)
 feedback_keeps_its_rate = GOING(model.feedback_at_5_hz, needs=accepts_a_goal)
 TOLD = [arrives, feedback_keeps_its_rate]
@@ -74,33 +76,28 @@ progress_rises_to_100 = GOING(
     title="progress_percentage rises, is about half where half of the distance is left, and ends at 100",
     needs=TOLD,
 )
-measures_its_path = check_of(
+measures_its_path = once_it_arrives(
     model.measures_its_path,
     title="distance_traveled is the path walked for this goal, within 15 %, though the pelvis sways",
     points=2,
     on=[GO, PREEMPT],
-    needs=arrives,
     see="08_navigation#sway-why",
 )
 counts_no_detour_without_one = GOING(model.counts_no_recovery, needs=feedback_keeps_its_rate)
 feedback_ends_with_the_goal = GOING(model.feedback_ends_with_the_goal, needs=TOLD)
-succeeds_at_once_where_it_stands = check_of(
+succeeds_at_once_where_it_stands = once_it_arrives(
     [model.succeeds_where_it_stands, model.progress_rises],
     title="A goal equal to the present pose SUCCEEDS at once, with 100 % and without a walk",
     on=HERE,
-    needs=arrives,
 )
-rejects_a_wrong_pose = check_of(
+rejects_a_wrong_pose = once_it_accepts(
     [model.rejects_frames, model.rejects_nan],
     title="It rejects a pose in frame map, and one that holds NaN",
     on=IMPOSSIBLE,
-    needs=accepts_a_goal,
     see="08_navigation#map-why",
 )
-rejects_a_wrong_tolerance = check_of(
-    model.rejects_tolerances, on=IMPOSSIBLE, needs=accepts_a_goal, see=REJECT
-)
-rejects_without_power = check_of(model.rejects_without_power, on=HERE, needs=accepts_a_goal, see=REJECT)
+rejects_a_wrong_tolerance = once_it_accepts(model.rejects_tolerances, on=IMPOSSIBLE, see=REJECT)
+rejects_without_power = once_it_accepts(model.rejects_without_power, on=HERE, see=REJECT)
 gets_back_on_its_way = RETURNING(model.finds_its_way_back, points=2, needs=arrives)
 counts_the_recovery = RETURNING(
     [model.counts_the_detour, model.counts_no_recovery],
@@ -130,26 +127,23 @@ measures_what_was_walked = HOLDING(
     title="distance_traveled is what was walked, not what was commanded",
     needs=[gives_up_in_time, measures_its_path],
 )
-cancels_in_mid_stride = check_of(
+cancels_in_mid_stride = once_it_accepts(
     [model.grants_cancels, model.walks_until_canceled, model.stops_when_canceled, model.names_no_error],
     title="A cancel while the robot walks ends CANCELED, and within 2 s the robot stands still and upright",
     points=2,
     on=MID_STRIDE,
-    needs=accepts_a_goal,
 )
-new_goal_preempts_the_old = check_of(
+new_goal_preempts_the_old = once_it_arrives(
     [model.accepts, model.gives_way, model.says_why_it_aborted, model.succeeds],
     title="A new goal aborts the old one with PREEMPTED and is walked to",
     points=2,
     on=PREEMPT,
-    needs=arrives,
     see="07_cancel_and_preempt#preempt-why",
 )
-aborts_when_the_robot_falls = check_of(
+aborts_when_the_robot_falls = once_it_accepts(
     [model.tells_a_fall, model.says_why_it_aborted],
     title="When the robot falls the goal is ABORTED with FELL",
     on=FALL,
-    needs=accepts_a_goal,
 )
 ends_cleanly = standard.ends_cleanly(
     on=[INTERRUPT, PREEMPT], needs=server_appears, see="07_cancel_and_preempt#conventions", clauses=[21]

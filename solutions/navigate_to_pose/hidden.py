@@ -7,7 +7,7 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from autograder.authoring import Scenario, check_of, rounded
+from autograder.authoring import Scenario, check_of, rounded, shuffled
 from autograder.authoring.walking.server_checks import OTHER_NAMESPACE
 from autograder.classroom.hidden_checks import standard_hidden
 
@@ -52,14 +52,13 @@ def _steps(random: Random) -> dict[str, Any]:
             ["wait", LISTENING],
         ],
     ]
-    random.shuffle(blocks)
+    any_order = shuffled(random, blocks)
     steps = [
         *(["go", "first", x, y, math.atan2(y, x), random.uniform(0.06, 0.08)], arrive("first", 1.0)),
         *(["wait", LISTENING], ["go", "second", *behind, random.uniform(0.15, 0.25)], arrive("second", 1.0)),
-        *(["wait", LISTENING], *(step for block in blocks for step in block)),
+        *(["wait", LISTENING], *any_order),
         *(["go_on", "down", *random.choice((FAR, behind_it))], ["walk_for", random.uniform(0.3, 1.0)]),
-        *(["cut_power"], ["end", "down"]),
-        *(["wait", LISTENING], ["go", "lying", 0.0, 0.0, 0.0]),
+        *(["cut_power"], ["end", "down"], ["wait", LISTENING], ["go", "lying", 0.0, 0.0, 0.0]),
     ]
     return {"steps": rounded(steps)}
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from autograder.authoring import STEPS, SUCCEEDED, Goal, ev, not_shown, require_feedback
+from autograder.authoring import STEPS, SUCCEEDED, Goal, Transcript, ev, goals, not_shown, require_feedback
 from autograder.authoring.walking import life
 from autograder.authoring.walking.planar import error, target
 from ros_runtime.angles import wrap
@@ -20,27 +20,30 @@ OFF_ITS_WAY = 0.6  # rad between heading and goal: more than the task's 0.5, so 
 class Leg:
     """A long way that nothing disturbed, with the moment when half of its distance was left."""
 
+    goal: Goal
     start: float  # s
     half: float  # s
     end: float  # s
 
-    @staticmethod
-    def of(goal: Goal) -> Leg | None:
-        """Return the way to a goal, which must have succeeded; None if it was disturbed, or short."""
-        if (
-            not life.is_undisturbed(goal)
-            or life.left_alone(goal)
-            or operated(goal)
-            or life.way_to(goal) < MIN_LEG
-        ):
-            return None
-        end = goal.require_result(SUCCEEDED).t
-        start = goal.accepted_at
-        whole, _turn = error(goal.run.robot_at(start), goal)
-        for robot in goal.run.robot_between(start, end):
-            if error(robot, goal)[0] <= whole / 2:
-                return Leg(start, robot.t, end)
-        raise not_shown(goal.run, f"the robot walks half of the way to “{goal.name}”")
+
+def legs(run: Transcript) -> Iterator[Leg]:
+    """Occasions: the long ways that nothing disturbed, whose goals must have succeeded."""
+    for goal in goals(run):
+        if not life.is_undisturbed(goal) or life.left_alone(goal) or operated(goal):
+            continue
+        if life.way_to(goal) < MIN_LEG:
+            continue
+        yield _leg_to(goal)
+
+
+def _leg_to(goal: Goal) -> Leg:
+    end = goal.require_result(SUCCEEDED).t
+    start = goal.accepted_at
+    whole, _turn = error(goal.run.robot_at(start), goal)
+    for robot in goal.run.robot_between(start, end):
+        if error(robot, goal)[0] <= whole / 2:
+            return Leg(goal, start, robot.t, end)
+    raise not_shown(goal.run, f"the robot walks half of the way to “{goal.name}”")
 
 
 def operated(goal: Goal, *how: str) -> bool:
@@ -84,7 +87,8 @@ def under_way(goal: Goal) -> Sequence[ev.FeedbackReceived]:
     return far
 
 
-def at_moment(goal: Goal, t: float) -> ev.FeedbackReceived:
-    """Return the last feedback not later than a moment, or the first."""
-    require_feedback(goal)
-    return next((feedback for feedback in reversed(goal.feedback) if feedback.t <= t), goal.feedback[0])
+def told_half_way(leg: Leg) -> ev.FeedbackReceived:
+    """Return the last feedback before half of the distance was left, or the first."""
+    require_feedback(leg.goal)
+    feedback = leg.goal.feedback
+    return next((each for each in reversed(feedback) if each.t <= leg.half), feedback[0])

@@ -19,13 +19,6 @@ STANDS_ALREADY = (
     "ALREADY_STANDING."
 )
 UNKNOWN = "While nothing is known, reject: keep None until the first odom and the first wrench of each foot."
-CALM = (
-    "Succeed only when height, speed and tilt, as odom measures them, have all been good for 0.5 s in a row."
-)
-LOADS = (
-    "Subscribe to l_foot/wrench and r_foot/wrench: force.z is what a foot carries. Rise only when the smaller has been "
-    "at least 0.8 of the larger for 0.3 s."
-)
 FLOOR = (
     "It cannot get up from a fall: reject the goal while robot_state.mode is FALLEN, or abort it with FELL."
 )

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import Any
 
-from autograder.authoring import RESTING, Scenario, check_of, standard
+from autograder.authoring import Scenario, check_of, in_order, standard
 
 from . import model
 
@@ -16,100 +15,84 @@ LISTENING = 1.5  # s after a result in which nothing more may be published
 WATCHING = 3.0  # s after a cancel or the time limit in which the pelvis must stay where it is
 
 
-def crouching(*steps: list[Any], **options: Any) -> Scenario:
-    """Return the scenario of these steps with a robot that crouches at first; `options` are its other fields."""
-    return Scenario("in_order", {"steps": [*steps]}, robot=CROUCH, **options)
-
-
+crouching = partial(in_order, robot=CROUCH)
+played = partial(Scenario, robot=None)  # the scenario plays the robot
 RISE = crouching(["go", "rise"], ["end", "rise"], ["wait", LISTENING])
-UNKNOWN = Scenario("ask_before_anything_is_known", robot=None)
+UNKNOWN = played("ask_before_anything_is_known")
 LEANED_ON = crouching(["lean_on", 20.0, 4.0], ["go", "rise"], ["end", "rise"])
 PUSHED = crouching(["go", "rise"], ["reach", BEGUN], ["lean_on", -20.0, 2.5], ["end", "rise"])
 AHEAD, LEFT, BACK, RIGHT = 0.0, math.pi / 2, math.pi, -math.pi / 2  # rad, in base_link
-GLIDES = Scenario(
-    "be_restless",
-    {"speed": 0.06, "tilt": 0.0, "towards": [AHEAD, RIGHT], "calm": 0.0, "duration": 1.6},
-    robot=None,
+GLIDES = played(
+    "be_restless", {"speed": 0.06, "tilt": 0.0, "towards": [AHEAD, RIGHT], "calm": 0.0, "duration": 1.6}
 )
-LEANS = Scenario(
+LEANS = played(
     "be_restless",
     {"speed": 0.0, "tilt": 0.12, "towards": [AHEAD, LEFT, BACK, RIGHT], "calm": 0.0, "duration": 1.2},
-    robot=None,
 )
-STANDING = Scenario(
-    "in_order", {"steps": [["go", "standing"], ["end", "standing"], ["wait", LISTENING]]}, robot=RESTING
-)
+STANDING = in_order(["go", "standing"], ["end", "standing"], ["wait", LISTENING])
 CANCEL = crouching(
     *(["go", "canceled"], ["reach", 0.48], ["cancel", "canceled"], ["end", "canceled"], ["wait", WATCHING])
 )
 TWICE = crouching(["go", "first"], ["reach", BEGUN], ["go", "second"], ["end", "first"])
 HELD = crouching(["hold", True], ["go", "held"], ["end", "held"], ["hold", False], ["wait", WATCHING])
 FALL = crouching(["go", "rise"], ["reach", BEGUN], ["knock_over", 0.0, 80.0, 0.0], ["end", "rise"])
-FALLEN = Scenario(
-    "in_order",
-    {"steps": [["knock_over", 0.0, 80.0, 0.0], ["wait", 1.0], ["go", "fallen"], ["end", "fallen"]]},
+FALLEN = in_order(
+    *(["knock_over", 0.0, 80.0, 0.0], ["wait", 1.0], ["go", "fallen"], ["end", "fallen"]), robot=()
 )
-INTERRUPT = Scenario("in_order", {"steps": [["interrupt"]]}, robot=RESTING)
+INTERRUPT = in_order(["interrupt"])
 
 LOOK = "07_cancel_and_preempt#conventions"
-STILL, PHASES = "09_arms#still-why", "09_arms#phases-why"
-of_a_rise = partial(check_of, on=RISE)
+PHASES = "09_arms#phases-why"
 
 server_appears = standard.server_appears(
     "the action stand_up", on=INTERRUPT, see="06_walk_to_a_pose#small-intro", clauses=[18]
 )
-accepts_a_goal = of_a_rise(
-    model.accepts, title="It accepts a goal while the robot crouches", needs=server_appears
+accepts_a_goal = check_of(
+    model.accepts, title="It accepts a goal while the robot crouches", on=RISE, needs=server_appears
 )
-rises = of_a_rise([model.succeeds, model.names_no_error], points=2, needs=accepts_a_goal)
-rises_on_the_spot = of_a_rise(model.rises_in_place, needs=rises)
-settles_before_it_succeeds = of_a_rise(
+once_it_accepts = partial(check_of, needs=accepts_a_goal)
+rises = once_it_accepts([model.succeeds, model.names_no_error], points=2, on=RISE)
+once_it_rises = partial(check_of, needs=rises)
+rises_on_the_spot = once_it_rises(model.rises_in_place, on=RISE)
+settles_before_it_succeeds = once_it_rises(
     model.settles,
     title="When it SUCCEEDS the robot has been high, still and upright for 0.5 s",
     points=2,
-    needs=rises,
+    on=RISE,
 )
-waits_until_it_is_still = check_of(
+waits_until_it_is_still = once_it_rises(
     [model.settles, model.succeeds],
     title="It does not succeed while the pelvis moves faster than 0.02 m/s",
     on=GLIDES,
-    needs=rises,
 )
-waits_until_it_is_upright = check_of(
+waits_until_it_is_upright = once_it_rises(
     [model.settles, model.succeeds],
     title="It does not succeed while the pelvis leans by more than 0.05 rad",
     on=LEANS,
-    needs=rises,
 )
-feedback_keeps_its_rate = of_a_rise(model.feedback_at_5_hz, needs=accepts_a_goal)
-names_its_phases = of_a_rise(model.names_its_phase, needs=rises)
-percent_is_measured = of_a_rise(model.measures_percent, needs=rises)
-percent_never_falls = check_of(
-    model.never_loses_percent,
-    title="percent_complete does not fall when the pelvis bobs",
-    on=GLIDES,
-    needs=accepts_a_goal,
+feedback_keeps_its_rate = once_it_accepts(model.feedback_at_5_hz, on=RISE)
+names_its_phases = once_it_rises(model.names_its_phase, on=RISE)
+percent_is_measured = once_it_rises(model.measures_percent, on=RISE)
+percent_never_falls = once_it_accepts(
+    model.never_loses_percent, title="percent_complete does not fall when the pelvis bobs", on=GLIDES
 )
-feedback_ends_with_the_goal = of_a_rise(model.feedback_ends, needs=rises)
-rejects_before_anything_is_known = check_of(
+feedback_ends_with_the_goal = once_it_rises(model.feedback_ends, on=RISE)
+rejects_before_anything_is_known = once_it_accepts(
     [model.rejects_the_unknown, model.accepts],
     title="It rejects a goal before the first messages of the robot, and accepts one after them",
     on=UNKNOWN,
-    needs=accepts_a_goal,
 )
-waits_for_even_loads = check_of(
+waits_for_even_loads = once_it_rises(
     [model.stays_down_while_uneven, model.names_shifting, model.succeeds],
     title="While somebody leans on the robot it stays down, in shifting; then it rises",
     points=2,
     on=LEANED_ON,
-    needs=rises,
 )
-shifts_again_after_a_push = check_of(
+shifts_again_after_a_push = once_it_rises(
     [model.shifts_again, model.names_shifting, model.succeeds],
     title="Leaned on while it rises, it stops and goes back to shifting; then it rises",
     points=2,
     on=PUSHED,
-    needs=rises,
 )
 accepts_a_goal_when_it_stands = check_of(
     model.accepts,
@@ -125,12 +108,11 @@ says_that_it_stands_already = check_of(
     on=STANDING,
     needs=accepts_a_goal_when_it_stands,
 )
-cancels_under_way = check_of(
+cancels_under_way = once_it_accepts(
     [model.cancels, model.names_no_error],
     title="A cancel while the robot rises is agreed to and ends CANCELED",
     points=2,
     on=CANCEL,
-    needs=accepts_a_goal,
 )
 stays_where_it_was_canceled = check_of(
     model.stays_where_it_ended,
@@ -139,18 +121,16 @@ stays_where_it_was_canceled = check_of(
     on=CANCEL,
     needs=cancels_under_way,
 )
-rejects_a_second_goal = check_of(
+rejects_a_second_goal = once_it_rises(
     [model.rejects_while_busy, model.succeeds],
     title="It rejects a goal while another runs, and the first goes on",
     on=TWICE,
-    needs=rises,
 )
-gives_up_in_time = check_of(
+gives_up_in_time = once_it_accepts(
     [model.keeps_the_limit, model.names_no_error, model.says_why_it_aborted],
     title="Held down, it ends ABORTED after 12 s, with a sentence",
     points=2,
     on=HELD,
-    needs=accepts_a_goal,
 )
 stays_down_after_the_limit = check_of(
     model.stays_where_it_ended,
@@ -159,11 +139,10 @@ stays_down_after_the_limit = check_of(
     needs=gives_up_in_time,
     see="08_navigation#late-why",
 )
-aborts_when_the_robot_falls = check_of(
+aborts_when_the_robot_falls = once_it_accepts(
     [model.ends_with_a_fall, model.says_why_it_aborted],
     title="When the robot falls the goal is ABORTED with FELL and a sentence",
     on=FALL,
-    needs=accepts_a_goal,
 )
 knows_that_a_fall_is_the_end = check_of(model.refuses_the_floor, on=FALLEN, needs=server_appears)
 ends_cleanly = standard.ends_cleanly(on=INTERRUPT, needs=server_appears, see=LOOK, clauses=[18])

@@ -7,11 +7,11 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from autograder.authoring import Scenario, check_of
+from autograder.authoring import Scenario, check_of, shuffled
 from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
-from .checks import CROUCH, crouching
+from .checks import CROUCH, crouching, played
 
 LEANING = 8.0  # s that somebody leans on the robot, longer than a goal may take to end after a cancel
 AFTERWARDS = 2.0  # s after an end in which the pelvis must stay where it is
@@ -37,27 +37,21 @@ def _steps(random: Random) -> dict[str, Any]:
         *(["crouch", height(0.5, 0.55)], ["go_together", "one", "other"], ["end", "one"], ["end", "other"]),
         ["wait", AFTERWARDS],
     ]
-    blocks = [shifting, anew]
-    random.shuffle(blocks)
     return {
         "steps": [
             *(["go", "canceled"], ["reach", first], ["cancel", "canceled"], ["end", "canceled"]),
             *(["wait", AFTERWARDS], ["go", "pushed"], ["reach", round(first + 0.055, 3)], ["push", *push]),
             *(["go", "meanwhile"], ["end", "pushed"], ["wait", 1.0], ["go", "up"], ["end", "up"]),
-            *(step for block in blocks for step in block),
-            *(
-                ["crouch", 0.5],
-                ["go", "last"],
-                ["reach", 0.52],
-                ["knock_over", 0.0, _side(random) * 80.0, 0.0],
-            ),
-            *(["end", "last"], ["wait", 1.0], ["go", "lying"], ["end", "lying"]),
+            *shuffled(random, [shifting, anew]),
+            *(["crouch", 0.5], ["go", "last"], ["reach", 0.52]),
+            *(["knock_over", 0.0, _side(random) * 80.0, 0.0], ["end", "last"]),
+            *(["wait", 1.0], ["go", "lying"], ["end", "lying"]),
         ]
     }
 
 
 ANY_ORDER = Scenario("in_order", _steps, robot=CROUCH)
-SWAYS = Scenario(
+SWAYS = played(
     "sway_before",
     lambda random: {
         "nearly": random.choice((0.7, 1 / 0.7)),
@@ -67,17 +61,15 @@ SWAYS = Scenario(
         "swings": 6,
         "rests": round(random.uniform(0.83, 0.88) ** random.choice((-1, 1)), 3),
     },
-    robot=None,
 )
-ASIDE = Scenario(
+ASIDE = played(
     "step_aside_at_the_top",
     lambda random: {
         "light": round(random.choice((random.uniform(0.3, 0.5), random.uniform(2.0, 3.0))), 2),
         "duration": 1.5,
     },
-    robot=None,
 )
-FIDGETS = Scenario(
+FIDGETS = played(
     "be_restless",
     lambda random: {
         "speed": 0.06,
@@ -86,16 +78,14 @@ FIDGETS = Scenario(
         "calm": round(random.uniform(0.1, 0.2), 2),
         "duration": 3.0,
     },
-    robot=None,
 )
-TIRES = Scenario(
+TIRES = played(
     "never_get_up",
     lambda random: {
         "even": round(random.uniform(0.9, 1.1), 2),
         "uneven": round(random.uniform(0.6, 0.8), 2),
         "times": 5,
     },
-    robot=None,
 )
 OTHER_NAMESPACE = crouching(["go", "rise"], ["end", "rise"], namespace="/lab_7/robot")
 

@@ -21,46 +21,14 @@ from autograder.authoring import (
     why_nothing_is_heard,
     why_rclpy_aborted,
 )
-from autograder.authoring.walking import objections
-from autograder.authoring.walking.life import (
-    accepted,
-    ended_at,
-    granted,
-    interrupted,
-    left_alone,
-    others,
-    overlaps,
-    run_of,
-)
+from autograder.authoring.walking import life, objections
 from autograder.authoring.walking.obligations import ends, tells
 from autograder.authoring.walking.reports import require_error_code
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus, name_of
 
-from . import advice
-from .truth import (
-    EARLY,
-    GAIN,
-    HEIGHT_SLACK,
-    LATE,
-    RISEN,
-    STANCE,
-    TIME_LIMIT,
-    began_high,
-    began_low,
-    bodies,
-    climb,
-    could_rise,
-    fallen_during,
-    height_at,
-    lay_on_the_floor,
-    life,
-    loads,
-    pushes,
-    uneven_spans,
-    was_held,
-    was_pushed,
-)
+from . import advice, truth
+from .truth import EARLY, GAIN, HEIGHT_SLACK, LATE, RISEN, STANCE, TIME_LIMIT
 
 SHIFTING, RISING, SETTLING = PHASES = ("shifting", "rising", "settling")
 ON_ITS_WAY = 1.0  # s for messages of the robot to arrive
@@ -86,7 +54,7 @@ AT_REST, WATCHED = 1.0, 0.3  # s after a cancel or a push in which the pelvis co
 
 def _is_known(goal: Goal) -> bool | None:
     """Return whether odom and the loads had reached the server when the goal came; None: nobody can tell."""
-    run = run_of(goal)
+    run = life.run_of(goal)
     if run.ground_truth:
         return True
     firsts = [run.published(topic)[:1] for topic in ("odom", "l_foot/wrench", "r_foot/wrench")]
@@ -98,13 +66,11 @@ def _is_known(goal: Goal) -> bool | None:
 @obligation(1, 2, of=goals, see="06_walk_to_a_pose#reject-task")
 def accepts(goal: Goal) -> str | None:
     """It accepts a goal for a robot that crouches or stands, also after others have ended"""
-    if (
-        _is_known(goal) is not True
-        or lay_on_the_floor(goal)
-        or any(overlaps(other, goal) is not False for other in others(goal))
-    ):
+    if _is_known(goal) is not True or truth.lay_on_the_floor(goal):
         return None
-    run, stands = run_of(goal), began_high(goal)
+    if any(life.overlaps(other, goal) is not False for other in life.others(goal)):
+        return None
+    run, stands = life.run_of(goal), truth.began_high(goal)
     for last in run.published("odom")[-1:] if goal.answer else ():
         expect(
             last.subscriptions > 0,
@@ -145,13 +111,13 @@ takes_one_of_several = obligation(13, of=goals)(objections.one_of_several)
 def succeeds(goal: Goal) -> str | None:
     """It SUCCEEDS, and base_link is then at 0.59 m or higher"""
     accepts.require(goal)
-    if goal.status != SUCCEEDED and (not could_rise(goal) or left_alone(goal)):
+    if goal.status != SUCCEEDED and (not truth.could_rise(goal) or life.left_alone(goal)):
         return None
-    run, result = run_of(goal), goal.result
+    run, result = life.run_of(goal), goal.result
     if result is None or result.status != SUCCEEDED:
         advice.require_not_given_up(goal)
         result = goal.require_result(SUCCEEDED)
-    height = max(each.z for each in bodies(run, result.t - 0.3, result.t))
+    height = max(each.z for each in truth.bodies(run, result.t - 0.3, result.t))
     expect(
         height >= RISEN - HEIGHT_SLACK,
         expected=f"base_link at {RISEN} m or higher when the goal SUCCEEDED",
@@ -159,13 +125,13 @@ def succeeds(goal: Goal) -> str | None:
         help=advice.about_the_height(goal, height),
         at=result.t,
     )
-    return "pushed" if was_pushed(goal) else "undisturbed"
+    return "pushed" if truth.was_pushed(goal) else "undisturbed"
 
 
 @obligation(5, 7, of=goals, see="09_arms#phases-why")
 def rises_though_pushed(goal: Goal) -> str | None:
     """Pushed on its way, it rises all the same"""
-    return succeeds.require(goal) if was_pushed(goal) else None
+    return succeeds.require(goal) if truth.was_pushed(goal) else None
 
 
 @obligation(6, of=goals, see="09_arms#still-why")
@@ -174,13 +140,14 @@ def settles(goal: Goal) -> str | None:
     if goal.status != SUCCEEDED or not goal.result:
         return None
     begin, end = (goal.result.t - before for before in SETTLED)
-    for body in bodies(run_of(goal), begin, end):
+    for body in truth.bodies(life.run_of(goal), begin, end):
         expect(
             not body.unrest,
             expected=f"base_link at {RISEN} m, slower than 0.02 m/s and upright within 0.05 rad for 0.5 s before "
             "the goal SUCCEEDED",
             observed=f"{body.unrest} {goal.result.t - body.t:.1f} s before",
-            help=advice.CALM,
+            help="Succeed only when height, speed and tilt, as odom measures them, have all been good for 0.5 s in a "
+            "row.",
             at=body.t,
         )
     return "simulated" if goal.run.ground_truth else "played"
@@ -189,22 +156,22 @@ def settles(goal: Goal) -> str | None:
 @obligation(2, of=goals, see="09_arms#phases-why")
 def says_that_it_stands(goal: Goal) -> str | None:
     """A goal for a robot that stands is ABORTED at once, with ALREADY_STANDING"""
-    if not accepted(goal) or not began_high(goal) or interrupted(goal):
+    if not life.accepted(goal) or not truth.began_high(goal) or life.interrupted(goal):
         return None
     result = goal.require_result(
         ABORTED, help="Nothing was done, so it is no success: abort() with ALREADY_STANDING."
     )
     require_error_code(goal, "ALREADY_STANDING", because="the robot stands already")
     _require_at_once(goal, result, "Compare odom's height with 0.59 m before the first phase.")
-    return "after a rise" if others(goal) else "at first"
+    return "after a rise" if life.others(goal) else "at first"
 
 
 @obligation(15, of=goals, see="07_cancel_and_preempt#fall-why")
 def ends_with_a_fall(goal: Goal) -> str | None:
     """When the robot falls the goal is ABORTED with FELL"""
-    if not began_low(goal) or granted(goal) or goal.status == SUCCEEDED:
+    if not truth.began_low(goal) or life.granted(goal) or goal.status == SUCCEEDED:
         return None
-    fallen = fallen_during(goal)
+    fallen = truth.fallen_during(goal)
     if fallen is None:
         return None
     require_fell_told(goal, fallen)
@@ -214,9 +181,9 @@ def ends_with_a_fall(goal: Goal) -> str | None:
 @obligation(16, of=goals, see="07_cancel_and_preempt#fall-why")
 def refuses_the_floor(goal: Goal) -> str | None:
     """A goal for a robot that has fallen is rejected, or ABORTED at once with FELL"""
-    if not lay_on_the_floor(goal):
+    if not truth.lay_on_the_floor(goal):
         return None
-    if not accepted(goal):
+    if not life.accepted(goal):
         goal.require_rejected(because="the robot has fallen", help=advice.FLOOR)
         return "rejected"
     result = goal.require_result(ABORTED, help=advice.FLOOR)
@@ -228,9 +195,9 @@ def refuses_the_floor(goal: Goal) -> str | None:
 @obligation(12, of=goals, see="07_cancel_and_preempt#m1-why")
 def cancels(goal: Goal) -> str | None:
     """A cancel at any moment is agreed to, and the goal ends CANCELED"""
-    over = ended_at(goal) if goal.status == SUCCEEDED else goal.run.end
+    over = life.ended_at(goal) if goal.status == SUCCEEDED else goal.run.end
     asked = [each for each in goal.cancels if goal.answer and goal.answer.t <= each.sent.t < over]
-    if not asked or not accepted(goal) or not began_low(goal):
+    if not asked or not truth.began_low(goal):
         return None
     asked[0].require_agreed(goal)
     took = goal.require_result(CANCELED).t - asked[0].sent.t
@@ -247,10 +214,10 @@ def cancels(goal: Goal) -> str | None:
 @obligation(14, of=goals, see="08_navigation#late-why")
 def keeps_the_limit(goal: Goal) -> str | None:
     """A goal that has not succeeded within 12 s is ABORTED then, and not before"""
-    if not accepted(goal) or not began_low(goal) or granted(goal) or fallen_during(goal) or interrupted(goal):
+    if not truth.began_low(goal) or life.granted(goal) or truth.fallen_during(goal) or life.interrupted(goal):
         return None
-    in_time = goal.status == SUCCEEDED and ended_at(goal) <= goal.accepted_at + TIME_LIMIT + LATE
-    if in_time or left_alone(goal):
+    in_time = goal.status == SUCCEEDED and life.ended_at(goal) <= goal.accepted_at + TIME_LIMIT + LATE
+    if in_time or life.left_alone(goal):
         return None
     result = goal.require_result(ABORTED, help=advice.TIME_IS_UP)
     took = result.t - goal.accepted_at
@@ -263,21 +230,15 @@ def keeps_the_limit(goal: Goal) -> str | None:
         else why_rclpy_aborted(goal) or "Nothing else was wrong: let the goal go on until 12 s are over.",
         at=result.t,
     )
-    return "held" if was_held(goal) else "it could have risen"
+    return "held" if truth.was_held(goal) else "it could have risen"
 
 
 @obligation(17, of=goals)
 def names_no_error(goal: Goal) -> str | None:
     """The error_code is NONE, except for a robot that stands already or has fallen"""
-    if (
-        not accepted(goal)
-        or not goal.result
-        or began_high(goal)
-        or lay_on_the_floor(goal)
-        or interrupted(goal)
-    ):
+    if not life.accepted(goal) or not goal.result or truth.began_high(goal):
         return None
-    if fallen_during(goal):
+    if truth.lay_on_the_floor(goal) or life.interrupted(goal) or truth.fallen_during(goal):
         return None
     require_error_code(goal, "NONE", because="the action has no code for this end")
     return name_of(GoalStatus, goal.result.status)
@@ -293,7 +254,7 @@ status_in_order = obligation(12, of=goals)(ends.status_in_order)
 @obligation(3, of=whole_run, see="01_robot_and_graph#walk-intro")
 def rises_in_place(run: Transcript) -> str | None:
     """The robot rises without a step"""
-    if not run.ground_truth or pushes(run):
+    if not run.ground_truth or truth.pushes(run):
         return None  # a push may make it step
     for robot in run.ground_truth:
         expect(
@@ -309,20 +270,17 @@ def rises_in_place(run: Transcript) -> str | None:
 @obligation(4, of=goals, see="09_arms#still-why")
 def stays_down_while_uneven(goal: Goal) -> str | None:
     """It stays down until the loads have been even for 0.3 s in a row"""
-    if not began_low(goal):
+    if not truth.began_low(goal):
         return None
-    run, (at, end) = run_of(goal), life(goal)
+    run, (at, end) = life.run_of(goal), truth.lifetime(goal)
     even = _first_even(goal, end)
     if even is None or even < at + LEANED:
         return None
     if run.ground_truth:
         start = run.robot_at(at).z
         highest = max(run.robot_between(at, even), key=lambda robot: robot.z)
-        rose, when, how = (
-            highest.z > start + GAIN,
-            highest.t,
-            f"it rose from {start:.2f} to {highest.z:.2f} m",
-        )
+        rose, when = highest.z > start + GAIN, highest.t
+        how = f"it rose from {start:.2f} to {highest.z:.2f} m"
     else:
         early = [
             each.t for each in run.received("cmd_vel") if at <= each.t < even and each.message.linear.z > 0
@@ -332,7 +290,8 @@ def stays_down_while_uneven(goal: Goal) -> str | None:
         not rose,
         expected="the pelvis to stay down until the loads have been even for 0.3 s",
         observed=f"{how}, with loads of {_loads_at(run, when)}",
-        help=advice.LOADS,
+        help="Subscribe to l_foot/wrench and r_foot/wrench: force.z is what a foot carries. Rise only when the smaller "
+        "has been at least 0.8 of the larger for 0.3 s.",
         at=when,
     )
     return "leaned on" if run.ground_truth else "swaying"
@@ -341,9 +300,9 @@ def stays_down_while_uneven(goal: Goal) -> str | None:
 def _first_even(goal: Goal, end: float) -> float | None:
     """Return until when (s) a goal's robot must stay down: they were never even for 0.3 s. None: unknown."""
     since, last = None, None
-    for each in loads(run_of(goal), goal.accepted_at, end):
+    for each in truth.loads(life.run_of(goal), goal.accepted_at, end):
         last = each.t
-        if each.share < 0.78:
+        if truth.share(each) < 0.78:
             since = None
         elif since is None:
             since = each.t
@@ -355,23 +314,23 @@ def _first_even(goal: Goal, end: float) -> float | None:
 @obligation(7, of=goals, see="09_arms#phases-why")
 def shifts_again(goal: Goal) -> str | None:
     """Uneven loads while it rises or settles stop it, and it does not succeed before they are even again"""
-    if not began_low(goal):
+    if not truth.began_low(goal):
         return None
-    run, judged = run_of(goal), None
-    for uneven, even in uneven_spans(run, *life(goal), NOTICE_TIME):
-        before = height_at(run, uneven)
-        if before < height_at(run, goal.accepted_at) + BEGUN:
+    run, judged = life.run_of(goal), None
+    for uneven, even in truth.uneven_spans(run, *truth.lifetime(goal), NOTICE_TIME):
+        before = truth.height_at(run, uneven)
+        if before < truth.height_at(run, goal.accepted_at) + BEGUN:
             continue
         expect(
-            goal.status != SUCCEEDED or even < ended_at(goal) - NOTICE_TIME,
+            goal.status != SUCCEEDED or even < life.ended_at(goal) - NOTICE_TIME,
             expected="no success while one foot carries much more than the other",
             observed=f"it SUCCEEDED with loads of {_loads_at(run, even)}",
             help="Look at the loads in every phase, also in settling.",
-            at=ended_at(goal),
+            at=life.ended_at(goal),
         )
         if even - uneven < REACTION + 0.1:
             continue
-        highest = max(bodies(run, uneven + REACTION, even), key=lambda body: body.z)
+        highest = max(truth.bodies(run, uneven + REACTION, even), key=lambda body: body.z)
         expect(
             before > RISEN - STOPPING or highest.z <= before + STOPPING,
             expected="the pelvis to stop while one foot carries much more than the other",
@@ -387,10 +346,10 @@ def shifts_again(goal: Goal) -> str | None:
 @obligation(9, of=goals)
 def names_shifting(goal: Goal) -> str | None:
     """While the loads are uneven the phase is shifting"""
-    if not began_low(goal):
+    if not truth.began_low(goal):
         return None
-    run, judged = run_of(goal), 0
-    for uneven, even in uneven_spans(run, *life(goal), LEANED):
+    run, judged = life.run_of(goal), 0
+    for uneven, even in truth.uneven_spans(run, *truth.lifetime(goal), LEANED):
         for each in goal.feedback:
             if uneven + FEEDBACK_DELAY <= each.t <= even:
                 judged += 1
@@ -408,14 +367,14 @@ def names_shifting(goal: Goal) -> str | None:
 @obligation(12, 14, of=goals, see="07_cancel_and_preempt#m12-robot-why")
 def stays_where_it_ended(goal: Goal) -> str | None:
     """After the end, or a cancel, the pelvis stays at the height that it has reached"""
-    if not accepted(goal) or goal.status not in (CANCELED, ABORTED) or not goal.run.ground_truth:
+    if not life.accepted(goal) or goal.status not in (CANCELED, ABORTED) or not goal.run.ground_truth:
         return None
-    if not goal.result or lay_on_the_floor(goal) or fallen_during(goal) or interrupted(goal):
+    if not goal.result or truth.lay_on_the_floor(goal) or truth.fallen_during(goal) or life.interrupted(goal):
         return None
-    asked = min([each.sent.t for each in granted(goal)], default=goal.result.t)
-    later = [other.sent.t for other in others(goal)]
+    asked = min([each.sent.t for each in life.granted(goal)], default=goal.result.t)
+    later = [other.sent.t for other in life.others(goal)]
     moved = [each.t for each in goal.run.commands("move_body")]
-    disturbances = pushes(run_of(goal))
+    disturbances = truth.pushes(life.run_of(goal))
     next_ones = [*later, *moved, *(first for first, _ in disturbances)]
     end = min((t for t in next_ones if t > asked), default=goal.run.end)
     begin = max([asked, *(last for first, last in disturbances if first <= asked)]) + AT_REST
@@ -451,12 +410,9 @@ def stays_where_it_ended(goal: Goal) -> str | None:
 @obligation(8, of=goals, see="06_walk_to_a_pose#settle-intro")
 def feedback_at_5_hz(goal: Goal) -> str | None:
     """Feedback comes at 5 Hz without a gap over 1 s"""
-    if (
-        not began_low(goal)
-        or left_alone(goal)
-        or interrupted(goal)
-        or (ended_at(goal) < goal.accepted_at + MIN_DURATION and not why_rclpy_aborted(goal))
-    ):
+    if not truth.began_low(goal) or life.left_alone(goal) or life.interrupted(goal):
+        return None
+    if life.ended_at(goal) < goal.accepted_at + MIN_DURATION and not why_rclpy_aborted(goal):
         return None
     require_good_feedback_rate(goal)
     return "all the time"
@@ -471,7 +427,7 @@ feedback_ends = obligation(8, of=goals, see="07_cancel_and_preempt#m13-why")(
 def names_its_phase(goal: Goal) -> str | None:
     """The phase is shifting, rising or settling, each while the robot does it"""
     feedback = _before_the_end(goal)
-    undisturbed = goal.run.ground_truth and not was_pushed(goal)
+    undisturbed = goal.run.ground_truth and not truth.was_pushed(goal)
     for each in feedback:
         expect(
             each.feedback.phase in PHASES,
@@ -482,12 +438,8 @@ def names_its_phase(goal: Goal) -> str | None:
         )
         if undisturbed:
             _require_seen_phase(goal, each)
-    if (
-        goal.status == SUCCEEDED
-        and feedback
-        and undisturbed
-        and not uneven_spans(run_of(goal), *life(goal), 0.0)
-    ):
+    has_risen = goal.status == SUCCEEDED and undisturbed
+    if feedback and has_risen and not truth.uneven_spans(life.run_of(goal), *truth.lifetime(goal), 0.0):
         seen = [phase for phase, _ in groupby(each.feedback.phase for each in feedback)]
         expect(
             seen in (list(PHASES), list(PHASES[1:])),
@@ -502,10 +454,10 @@ def names_its_phase(goal: Goal) -> str | None:
 
 def _require_seen_phase(goal: Goal, each: ev.FeedbackReceived) -> None:
     """Require that the robot rises in no other phase than rising, and settles where it is high enough."""
-    run, phase = run_of(goal), each.feedback.phase
+    run, phase = life.run_of(goal), each.feedback.phase
     recent = run.robot_between(each.t - FEEDBACK_DELAY / 2, each.t)
     highest = max(robot.z for robot in recent)
-    rises = min(climb(run, robot.t) for robot in recent) > 2 * CLIMBS and highest < RISEN - GAIN
+    rises = min(truth.climb(run, robot.t) for robot in recent) > 2 * CLIMBS and highest < RISEN - GAIN
     expect(
         phase == RISING or not rises,
         expected="the phase rising while the pelvis comes up",
@@ -526,14 +478,14 @@ def _require_seen_phase(goal: Goal, each: ev.FeedbackReceived) -> None:
 def measures_percent(goal: Goal) -> str | None:
     """percent_complete is the share of the height gained since the acceptance, and 100 at success"""
     feedback = _before_the_end(goal)
-    if not feedback or not began_low(goal) or fallen_during(goal):
+    if not feedback or not truth.began_low(goal) or truth.fallen_during(goal):
         return None
-    run, start = run_of(goal), height_at(run_of(goal), goal.accepted_at)
+    run, start = life.run_of(goal), truth.height_at(life.run_of(goal), goal.accepted_at)
     for each in feedback:
         percent = float(each.feedback.percent_complete)
-        recent = bodies(run, max(goal.accepted_at - 0.1, each.t - AGE), each.t)
+        recent = truth.bodies(run, max(goal.accepted_at - 0.1, each.t - AGE), each.t)
         true = [max(0.0, 100 * (body.z - start) / (STANCE - start)) for body in recent]
-        near = 0.0 if was_pushed(goal) else PERCENT_SLACK
+        near = 0.0 if truth.was_pushed(goal) else PERCENT_SLACK
         expect(
             0.0 <= percent <= 100.01 and (not near or min(true) - near <= percent <= max(true) + near),
             expected=f"percent_complete near {true[-1]:.0f}, the share of the height that the pelvis has gained",
@@ -571,12 +523,12 @@ def never_loses_percent(goal: Goal) -> str | None:
         return None
     if goal.run.ground_truth:
         return "simulated"
-    heights = [body.z for body in bodies(run_of(goal), *life(goal))]
+    heights = [body.z for body in truth.bodies(life.run_of(goal), *truth.lifetime(goal))]
     return "bobbing" if any(later < earlier - BOB for earlier, later in pairwise(heights)) else None
 
 
 def _before_the_end(goal: Goal) -> list[ev.FeedbackReceived]:
-    if not accepted(goal):
+    if not life.accepted(goal):
         return []
     return [each for each in goal.feedback if not goal.result or each.t <= goal.result.t]
 
@@ -594,10 +546,10 @@ def _require_at_once(goal: Goal, result: ev.ResultReceived, help: str) -> None:
 
 def _phase_at(goal: Goal, t: float) -> str:
     """Return in which phase the robot was by its height at a moment (s), for the table of clauses."""
-    z, start = height_at(run_of(goal), t), height_at(run_of(goal), goal.accepted_at)
+    z, start = truth.height_at(life.run_of(goal), t), truth.height_at(life.run_of(goal), goal.accepted_at)
     return "shifting" if z < start + BEGUN else "settling" if z >= RISEN else "rising"
 
 
 def _loads_at(run: Transcript, t: float) -> str:
-    sample = min(loads(run, t - 1.0, t + 1.0), key=lambda sample: abs(sample.t - t), default=None)
+    sample = min(truth.loads(run, t - 1.0, t + 1.0), key=lambda sample: abs(sample.t - t), default=None)
     return f"{sample.left:.0f} and {sample.right:.0f} N" if sample else "unknown"

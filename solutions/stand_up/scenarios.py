@@ -12,7 +12,6 @@ from geometry_msgs.msg import Twist, WrenchStamped
 from nav_msgs.msg import Odometry
 from rclpy.clock import Clock
 
-from autograder.arena.heard_topic import HeardTopic
 from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import ActionClient, Goal, Stage
 from humanoid_interfaces.action import StandUp
@@ -44,9 +43,6 @@ def in_order(stage: Stage, steps: Steps) -> None:
         for name in names:
             sent[name].wait_for_answer()
 
-    def cancel(name: str) -> None:
-        sent[name].cancel().wait()
-
     def crouch(height: float) -> None:
         robot.take_over(NO_VELOCITY)  # so that nothing comes between
         robot.move_body(-0.1)
@@ -69,7 +65,7 @@ def in_order(stage: Stage, steps: Steps) -> None:
         {
             "go": go,
             "go_together": go_together,
-            "cancel": cancel,
+            "cancel": lambda name: sent[name].cancel().wait() or None,
             "end": lambda name: sent[name].wait_for_result(RESULT_TIMEOUT) or None,
             "reach": lambda height: robot.wait_for(lambda state: state.z > height, HEIGHT_TIMEOUT) or None,
             "crouch": crouch,
@@ -120,7 +116,7 @@ def sway_before(
             robot.follow([1.0] * even + [1.0 / light if swing % 2 else light] * uneven)
         stage.poll_until(lambda: robot.has_followed, HEIGHT_TIMEOUT)
         robot.change("even", share=rests)
-        robot.live_until_the_end(goal)
+        goal.wait_for_result(RESULT_TIMEOUT)
 
 
 def step_aside_at_the_top(stage: Stage, light: float, duration: float) -> None:
@@ -132,7 +128,7 @@ def step_aside_at_the_top(stage: Stage, light: float, duration: float) -> None:
         robot.change("uneven", share=light)
         stage.wait(duration)
         robot.change("even", share=1.0)
-        robot.live_until_the_end(goal)
+        goal.wait_for_result(RESULT_TIMEOUT)
 
 
 def be_restless(
@@ -156,7 +152,7 @@ def be_restless(
             robot.change(toward=toward)
             stage.wait(duration)
         robot.change("calm", speed=0.0, tilt=0.0)
-        robot.live_until_the_end(goal)
+        goal.wait_for_result(RESULT_TIMEOUT)
 
 
 def never_get_up(stage: Stage, even: float, uneven: float, times: int) -> None:
@@ -176,7 +172,7 @@ def never_get_up(stage: Stage, even: float, uneven: float, times: int) -> None:
             robot.change(share=0.3)
             stage.wait(uneven)
         robot.change("uneven", share=0.3)
-        robot.live_until_the_end(goal)
+        goal.wait_for_result(RESULT_TIMEOUT)
 
 
 def _open(stage: Stage) -> ActionClient:
@@ -219,7 +215,7 @@ class _PlayedRobot:
         self._state = stage.offer_topic("robot_state", RobotState, latched=True)
         self._odom = stage.offer_topic("odom", Odometry)
         self._feet = {side: stage.offer_topic(f"{side}_foot/wrench", WrenchStamped) for side in "lr"}
-        self._cmd_vel: HeardTopic = stage.listen("cmd_vel", Twist)
+        self._cmd_vel = stage.listen("cmd_vel", Twist)
         self._shares: deque[float] = deque()  # of the rounds to come
         self._heard, self._silent, self._rounds = 0, 0, 0
         self._then = time.monotonic()
@@ -250,10 +246,6 @@ class _PlayedRobot:
     @property
     def has_followed(self) -> bool:
         return not self._shares
-
-    def live_until_the_end(self, goal: Goal) -> None:
-        """Wait until a goal ends, if it was accepted."""
-        goal.wait_for_result(RESULT_TIMEOUT)
 
     def _live(self) -> None:
         due = time.monotonic()

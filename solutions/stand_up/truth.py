@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from geometry_msgs.msg import Quaternion
-
 from autograder.authoring import Goal, Transcript, ev, fall_after, unseen
 from autograder.authoring.walking.life import accepted, ended_at, granted, interrupted, next_sent, run_of
 
@@ -39,30 +37,11 @@ class Body:
         return f"it leans by {self.tilt:.2f} rad" if self.tilt > UPRIGHT else ""
 
 
-@dataclass(frozen=True)
-class Loads:
-    """What the feet carried at a moment, N."""
-
-    t: float
-    left: float
-    right: float
-
-    @property
-    def share(self) -> float:
-        """The smaller load as a share of the larger."""
-        return max(0.0, min(self.left, self.right)) / max(self.left, self.right, 1.0)
-
-
 def bodies(run: Transcript, begin: float, end: float) -> list[Body]:
     """Return how base_link was between two moments (s); there must be some."""
     if run.ground_truth:
         return [
-            Body(
-                robot.t,
-                robot.z,
-                math.hypot(robot.speed, climb(run, robot.t)),
-                math.acos(max(-1.0, min(1.0, robot.up))),
-            )
+            Body(robot.t, robot.z, math.hypot(robot.speed, climb(run, robot.t)), _tilt(robot.up))
             for robot in run.robot_between(begin, max(begin, end))
         ]
     found = []
@@ -70,15 +49,16 @@ def bodies(run: Transcript, begin: float, end: float) -> list[Body]:
         if begin <= each.t <= end:
             pose, velocity = each.message.pose.pose, each.message.twist.twist.linear
             speed = math.hypot(velocity.x, velocity.y, velocity.z)
-            found.append(Body(each.t, pose.position.z, speed, tilt(pose.orientation)))
+            up = 1.0 - 2.0 * (pose.orientation.x**2 + pose.orientation.y**2)
+            found.append(Body(each.t, pose.position.z, speed, _tilt(up)))
     if not found:
         raise unseen(run, f"nothing is known of the robot at {end:.1f} s")
     return found
 
 
-def tilt(q: Quaternion) -> float:
-    """Return the angle (rad) between the vertical and the z axis of an orientation."""
-    return math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (q.x**2 + q.y**2))))
+def _tilt(up: float) -> float:
+    """Return the angle (rad) between the vertical and an axis of length 1 that goes up so far."""
+    return math.acos(max(-1.0, min(1.0, up)))
 
 
 def climb(run: Transcript, t: float) -> float:
@@ -92,27 +72,30 @@ def height_at(run: Transcript, t: float) -> float:
     return bodies(run, t - 0.2, t)[-1].z
 
 
-def loads(run: Transcript, begin: float, end: float) -> list[Loads]:
+def loads(run: Transcript, begin: float, end: float) -> list[ev.FeetTruth]:
     """Return what the feet carried between two moments (s); empty where nobody asked."""
     if run.ground_truth:
-        return [
-            Loads(each.t, each.left, each.right) for each in run.all(ev.FeetTruth) if begin <= each.t <= end
-        ]
+        return [each for each in run.all(ev.FeetTruth) if begin <= each.t <= end]
     left, right = (
         [each for each in run.published(f"{side}_foot/wrench") if begin <= each.t <= end] for side in "lr"
     )
     return [
-        Loads(one.t, one.message.wrench.force.z, other.message.wrench.force.z)
+        ev.FeetTruth(t=one.t, left=one.message.wrench.force.z, right=other.message.wrench.force.z)
         for one, other in zip(left, right, strict=False)
     ]
+
+
+def share(feet: ev.FeetTruth) -> float:
+    """Return the smaller load as a share of the larger."""
+    return max(0.0, min(feet.left, feet.right)) / max(feet.left, feet.right, 1.0)
 
 
 def uneven_spans(run: Transcript, begin: float, end: float, least: float) -> list[tuple[float, float]]:
     """Return from when to when (s) the loads were uneven without a break, where that took at least so long (s)."""
     spans: list[tuple[float, float]] = []
     since = None
-    for each in [*loads(run, begin, end), Loads(math.inf, 1.0, 1.0)]:
-        if each.share < UNEVEN:
+    for each in [*loads(run, begin, end), ev.FeetTruth(t=math.inf, left=1.0, right=1.0)]:
+        if share(each) < UNEVEN:
             since = each.t if since is None else since
             last = each.t
         elif since is not None:
@@ -149,7 +132,7 @@ def fallen_during(goal: Goal) -> ev.RobotTruth | None:
     return fallen if fallen and fallen.t <= next_sent(goal, goal.sent.t) else None
 
 
-def life(goal: Goal) -> tuple[float, float]:
+def lifetime(goal: Goal) -> tuple[float, float]:
     """Return from when to when (s) an accepted goal was active."""
     return goal.accepted_at, min(ended_at(goal), goal.run.end)
 
@@ -163,7 +146,7 @@ def was_pushed(goal: Goal) -> bool:
     """Return whether the scenario pushed the robot, or leaned on it, while the goal was active."""
     if not accepted(goal):
         return False
-    begin, end = life(goal)
+    begin, end = lifetime(goal)
     return any(first <= end and last >= begin for first, last in pushes(run_of(goal)))
 
 
@@ -177,5 +160,5 @@ def could_rise(goal: Goal) -> bool:
     """Return whether nothing kept the robot from rising in time: no cancel, fall, hold, Ctrl-C or load on one foot."""
     if not began_low(goal) or was_held(goal) or granted(goal) or fallen_during(goal) or interrupted(goal):
         return False
-    spans = uneven_spans(run_of(goal), *life(goal), 0.1)
+    spans = uneven_spans(run_of(goal), *lifetime(goal), 0.1)
     return not spans or spans[-1][1] < goal.accepted_at + TIME_LIMIT - CAN_RISE

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+from random import Random
+
 from autograder.authoring import check_of, program
 from autograder.authoring.walking import client_scenarios as scene
 from autograder.authoring.walking.client_obligations import follows
 from autograder.classroom.hidden_checks import every_client_hidden
 
 from . import checks, model
+
+
+def _arrives(random: Random) -> scene.Script:
+    """Ctrl-C when the server agrees to no cancel, so that the goal comes to its own end."""
+    status = random.choice([scene.SUCCEEDED, scene.ABORTED])
+    return scene.ctrl_c(random, {"ends_after": 4.2, "status": status, "cancel": {"agreed": False}})
+
 
 WITHOUT_YAW = program("in_order", lambda random: scene.any_walk(random, arguments=2))
 ANY_COURSE = program("in_order", scene.any_course)
@@ -24,17 +33,7 @@ FORGETFUL = scene.walk({**scene.ON_THE_WAY, "kept_for": 1.0})
 NEVER_CANCELED = scene.walk(
     {**scene.ON_AND_ON, "cancel": {"ends_after": None}}, *scene.typed(), ["press_ctrl_c"]
 )
-ARRIVES = program(
-    "in_order",
-    lambda random: scene.ctrl_c(
-        random,
-        {
-            "ends_after": 4.2,
-            "status": random.choice([scene.SUCCEEDED, scene.ABORTED]),
-            "cancel": {"agreed": False},
-        },
-    ),
-)
+ARRIVES = program("in_order", _arrives)
 
 walks_anywhere = check_of(
     model.holds_whatever_happens,

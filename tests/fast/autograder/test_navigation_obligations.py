@@ -12,7 +12,7 @@ from autograder.authoring.walking.obligations import ends
 from humanoid_interfaces.action import NavigateToPose
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus
-from solutions.navigate_to_pose import odometer, progress, recoveries, times
+from solutions.navigate_to_pose import model
 from solutions.navigate_to_pose.legs import operated
 
 END = 60.0  # s
@@ -85,29 +85,35 @@ def test_the_operator_disturbs_the_goal_that_is_under_way_and_no_other():
 
 
 def test_the_path_is_what_was_walked_however_the_goal_ends():
-    assert odometer.measures_its_path(run_of(*goal(), ended(12.0)).goal("go")) == "SUCCEEDED, at first"
+    assert model.measures_its_path.require(run_of(*goal(), ended(12.0)).goal("go")) == "SUCCEEDED, at first"
     for traveled in (0.5, 1.3):
         with pytest.raises(Failure, match="distance_traveled"):
-            odometer.measures_its_path(run_of(*goal(), ended(12.0, traveled=traveled)).goal("go"))
+            model.measures_its_path.require(run_of(*goal(), ended(12.0, traveled=traveled)).goal("go"))
     canceled = ended(12.0, status=GoalStatus.CANCELED, traveled=0.5)
-    assert odometer.measures_its_path(run_of(*goal(), canceled).goal("go"))  # a last leg may go uncounted
+    assert model.measures_its_path.require(
+        run_of(*goal(), canceled).goal("go")
+    )  # a last leg may go uncounted
 
 
 def test_progress_and_recoveries_are_of_this_goal():
     reports = [said(1.0, progress=10.0), said(11.0, progress=100.0)]
     run = run_of(*goal(), *reports, ended(12.0))
-    assert progress.progress_rises(run.goal("go")) == "SUCCEEDED"
-    assert recoveries.counts_no_recovery(run.goal("go")) == "at first"
-    assert times.tells_its_time(run.goal("go")) == "at first"
+    assert model.progress_rises.require(run.goal("go")) == "SUCCEEDED"
+    assert model.counts_no_recovery.require(run.goal("go")) == "at first"
+    assert model.tells_its_time.require(run.goal("go")) == "at first"
     with pytest.raises(Failure, match="never to fall"):
-        progress.progress_rises(run_of(*goal(), *reports, said(11.5, progress=99.0), ended(12.0)).goal("go"))
+        model.progress_rises.require(
+            run_of(*goal(), *reports, said(11.5, progress=99.0), ended(12.0)).goal("go")
+        )
     with pytest.raises(Failure, match="number_of_recoveries 0"):
-        recoveries.counts_no_recovery(run_of(*goal(), said(1.0, recoveries=1), ended(12.0)).goal("go"))
+        model.counts_no_recovery.require(run_of(*goal(), said(1.0, recoveries=1), ended(12.0)).goal("go"))
 
 
 def test_a_goal_has_30_s_and_15_s_per_metre():
     def gives_up(after, status=GoalStatus.ABORTED, code=NavigateToPose.Result.TIMEOUT):
-        return times.gives_up_in_time(run_of(*goal(), ended(after, status=status, code=code)).goal("go"))
+        return model.gives_up_in_time.require(
+            run_of(*goal(), ended(after, status=status, code=code)).goal("go")
+        )
 
     assert gives_up(46.0)
     assert gives_up(12.0, GoalStatus.SUCCEEDED, NavigateToPose.Result.NONE) is None
