@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import pytest
+
+from autograder.isolation.availability import available_isolation
 from fuzz.arena.made_up import look, program
 from fuzz.arena.targets import TARGETS
 from fuzz.readers.all import READERS
-
-from autograder.isolation.availability import available_isolation
 
 
 @pytest.mark.skipif(not available_isolation().trusted, reason="hidden checks need isolated arenas")

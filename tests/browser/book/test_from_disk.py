@@ -7,11 +7,11 @@ from pathlib import Path
 
 import nbformat
 import pytest
-from chromium import CHROMIUM, OFFLINE, needs_chromium
 from nbformat.v4 import new_output
 from playwright.sync_api import Page, sync_playwright
 
 from autograder.classroom.book.site import make_site
+from chromium import CHROMIUM, OFFLINE, needs_chromium
 from ros_runtime.project import PROJECT
 
 DOT = "data:image/webp;base64,UklGRhoAAABXRUJQVlA4TA0AAAAvAAAAEAcQERGIiP4HAA=="

@@ -16,12 +16,12 @@ import nbformat
 import numpy as np
 import psutil
 import pytest
-from chromium import CHROMIUM, OFFLINE, needs_chromium
 from nbformat.v4 import new_code_cell, new_notebook
 from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
 from autograder.classroom.archives.student_bundle import TOP, write_bundle
+from chromium import CHROMIUM, OFFLINE, needs_chromium
 
 TIMEOUT = 90.0  # s, for each thing a busy machine has to do
 PICTURE = ".jp-OutputArea .widget-image"

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import psutil
 import pytest
-from chromium import CHROMIUM, OFFLINE, needs_chromium
 from playwright.sync_api import Page, sync_playwright
 
 from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook, Entry
 from autograder.engine.essay import left_to_a_person, load_essay
+from chromium import CHROMIUM, OFFLINE, needs_chromium
 
 TIMEOUT = 90.0  # s, for each thing a busy machine has to do
 SOLUTIONS = Path(__file__).resolve().parents[3] / "solutions"

@@ -12,10 +12,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from chromium import CHROMIUM, DRAWING, needs_chromium
-from falls import recorded_fall
 from PIL import Image
 from playwright.sync_api import ViewportSize, sync_playwright
+
+from chromium import CHROMIUM, DRAWING, needs_chromium
+from falls import recorded_fall
 from view_address import view_address
 
 pytest.importorskip("mujoco.studio", reason="this MuJoCo is older than 4.0 and has no web viewer")

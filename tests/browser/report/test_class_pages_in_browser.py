@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from chromium import CHROMIUM, OFFLINE, needs_chromium
 from playwright.sync_api import Page, sync_playwright
 
 from autograder.classroom.pages.pages import write_class_page, write_submission_pages
 from autograder.classroom.pages.plots import bars_svg
 from autograder.engine.verdict import CheckVerdict, Grade
+from chromium import CHROMIUM, OFFLINE, needs_chromium
 
 HOSTILE = "<img src=x onerror=document.title='run'>"
 PHONE = {"width": 390, "height": 800}

@@ -11,13 +11,13 @@ from contextlib import contextmanager
 
 import numpy as np
 import pytest
-from chromium import CHROMIUM, DRAWING, needs_chromium
 from PIL import Image
 from playwright.sync_api import sync_playwright
-from view_address import view_address
 
+from chromium import CHROMIUM, DRAWING, needs_chromium
 from ros_runtime.environment import ros_environment
 from ros_runtime.ros_domain import ReservedDomain
+from view_address import view_address
 
 pytest.importorskip("mujoco.studio", reason="this MuJoCo is older than 4.0 and has no web viewer")
 

@@ -8,11 +8,10 @@ import pytest
 
 pytest.importorskip("rclpy")
 
-from fuzz.readers.graph import WildNode
-
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.graph import MOST_ENDPOINTS, MOST_NODES, MOST_SERVICES, Graph
+from fuzz.readers.graph import WildNode
 
 
 class Endpoint(NamedTuple):

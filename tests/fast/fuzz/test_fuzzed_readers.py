@@ -11,10 +11,6 @@ from hypothesis import strategies as st
 
 pytest.importorskip("rclpy")
 
-from fuzz.fuzzer import LONG, SUITE, Fuzzer
-from fuzz.readers import records
-from fuzz.readers.all import CHANNELS, READERS
-
 from autograder.classroom.batch.collection import Work, collect
 from autograder.classroom.batch.records import GRADES, UnusableRecord, read_grades
 from autograder.classroom.batch.shards import SHARD, CannotMerge, merge_shards
@@ -23,6 +19,9 @@ from autograder.engine.arena_run import NotGraded, read_events
 from autograder.engine.hand_in import candidate_at
 from autograder.engine.submission import UnusableSubmission
 from autograder.engine.verdict import Grade
+from fuzz.fuzzer import LONG, SUITE, Fuzzer
+from fuzz.readers import records
+from fuzz.readers.all import CHANNELS, READERS
 
 IN_ARENAS = ("answers-judged",)  # it reads all recorded runs, which takes seconds: tests/arena/fuzz
 

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from falls import exercise, judged, walk
 from typer.testing import CliRunner
 
 from autograder.classroom.batch import job as module
@@ -26,6 +25,7 @@ from autograder.isolation.availability import Isolation
 from autograder.recording.kept import FOLDER
 from autograder.recording.replay.recording import Recording
 from course_cli.app import app
+from falls import exercise, judged, walk
 
 ISOLATED = Isolation(Kind.NAMESPACES, "as a test says")
 asked: list[bool] = []

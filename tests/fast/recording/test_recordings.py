@@ -9,6 +9,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from rosbags.highlevel import AnyReader
+
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.failure import Failure
+from autograder.engine.judging import judge
+from autograder.engine.verdict import Grade
+from autograder.recording.kept import keep
+from autograder.recording.mcap_file import MOST_OF_THE_REST
+from autograder.recording.recorder import Recorder
 from falls import (
     FELL_AT,
     PUSH,
@@ -22,16 +32,6 @@ from falls import (
     stays_up,
     walk,
 )
-from rosbags.highlevel import AnyReader
-
-from autograder.authoring.evidence import events as ev
-from autograder.authoring.evidence.transcript import Transcript
-from autograder.authoring.failure import Failure
-from autograder.engine.judging import judge
-from autograder.engine.verdict import Grade
-from autograder.recording.kept import keep
-from autograder.recording.mcap_file import MOST_OF_THE_REST
-from autograder.recording.recorder import Recorder
 from humanoid_interfaces.action import WalkTo
 
 INFO, WARN, ERROR = 20, 30, 40

@@ -19,7 +19,6 @@ from urllib.request import urlopen
 import mujoco
 import numpy as np
 import pytest
-from falls import FALL, FELL_AT, recorded_fall, recordings, simulated, walk
 from mcap.writer import Writer
 from PIL import Image, ImageSequence
 from typer.testing import CliRunner
@@ -35,6 +34,7 @@ from autograder.recording.replay.recording import NoRecording, Recording
 from autograder.recording.replay.span import Span, span_of
 from autograder.recording.replay.text import time_line
 from course_cli.app import app
+from falls import FALL, FELL_AT, recorded_fall, recordings, simulated, walk
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.view import View
 
