@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
+from humanoid_interfaces.action import PickAndPlace
 from lab.learning.gap import Gap, expect
 from lab.learning.gap_checks import asked, read_program
 
@@ -55,7 +56,7 @@ def puts_the_cup_down() -> str:
 def _cancel(*, stands: bool) -> None:
     """End a cancelled goal by the student's function, with a hand whose cup then `stands`, or not."""
     did: list[str] = []
-    hand, goal_handle, result = _Hand(did, stands=stands), _GoalHandle(did), object()
+    hand, goal_handle, result = _Hand(did, stands=stands), _GoalHandle(did), PickAndPlace.Result()
     end_canceled = read_program("put_down.py")["end_canceled"]
     returned = asked(partial(end_canceled, hand, goal_handle, result), "put_down.py")
     seen = f"{', then '.join(did) or 'nothing'}; lower() returned {stands}"
@@ -92,7 +93,8 @@ def _cancel(*, stands: bool) -> None:
         expected="canceled(), once",
         next="call goal_handle.canceled() after the hand is done: without it rclpy aborts the goal"
         if not ends
-        else "end the goal with goal_handle.canceled(), once, and with no other call",
+        else "end the goal with goal_handle.canceled(), once, and with no other call, also where the hand keeps the cup: "
+        "the client asked for a cancel",
     )
     expect(
         did[-1] == "canceled()",
@@ -113,10 +115,12 @@ class _Hand:
 
     def __init__(self, did: list[str], *, stands: bool) -> None:
         self.force = 7.0  # N
+        self.cup = self.place = (0.35, -0.25, 0.855)  # m
         self._did, self._stands = did, stands
 
     def lower(self) -> bool:
         self._did.append("lower()")
+        self.cup = self.place = (0.35, -0.25, 0.755 if self._stands else 0.80)
         return self._stands
 
     def open(self) -> None:

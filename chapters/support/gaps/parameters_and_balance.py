@@ -63,7 +63,7 @@ def decides_about_what_is_asked_for() -> str:
         (half, {"speed": math.nan}, False, "every `<` and `>` with NaN is false: ask `not speed >= …`"),
         (half, {"turn": math.nan}, False, "every `<` and `>` with NaN is false: ask `not speed >= …`"),
         (
-            half,
+            {**half, "use_sim_time": False},
             {"use_sim_time": True},
             True,
             "every node has parameters that are not yours: let them through",

@@ -7,8 +7,8 @@ from typing import Any
 
 from chapters.support import harness
 from lab.learning.gap import Gap, expect, not_yet
-from lab.running.programs import Program, run_program
-from lab.running.student_nodes import run_node, stop_nodes
+from lab.running.programs import run_program
+from lab.running.student_nodes import run_node
 from chapters.support.harness.goal_server import REASON, STEPS
 
 CALLBACKS = f"{harness.__path__[0]}/walk_callbacks.py"
@@ -16,6 +16,7 @@ SERVER = f"{harness.__path__[0]}/goal_server.py"
 MOST = 40.0  # s for a trial; sound lines need up to 6 s
 TOLERANCE = 0.10  # m, as the chapter's file has it
 GOAL = 0.5  # m ahead, in the trial
+FAILURES = ("ABORTED", "CANCELED", "UNKNOWN")
 TO_ACCEPT = ("1 m in base_link, while the robot stands", "3 m in base_link, while the robot stands")
 ADVICE = {
     "1 m in base_link, while the robot stands": "end with `return GoalResponse.ACCEPT` for a sound goal",
@@ -115,56 +116,67 @@ def measures_after_settling() -> str:
         expected="the pose in which it stands",
         next="call self.result(start) after stand_still()",
     )
+    expect(
+        not seen["filled_late"],
+        seen="succeed(), and then self.result(start)",
+        expected="the result first",
+        next="call self.result(start) before goal_handle.succeed(): if filling the result raises, the client must not "
+        "read SUCCEEDED",
+    )
     return "pushed back when it stopped, the robot walked again; SUCCEEDED came when it stood at the goal"
 
 
 def reads_the_status_first() -> str:
-    """Run the client beside a server that succeeds, and beside one that aborts."""
-    sound, aborted = _run_client("succeeds"), _run_client("aborts")
-    for how, program in (("SUCCEEDED", sound), ("ABORTED", aborted)):
+    """Run the client beside a server whose goals succeed, and end in each other way."""
+    run_node(SERVER, "SUCCEEDED", *FAILURES)
+    sound, *failed = (run_program("follow.py", "1.0") for _ in ("SUCCEEDED", *FAILURES))
+    for how, program in (("SUCCEEDED", sound), *zip(FAILURES, failed, strict=True)):
         expect(
             "Traceback" not in program.stderr,
             seen=f"{how}: {(program.stderr.strip().splitlines() or [''])[-1]}",
             expected="a client without a traceback",
             next="mend what this error names",
         )
-    expect(
-        aborted.exit_status != 0,
-        seen=f"ABORTED, and the client ended with exit status {aborted.exit_status}",
-        expected="exit status 3",
-        next="compare response.status with GoalStatus.STATUS_SUCCEEDED, and return 3 if they differ",
-    )
+    for how, program in zip(FAILURES, failed, strict=True):
+        expect(
+            program.exit_status != 0,
+            seen=f"{how}, and the client ended with exit status {program.exit_status}",
+            expected="exit status 3",
+            next="return 3 unless response.status is GoalStatus.STATUS_SUCCEEDED: CANCELED and UNKNOWN are no "
+            "arrival, either",
+        )
     expect(
         sound.exit_status == 0,
         seen=f"SUCCEEDED, and the client ended with exit status {sound.exit_status}",
         expected="exit status 0",
         next="the status is in response.status, and GoalStatus.STATUS_SUCCEEDED is success",
     )
-    expect(
-        aborted.exit_status == 3,
-        seen=f"ABORTED, and the client ended with exit status {aborted.exit_status}",
-        expected="exit status 3",
-        next="return 3",
-    )
-    expect(
-        REASON in aborted.stderr,
-        seen=f"ABORTED, and stderr says {aborted.stderr.strip()!r}",
-        expected=f"a line on stderr with the server's error_msg, here {REASON!r}",
-        next="print(…, response.result.error_msg, file=sys.stderr)",
-    )
+    for how, program in zip(FAILURES, failed, strict=True):
+        expect(
+            program.exit_status == 3,
+            seen=f"{how}, and the client ended with exit status {program.exit_status}",
+            expected="exit status 3",
+            next="return 3",
+        )
+        expect(
+            REASON in program.stderr or how == "UNKNOWN",
+            seen=f"{how}, and stderr says {program.stderr.strip()!r}",
+            expected=f"a line on stderr with the server's error_msg, here {REASON!r}",
+            next="print(…, response.result.error_msg, file=sys.stderr)",
+        )
+        expect(
+            str(STEPS) not in program.stdout,
+            seen=f"{how}, and stdout has the steps as if the robot had arrived",
+            expected="nothing on stdout about an arrival",
+            next="look at the status before you print",
+        )
     expect(
         str(STEPS) in sound.stdout,
         seen=f"SUCCEEDED, and the last line on stdout is {(sound.stdout.strip().splitlines() or [''])[-1]!r}",
         expected=f"a line with the result's total_steps, here {STEPS}",
         next="print response.result.total_steps",
     )
-    expect(
-        str(STEPS) not in aborted.stdout,
-        seen="ABORTED, and stdout has the steps as if the robot had arrived",
-        expected="nothing on stdout about an arrival",
-        next="look at the status before you print",
-    )
-    return "SUCCEEDED: exit status 0 and the steps; ABORTED: exit status 3 and the reason"
+    return f"SUCCEEDED: exit status 0 and the steps; {', '.join(FAILURES)}: exit status 3"
 
 
 def _trial(name: str) -> list[dict[str, Any]]:
@@ -184,14 +196,6 @@ def _trial(name: str) -> list[dict[str, Any]]:
         reason = (program.stderr.strip().splitlines() or ["it printed nothing"])[-1]
         raise not_yet(f"the program ended: {reason}", "a callback that returns", "mend what this error names")
     return seen
-
-
-def _run_client(how: str) -> Program:
-    """Run the student's client beside a server that ends its goal so."""
-    run_node(SERVER, how)
-    program = run_program("follow.py", "1.0")
-    stop_nodes()
-    return program
 
 
 GAPS = (

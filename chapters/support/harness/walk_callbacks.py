@@ -9,11 +9,13 @@ import json
 import math
 import os
 import sys
+import threading
 from importlib import import_module
 from typing import Any
 
 import rclpy
 from geometry_msgs.msg import PoseStamped
+from rclpy.task import Task
 from rclpy.utilities import remove_ros_args
 
 from humanoid_interfaces.action import WalkTo
@@ -24,6 +26,7 @@ SLIDES = 0.06  # m ahead, each time it stops later
 MOST_COMMANDS = 150
 MOST_LOOKS = 1000  # at the distance
 PERIOD = 0.2  # s that a command lasts
+TO_REST = 0.3  # s from the first command to stop
 GOAL = 0.5  # m ahead
 
 
@@ -68,7 +71,7 @@ def goals() -> None:
         "NaN m": (at(0.0), standing(), ahead(math.nan)),
     }
     for case, (node.pose, node.state, goal) in cases.items():
-        tell(case=case, said=_called(lambda goal=goal: node.on_goal(goal)))
+        tell(case=case, said=_called(node.on_goal, goal))
 
 
 def settles() -> None:
@@ -76,14 +79,23 @@ def settles() -> None:
     node = import_module("settled_walk").SettledWalker()
     robot = ToyRobot(node)
     handle = ToyHandle(robot)
-    returned = _called(lambda: node.execute(handle))
-    tell(returned=returned, ended=handle.ended, final=handle.final(node.pose), feedback=handle.feedback)
+    fill = node.result
+
+    def result(*arguments: Any) -> Any:
+        handle.filled_late = handle.filled_late or bool(handle.ended)
+        return fill(*arguments)
+
+    node.result = result
+    returned = _called(node.execute, handle)
+    tell(returned=returned, ended=handle.ended, final=node.pose.pose.position.x, filled_late=handle.filled_late)
 
 
-def _called(function: Any) -> str:
-    """What a call returned, in words, or what it raised."""
+def _called(callback: Any, argument: Any) -> str:
+    """What a callback returned, in words, or what it raised; as in rclpy, it may be a coroutine."""
+    task = Task(callback, [argument])
+    task()
     try:
-        returned = function()
+        returned = task.result()
     except Exception as error:
         return f"{type(error).__name__}: {error}"
     if isinstance(returned, WalkTo.Result):
@@ -98,7 +110,7 @@ class ToyRobot:
         self._node = node
         self._commands = 0
         self._stops = 0
-        self._zeros = 0
+        self._rest: threading.Timer | None = None  # while it stops
         self._looks = 0
         self._distance_left = node.distance_left
         node.cmd_vel, node.distance_left = self, self._look
@@ -116,21 +128,27 @@ class ToyRobot:
         return self._distance_left(goal_handle, start)
 
     def publish(self, command: Any) -> None:
-        """Move for PERIOD, or come to rest after the second command to stop."""
+        """Move for PERIOD, or come to rest soon after the first command to stop."""
         self._commands += 1
         if self._commands > MOST_COMMANDS:
             raise RuntimeError("the goal had not ended after 150 commands")
         x = self._node.pose.pose.position.x
         if command.linear.x:
-            self._zeros = 0
+            if self._rest:
+                self._rest.cancel()
+                self._rest = None
             self._node.pose = at(x + PERIOD * command.linear.x)
             self._node.state = standing(RobotState.WALKING)
             return
-        self._zeros += 1
-        if self._zeros == 2 and not self.stands:
-            self._node.pose = at(x - (PUSHED_BACK if self._stops == 0 else -SLIDES))
-            self._node.state = standing()
-            self._stops += 1
+        if not self._rest and not self.stands:
+            self._rest = threading.Timer(TO_REST, self._come_to_rest)
+            self._rest.start()
+
+    def _come_to_rest(self) -> None:
+        x = self._node.pose.pose.position.x
+        self._node.pose = at(x - (PUSHED_BACK if self._stops == 0 else -SLIDES))
+        self._node.state = standing()
+        self._stops += 1
 
 
 class ToyHandle:
@@ -140,13 +158,12 @@ class ToyHandle:
         self.request = ahead(GOAL)
         self.is_cancel_requested = False
         self.is_active = True
-        self.feedback = 0
         self.ended: list[str] = []
+        self.filled_late = False
         self._robot = robot
 
     def publish_feedback(self, _: Any) -> None:
-        """Count it."""
-        self.feedback += 1
+        """Drop it."""
 
     def succeed(self) -> None:
         """Note a success."""
@@ -159,10 +176,6 @@ class ToyHandle:
     def canceled(self) -> None:
         """Refuse: nobody asked for a cancel."""
         raise RuntimeError("canceled() without a cancel request")
-
-    def final(self, pose: Any) -> float:
-        """Where the robot is, in m."""
-        return float(pose.pose.position.x)
 
     def _end(self, how: str) -> None:
         if self.ended:

@@ -104,7 +104,7 @@ QUESTIONS = (
             ),
             Choice(
                 "if percentage < 0.20: cancel()",
-                "Every comparison with NaN is false, so the walk goes on. A good guard warns once, too: this line "
+                "Every `<` and `>` with NaN is false, so the walk goes on. A good guard warns once, too: this line "
                 "alone tells nobody that nothing was measured.",
                 right=True,
             ),

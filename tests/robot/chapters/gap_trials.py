@@ -15,11 +15,15 @@ WRITEFILE = "%%writefile "
 
 
 class GapTrials:
-    """A kernel in a folder that has all programs of the chapter, as if its cells had been run."""
+    """A kernel in a folder that has all programs of the chapter, as if its cells had been run.
+
+    `solved` are the programs with the solutions in their gaps.
+    """
 
     def __init__(self, chapter: str, folder: Path) -> None:
         notebook = nbformat.read(CHAPTERS / f"{chapter}.ipynb", as_version=4)
         self._programs = {file: program for file, (program, _) in gaps_of(notebook).items()}
+        self.solved = {file: fill(program, lines) for file, (program, lines) in gaps_of(notebook).items()}
         fill_gaps(notebook)
         for cell in notebook.cells:
             for magic in (MAGIC, WRITEFILE):

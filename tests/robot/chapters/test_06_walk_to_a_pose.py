@@ -234,6 +234,10 @@ END = "    result = self.result(start)\n    goal_handle.succeed()\n    return re
             "call self.result(start) after stand_still()",
         ),
         (
+            f"self.stand_still()\nif {LEFT}:\n    goal_handle.succeed()\n    return self.result(start)",
+            "call self.result(start) before goal_handle.succeed()",
+        ),
+        (
             f"self.stand_still()\nif self.distance_left(goal_handle, start) == 0.0:\n{END}",
             "never ends the goal",
         ),
@@ -263,8 +267,20 @@ STEPS = "print(response.result.total_steps)\n"
             f"if response.status != GoalStatus.STATUS_SUCCEEDED:\n    {FAILED}    return 1\n{STEPS}return 0",
             "exit status 1",
         ),
-        (f"if response.result.error_code:\n    {FAILED}    return 3\nreturn 0", "a line with the result's"),
+        (
+            f"if response.result.error_code:\n    {FAILED}    return 3\n{STEPS}return 0",
+            "UNKNOWN, and the client",
+        ),
+        (f"if response.status != 4:\n    {FAILED}    return 3\nreturn 0", "a line with the result's"),
         (f"if response.error_code:\n    {FAILED}    return 3\n{STEPS}return 0", "AttributeError"),
+        (
+            f"if response.status == GoalStatus.STATUS_ABORTED:\n    {FAILED}    return 3\n{STEPS}return 0",
+            "CANCELED, and the client ended with exit status 0",
+        ),
+        (
+            f"if response.status in (5, 6):\n    {FAILED}    return 3\n{STEPS}return 0",
+            "UNKNOWN, and the client ended with exit status 0",
+        ),
         (
             f"if response.status == GoalStatus.STATUS_SUCCEEDED:\n    {FAILED}    return 3\n{STEPS}return 0",
             "ABORTED, and the client ended with exit status 0",
@@ -288,9 +304,9 @@ def test_the_gap_of_the_status_says_what_is_wrong(gaps: GapTrials, lines: str, s
         (
             "settled_walk.py",
             "while self.state.mode == 2:\n    self.walk(0.0)\n    time.sleep(0.1)\n"
-            "if -TOLERANCE <= self.distance_left(goal_handle, start) <= TOLERANCE:\n"
-            "    goal_handle.succeed()\n    return self.result(start)",
+            f"if -TOLERANCE <= self.distance_left(goal_handle, start) <= TOLERANCE:\n{END}",
         ),
+        ("settled_walk.py", f"self.walk(0.0)\ntime.sleep(1.5)\nif {LEFT}:\n{END}"),
         (
             "settled_walk.py",
             f"self.stand_still()\ntime.sleep(0.5)\nif not {LEFT}:\n    continue\n{END.replace('    ', '')}",
@@ -304,6 +320,11 @@ def test_the_gap_of_the_status_says_what_is_wrong(gaps: GapTrials, lines: str, s
 )
 def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
     assert f"✓ {file}" in gaps.accept(file, lines)
+
+
+def test_the_goal_callback_may_be_a_coroutine(gaps: GapTrials) -> None:
+    program = gaps.solved["rejecting_walk.py"].replace("def on_goal", "async def on_goal")
+    assert "✓" in gaps.run("%%gap rejecting_walk.py\n" + program)
 
 
 def _words(html: str) -> str:

@@ -191,12 +191,12 @@ def test_the_gap_of_the_distance_says_what_is_wrong(gaps: GapTrials, lines: str,
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        ("return CANCEL if percentage < LIMIT else GO_ON", "every comparison with NaN is false"),
-        ("return GO_ON if percentage >= LIMIT else CANCEL", "every comparison with NaN is false"),
+        ("return CANCEL if percentage < LIMIT else GO_ON", "every `<` and `>` with NaN is false"),
+        ("return GO_ON if percentage >= LIMIT else CANCEL", "every `<` and `>` with NaN is false"),
         (
             "if percentage < 0.0 or percentage > 1.0:\n    return IGNORE\n"
             "return CANCEL if percentage < LIMIT else GO_ON",
-            "every comparison with NaN is false",
+            "every `<` and `>` with NaN is false",
         ),
         (
             "if not percentage <= 1.0:\n    return IGNORE\nreturn CANCEL if percentage < LIMIT else GO_ON",
@@ -210,6 +210,11 @@ def test_the_gap_of_the_distance_says_what_is_wrong(gaps: GapTrials, lines: str,
             "if not 0.0 <= percentage <= 1.0:\n    return IGNORE\n"
             "return CANCEL if round(percentage, 1) <= LIMIT else GO_ON",
             "do not round",
+        ),
+        (
+            "if not 0.0 <= percentage <= 1.0:\n    return IGNORE\n"
+            "return CANCEL if round(percentage, 3) < LIMIT else GO_ON",
+            "would walk on below LIMIT",
         ),
         ("if percentage < LIMIT:\n    return CANCEL", "end each path with `return`"),
     ],
@@ -230,6 +235,12 @@ def test_the_gap_of_the_battery_says_what_is_wrong(gaps: GapTrials, lines: str, 
             "odometer.py",
             "for x, y in path[1:]:\n    if math.hypot(x - last[0], y - last[1]) < shortest:\n        continue\n"
             "    metres = metres + math.hypot(x - last[0], y - last[1])\n    last = (x, y)",
+        ),
+        (
+            "odometer.py",
+            "for here in path:\n    while (piece := math.dist(last, here)) >= shortest:\n"
+            "        metres += shortest\n        part = shortest / piece\n"
+            "        last = [from_ + part * (to - from_) for from_, to in zip(last, here, strict=True)]",
         ),
         (
             "battery_watch.py",

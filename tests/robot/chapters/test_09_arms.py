@@ -200,6 +200,11 @@ def test_the_gap_of_the_tolerances_says_what_is_wrong(gaps: GapTrials, lines: st
         ("if hand.lower():\n    hand.open()\nreturn result", "without it rclpy aborts the goal"),
         ("if hand.lower():\n    hand.open()\ngoal_handle.abort()\nreturn result", "and with no other call"),
         (
+            "if hand.lower():\n    hand.open()\n    goal_handle.canceled()\nelse:\n    goal_handle.abort()\n"
+            "return result",
+            "also where the hand keeps the cup",
+        ),
+        (
             "if hand.lower():\n    hand.open()\n    goal_handle.canceled()\nreturn result",
             "without it rclpy aborts",
         ),
@@ -246,6 +251,12 @@ def test_the_gap_of_the_lasting_condition_says_what_is_wrong(gaps: GapTrials, li
         (
             "put_down.py",
             "stands = hand.lower()\nif stands is True:\n    hand.open()\ngoal_handle.canceled()\nreturn result",
+        ),
+        (
+            "put_down.py",
+            "result.max_grasp_force = hand.force\nx, y, height = hand.cup\n"
+            "if hand.lower() and hand.cup[2] < height:\n    hand.open()\n"
+            "else:\n    result.error_msg = 'the hand keeps the cup'\ngoal_handle.canceled()\nreturn result",
         ),
         (
             "steady.py",

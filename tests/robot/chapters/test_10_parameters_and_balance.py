@@ -230,6 +230,11 @@ def test_the_gap_of_the_decision_says_what_is_wrong(gaps: GapTrials, lines: str,
             '    return SetParametersResult(successful=False, reason=f"{speed} / {turn} is too tight")',
         ),
         (
+            "decide.py",
+            "for one in parameters:\n    if one.name not in now:\n        return SetParametersResult(reason=one.name)\n"
+            f"    wanted[one.name] = one.value\n{DECIDED}{REFUSED}",
+        ),
+        (
             "guarded.py",
             f"{ON_SET}{DECLARE}{APPLY}\n{POST_SET}",
         ),
