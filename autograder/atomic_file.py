@@ -1,4 +1,4 @@
-"""Files that are there as a whole or not at all, whenever the process that writes them is killed."""
+"""Atomic writing of files: if the writing process is killed, the file is complete or unchanged."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def write_atomically(path: Path, content: str | bytes) -> None:
-    """Write a file, text as UTF-8, with its folders: a reader sees the old content or the new, never a part."""
+    """Write a file (text as UTF-8) and create its folders; a reader sees the old content or the new, never a part."""
     path.parent.mkdir(parents=True, exist_ok=True)
     descriptor, temporary = tempfile.mkstemp(
         prefix=f".{path.name[:100]}.", suffix=".unfinished", dir=path.parent
@@ -24,7 +24,7 @@ def write_atomically(path: Path, content: str | bytes) -> None:
 
 
 def _umask() -> int:
-    """The process's own; the system tells it only in exchange for another."""
+    """Return the process's umask, which can only be read by setting it."""
     for line in Path("/proc/self/status").read_text().splitlines():
         if line.startswith("Umask:"):
             return int(line.split()[1], 8)

@@ -24,7 +24,7 @@ from ros_runtime.self_checks import keep_check
 if TYPE_CHECKING:
     from autograder.recording.recorder import Recorder
 
-NOTEBOOK_WIDTH = 104  # characters; JupyterLab shows as many beside its file browser on 1280 pixels
+NOTEBOOK_WIDTH = 104  # characters; fits into JupyterLab with its file browser on a screen of 1280 pixels
 
 
 @dataclass(frozen=True, repr=False)
@@ -44,8 +44,8 @@ class SelfCheck:
         print_verdict(_console(), verdict)
 
     def hidden(self, number: int) -> None:
-        """Print when a hidden check is made."""
-        print(f"Hidden check {number} is made when your work is graded.")
+        """Print that a hidden check is made only during grading."""
+        print(f"Hidden check {number} is run when your work is graded.")
 
 
 def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
@@ -61,7 +61,7 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
 
 
 def _graded_instead(exercise: str, path: Path) -> str:
-    """Return a sentence if a grader would take another file of this folder, which holds other work; "" otherwise."""
+    """Return a warning if the grader would choose another file of this folder, with different content; else ""."""
     if not (path.exists() and (found := work_in(Path(), exercise, depth=0))):
         return ""
     counts = found[0]
@@ -86,7 +86,7 @@ def check_and_keep(
     arenas: SubmissionArenas | None = None,
     recordings: Path | None = None,
 ) -> Grade:
-    """Check a student's file as `check_with_progress` does, and keep how many checks passed for the page of progress.
+    """Like `check_with_progress`; also store the number of passed checks for the progress page.
 
     Raises `UnusableSubmission` and `UnknownExercise`.
     """
@@ -142,7 +142,7 @@ def check_with_progress(
 
 
 def _recorder(exercise: Exercise) -> Recorder:
-    # imported when it is asked for, because the first verdict is waited for
+    # imported only if needed, so that the first verdict comes sooner
     from autograder.recording.recorder import Recorder
 
     return Recorder(exercise, for_students=True)
@@ -158,7 +158,7 @@ def _keep_recordings(console: Console, folder: Path, recordings: Recordings) -> 
 
 
 def _console() -> Console:
-    """Coloured text: as rich's HTML for notebooks every line would stand alone, and a long one would be cut off."""
+    """A console with coloured text; rich's own HTML for notebooks would separate all lines and cut off long ones."""
     in_notebook = Console().is_jupyter
     return Console(
         highlight=False,

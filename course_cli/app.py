@@ -35,8 +35,8 @@ class Command:
     Attributes:
         summary: its line in `course --help`.
         folder: the package that has its module; that of instructors is not in a student's archive.
-        forwards_arguments: it passes unknown arguments, in typer.Context.args, to another program.
-        forwards_help: it passes --help to that program, too.
+        forwards_arguments: the command passes unknown arguments, in typer.Context.args, to another program.
+        forwards_help: the command also passes --help to that program.
     """
 
     summary: str
@@ -94,8 +94,8 @@ def load(name: str) -> Any:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command that `arguments` (default: the process's own) name, and exit with its status.
 
-    A program that a script starts in the background (`course grade … &`) ignores Ctrl-C, and so would all that it
-    starts, students' nodes among them; so Ctrl-C is put back to what it does in a terminal.
+    A program that a script starts in the background (`course grade … &`) ignores SIGINT, and so would its child
+    processes, such as students' nodes. Therefore the default handler of SIGINT is restored first.
     """
     signal.signal(signal.SIGINT, signal.default_int_handler)
     arguments = sys.argv[1:] if arguments is None else list(arguments)
@@ -109,7 +109,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 class _Course(TyperGroup):
-    """Ends a command with the words and the exit status of a `CourseError`."""
+    """Prints the message of a `CourseError` and exits with its status."""
 
     def invoke(self, ctx: Any) -> Any:
         try:
@@ -137,7 +137,7 @@ def app(chosen: str | None) -> typer.Typer:
 
 
 def _listed_only(summary: str) -> Callable[[], None]:
-    """Return a placeholder for a command that this run does not call, so that help can list it."""
+    """Return a placeholder that lists a command in the help without importing its module."""
 
     def listed() -> None: ...
 

@@ -11,14 +11,14 @@ from ros_runtime.course_error import COULD_NOT, UNUSABLE
 
 __all__ = ["COULD_NOT", "NOT_GRADED", "UNUSABLE", "batch_status", "ended", "in_a_sentence"]
 
-NOT_GRADED = 3  # something could not be graded, and no student is to blame
+NOT_GRADED = 3  # the grader could not judge a submission
 FULL_DISK = (
-    "course: the disk is full. What was complete before is unharmed.\n"
+    "course: the disk is full. Files that were complete before are intact.\n"
     "Next: make room, then type the same command again; `course grade` goes on with --resume."
 )
 NO_PERMISSION = (
     "course: no permission for {path}.\n"
-    "Next: choose a folder that is yours with --out, or by going there, then type the same command again."
+    "Next: choose a folder that you can write with --out, or change into one, then type the same command again."
 )
 
 
@@ -29,14 +29,14 @@ def ended(console: Console, reason: object, status: int) -> typer.Exit:
 
 
 def batch_status(*, not_graded: int, complete: bool) -> int:
-    """Return the exit status of a batch: what the machine failed to grade comes before anything else incomplete."""
+    """Return the exit status of a batch: 3 if a submission is not graded, else 1 if it is incomplete, else 0."""
     if not_graded:
         return NOT_GRADED
     return 0 if complete else COULD_NOT
 
 
 def in_a_sentence(error: BaseException) -> str:
-    """Return what to tell of an error that people meet on any machine, or of one that led to it; else ""."""
+    """Return the message for a full disk or a missing permission among the error and its causes; else ""."""
     causes = [error]
     while (cause := causes[-1].__cause__ or causes[-1].__context__) is not None:
         causes.append(cause)
@@ -47,5 +47,5 @@ def in_a_sentence(error: BaseException) -> str:
 
 
 def _is_a_full_disk(error: BaseException) -> bool:
-    """Return whether it says that nothing more can be written: also in SQLite's words."""
+    """Return whether an error, also one of SQLite, means that the disk or the quota is full."""
     return getattr(error, "errno", None) in (errno.ENOSPC, errno.EDQUOT) or "disk is full" in str(error)

@@ -11,7 +11,7 @@ from autograder.engine.exercise import UnusableExercise, use_exercises_of
 
 
 def _use(folder: Path | None) -> Path | None:
-    """Use the exercises of this folder, before the command begins."""
+    """Select this folder of exercises before the command runs."""
     if folder is not None:
         try:
             use_exercises_of(folder)

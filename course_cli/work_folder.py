@@ -13,12 +13,12 @@ PARTS = ("start_here.ipynb", "chapters", "exercises", "docs")
 
 
 def work_folder() -> Path:
-    """Where this student's notebooks lie: COURSE_WORK, else the project if it can be written, else ~/humanoid_course.
+    """Return the folder of this student's notebooks: $COURSE_WORK, else a writable project, else ~/humanoid_course.
 
-    What is not there yet is copied; a file that is there is the student's and stays as it is.
+    Missing files are copied from the project; existing ones belong to the student and are never changed.
 
     Raises:
-        OSError: nothing can be written there.
+        OSError: the folder cannot be written.
     """
     chosen = os.environ.get(WORK_VARIABLE)
     if not chosen and os.access(PROJECT, os.W_OK):
@@ -31,10 +31,10 @@ def work_folder() -> Path:
 
 
 def _copy_missing(source: Path, place: Path) -> None:
-    """Copy a file, or the files of a folder, that are not there; without the rights of a shared original."""
+    """Copy a file, or the files of a folder, where they are missing; permissions are not copied."""
     files = sorted(source.rglob("*")) if source.is_dir() else [source]
     for file in files:
-        # What notebooks have written beside themselves belongs to whoever ran them there.
+        # other types of files were written by somebody's notebooks and are not part of the course
         if not file.is_file() or file.suffix not in (".ipynb", ".md", ".png", ".gif", ".svg", ".webp"):
             continue
         copy = place / file.relative_to(source) if source.is_dir() else place

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 
 class LabError(Exception):
-    """Something that a notebook asked for did not happen."""
+    """Base class: a request of a notebook failed."""
 
     def _render_traceback_(self) -> list[str]:
-        """What Jupyter shows instead of a traceback, which would only list lines of the lab."""
+        """Jupyter shows this line instead of a traceback, which would only list lines of the lab."""
         return [f"{type(self).__name__}: {self}"]
 
 

@@ -58,13 +58,13 @@ class Humanoid:
 
     Attributes:
         scene: its name.
-        seed: of the sensors' errors; a new one holds from the next `reset()` on.
+        seed: of the sensors' errors; a new one takes effect at the next `reset()`.
         model, data: of MuJoCo; the pelvis is base_link, the world is odom.
         battery: charge, voltage, current.
         hands: the grippers by side.
         feet: the sensors of what the feet carry, by side.
-        may_rest: while it stands still without a command, physics is not integrated: only time and battery go on, and
-            a step costs a fiftieth.
+        may_rest: while the robot stands still without a command, only time and battery are simulated, not the physics;
+            such a step takes a fiftieth of the time.
         motors_enabled: torque is on. False after `set_motor_power(False)`, after a fall and at zero charge.
     """
 
@@ -155,7 +155,7 @@ class Humanoid:
 
     @property
     def may_rest(self) -> bool:
-        """Whether its physics may be left out while it only stands; setting this wakes it."""
+        """Whether physics may be skipped while the robot only stands; setting this resumes it."""
         return self._rest.allowed
 
     @may_rest.setter
@@ -165,7 +165,7 @@ class Humanoid:
 
     @property
     def is_resting(self) -> bool:
-        """Whether its physics is not integrated at present."""
+        """Whether physics is skipped at present."""
         return self._rest.is_reached
 
     def _pass_time(self) -> None:
@@ -360,7 +360,7 @@ class Humanoid:
 
     @property
     def mode(self) -> Mode:
-        """What the robot is doing."""
+        """The robot's mode: off, standing, walking or fallen."""
         if self._fallen:
             return Mode.FALLEN
         if not self.motors_enabled:

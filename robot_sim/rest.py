@@ -1,11 +1,11 @@
-"""Detection of rest: integrating a robot that stands still would change nothing visible."""
+"""Detects that the robot stands so still that its physics need not be integrated."""
 
 from __future__ import annotations
 
 import mujoco
 import numpy as np
 
-# Standing, the motion that is left dies away within 0.26 s, so 0.5 µm or µrad are still to come.
+# In standing the remaining motion decays within 0.26 s, so below these speeds at most 0.5 µm or µrad remain.
 STILL = 2e-6  # rad/s or m/s
 HOLD = 0.1  # s
 
@@ -24,7 +24,7 @@ class Rest:
         self._still_ticks = 0
 
     def wake(self) -> None:
-        """Note a command to the body: it is integrated until it stands still again."""
+        """Note a command to the body: physics is integrated until the robot stands still again."""
         self._still_ticks = 0
 
     @property
@@ -33,6 +33,6 @@ class Rest:
         return self._still_ticks >= self._ticks_needed
 
     def watch(self, is_idle: bool) -> None:
-        """Take in one integrated timestep; `is_idle` tells whether the robot stands without a command."""
+        """Process one integrated timestep; `is_idle`: the robot stands without a command."""
         still = is_idle and np.abs(self._velocity).max() < STILL
         self._still_ticks = self._still_ticks + 1 if still else 0

@@ -43,7 +43,7 @@ def run(arguments: Sequence[str], program: str = "ros2") -> int:
     """Run a command of ours and return the exit status."""
     options = command_line(program).parse_args(arguments)
     if hasattr(sys.stdout, "reconfigure"):
-        sys.stdout.reconfigure(line_buffering=True)  # each line is seen at once, in a pipe, too
+        sys.stdout.reconfigure(line_buffering=True)  # flush every line, also into a pipe
     try:
         return options.run(options) or 0
     except CommandError as error:

@@ -24,9 +24,9 @@ from ros_runtime.notebook_domains import expected_nodes
 from ros_runtime.reachability import wait_until_reachable
 
 SPIN_TIME = 0.5  # s, as in ros2cli
-MISSING = 10  # times the spin time, as long as what is looked for is not seen: Fast DDS says lost words again after 3 s
+MISSING = 10  # times the spin time, while the wanted entity is missing: Fast DDS repeats a lost announcement after 3 s
 LONGEST_DISCOVERY = 16  # times the spin time, for a graph that never stops changing
-PERIOD = 0.02  # s between two looks at the graph, whose changes rclpy does not report
+PERIOD = 0.02  # s between two queries of the graph, whose changes rclpy does not report
 OF_EVERY_NODE = "/rosout"  # a topic that every node publishes
 NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
 
@@ -57,7 +57,9 @@ class CommandNode:
 
     def __enter__(self) -> CommandNode:
         self._thread.start()
-        expected = Counter(expected_nodes())  # those of the notebook in whose cell the command was called
+        expected = Counter(
+            expected_nodes()
+        )  # the running nodes of the notebook whose cell called the command
         self.find(lambda: expected <= Counter(self.node_names(hidden=True)))
         return self
 
@@ -70,7 +72,7 @@ class CommandNode:
     def discover(self, is_there: Callable[[], bool] = lambda: True) -> None:
         """Wait until the graph has not changed for the spin time, and every node in it has its name.
 
-        It waits ten times as long while it sees no other node, or not yet what is looked for.
+        While there is no other node, or `is_there` is false, the wait is ten times as long.
         """
         changed = time.monotonic()
         latest = changed + LONGEST_DISCOVERY * self._spin_time
@@ -82,7 +84,7 @@ class CommandNode:
                 seen, changed = graph, time.monotonic()
 
     def find(self, is_there: Callable[[], bool]) -> bool:
-        """Wait until what is looked for is there, and no longer; return whether it is."""
+        """Wait until `is_there` is true, at most MISSING times the spin time; return whether it is."""
         return self.wait_until(is_there, MISSING * self._spin_time)
 
     def wait_until(self, condition: Callable[[], Any], timeout: float = float("inf")) -> bool:
@@ -115,12 +117,12 @@ class CommandNode:
         return self.node.get_clock().now().to_msg()
 
     def wait_until_answering(self, server: str, timeout: float) -> bool:
-        """Wait until a node answers requests, which is later than it is seen (see `ros_runtime.reachability`)."""
+        """Wait until a node answers requests; it is discovered before that (see `ros_runtime.reachability`)."""
         deadline = time.monotonic() + timeout
         return wait_until_reachable(self.node, server, lambda: time.monotonic() > deadline)
 
     def run_in_spin(self, function: Callable[[], Any]) -> Any:
-        """Call a function between two callbacks: rclpy's action client is not safe for threads."""
+        """Call a function on the spinning thread and return its result: rclpy's action client is not thread-safe."""
         return self.result(self._executor.create_task(function))
 
     def result(self, future: Future) -> Any:
@@ -147,7 +149,7 @@ class CommandNode:
         return _Graph(nodes, list(self.topics()), list(self.services()))
 
     def _has_nameless_endpoints(self) -> bool:
-        """Return whether a node is seen by its endpoints whose name has not come yet: the two travel apart."""
+        """Return whether endpoints of a node are discovered but its name is not: they arrive separately."""
         everybody = self.node.get_publishers_info_by_topic(OF_EVERY_NODE)
         return any(endpoint.node_name == NOT_YET_KNOWN for endpoint in everybody)
 

@@ -1,4 +1,4 @@
-"""What a command says when it cannot do its work."""
+"""The error messages of the commands."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def unknown(kind: str, name: str, known: Iterable[str]) -> CommandError:
 
 
 def similar_names(name: str, known: Iterable[str]) -> list[str]:
-    """Return the known names that end alike, as /robot/odom for /odom; else those with few different letters."""
+    """Return the known names with the same ending (/robot/odom for /odom); else those that differ by few letters."""
     names = sorted(known)
     end = "/" + name.rpartition("/")[2]
     return [each for each in names if each.endswith(end)] or get_close_matches(name, names, n=2)

@@ -1,4 +1,4 @@
-"""The `ros2` of a sourced ROS 2, which is used instead of ours where it is there."""
+"""Finds the `ros2` of a sourced ROS 2, which replaces the course's own command."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ OURS = Path(__file__).with_name("bin")  # `course lab` puts it on the PATH
 
 
 def real_ros2() -> str | None:
-    """Return the path of the real `ros2`; None where rclpy comes from wheels, which that of another ROS cannot use."""
+    """Return the path of the real `ros2`, or None; also None if rclpy comes from wheels, which it cannot use."""
     if uses_wheels():
         return None
     folders = os.environ.get("PATH", "").split(os.pathsep)
@@ -21,12 +21,12 @@ def real_ros2() -> str | None:
 
 
 def path_with_ros2(path: str) -> str:
-    """Return a PATH on which `ros2` is ours, which hands over to the real one in the lab's domain.
+    """Return a PATH on which `ros2` is the course's command; it joins the lab's domain and may exec the real one.
 
-    It is made executable where an archive has been unpacked by a tool that forgets that.
+    If an unpacking tool has dropped the command's executable bit, set it.
     """
     command = OURS / "ros2"
     if not os.access(command, os.X_OK):
-        with suppress(OSError):  # not ours to change
+        with suppress(OSError):  # the file belongs to another user
             command.chmod(0o755)
     return os.pathsep.join([str(OURS), *filter(None, path.split(os.pathsep))])

@@ -1,6 +1,6 @@
-"""Servers before they are asked: they have the wanted type, and their node can answer.
+"""Waits before a request until the server has the right type and its node can answer.
 
-A request that comes between the moment in which we see a server and the moment in which its node sees us is lost.
+Discovery is not simultaneous: a request is lost if the server's node has not discovered this client yet.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from rclpy.node import NodeNameNonExistentError
 from ros_cli.command_node import CommandNode, full_name
 from ros_cli.errors import CommandError
 
-SERVER_TIMEOUT = 2.0  # s; a node that is busy for longer gets the request all the same
+SERVER_TIMEOUT = 2.0  # s; after that the request is sent anyway, since the node may only be busy
 
 NamesAndTypes = list[tuple[str, list[str]]]
 
@@ -24,13 +24,13 @@ def wait_for_type(
     """Wait until a server is ready.
 
     Args:
-        command: looks at the graph.
-        is_ready: whether there is a server of our type.
-        types: gives the types with which the name is used in the graph, by our own client, too.
-        wanted: our type.
+        command: the node that queries the graph.
+        is_ready: returns whether a server of the wanted type exists.
+        types: returns all types of this name in the graph, including this client's.
+        wanted: the type of this client.
 
     Raises:
-        CommandError: the name is used with another type; we would wait for ever.
+        CommandError: the name exists with another type only, so the wait would never end.
     """
 
     def is_ready_or_never() -> bool:

@@ -27,7 +27,7 @@ def add_graph_verb(verbs: Verbs, name: str, run: Run, summary: str) -> ArgumentP
         "--spin-time",
         type=positive_float,
         default=SPIN_TIME,
-        help="Spin time in seconds to wait for discovery: it is over when nothing new appeared for so long",
+        help="Spin time in seconds: discovery ends when nothing new has appeared for this long",
     )
     parser.add_argument(
         "--no-daemon", action="store_true", help="Accepted for scripts; there is no daemon here"

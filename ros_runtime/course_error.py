@@ -1,11 +1,11 @@
-"""The base of errors that a person can mend: `course` prints them and ends with their exit status."""
+"""The base class of errors that the user can fix: `course` prints them and exits with their status."""
 
 from __future__ import annotations
 
-COULD_NOT, UNUSABLE = 1, 2  # exit statuses: it could not do its job; what it was given cannot be used
+COULD_NOT, UNUSABLE = 1, 2  # exit statuses: the command failed; its arguments or files are unusable
 
 
 class CourseError(Exception):
-    """What was seen, expected and to do next, in a sentence or two; without a traceback."""
+    """The message says what was seen, what was expected and what to do next; `course` prints no traceback."""
 
     exit_status = UNUSABLE

@@ -1,4 +1,4 @@
-"""A design as students write it down: nodes, and what is said of each link between two of them.
+"""A student's written design of a system: nodes, and facts about each link between two of them.
 
     camera -> part_finder : topic sensor_msgs/msg/Image
         qos: best effort, keep last 1
@@ -7,8 +7,8 @@
             and finds nothing more
         safety: it moves nothing
 
-Left of the arrow is the node that publishes or asks. `#` begins a comment. A line that is indented further continues
-the one above. Nothing here judges what is said, only whether it is there.
+Left of the arrow is the node that publishes, or that sends the request or goal. `#` begins a comment. A line with
+deeper indentation continues the one above. Only the presence of each fact is checked, not whether it is right.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ KINDS: Mapping[str, str] = {
 }  # the middle of their types' names
 WIRE = "wire"  # no ROS: a cable, a fieldbus
 PATTERNS = (*KINDS, WIRE)
-FACTS = ("qos", "rate", "failure", "safety")  # beside pattern and type, which the first line says
-FIELDS = "fields"  # may be said of a type of one's own
+FACTS = ("qos", "rate", "failure", "safety")  # in addition to pattern and type, which are in the first line
+FIELDS = "fields"  # optional, for the fields of a type that the student defines
 EXAMPLE = "camera -> part_finder : topic sensor_msgs/msg/Image"
 
 _LINK = re.compile(r"(?P<sender>\w+)\s*->\s*(?P<receiver>\w+)\s*:\s*(?P<pattern>\w+)\b\s*(?P<type>.*)")
@@ -35,7 +35,7 @@ _FACT = re.compile(r"(?P<name>\w+)\s*:(?P<text>.*)")
 
 @dataclass(frozen=True)
 class Link:
-    """What two nodes exchange; `facts` is what is said of it, by the names in FACTS and FIELDS."""
+    """A connection between two nodes; `facts` maps names in FACTS and FIELDS to their texts."""
 
     sender: str
     receiver: str
@@ -47,7 +47,7 @@ class Link:
         return f"{self.sender} -> {self.receiver}"
 
     def missing(self) -> list[str]:
-        """Return a sentence for each of the six facts that is not there, or that nobody can read."""
+        """Return a sentence on each of the six facts that is missing or cannot be read."""
         found = [self._about_pattern(), self._about_type()]
         wanted = [fact for fact in FACTS if not (fact == "qos" and self.pattern == WIRE)]
         found += [f"{fact} is missing" for fact in wanted if not _says_something(self.facts.get(fact, ""))]
@@ -82,7 +82,7 @@ class Design:
 
 
 def read_design(text: str) -> Design:
-    """Read a design; whatever the text is, this raises nothing."""
+    """Read a design; raises nothing, since unreadable lines become `problems`."""
     reader = _Reader()
     for number, line in enumerate(text.splitlines(), start=1):
         reader.take(number, line)
@@ -95,9 +95,9 @@ class _Reader:
     def __init__(self) -> None:
         self.links: list[Link] = []
         self.problems: list[str] = []
-        self._facts: dict[str, str] | None = None  # of the last link; None: what follows belongs to no link
-        self._indent = 0  # of its facts
-        self._fact = ""  # the last of them
+        self._facts: dict[str, str] | None = None  # of the last link; None after an unreadable link
+        self._indent = 0  # of the last link's facts
+        self._fact = ""  # name of the last fact
 
     def take(self, number: int, line: str) -> None:
         words = line.partition("#")[0].strip()

@@ -23,7 +23,7 @@ _SETUP_FILE_VARIABLES = (
 def ros_environment(
     *, domain_id: int | None = None, localhost_only: bool = False, log_directory: Path | None = None
 ) -> dict[str, str]:
-    """Return the variables to add to a process's environment, which may be empty or a copy of ours.
+    """Return the variables to add to a process's environment, which may be empty or a copy of this process's.
 
     Args:
         domain_id: 0 to 101; separates systems on one network.
@@ -32,11 +32,11 @@ def ros_environment(
     """
     variables = {
         "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
-        # Shared memory crosses the sandbox's walls badly and leaves files behind when a process is killed.
+        # Shared memory does not work across sandboxes and leaves files behind when a process is killed.
         "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
-        # Fast DDS would otherwise obey a profile file that lies in the directory it is started in.
+        # Otherwise Fast DDS loads a profile file from the working directory.
         "SKIP_DEFAULT_XML_FILE": "1",
-        # Without it rclpy sends a field of the wrong type as garbage and says nothing.
+        # Without it rclpy silently sends a field of the wrong type as garbage.
         "ROS_PYTHON_CHECK_FIELDS": "1",
         "PYTHONUNBUFFERED": "1",
         "RCUTILS_COLORIZED_OUTPUT": "0",

@@ -17,14 +17,14 @@ EXPECTED = "COURSE_NOTEBOOK_NODES"  # in the environment of a notebook's cells: 
 
 
 def lab_variables() -> dict[str, str]:
-    """Return the environment of a new lab: where its notebooks tell their domains."""
+    """Create the file in which a new lab's notebooks write their domains; return the variable that names it."""
     descriptor, path = tempfile.mkstemp(prefix="course-lab-", suffix=".domains")
     os.close(descriptor)
     return {VARIABLE: path}
 
 
 def announce(domain_id: int) -> None:
-    """Tell the lab, if there is one, in which domain this notebook is."""
+    """Add this notebook's domain to the lab's file, if it runs in a lab."""
     if VARIABLE in os.environ:
         with Path(os.environ[VARIABLE]).open("a", encoding="utf-8") as domains:
             domains.write(f"{domain_id}\n")
@@ -33,22 +33,22 @@ def announce(domain_id: int) -> None:
 def latest() -> int | None:
     """Return the domain of the notebook that joined last, of those that still run; None if there is none."""
     try:
-        told = Path(os.environ[VARIABLE]).read_text(encoding="utf-8").split()
+        announced = Path(os.environ[VARIABLE]).read_text(encoding="utf-8").split()
     except (KeyError, FileNotFoundError):
         return None
-    return next((int(domain) for domain in reversed(told) if is_reserved(int(domain))), None)
+    return next((int(domain) for domain in reversed(announced) if is_reserved(int(domain))), None)
 
 
 def expect_node(name: str) -> None:
-    """Tell the ros2 commands in this notebook's cells that a node runs: they wait until they see it.
+    """Register a running node, so that ros2 commands in this notebook's cells wait until they discover it.
 
-    Two nodes of one name are two nodes.
+    A name that is registered twice stands for two nodes.
     """
     os.environ[EXPECTED] = " ".join(sorted([*expected_nodes(), name]))
 
 
 def forget_node(name: str) -> None:
-    """Tell them that it, or one of its namesakes, runs no more."""
+    """Unregister one node of this name."""
     nodes = expected_nodes()
     if name in nodes:
         nodes.remove(name)
@@ -56,5 +56,5 @@ def forget_node(name: str) -> None:
 
 
 def expected_nodes() -> list[str]:
-    """Return the full names of the nodes that the calling notebook says are running, one for each node."""
+    """Return the full names of the registered nodes of this notebook, one entry per node."""
     return os.environ.get(EXPECTED, "").split()

@@ -1,4 +1,4 @@
-"""Where the clone, or the students' copy, lies, and where a student's own notebooks do."""
+"""The folder of the clone or of the student's copy, and the folder of the student's notebooks."""
 
 from __future__ import annotations
 
@@ -6,6 +6,6 @@ import os
 from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parents[1]
-# Of an installation that several students share and none may write, each has notebooks of their own elsewhere.
+# If several students share a read-only installation, this variable names each one's own folder of notebooks.
 WORK_VARIABLE = "COURSE_WORK"
 WORK = Path(os.environ.get(WORK_VARIABLE) or PROJECT)

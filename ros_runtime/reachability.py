@@ -10,28 +10,28 @@ from rcl_interfaces.srv import ListParameters
 from rclpy.client import Client
 from rclpy.node import Node
 
-ANSWER_TIMEOUT = 0.1  # s for one answer
+ANSWER_TIMEOUT = 0.1  # s to wait for an answer before the next request
 
 
 def wait_until_reachable(node: Node, name: str, gives_up: Callable[[], bool]) -> bool:
-    """Ask a node for its parameters, again and again, until it answers.
+    """Request a node's parameter list repeatedly until it answers.
 
-    Two nodes discover each other step by step. For a moment one knows the other and is not yet known, and any request
-    or answer in that moment is lost. A request for the parameters does no harm, so it is repeated.
+    Discovery is not simultaneous: a request or answer is lost while only one of two nodes has discovered the other.
+    Listing parameters has no side effect, so this request can be repeated.
 
     Args:
-        node: asks; another thread spins it.
-        name: the full name of the node that is asked.
-        gives_up: is called between two questions; True ends the wait.
+        node: sends the requests; another thread spins it.
+        name: the full name of the node to reach.
+        gives_up: called between two requests; True ends the wait.
 
     Returns:
-        Whether it has answered.
+        Whether the node has answered.
     """
     return name in wait_until_all_reachable(node, [name], gives_up)
 
 
 def wait_until_all_reachable(node: Node, names: Sequence[str], gives_up: Callable[[], bool]) -> set[str]:
-    """Ask several nodes at once, as `wait_until_reachable` asks one; return the names of those that answered."""
+    """Like `wait_until_reachable`, for several nodes at once; return the names of those that answered."""
     clients = {name: node.create_client(ListParameters, f"{name}/list_parameters") for name in names}
     reachable: set[str] = set()
     try:
@@ -51,7 +51,7 @@ def wait_until_all_reachable(node: Node, names: Sequence[str], gives_up: Callabl
 
 
 def _ask_once(clients: Mapping[str, Client]) -> set[str]:
-    """Ask all of them; return the names of those that answered in time."""
+    """Send each client's request once; return the names of the nodes that answered within ANSWER_TIMEOUT."""
     asked = {
         name: (client.call_async(ListParameters.Request()), threading.Event())
         for name, client in clients.items()

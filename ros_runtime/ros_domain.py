@@ -26,7 +26,7 @@ def require_usable_domain() -> None:
     """Require that ROS_DOMAIN_ID, if it is set, names a domain that DDS has ports for.
 
     Raises:
-        ValueError: it does not; the message says what to do.
+        ValueError: DDS has no ports for the domain; the message says what to do.
     """
     given = os.environ.get("ROS_DOMAIN_ID", "")
     if given and not (given.isascii() and given.isdigit() and int(given) <= LAST_DOMAIN_ID):

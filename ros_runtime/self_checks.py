@@ -1,4 +1,4 @@
-"""The last self-check of each exercise, kept for the student's own page of progress; nothing else reads it."""
+"""Stores the last self-check of each exercise for the student's progress page; nothing else reads it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ from pathlib import Path
 
 from ros_runtime.project import WORK
 
-FILE = WORK / "exercises" / ".progress.json"  # above the exercises' folders, so that nobody hands it in
+FILE = (
+    WORK / "exercises" / ".progress.json"
+)  # not in an exercise's folder, so that it is not handed in with it
 KIND = "checks"
 
 
@@ -33,7 +35,7 @@ def last_checks(file: Path = FILE) -> dict[str, LastCheck]:
 
 
 def keep_check(exercise: str, passed: int, total: int, file: Path = FILE) -> None:
-    """Write down a self-check of one of the course's exercises; where nothing can be written, none is kept."""
+    """Store a self-check of one of the course's exercises; does nothing if the file cannot be written."""
     if not (file.parent / exercise).is_dir():  # an exercise of another course
         return
     check = LastCheck(passed, total, datetime.now().isoformat(timespec="seconds"))

@@ -52,7 +52,9 @@ def carry_out(
     phases = Phases(log, spec.measured, earlier_phases)
     try:
         with tempfile.TemporaryDirectory(prefix="scenario-") as folder:
-            os.chmod(folder, 0o711)  # the student's program, another user here and there, reads the clock
+            os.chmod(
+                folder, 0o711
+            )  # the student's program reads the clock file here, in some arenas as another user
             clock = ScaledClock.create(Path(folder, "clock"))
             if library_path():
                 follow(clock.path)
@@ -127,9 +129,9 @@ def _perform(
         executor.add_node(stranger)
         stage = Stage(node, stranger, log, simulator, student, phases, speed_up)
     threading.Thread(target=keep_spinning, args=(executor, log), daemon=True).start()
-    # a robot says itself how late it is
+    # with a robot, the simulator reports how late it is
     watch = monitor.watch() if spec.timed and not simulator else nullcontext()
-    with suppress(NodeMissing), watch:  # what is missing is recorded already
+    with suppress(NodeMissing), watch:  # the stage has recorded the missing endpoints
         scenario(stage, **spec.params)
     stage.close()
     if simulator and not simulator.is_running():

@@ -21,20 +21,20 @@ from ros_runtime.recorded_client.conversation import NOBODYS
 
 MOST_OF_A_KIND = 5000  # events of one kind for one goal, call, …; far more than a correct node sends
 MOST_OF: Mapping[str, int] = {
-    ev.FeedbackReceived.kind: 1000,  # of one goal: 50 a second for the longest walk, ten times what is asked for
-    ev.RequestReceived.kind: 500,  # of one service: each may be waited for
+    ev.FeedbackReceived.kind: 1000,  # of one goal: 50 a second for the longest walk, ten times the required rate
+    ev.RequestReceived.kind: 500,  # of one service; each may stay pending
     ev.GoalReceived.kind: 500,  # of one action
     ev.CancelReceived.kind: 500,
     ev.ResultRequested.kind: 500,  # of one goal
 }
 LARGEST_EVENT = 2**20  # bytes of JSON
-LARGEST_RECORD = 32 * 2**20  # bytes of what students send; the controller reads twice as much
-MOST_OF_NOBODYS = 500  # events of one kind that belong to no goal, call or service of the scenario
+LARGEST_RECORD = 32 * 2**20  # bytes of events that students cause; the controller reads up to twice as many
+MOST_OF_NOBODYS = 500  # events of one kind that match no goal, call or service of the scenario
 
 
 @dataclass
 class _Dropped:
-    """Events of one kind that were not kept; `since` and `until` are s."""
+    """Dropped events of one kind: their number, and the times (s) of the first event and of the last dropped one."""
 
     count: int
     since: float
@@ -96,7 +96,7 @@ class ArenaLog(EventLog):
 
     @property
     def received(self) -> int:
-        """How many events of the student's processes there were so far, recorded or not."""
+        """Number of events that the student's processes have caused so far, recorded or not."""
         with self._counting:
             return self._counts.total()
 
@@ -110,12 +110,12 @@ class ArenaLog(EventLog):
             dropped.until = now
 
     def too_large(self, what: str, id: str, size: int, limit: int) -> None:
-        """Record that something had more bytes than are read."""
+        """Record that a message or event exceeded its size limit (bytes)."""
         if self.admits(ev.TooLarge.kind, what):
             self.append(ev.TooLarge(what=what, id=id, bytes=size, limit=limit))
 
     def finish(self) -> None:
-        """Record what was dropped, an event for each kind."""
+        """Record how many events were dropped: one RecordDropped for each kind."""
         with self._counting:
             dropped, self._dropped = self._dropped, {}
         for what, each in dropped.items():

@@ -13,7 +13,7 @@ from ros_runtime.messages import is_message
 from ros_runtime.recorded_client.conversation import Reading
 
 KIB = 1024
-LARGEST: Mapping[str, int] = {  # bytes; what the course's interfaces are used for has a few hundred
+LARGEST: Mapping[str, int] = {  # bytes; messages in correct use of the course's interfaces have a few hundred
     "feedback": 16 * KIB,
     "status": 64 * KIB,  # two thousand goals
     "answer": 64 * KIB,
@@ -25,13 +25,13 @@ LARGEST: Mapping[str, int] = {  # bytes; what the course's interfaces are used f
 
 
 class BoundedReading(Reading):
-    """Reads messages up to a size and a number, and records the others as too large or dropped."""
+    """Limits the size and the number of messages; records the others as too large or dropped, unread."""
 
     def __init__(self, log: ArenaLog) -> None:
         self._log = log
 
     def admits(self, what: str, of: str) -> bool:
-        """Return whether to read one more event of a kind; `of` is the goal, call or service it is for, or NOBODYS."""
+        """Return whether to read one more event of a kind; `of` names its goal, call or service, or is NOBODYS."""
         return self._log.admits(what, of)
 
     def is_too_large(self, what: str, id: str, message: Any) -> bool:
@@ -39,7 +39,7 @@ class BoundedReading(Reading):
         return self._has_too_many_bytes(what, id, size_of(message))
 
     def unpack(self, what: str, id: str, data: bytes, message_type: Any) -> Any | None:
-        """Return the message in serialized `data`, or None and a record of why not."""
+        """Return the message in serialized `data`; record why and return None if it is too large or malformed."""
         if self._has_too_many_bytes(what, id, len(data)):
             return None
         try:

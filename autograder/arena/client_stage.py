@@ -18,9 +18,9 @@ from autograder.arena.student import Student
 
 # s, on a clock that still runs at scale 1:
 APPEARING_TIMEOUT = 20.0  # for the student's node to appear
-MODULE_TIMEOUT = 150.0  # for work of ours in the student's sandbox, such as compiling
-MATCHING_TIMEOUT = 3.0  # for its clients to be seen; some programs make them only when they need them
-CONNECTION_TIME = 0.05  # for the program's own side of those connections
+MODULE_TIMEOUT = 150.0  # for the grader's own modules in the student's sandbox, such as a compilation
+MATCHING_TIMEOUT = 3.0  # for the discovery of its clients; some programs create them only before use
+CONNECTION_TIME = 0.05  # for the program to discover the servers in turn
 # s, on the arena's clock:
 END_TIMEOUT = 25.0
 
@@ -84,19 +84,19 @@ class ClientStage(Offering):
     def run_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:
         """Run a module of ours on some of the student's files, in the student's sandbox, to its end.
 
-        Use it in scenarios in which nothing is timed. A module that takes too long is recorded like such a program.
+        Use it in scenarios in which nothing is timed. A timeout is recorded as for a student's program.
         """
         self._student.start_module(module, arguments, files)
         self._wait_for_end(MODULE_TIMEOUT)
 
     def wait_for_end(self) -> None:
-        """Wait until the program has ended by itself; if it does not in time, record that."""
+        """Wait until the program ends by itself; record Unanswered after the timeout."""
         self._wait_for_end(END_TIMEOUT)
 
     # -- helpers ------------------------------------------------------------------------------------------------------
 
     def _wait_for_matching(self) -> None:
-        """Wait until the program's clients are discovered, and a moment longer for its own side, or for a request."""
+        """Wait until the program's clients are discovered, then for its own discovery; a request ends both waits."""
 
         def is_needless() -> bool:
             return self._was_asked() or self._student.has_exited()
@@ -111,5 +111,5 @@ class ClientStage(Offering):
             self._log.append(ev.Unanswered(what="end", id="program", waited=waited))
 
     def _has_appeared(self) -> bool:
-        """Return whether there is a node beside ours, or the program has ended."""
+        """Return whether another node than the grader's exists, or the program has ended."""
         return self._student.has_exited() or self._graph.has_another_node()

@@ -120,9 +120,9 @@ class NodeKilled(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class ArenaOverfull(Event):
-    """The controller ended the arena: student, robot and grader together used more memory than an arena has.
+    """The controller ended the arena: student, robot and grader together exceeded its memory limit.
 
-    Robot and grader use a quarter of it, and always the same.
+    Robot and grader always use about a quarter of the limit, so the student's program used the rest.
     """
 
     memory_mib: float
@@ -131,14 +131,14 @@ class ArenaOverfull(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class NodeUsage(Event):
-    """What the student's program and all it started used.
+    """Processor time and memory of the student's program and all its child processes.
 
     Attributes:
         cpu, wall: processor time over real time, s.
         peak_memory_mib: resident.
-        cpu_in_time: of `cpu`, what was used since the arena's clock ran at its scale.
-        in_time: s on that clock since then.
-        burst: the most processors that were busy over half a second of real time since then.
+        cpu_in_time: the part of `cpu` since the arena's clock reached its scale, s.
+        in_time: time on the arena's clock since then, s.
+        burst: the highest number of busy processors, averaged over half a second of real time, since then.
     """
 
     cpu: float
@@ -151,9 +151,9 @@ class NodeUsage(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class NodeTopics(Event):
-    """The full names of topics that somebody beside robot and grader publishes, and subscribes to.
+    """Full names of the topics that nodes other than robot and grader publish and subscribe to.
 
-    It only helps to say what went wrong: no verdict may depend on it.
+    For diagnosis only: no verdict may depend on it.
     """
 
     publishes: list[str]
@@ -162,10 +162,9 @@ class NodeTopics(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class NodeStack(Event):
-    """Where the threads of the student's program stood when it was ended without having answered.
+    """Stack traces of a student's program that did not answer or exit and was ended; printed by faulthandler.
 
-    These are Python's own words (faulthandler), but the student's program may write others: it only helps to say what
-    went wrong.
+    For diagnosis only: the program itself could have printed these lines.
     """
 
     lines: list[str]
@@ -181,16 +180,16 @@ class MessageReceived(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class WokenLate(Event):
-    """A sleep of the arena's trusted process took `late` s longer than asked for, more than any before it."""
+    """A sleep of the agent took `late` s longer than requested: the longest delay so far."""
 
     late: float
 
 
 @dataclass(frozen=True, kw_only=True)
 class Starved(Event):
-    """How long (s) the student's program waited for a processor that other programs had.
+    """Processor time (s) that the student's program missed because other programs occupied the processors.
 
-    `seconds` is the most in a second on the arena's clock, `altogether` the sum since its start, in real time.
+    `seconds`: the worst rate, for one second on the arena's clock; `altogether`: the sum since its start, real time.
     """
 
     seconds: float
@@ -227,7 +226,7 @@ class ScenarioFailed(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class RecordDropped(Event):
-    """Events that the student's processes caused and that were not kept: `count` of the kind `what`.
+    """`count` events of the kind `what`, caused by the student's processes, were dropped.
 
     `seconds` is the time from the first event of that kind to the last one dropped.
     """
@@ -239,7 +238,7 @@ class RecordDropped(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class GraphFlooded(Event):
-    """The ROS graph held what no correct program puts there; `nodes` is the number of nodes in it."""
+    """The ROS graph had too many nodes, an invalid name, or made queries fail; `nodes` is the number of nodes."""
 
     nodes: int
     reason: str

@@ -1,4 +1,4 @@
-"""How fast a total grows at its fastest, measured at looks that come when they come."""
+"""The highest growth rate of a total that is sampled at irregular times."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from collections import deque
 
 
 class FastestGrowth:
-    """The most that a total has grown by in a second, over any stretch of time of at least a given length."""
+    """The highest growth rate (1/s) of a total, averaged over intervals of at least a given length."""
 
     def __init__(self) -> None:
         self._looks: deque[tuple[float, float]] = deque()  # s, total
         self.rate = 0.0
 
     def look(self, now: float, total: float, stretch: float) -> None:
-        """Record the total at a time (s); intervals shorter than `stretch` (s) count as `stretch`."""
+        """Add a sample of the total at time `now` (s); intervals shorter than `stretch` (s) count as `stretch`."""
         self._looks.append((now, total))
         while len(self._looks) > 1 and now - self._looks[1][0] >= stretch:
             self._looks.popleft()

@@ -48,7 +48,7 @@ class Graph:
         self._failures: Counter[str] = Counter()
 
     def has_another_node(self) -> bool:
-        """Return whether there is a node of rclpy beside ours."""
+        """Return whether there is another rclpy node than the grader's own."""
         return self.count_publishers(EVERY_NODE_PUBLISHES) > 1
 
     def count_publishers(self, topic: str) -> int:
@@ -70,7 +70,7 @@ class Graph:
         """Return the full names of the nodes that offer a service, without invalid ones."""
         if self._ask(lambda: self._node.count_services(service), 0) > MOST_ENDPOINTS:
             return []
-        # a server is whoever listens to the topic of the requests
+        # the servers are the subscribers of the request topic
         topic = f"rq{self._node.resolve_service_name(service)}Request"
         nothing: list[TopicEndpointInfo] = []
         servers = self._ask(
@@ -80,7 +80,7 @@ class Graph:
         return [f"{namespace.rstrip('/')}/{name}" for namespace, name in nodes if _is_known(namespace, name)]
 
     def offered(self) -> list[str]:
-        """Return the first services on offer as 'name [type]', without the robot's and those that every node has."""
+        """List offered services as 'name [type]', up to MOST_SERVICES, without the robot's and rclpy's own ones."""
         nothing: list[tuple[str, list[str]]] = []
         robots = self._node.resolve_service_name(OF_THE_ROBOT)
         found = self._ask(self._node.get_service_names_and_types, nothing)
@@ -94,7 +94,7 @@ class Graph:
         return sorted(offered) + ([f"and up to {more:,} more"] if more else [])
 
     def _type_of_server(self, service: str) -> str:
-        """Return the type that a service is offered with, where a client asks for another; '' if nobody says."""
+        """Return the type of a service's server, where a client uses another type; '' if it cannot be found."""
         nothing: list[TopicEndpointInfo] = []
         servers = self._ask(
             lambda: self._node.get_subscriptions_info_by_topic(f"rq{service}Request", no_mangle=True), nothing
@@ -107,7 +107,7 @@ class Graph:
         nothing: list[tuple[str, list[str]]] = []
         found = self._ask(self._node.get_topic_names_and_types, nothing)[:MOST_NAMES]
         names = [name for name, _types in found if name not in OF_EVERYBODY and "/_action/" not in name]
-        own = self._node.get_namespace() + "/"  # of its other topics the robot is the publisher
+        own = self._node.get_namespace() + "/"  # the robot publishes the other topics of this namespace
         publishes = [name for name in names if name in robot_subscribes or not name.startswith(own)]
         subscribes = [name for name in names if name not in robot_subscribes]
         self._log.append(
@@ -118,7 +118,7 @@ class Graph:
         )
 
     def inspect(self) -> None:
-        """Record what is in the graph that no correct program puts there."""
+        """Record a graph that no correct program causes: too many nodes, an invalid name, failed queries."""
         nobody: list[tuple[str, str]] = []
         nodes = self._ask(self._node.get_node_names_and_namespaces, nobody)
         invalid = [name for name, namespace in nodes[:MOST_NAMES] if not _is_valid(namespace, name)]
@@ -126,10 +126,10 @@ class Graph:
         if len(nodes) > MOST_NODES:
             reason = f"there were {len(nodes):,} nodes"
         elif invalid:
-            reason = f"a node was called {invalid[0][:60]!r}, which is no name of a node"
+            reason = f"a node was called {invalid[0][:60]!r}, which is not a valid node name"
         elif self._failures:
             first, times = next(iter(self._failures)), sum(self._failures.values())
-            reason = f"the middleware could not say who is there, {times:,} times: {first}"
+            reason = f"{times:,} queries of the ROS graph failed, the first with {first}"
         if reason:
             self._log.append(ev.GraphFlooded(nodes=len(nodes), reason=reason))
             self._failures.clear()
@@ -149,9 +149,7 @@ class Graph:
         """Ask the middleware; if that fails in any way, count the failure and return `otherwise`."""
         try:
             return question()
-        except (
-            Exception
-        ) as error:  # UnicodeDecodeError, RCLError, …: what a foreign name can do is not listed
+        except Exception as error:  # such as UnicodeDecodeError or RCLError, caused by a foreign name
             self._failures[f"{type(error).__name__}: {error}"[:200]] += 1
             return otherwise
 

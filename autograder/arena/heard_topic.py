@@ -15,11 +15,10 @@ DEPTH = 100
 
 
 class HeardTopic:
-    """Records what is published on one topic; `latched` asks for the last message from before, too.
+    """Records the messages of one topic.
 
-    `as_` is the name that it is recorded under, if not the topic's.
-
-    A latched subscription is not matched with a publisher whose durability is volatile.
+    `latched` subscribes with durability transient local: it also receives the last message published before, and does
+    not match a volatile publisher. `as_` is the name in the record, by default the topic's.
     """
 
     def __init__(
@@ -36,17 +35,17 @@ class HeardTopic:
 
     @property
     def messages(self) -> int:
-        """The number of messages that have come."""
+        """The number of messages received."""
         return self._log.count(ev.MessageReceived, topic=self.name)
 
     @property
     def latest(self) -> Any:
-        """The last message that has come; None before the first."""
+        """The last message received; None before the first."""
         return self._latest
 
     @property
     def publishers(self) -> int:
-        """The number of publishers that it is matched with."""
+        """The number of matched publishers."""
         return self._subscription.get_publisher_count()
 
     def _on_message(self, data: bytes) -> None:

@@ -56,7 +56,7 @@ class Host:
         phases = self._prepare(spec)
         interpreter = self._interpreter if spec.warm else None
         domain = _FIRST_DOMAIN + number % _DOMAINS if spec.private_network else None
-        gc.freeze()  # the forks go on sharing what there is now
+        gc.freeze()  # a collection in a fork would copy the pages that it shares with this process
         agent = multiprocessing.get_context("fork").Process(
             target=carry_out,
             args=(spec, events_fd, self._robots, interpreter, domain, phases if number == 0 else ()),
@@ -89,10 +89,12 @@ class Host:
 
 def main() -> None:
     """Serve orders until the controller closes the socket."""
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # students' nodes inherit it, whoever started us
+    signal.signal(
+        signal.SIGINT, signal.default_int_handler
+    )  # students' nodes inherit it; a script's background process would ignore SIGINT
     signal.signal(
         signal.SIGCHLD, signal.SIG_DFL
-    )  # they inherit this, too: else nobody counts their children's time
+    )  # inherited, too: with SIG_IGN the kernel would not count the time of their children
     orders = socket.socket(fileno=int(sys.argv[1]))
     preload()
     host = Host()

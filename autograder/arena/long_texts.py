@@ -35,7 +35,7 @@ def _cut(value: Any, longest: Longest) -> Any:
     if isinstance(value, list | tuple):
         longest.length = max(longest.length, len(value))
         if len(value) > MAX_LENGTH:
-            return []  # it has to stay a list
+            return []  # empty, because a marker of another type would not fit the field
         return [_cut(each, longest) for each in value]
     return value
 
@@ -44,5 +44,5 @@ def _cut_text(text: str, longest: Longest) -> str:
     longest.length = max(longest.length, len(text))
     if len(text) > MAX_LENGTH:
         text = f"{text[:MAX_LENGTH]}…[cut: {len(text):,} characters]"
-    # half of a surrogate pair is no character, and no JSON parser takes it
+    # JSON parsers refuse an unpaired surrogate
     return text if text.isascii() else text.encode(errors="replace").decode()

@@ -1,13 +1,13 @@
-"""How long a program waited for a processor that other programs had."""
+"""Processor time that a program missed because other programs occupied the processors."""
 
 from __future__ import annotations
 
 
 class LostTime:
-    """Adds up what a program lacked to one processor while it waited for one.
+    """Adds up how much less than one processor a program got while its processes were waiting for one.
 
-    Processes that wait for each other lose nothing: a program that has a processor's worth of time already, spread
-    over as many processes as it likes, has what a sound one needs, and the rest of its waiting is its own doing.
+    A program that already gets one processor's worth of time, over all its processes, loses nothing: a correct one
+    needs no more, and its processes then wait for each other.
     """
 
     def __init__(self) -> None:
@@ -15,7 +15,7 @@ class LostTime:
         self._last: tuple[float, float, float] | None = None
 
     def look(self, now: float, used: float, waited: float) -> None:
-        """Note, at a time (s), the processor time that all its processes used and waited for so far (s)."""
+        """Add a sample at time `now` (s): the totals (s) of used and of awaited processor time over all processes."""
         then, used_then, waited_then = self._last or (now, used, waited)
         lacking = (now - then) - (used - used_then)
         self.total += max(0.0, min(waited - waited_then, lacking))

@@ -18,7 +18,7 @@ from autograder.arena.waiting import Waiting
 
 
 class Offering(Waiting):
-    """Plays the servers and publishers that the student's node depends on; times are s on the arena's clock."""
+    """Offers the scripted servers and publishers that the student's node needs; times are s on the arena's clock."""
 
     def __init__(self, node: Node, log: ArenaLog, student: Student) -> None:
         super().__init__(Graph(node, log), log)
@@ -30,7 +30,7 @@ class Offering(Waiting):
         self._numbers: defaultdict[str, count[int]] = defaultdict(lambda: count(1))
 
     def offer_service(self, name: str, service_type: Any, *replies: Reply | None) -> ScriptedService:
-        """Offer a service whose first request gets the first of `replies`, and so on; the last one is repeated."""
+        """Offer a service that answers request n with `replies[n]`, later requests with the last one."""
         service = ScriptedService(
             self._node,
             service_type,
@@ -44,7 +44,7 @@ class Offering(Waiting):
         return service
 
     def offer_action(self, name: str, action_type: Any, *scripts: GoalScript) -> ScriptedAction:
-        """Offer an action; the first goal is treated by the first of `scripts`, and so on; the last is repeated."""
+        """Offer an action that treats goal n by `scripts[n]`, later goals by the last one."""
         action = ScriptedAction(
             self._node, action_type, name, scripts, self._number("server"), self._log, self._number
         )
@@ -58,7 +58,7 @@ class Offering(Waiting):
         return topic
 
     def wait_for_requests(self, service: ScriptedService, number: int, timeout: float) -> bool:
-        """Wait for so many requests to a scripted service; False if the time or the program is over first."""
+        """Wait for `number` requests to a scripted service; return False on timeout or at the program's end."""
         self.wait_until(lambda: service.requests >= number or self._student.has_exited(), timeout)
         return service.requests >= number
 
@@ -66,12 +66,12 @@ class Offering(Waiting):
         return bool(self._offered_services or self._offered_actions or self._offered_topics)
 
     def _was_asked(self) -> bool:
-        """Return whether any request or goal has come."""
+        """Return whether any request or goal was received."""
         services, actions = self._offered_services, self._offered_actions
         return any(service.requests for service in services) or any(action.goals for action in actions)
 
     def _is_known(self) -> bool:
-        """Return whether there is a client of every service and action, and a subscription of every topic."""
+        """Return whether every scripted service and action has a client, and every topic a subscription."""
         asked = [service.name for service in self._offered_services]
         asked += [f"{action.name}/_action/send_goal" for action in self._offered_actions]
         return all(map(self._graph.count_clients, asked)) and all(

@@ -1,4 +1,4 @@
-"""How the controller tells an arena what to do next: a specification, and the pipe that its events go to."""
+"""The controller's orders to an arena: a scenario's specification, and the pipe for its events."""
 
 from __future__ import annotations
 

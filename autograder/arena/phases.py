@@ -19,7 +19,7 @@ Phase = tuple[str, float, float]  # name, wall s, processor s
 
 
 def since_start(name: str) -> Phase:
-    """Return the phase from the start of this process until now; earlier processes count by processor time only."""
+    """Return the phase from this process's start until now; its processor time includes processes started earlier."""
     with open("/proc/self/stat") as stat:
         started = int(stat.read().rpartition(")")[2].split()[19]) / os.sysconf("SC_CLK_TCK")
     return (name, time.clock_gettime(time.CLOCK_BOOTTIME) - started, _processor_seconds())

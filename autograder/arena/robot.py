@@ -30,7 +30,7 @@ class Robot:
         """The simulator's state of the robot, at most 20 ms old."""
         latest = self._log.last(ev.RobotTruth)
         if latest is None:
-            raise RobotTrouble("the simulator has said nothing yet")
+            raise RobotTrouble("no state of the robot was received from the simulator yet")
         return latest
 
     # -- commands -----------------------------------------------------------------------------------------------------
@@ -53,11 +53,11 @@ class Robot:
         self._command("walk", velocity=list(velocity))
 
     def take_over(self, velocity: Sequence[float]) -> None:
-        """Walk with a velocity (m/s, m/s, rad/s in base_link) and do not heed cmd_vel, as under a remote control."""
+        """Walk with a velocity (m/s, m/s, rad/s in base_link) and ignore cmd_vel, as under a remote control."""
         self._command("take_over", velocity=list(velocity))
 
     def give_back(self) -> None:
-        """Stop, and heed cmd_vel again."""
+        """Stop, and follow cmd_vel again."""
         self._command("take_over", velocity=None)
 
     def set_battery(self, percentage: float) -> None:
@@ -89,11 +89,11 @@ class Robot:
         self._command("report_feet")
 
     def move_body(self, rate: float) -> None:
-        """Crouch (below 0) or rise at a rate (m/s) until told otherwise."""
+        """Crouch (rate < 0) or rise at a rate (m/s) until the next command."""
         self._command("move_body", rate=rate)
 
     def report_hand(self, side: str) -> None:
-        """Have the simulator report where the hand "l" or "r" is, and what it feels, from now on."""
+        """Have the simulator report position and contact forces of the hand "l" or "r" from now on."""
         self._command("report_hand", side=side)
 
     def report_object(self, name: str) -> None:
@@ -101,7 +101,7 @@ class Robot:
         self._command("report_object", name=name)
 
     def move_object(self, name: str, position: Sequence[float]) -> None:
-        """Put an object elsewhere (m in odom), upright and at rest, also out of a hand."""
+        """Move an object to a position (m in odom), upright and at rest, even if a hand holds it."""
         self._command("move_object", name=name, position=list(position))
 
     def hold_joint(self, joint: str) -> None:
@@ -109,7 +109,7 @@ class Robot:
         self._command("hold_joint", joint=joint)
 
     def release_joint(self, joint: str) -> None:
-        """Let go of a joint."""
+        """Release a held joint."""
         self._command("release_joint", joint=joint)
 
     def connect_battery_sensor(self, connected: bool = True) -> None:
@@ -117,7 +117,7 @@ class Robot:
         self._command("battery_sensor", connected=connected)
 
     def connect_charge_sensor(self, connected: bool = True) -> None:
-        """Measure the charge again, or no more: battery_state has a percentage of NaN then."""
+        """Connect or disconnect the charge sensor; without it battery_state has percentage NaN."""
         self._command("charge_sensor", connected=connected)
 
     def set_clock(self, offset: float) -> None:
@@ -141,11 +141,11 @@ class Robot:
         self._command("joint_states", reversed=is_reversed)
 
     def alternate_joint_states(self, alternate: bool = True) -> None:
-        """Turn the order of the joints round from each joint_states to the next, or no more."""
+        """Reverse the joint order in every second joint_states message, or stop doing so."""
         self._command("joint_states", alternate=alternate)
 
     def set_joint_readings(self, positions: Mapping[str, float]) -> None:
-        """Have these joints' sensors say positions (rad, fingers: m) wherever the joints are; all others measure."""
+        """Make the sensors of these joints report fixed positions (rad, fingers: m); the other sensors measure."""
         self._command("joint_readings", positions=dict(positions))
 
     def publish_robot_state(self, published: bool = True) -> None:
@@ -159,7 +159,7 @@ class Robot:
         return self._wait_until(lambda: condition(self.state), timeout)
 
     def wait_for_joint(self, joint: str, condition: Callable[[float], Any], timeout: float = TIMEOUT) -> bool:
-        """Wait for a condition on the position (rad) of a joint that is reported."""
+        """Wait for a condition on the position (rad) of a joint; needs `report_joints`."""
 
         def is_met() -> bool:
             latest = self._log.last(ev.JointsTruth)
@@ -168,7 +168,7 @@ class Robot:
         return self._wait_until(is_met, timeout)
 
     def wait_for_feet(self, condition: Callable[[float, float], Any], timeout: float = TIMEOUT) -> bool:
-        """Wait for a condition on what the left and the right foot carry (N), which is reported."""
+        """Wait for a condition on the loads of the left and right foot (N); needs `report_feet`."""
 
         def is_met() -> bool:
             latest = self._log.last(ev.FeetTruth)
@@ -179,7 +179,7 @@ class Robot:
     def wait_for_hand(
         self, condition: Callable[[ev.HandTruth, ev.ObjectTruth], Any], timeout: float = TIMEOUT
     ) -> bool:
-        """Wait for a condition on the hand and the object that are reported."""
+        """Wait for a condition on hand and object; needs `report_hand` and `report_object`."""
 
         def is_met() -> bool:
             hand, thing = self._log.last(ev.HandTruth), self._log.last(ev.ObjectTruth)

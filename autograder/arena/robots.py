@@ -21,7 +21,7 @@ class Robots:
             self._built[key] = build_humanoid(parse_options(options))
 
     def serve(self, options: Sequence[str], *more: str) -> None:
-        """Run the robot until this process is told to end; `more` are options that do not concern its body."""
+        """Run the robot until SIGINT or SIGTERM; `more` are options that need no other model."""
         from robot_sim.ros.serve import parse_options, serve_robot
 
         serve_robot(parse_options([*options, *more]), self._built[tuple(options)])

@@ -17,6 +17,6 @@ def scenarios_in(path: str) -> ModuleType:
     assert spec
     assert spec.loader
     module = importlib.util.module_from_spec(spec)
-    sys.modules[NAME] = module  # a dataclass looks its module up there
+    sys.modules[NAME] = module  # dataclasses look up their module in sys.modules
     spec.loader.exec_module(module)
     return module

@@ -17,15 +17,15 @@ class ScenarioSpec:
         scenario_file, scenario: the module's path, and the function in it.
         params: the function's arguments, as JSON has them.
         scale: how much faster than real time the arena's clock runs after discovery.
-        timed: whether deadlines are judged, so that lateness counts.
+        timed: whether deadlines are judged, so that a run with too much delay is repeated.
         namespace: ROS namespace of robot and student.
         robot_options: options of the simulator; None: there is no robot.
         student: a "node" is started before the scenario, a "program" by it.
         files: what the student wrote, by name; `program` is the name of the one that is run.
         parameters: ROS parameters of the program.
-        student_paths: what the program may see of the machine beside the system.
-        warm: an interpreter that waits may become the program.
-        private_network: the arena has a network, and so all ROS domains, for itself.
+        student_paths: folders of the host that the program may read, besides the system's.
+        warm: the program may start as a fork of the waiting interpreter.
+        private_network: the arena has its own network, so every ROS domain is free.
         measured: record what each phase costs.
         recorded: have the simulator report whole postures, for a film.
     """
@@ -48,7 +48,7 @@ class ScenarioSpec:
     recorded: bool
 
     def to_json(self) -> bytes:
-        """Return it as it goes through a socket."""
+        """Return the JSON text (UTF-8) that the controller sends to the host; files are base64."""
         files = {name: base64.b64encode(content).decode() for name, content in self.files.items()}
         return json.dumps(asdict(replace(self, files={})) | {"files": files}).encode()
 

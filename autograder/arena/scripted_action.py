@@ -57,14 +57,14 @@ class GoalScript:
         after: from the goal's request to the answer.
         early_feedback: published before the answer.
         feedback: published one by one from the acceptance on, as long as the goal is active.
-        every: from each of them to the next; a sequence: from the first, the second, …
+        every: interval between two of them, s; a sequence: one interval after each.
         ends_after: from the acceptance to the end; None: it never ends by itself.
         status: how it ends, of action_msgs/GoalStatus.
         result: the action's Result; None: an empty one.
         result_after: from the goal's end to the answer to a request for its result; None: there is no answer.
-        kept_for: from the goal's end until the server forgets it with its result (rclpy's result_timeout): whoever asks
-            later is told the status UNKNOWN. None: it never forgets.
-        cancel: what a request to cancel it brings about.
+        kept_for: from the goal's end until the server drops goal and result (rclpy's result_timeout); a later request
+            gets status UNKNOWN. None: it never drops them.
+        cancel: how requests to cancel the goal are treated.
     """
 
     accepted: bool | None = True
@@ -95,8 +95,8 @@ class _Goal:
 class ScriptedAction:
     """Offers one action. The first goal is treated by the first of `scripts`, and so on; the last one is repeated.
 
-    `server` names it in the transcript, since two servers may offer the same action. `number` counts up what students
-    send, by "goal" and "cancel".
+    `server` names it in the transcript, since two servers may offer the same action. `number` returns the name of the
+    next "goal" or "cancel", such as "goal 2".
 
     Attributes:
         name: of the action.
@@ -170,7 +170,7 @@ class ScriptedAction:
         message = self._type.Goal() if too_large else request.goal
         self._log.append(ev.GoalReceived(goal=name, action=self.name, server=self._server, message=message))
         if script.accepted is None:
-            await Future()  # nobody ever completes it
+            await Future()  # never completed: no answer is sent
         for feedback in script.early_feedback:
             self._publish_feedback(name, request.goal_id, feedback)
         await pause(self._node, script.after)
@@ -195,7 +195,7 @@ class ScriptedAction:
         await goal.finished
         delay = goal.script.result_after
         if delay is None:
-            return await Future()  # nobody ever completes it
+            return await Future()  # never completed: no answer is sent
         await pause(self._node, delay)
         response.status, response.result = goal.status, goal.result
         self._log.append(ev.ResultSent(goal=goal.name))
@@ -245,7 +245,7 @@ class ScriptedAction:
 
     async def _refuses(self, script: CancelScript) -> bool:
         if script.agreed is None:
-            await Future()  # nobody ever completes it
+            await Future()  # never completed: no answer is sent
         await pause(self._node, script.after)
         return not script.agreed
 
@@ -282,7 +282,7 @@ class ScriptedAction:
 
     def _do(self, task: Callable[[_Goal], Any], goal: _Goal) -> None:
         executor = self._node.executor
-        assert executor is not None  # the observer is spun as long as the scenario lasts
+        assert executor is not None  # an executor spins the grader's node during the whole scenario
         executor.create_task(task, goal)
 
     def _publish_feedback(self, name: str, goal_id: UUID, feedback: Any) -> None:

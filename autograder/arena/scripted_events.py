@@ -48,7 +48,7 @@ class ReplySent(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class MessagePublished(Event):
-    """The grader published a message on a topic that had so many matched subscriptions then."""
+    """The grader published a message; `subscriptions` is the number of matched subscriptions at that time."""
 
     topic: str
     message: Any
@@ -142,6 +142,6 @@ class ResultSent(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class ResultForgotten(Event):
-    """A scripted action kept a result long enough, and has it no more."""
+    """A scripted action dropped a goal and its result after `GoalScript.kept_for`."""
 
     goal: str

@@ -60,7 +60,7 @@ class ScriptedService:
         return self._log.count(ev.RequestReceived, service=self.name, server=self._server)
 
     def reply_with(self, reply: Reply | None) -> None:
-        """Give the requests that come from now on this reply."""
+        """Answer all later requests with this reply."""
         self._replies = [reply]
 
     def withdraw(self) -> None:
@@ -70,7 +70,7 @@ class ScriptedService:
 
     async def _on_request(self, request: Any, response: Any) -> Any:
         if not self._log.admits(ev.RequestReceived.kind, self.name):
-            return response  # a flood: what is left to wait for it is not worth remembering
+            return response  # a flood of requests: answered at once, with an empty response
         name = self._next_request()
         reply = self._replies[min(self.requests, len(self._replies) - 1)]
         too_large = self._reading.is_too_large("request", name, request)
@@ -79,7 +79,7 @@ class ScriptedService:
             ev.RequestReceived(request=name, service=self.name, server=self._server, message=message)
         )
         if reply is SILENCE:
-            await Future()  # nobody ever completes it
+            await Future()  # never completed: no answer is sent
         else:
             await pause(self._node, reply.after)
             response = self._type.Response() if reply.response is None else reply.response

@@ -1,4 +1,4 @@
-"""A scripted action that walks, and a person at its client's keyboard: what they do is data, which checks give."""
+"""Scenarios for clients of `walk_to`: a scripted server and a simulated user at the keyboard, both given as data."""
 
 from __future__ import annotations
 
@@ -14,30 +14,30 @@ from humanoid_interfaces.action import WalkTo
 ON_THE_WAY = (0.4, 0.1, 0.2)  # m, m, rad
 GOAL_TIMEOUT = 15.0  # s for a goal, or a cancel, to come
 
-# What a server does: the fields of a GoalScript, but for
-#   distances, early: of the feedback (m), instead of feedback and early_feedback
-#   error_code, error_msg, and for `walk_to` final: of the result
+# How a server treats a goal: the fields of a GoalScript, with these differences:
+#   distances, early: distance_remaining (m) of each message, in the place of feedback and early_feedback
+#   error_code, error_msg, and for `walk_to` final (x, y, yaw): of the result
 #   cancel: the fields of a CancelScript
 Server = Mapping[str, Any]
 
 
 def in_order(stage: ClientStage, arguments: Sequence[str], server: Server | None, steps: Steps) -> None:
-    """Offer `walk_to` as the script says (None: nobody does), run the program, carry out the steps, await its end."""
+    """Offer `walk_to` as `server` describes (None: not at all), run the program with the steps, wait for its end."""
     script = None if server is None else _walk_script(**server)
     World(stage, "walk_to", WalkTo, script).play(arguments, steps)
 
 
 class World:
-    """A server, and a person who waits, types and presses Ctrl-C; a program that has ended is left alone."""
+    """The surroundings of a client: a server, and a user who types and presses Ctrl-C until the program has ended."""
 
     def __init__(self, stage: ClientStage, name: str, action: Any, script: GoalScript | None) -> None:
         self._stage, self._name, self._action, self._script = stage, name, action, script
         self._server: ScriptedAction | None = None
 
     def play(self, arguments: Sequence[str], steps: Steps, **verbs: Callable[..., object]) -> None:
-        """Run the program, carry out the steps, and wait for its end; `verbs` are steps beside those of every script.
+        """Run the program, carry out the steps, and wait for its end; `verbs` are further kinds of steps.
 
-        The server, if there is a script for it, is there from the start, or from a step on that says so.
+        A server with a script is offered from the start, or by the step "offer" if there is one.
         """
         stage = self._stage
         if self._script and ["offer"] not in steps:
@@ -62,7 +62,7 @@ class World:
         self._server = self._stage.offer_action(self._name, self._action, self._script)
 
     def _await(self, what: str) -> bool:
-        """Wait until the server has got a goal, answered it, or got a request to cancel it; return whether it has."""
+        """Wait until the server has counted one of `what`: "goals", "answers" or "cancels"; return whether it has."""
 
         def has_come() -> int:
             return getattr(self._server, what)
@@ -76,7 +76,7 @@ class World:
 
 
 def feedback(action: Any, distance: float, **fields: Any) -> Any:
-    """Return the feedback of a robot that is so many m from its goal."""
+    """Return the feedback of a robot `distance` m away from its goal."""
     message = action.Feedback(distance_remaining=distance, **fields)
     message.current_pose.header.frame_id = "odom"
     message.current_pose.pose.orientation.w = 1.0

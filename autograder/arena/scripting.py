@@ -13,7 +13,7 @@ from rclpy.task import Future
 
 
 def offer(node: Node, service_type: Any, name: str, on_request: Callable[[Any, Any], Any]) -> Service:
-    """Offer a service whose callback may await; a response that nobody waits for any more is dropped."""
+    """Offer a service whose callback may await; a response is dropped if the client or the service is gone."""
     service = node.create_service(service_type, name, on_request, callback_group=ReentrantCallbackGroup())
     send = service.send_response
 
@@ -26,7 +26,7 @@ def offer(node: Node, service_type: Any, name: str, on_request: Callable[[Any, A
 
 
 async def pause(node: Node, duration: float) -> None:
-    """Let time (s on the arena's clock) pass while the node goes on."""
+    """Wait `duration` s on the arena's clock while the node keeps spinning."""
     if duration <= 0:
         return
     over: Future = Future()

@@ -14,7 +14,7 @@ Steps = Sequence[Sequence[Any]]  # each is [verb, *arguments]
 
 
 def carry_out(stage: Waiting, steps: Steps, vocabulary: Mapping[str, Callable[..., object]]) -> None:
-    """Carry out the steps in order and mark the end of each; stop after one that returns False: no answer came."""
+    """Carry out the steps in order and mark the end of each; stop at a step that returns False (no answer)."""
     for number, (verb, *arguments) in enumerate(steps, start=1):
         if vocabulary[verb](*arguments) is False:
             return

@@ -52,10 +52,10 @@ class Simulator:
         self._thread.start()
 
     def wait_until_up(self) -> None:
-        """Wait until the robot has published what is latched and says where it is.
+        """Wait until the robot has published its latched topics and the first ground truth.
 
         Raises:
-            RuntimeError: it ended, or did not come up in time.
+            RuntimeError: the simulator ended, or did not start in time.
         """
         self._log.wait_until(lambda: self._is_up() or not self.is_running(), TIMEOUT)
         if not self._is_up():
@@ -75,7 +75,7 @@ class Simulator:
 
     def stop(self) -> None:
         """End the process and read the ground truth to its end."""
-        self.process.kill()  # what it has written stays in the pipe
+        self.process.kill()  # written events stay in the pipe
         self.process.join()
         self._thread.join(5)
 
@@ -83,7 +83,7 @@ class Simulator:
         with os.fdopen(fd, "rb") as lines:
             for line in lines:
                 if not line.endswith(b"\n"):
-                    return  # it was ended while it wrote
+                    return  # a partial line: the process was killed while writing
                 fields = json.loads(line)
                 event = ev.KINDS[fields.pop("kind")](**fields)
                 self._log.append_written(event, line)
@@ -91,7 +91,7 @@ class Simulator:
 
 def _simulate(robots: Robots, options: Sequence[str], more: Sequence[str]) -> None:
     with suppress(OSError):
-        Path("/proc/self/comm").write_text("robot_sim")  # what people look for in a list of processes
+        Path("/proc/self/comm").write_text("robot_sim")  # the name shown by ps and top
     try:
         robots.serve(options, *more)
     finally:

@@ -1,4 +1,4 @@
-"""Spinning that goes on when rclpy raises: a message that cannot be read must not stop the recording."""
+"""A spin loop that survives rclpy's exceptions: an unreadable message must not stop the recording."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ FROM_OUTSIDE = (RuntimeError, UnicodeError, MemoryError)  # rclpy's own errors a
 
 
 def keep_spinning(executor: Executor, log: ArenaLog) -> None:
-    """Spin until the context is shut down; count unreadable messages, and fail the scenario at an error of ours."""
+    """Spin until the context is shut down; count unreadable messages; an error of the grader fails the scenario."""
     while executor.context.ok():
         try:
             executor.spin_once()

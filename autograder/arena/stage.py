@@ -31,13 +31,13 @@ from ros_runtime.recorded_client.goal import Goal
 from ros_runtime.recorded_client.service_client import ServiceClient
 
 # s, on a clock that still runs at scale 1:
-READY_TIMEOUT = 20.0  # for the node to offer what is asked for
-COMPANY_TIMEOUT = 5.0  # for the rest, once the node offers anything
+READY_TIMEOUT = 20.0  # for the node to offer the services and actions of the scenario
+COMPANY_TIMEOUT = 5.0  # for the remaining ones, once the node offers the first
 MATCHING_TIMEOUT = 10.0  # for robot and node to find each other's topics
 REACHING_TIMEOUT = 1.0  # a correct node may be slow at first, a faulty one never answers
 MOST_REACHED = 4  # nodes
 LOOKING = 0.1  # between two queries of all services on offer
-CONNECTION_TIME = 0.05  # for the node's own side of those connections
+CONNECTION_TIME = 0.05  # for the node to discover the clients in turn
 # s, on the arena's clock:
 CLEAN_EXIT_TIMEOUT = 5.0
 __all__ = ["STRANGER", "ActionClient", "Goal", "NodeMissing", "ServiceClient", "Stage"]
@@ -49,9 +49,9 @@ class NodeMissing(Exception):
 
 
 class Parameters:
-    """Clients of the parameters of the node that offers a service: to read, set and set them together.
+    """Clients of a node's parameter services: get, set, and set atomically. `Stage.open` creates them.
 
-    They are made when the stage opens.
+    `service` is any service of that node, by which it is found.
     """
 
     get: ServiceClient
@@ -101,9 +101,9 @@ class Stage(Offering):
         return client
 
     def listen(self, topic: str, message_type: Any, *, latched: bool = False, as_: str = "") -> HeardTopic:
-        """Record what the student's node publishes on a topic; `latched`: also its last message from before.
+        """Record what the student's node publishes on a topic; `latched`: subscribe with transient local.
 
-        `as_` is the name under which it is recorded, if not the topic's: of one of several listeners.
+        `as_` is the name in the record, by default the topic's; give one to tell two subscriptions of a topic apart.
         """
         return HeardTopic(self._node, message_type, topic, self._log, latched=latched, as_=as_)
 
@@ -113,13 +113,13 @@ class Stage(Offering):
         return self._parameters[-1]
 
     def open(self) -> None:
-        """Start the student's node, wait until its services and actions know the robot, then speed up the clock.
+        """Start the student's node, wait until node, robot and clients have discovered each other, speed up the clock.
 
-        What the robot and the scenario have latched is from before the node, as on a desk: a node that subscribes to
-        it without transient local never gets it.
+        Robot and scenario publish their latched messages before the node starts, as on a real robot: a subscription
+        without transient local never receives them.
 
         Raises:
-            NodeMissing: the services and actions do not come.
+            NodeMissing: the node does not offer the services and actions in time.
         """
         started = time.monotonic()
         self._student.start()
@@ -171,7 +171,7 @@ class Stage(Offering):
             time.sleep(POLLING)
 
     def _connect(self, parameters: Parameters) -> None:
-        """Make the clients for the node that offers the service; if there is none, they never match."""
+        """Create the parameter clients for the node that offers the service; without such a node they never match."""
         self.poll_until(lambda: self._graph.owners_of(parameters.service), MATCHING_TIMEOUT)
         owner = next(iter(self._graph.owners_of(parameters.service)), parameters.service)
         parameters.get = self.service(f"{owner}/get_parameters", GetParameters)
@@ -196,7 +196,7 @@ class Stage(Offering):
         )
 
     def close(self) -> None:
-        """End the scenario; a topic that the node made meanwhile is recorded, too."""
+        """End the scenario; record the topics again, because the node may have created some meanwhile."""
         self._report_topics()
         super().close()
 

@@ -16,14 +16,14 @@ from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.environment import ros_environment
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock
 
-ABORT_TIMEOUT = 0.5  # s of real time for a program to say where it stands
+ABORT_TIMEOUT = 0.5  # s of real time for faulthandler to print the stacks
 LONGEST_STACK, LONGEST_LINE = 200, 200  # lines, characters
 
 
 class Student:
     """Runs the files of a submission in the student's sandbox and records output and exit.
 
-    `interpreter` is one that waits to become the program; without it a new one is started, as at home.
+    `interpreter` is the waiting one, whose fork becomes the program; None: start a new interpreter, as at home.
     """
 
     def __init__(
@@ -40,7 +40,7 @@ class Student:
         self._process: StudentProcess | None = None
         self._watch: StudentLimitsMonitor | None = None
         self._closing = threading.Event()
-        self._stack: list[str] | None = None  # lines, once they are asked for
+        self._stack: list[str] | None = None  # lines of output since the abort; None before
 
     def start(self, arguments: Sequence[str] = ()) -> None:
         """Run the student's program as a ROS node in the robot's namespace."""
@@ -51,11 +51,11 @@ class Student:
         self._start(arguments, list(self._spec.files), self._interpreter)
 
     def start_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:
-        """Run a module of ours on some of the student's files, with no more rights than the student's program has."""
+        """Run a module of the grader on some of the student's files, with the rights of the student's program."""
         self._start(["-m", module, *arguments], files, builds=True)
 
     def has_exited(self) -> bool:
-        """Return whether the program was started and its end is in the log, with all that it printed before."""
+        """Return whether the program has ended, with its exit and all its output in the log."""
         return self._log.count(ev.NodeExited) > 0
 
     def interrupt(self) -> None:
@@ -75,7 +75,7 @@ class Student:
         return self._running.wait(timeout)
 
     def count_from_now(self) -> None:
-        """Count what it uses and waits for, while the clock runs at its scale, from now or from its start on."""
+        """Begin to measure processor time used and missed at the clock's final scale; a later start begins then."""
         if self._watch:
             self._watch.count_from_now()
 
@@ -124,7 +124,7 @@ class Student:
         )
 
     def _record_stack(self, process: StudentProcess) -> None:
-        """Record where a program that answers no more stands, which is its last act."""
+        """Record the stacks of a program that no longer answers; this ends the program."""
         self._stack = []
         process.abort()
         process.wait(ABORT_TIMEOUT * self._clock.scale)
@@ -137,5 +137,5 @@ class Student:
         self._log.append(ev.NodeOutput(t=t, stream="stderr" if stream == "stderr" else "stdout", text=text))
 
     def _on_exit(self, returncode: int) -> None:
-        if not self._closing.is_set():  # that end is ours
+        if not self._closing.is_set():  # while closing, the grader has ended the program
             self._log.append(ev.NodeExited(returncode=returncode))

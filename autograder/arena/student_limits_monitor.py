@@ -1,4 +1,4 @@
-"""Enforces limits of a student's processes that the kernel has none for, and adds up their processor time."""
+"""Enforces limits on a student's processes that the kernel does not offer, and measures their processor time."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ WAIT = 1.0  # s on the arena's clock over which the waiting for a processor is c
 class StudentLimitsMonitor:
     """A thread that ends the student's processes above a limit, before they end the arena or hurt the machine.
 
-    Their processor time is exact: the kernel adds a child's to that of the process that waits for it, the sandbox's
-    first process waits for all orphans, and the filter lets no child go without (`isolation/seccomp_filter.py`).
+    The processor time is exact: the kernel adds a child's time to the process that waits for it, the sandbox's init
+    waits for all orphans, and the filter forbids children that nobody waits for (`isolation/seccomp_filter.py`).
     """
 
     def __init__(
@@ -73,7 +73,7 @@ class StudentLimitsMonitor:
         self._log.append(usage)
 
     def record_waiting(self) -> None:
-        """Record how long the processes waited so far for a processor that other programs had."""
+        """Record how much processor time the processes have missed so far because of other programs."""
         self._look()
         self._log.append(ev.Starved(seconds=self._losing.rate, altogether=self._lost.total))
 
@@ -84,10 +84,10 @@ class StudentLimitsMonitor:
                 self._log.append(ev.NodeKilled(reason=excess))
                 self._student.kill()
                 return
-            time.sleep(PERIOD * self._clock.scale)  # this process follows the clock
+            time.sleep(PERIOD * self._clock.scale)  # sleep() follows the scaled clock; PERIOD is real time
 
     def _look(self) -> str:
-        """Measure, and return which limit is exceeded, as a reason; empty: none."""
+        """Measure; return the reason to end the program if it exceeds a limit, else ""."""
         with self._looking:
             processes = self._student.processes()
             self._cpu = max(self._cpu, cpu_seconds(processes))

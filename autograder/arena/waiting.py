@@ -10,10 +10,10 @@ from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.graph import Graph
 
-FLOOD = 50  # messages within…
-QUIET = 0.25  # s of the arena's clock are more than any correct node sends
-FLOODED = 15.0  # s of it are waited for the end of a flood
-POLLING = 0.005  # s between two polls of what sends no notification, such as the graph
+FLOOD = 50  # messages within QUIET; no correct node sends as many
+QUIET = 0.25  # s on the arena's clock
+FLOODED = 15.0  # s on the arena's clock to wait for the end of a flood
+POLLING = 0.005  # s between two polls of a state without notification, such as the graph
 
 
 class Waiting:
@@ -43,13 +43,13 @@ class Waiting:
         return True
 
     def close(self) -> None:
-        """End the scenario: record what is still on its way, and what exceeded a limit."""
-        self._take_in_the_rest()
+        """End the scenario: record the messages still in transit, and which limits were exceeded."""
+        self._drain_messages()
         self._graph.inspect()
         self._log.finish()
 
-    def _take_in_the_rest(self) -> None:
-        """Wait until a flood is read: the evidence against the node may be queued behind it."""
+    def _drain_messages(self) -> None:
+        """Wait until a flood of messages is processed: evidence against the node may be queued behind it."""
         deadline = time.monotonic() + FLOODED
         before = self._log.received
         while True:

@@ -1,4 +1,4 @@
-"""The steps of scenarios for servers that walk, by name: goals, cancels, disturbances, and waiting for what comes.
+"""The steps of scenarios for walking servers: goals, cancels, disturbances, and waits.
 
 walk_in_order(stage, "walk_to", WalkTo, steps, lambda pose, limit: WalkTo.Goal(target_pose=pose))
 """
@@ -27,7 +27,7 @@ NEAR = 0.12  # m
 
 MakeGoal = Callable[
     [PoseStamped, float], Any
-]  # of a pose, and of what else it has: max_velocity (m/s), tolerance (m)
+]  # from a pose and the action's limit: max_velocity (m/s) or tolerance (m)
 
 
 def walk_in_order(
@@ -38,7 +38,7 @@ def walk_in_order(
     make_goal: MakeGoal,
     others: Mapping[str, Callable[..., object]] | None = None,
 ) -> None:
-    """Open the stage, listen to what steers the robot, and carry out the steps; `others` are verbs beside these."""
+    """Open the stage, record cmd_vel, and carry out the steps; `others` are further verbs for the steps."""
     stage.listen("cmd_vel", Twist)
     walker = _Walker(stage, stage.action(action, action_type), make_goal)
     stage.open()
@@ -47,7 +47,7 @@ def walk_in_order(
 
 
 class _Walker:
-    """Sends goals, by name, and does things to them and to the robot."""
+    """Carries out steps: sends, cancels and awaits goals by name, and disturbs the robot."""
 
     def __init__(self, stage: Stage, action: ActionClient, make_goal: MakeGoal) -> None:
         self._stage, self._action, self._make_goal = stage, action, make_goal
@@ -85,20 +85,20 @@ class _Walker:
         self._send_pose(name, pose_at(x, y, yaw), limit).wait_for_answer()
 
     def go_on(self, name: str, ahead: float, left: float, turn: float, limit: float = 0.0) -> None:
-        """Send a pose (m, m, rad) as seen from where the robot is now, and wait for the answer."""
+        """Send a goal relative to the robot's present pose (m, m, rad), and wait for the answer."""
         robot = self._stage.robot.state
         x = robot.x + ahead * math.cos(robot.yaw) - left * math.sin(robot.yaw)
         y = robot.y + ahead * math.sin(robot.yaw) + left * math.cos(robot.yaw)
         self.go(name, x, y, robot.yaw + turn, limit)
 
     def go_together(self, *goals: Sequence[Any]) -> None:
-        """Send several goals, each [name, x, y, yaw, limit], in the same moment."""
+        """Send several goals, each [name, x, y, yaw, limit], without waiting in between; then await the answers."""
         sent = [self._send_pose(name, pose_at(x, y, yaw), limit) for name, x, y, yaw, limit in goals]
         for goal in sent:
             goal.wait_for_answer()
 
     def ask(self, name: str, field: str, value: Any, ahead: float = 1.0) -> None:
-        """Send a goal (m ahead of the origin) one `field` of which, such as 'pose.position.x', has this value."""
+        """Send a goal `ahead` m in front of the origin with `field`, such as 'pose.position.x', set to `value`."""
         pose = pose_at(ahead, 0.0, 0.0)
         goal = self._make_goal(pose, 0.0)
         *path, last = field.split(".")
@@ -106,7 +106,7 @@ class _Walker:
         self._send(name, pose, goal).wait_for_answer()
 
     def arrive(self, name: str, patience: float = RESULT_TIMEOUT) -> None:
-        """Wait for the end of a goal: so long (s), unless another has kept the scenario waiting in vain."""
+        """Wait `patience` s for the end of a goal, or END_TIMEOUT if an earlier goal has missed its timeout."""
         goal = self._goals[name]
         if goal.accepted and not goal.wait_for_result(END_TIMEOUT if self._waited_in_vain else patience):
             self._waited_in_vain = True
@@ -134,7 +134,7 @@ class _Walker:
             cancel.wait()
 
     def cancel_at_once(self, name: str, x: float, y: float, yaw: float, limit: float = 0.0) -> None:
-        """Send a goal and ask to cancel it before it is answered; again, if the first request had overtaken it."""
+        """Send a goal and ask to cancel it before it is answered; repeat if the cancel arrived before the goal."""
         goal = self._send_pose(name, pose_at(x, y, yaw), limit)
         cancel = goal.cancel()
         cancel.wait()
@@ -145,7 +145,7 @@ class _Walker:
     # -- the robot ----------------------------------------------------------------------------------------------------
 
     def walk_for(self, duration: float) -> None:
-        """Wait until the robot walks, and so long (s) from then on."""
+        """Wait until the robot walks, then for `duration` s."""
         self._stage.robot.wait_for(lambda robot: robot.mode == RobotState.WALKING, WALK_START_TIMEOUT)
         self._stage.wait(duration)
 
@@ -157,21 +157,21 @@ class _Walker:
         )
 
     def settle(self, name: str) -> None:
-        """Wait until the robot stands near where a goal sends it, and the goal has not ended yet, if it waits there."""
+        """Wait until the robot is near a goal's pose, and then until it stands or the goal has ended."""
         self.come_near(name, NEAR)
         self._stage.robot.wait_for(
             lambda robot: self._goals[name].has_ended or robot.mode == RobotState.STANDING, COMING_NEAR
         )
 
     def cut_power(self) -> None:
-        """Switch the motors off, and let the robot fall and say so."""
+        """Switch the motors off, and leave time for the fall and for robot_state to be received."""
         robot = self._stage.robot
         robot.set_motor_power(False)
         robot.wait_for(lambda state: not state.motors_enabled)
         self._stage.wait(ROBOT_TOPICS_TIME)
 
     def set_up(self) -> None:
-        """Put the robot on its feet again, as after a fall, and wait until it says STANDING."""
+        """Put the robot on its feet again, as after a fall, and wait until its mode is STANDING."""
         robot = self._stage.robot
         robot.set_up()
         robot.wait_for(lambda state: state.mode == RobotState.STANDING)

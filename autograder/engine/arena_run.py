@@ -23,7 +23,7 @@ LONGEST_SCENARIO = 150.0  # s on the arena's clock
 
 
 class NotGraded(Exception):
-    """The run cannot be judged, for a reason that is not the student's."""
+    """The run cannot be judged, and the submission is not the cause."""
 
 
 @dataclass(frozen=True)
@@ -32,10 +32,10 @@ class ArenaRun:
 
     Attributes:
         exercise, files: the submission.
-        scenario, seed: what is done to it, with the inputs that the seed draws.
-        scale: the arena's clock runs so much faster than real time.
-        kind: how the arena is isolated; None: as well as this machine can.
-        cold: start the program in a new interpreter, as at home; otherwise a waiting one may become it.
+        scenario, seed: the stimulus, and the seed that draws its inputs.
+        scale: speed of the arena's clock, as a multiple of real time.
+        kind: how the arena is isolated; None: the best that this machine offers.
+        cold: start the program in a new interpreter, as at home; else it may be a fork of the waiting one.
         measured: record what each phase costs.
         recorded: have the simulator report whole postures, for a film.
     """
@@ -106,20 +106,20 @@ def _specification(run: ArenaRun, params: dict[str, Any], scale: float, is_isola
 
 
 def _transcript(run: ArenaRun, params: dict[str, Any], scale: float, report: bytes) -> Transcript:
-    """Read the events of a scenario that came to its end."""
+    """Read the events of a scenario that ran to its end; raise NotGraded if it did not."""
     events = read_events(report)
     failed = next((event for event in events if isinstance(event, ev.ScenarioFailed)), None)
     if failed:
         raise NotGraded(f"scenario {run.scenario.name}: {failed.reason}")
     if not any(isinstance(event, ev.ScenarioEnded) for event in events):
-        raise NotGraded(f"scenario {run.scenario.name}: it did not come to its end")
+        raise NotGraded(f"scenario {run.scenario.name}: it ended early, without an error message")
     return Transcript.from_events(run.scenario.name, params, events, scale)
 
 
 def _broken_off(
     run: ArenaRun, params: dict[str, Any], scale: float, report: bytes, ended: ArenaReport
 ) -> Transcript:
-    """Read the events of a scenario whose arena was ended for its memory, which only the submission can take."""
+    """Read the events up to the end of an arena that exceeded its memory; only a submission can use that much."""
     events = read_events(report)
     last = max((event.t for event in events), default=0.0)
     events.append(ev.ArenaOverfull(t=last, memory_mib=ended.peak_memory_mib, limit_mib=LIMITS.memory_mib))

@@ -29,7 +29,7 @@ def scale_of(scenario: Scenario, wanted: float) -> float:
 
 
 class ClockScale:
-    """The scales of one grading; if one is `asked` for, every run uses it."""
+    """Chooses the clock scales of one grading; `asked`, if given, replaces the choice."""
 
     def __init__(self, asked: float | None = None) -> None:
         self._asked = asked
@@ -44,17 +44,17 @@ class ClockScale:
         return FAST if may_be_fast and _load_per_core() < BUSY else usual
 
     def retry_scale(self, before: float, too_fast: bool) -> float:
-        """Return the scale to retry a scenario that ran at scale `before`: a lower one if that was too fast."""
+        """Return the scale to retry a scenario that ran at scale `before`; `too_fast`: take a lower one."""
         if too_fast:
             return next((slower for slower in SLOWER if slower < before), 1.0)
         return before if self._asked else min(before, USUAL)
 
     def attempts(self, scale: float) -> Sequence[float]:
-        """Return the scales to try, one after the other, while an arena is late or fails; the lowest comes twice."""
+        """Return the scales to try in turn until a run is on time; the last one, scale 1, is tried twice."""
         return (scale, *(slower for slower in SLOWER if slower < scale), 1.0)
 
     def was_late(self) -> None:
-        """Let no arena go faster than usual from now on."""
+        """Note a late run: later first runs use at most the usual scale."""
         self._was_late = True
 
 

@@ -11,28 +11,28 @@ from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.simulation_lag import OVERLOADED, lateness
 
-LONGEST_SILENCE = 1.5  # s on the arena's clock without a report of the simulator
-LATEST_COMMAND = 1.5  # s on it until a command of the scenario takes effect
+LONGEST_SILENCE = 1.5  # s on the arena's clock between two reports of the simulator
+LATEST_COMMAND = 1.5  # s on the arena's clock until a command of the scenario takes effect
 
 
 def require_whole(run: Transcript, scenario: Scenario) -> None:
-    """Require that the scenario came to its end, and that the robot carried out every command and never stood still.
+    """Require that the scenario ran to its end, and that the simulator kept running and executed every command.
 
     Raises:
-        Failure: it did not, because of the submission.
-        CannotBeJudged: it did not, for another reason.
+        Failure: the record is incomplete because of the submission.
+        CannotBeJudged: the record is incomplete for another reason.
     """
     if run.first(ev.ScenarioEnded) is None:
         raise held_up(run, f"the record breaks off at {run.end:.1f} s")
     if scenario.robot is not None:
-        _require_the_robots_time(run)
+        _require_simulated_time(run)
         _require_effects(run)
         if lateness(run) > OVERLOADED and why_the_robot_was_held_up(run):
             raise held_up(run, f"the robot fell {lateness(run):.1f} s behind its time")
 
 
-def _require_the_robots_time(run: Transcript) -> None:
-    """Require that the simulator reported all the time since the node was ready."""
+def _require_simulated_time(run: Transcript) -> None:
+    """Require that the simulator reported without a long gap from the node's readiness to the end."""
     ready = run.first(ev.NodeReady)
     ended = run.first(ev.ScenarioEnded)
     start, end = ready.t if ready else 0.0, ended.t if ended else run.end
@@ -43,7 +43,7 @@ def _require_the_robots_time(run: Transcript) -> None:
 
 
 def _require_effects(run: Transcript) -> None:
-    """Require that each command of the scenario took effect soon, and in the order of sending."""
+    """Require that each command of the scenario took effect, and within LATEST_COMMAND unless the machine was slow."""
     effects = run.all(ev.RobotCommanded)
     for sent in run.all(ev.CommandSent):
         effect = next((effect for effect in effects if effect.command == sent.command), None)

@@ -10,7 +10,7 @@ from autograder.authoring.rubric import Criterion, Picture, criteria_in, picture
 from autograder.engine.exercise import RUBRIC, UnusableExercise, exercise_module, exercises_folder
 from autograder.engine.verdict import CheckVerdict, Grade
 
-BY_HAND = "by hand"  # in the place of an arena's isolation: nothing runs
+BY_HAND = "by hand"  # stands for the isolation in a grade without an arena
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ def load_essay(name: str) -> Essay:
 
 
 def left_to_a_person(essay: Essay, student: str) -> Grade:
-    """Return the record of work that nobody has marked yet: neither points nor none."""
+    """Return the record of an essay that nobody has marked yet: status "to mark", without a score."""
     verdicts = [
         CheckVerdict(criterion.id, criterion.title, "to mark", 0, criterion.points)
         for criterion in essay.criteria

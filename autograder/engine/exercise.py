@@ -59,7 +59,7 @@ class Exercise:
 
     @property
     def scenario_file(self) -> Path:
-        """The module an arena takes the scenarios from, and all of the exercise that it sees."""
+        """The module with the scenarios: the only file of the exercise that an arena can read."""
         return self.folder / SCENARIO_FILE
 
     def max_score(self) -> int:

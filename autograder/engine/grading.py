@@ -30,8 +30,8 @@ from autograder.isolation.availability import Isolation, available_isolation
 
 Runs = dict[Scenario, Future[Transcript]]
 
-LONGEST_TRIED = 3  # steps that are looked for a failure by themselves
-VISIBLE_SEED = 0  # of what visible checks are judged on: the same inputs in a self-check and in every batch
+LONGEST_TRIED = 3  # last steps of a drawn sequence that are rerun alone, to find the shortest failing part
+VISIBLE_SEED = 0  # of the visible checks' scenarios: the same inputs in a self-check and in every batch
 MOST_ATTEMPTS: dict[CheckStatus, int] = {"passed": 1, "failed": 2, "not run": 1, "error": 4}
 
 
@@ -45,9 +45,9 @@ class GradingOptions:
         scale: of every arena's clock; None: what the machine can bear.
         isolation: of the arenas; None: the best this machine has.
         recorded: have the transcripts hold whole postures of the robot, for recordings; no check sees them.
-        first_alone: run nothing beside the first scenario, as somebody waits for the first verdict.
-        at_first_look: the checks (ids) whose first failure counts, where no points can be lost: in an audit.
-        shortens: look for the shortest steps that show a failure in a sequence that was drawn.
+        first_alone: run no other scenario beside the first one, so that the first verdict comes soon.
+        at_first_look: ids of checks that are not retried after a failure; for audits, where no points are lost.
+        shortens: after a failure in a drawn sequence, find the shortest part of it that still fails.
     """
 
     seed: int = 0
@@ -93,7 +93,7 @@ def grade(
 
     Raises:
         Stopped: `stop` was set before the last verdict.
-        HiddenChecksRefused: there are hidden checks, and arenas cannot be isolated here, or would show them.
+        HiddenChecksRefused: there are hidden checks, and arenas cannot be isolated here or could read them.
     """
     isolation = options.isolation or available_isolation()
     if any(check.hidden for check in exercise.checks):
@@ -129,7 +129,7 @@ class _Session:
         self._stop = Stop(stop)
         self._verdicts: dict[str, CheckVerdict] = {}
         self._runs: list[Runs] = [{} for _ in range(max(MOST_ATTEMPTS.values()))]  # by attempt
-        # how often a check was not settled by a scenario, by the check's id
+        # number of runs of a scenario that left a check without a final verdict, by check id and scenario
         self._attempts: Counter[tuple[str, Scenario]] = Counter()
 
     def run(self) -> Grade:
@@ -205,18 +205,18 @@ class _Session:
         return self._run(scenario, self._scale.first_scale(scenario), OVERLOADED, cold)
 
     def _run_again(self, scenario: Scenario, attempt: int) -> Transcript:
-        """Run a scenario again, cold and at a scale that the machine bears, since now points can be lost.
+        """Run a scenario again, with a cold start and at a scale the machine keeps up with: this run can cost points.
 
-        From the third attempt on something was not seen that has to be: each is slower than the one before.
+        A third or later attempt means that needed evidence was missing, so each uses a slower clock than the last.
         """
         before = self._runs[attempt - 1][scenario].result()
         too_fast = attempt > 1 or lateness(before) > STRAINED
         return self._run(scenario, self._scale.retry_scale(before.scale, too_fast), STRAINED, cold=True)
 
     def _run(self, scenario: Scenario, scale: float, tolerated: float, cold: bool) -> Transcript:
-        """Run a scenario, and again at a lower scale if the simulator was more than `tolerated` s late.
+        """Run a scenario; repeat it at a lower scale if it was more than `tolerated` s late, or if its arena failed.
 
-        At scale 1 a run counts if it can be judged at all. A scenario is also run again after its arena failed.
+        At scale 1, OVERLOADED is tolerated.
         """
         problem: NotGraded | None = None
         for attempt_scale in self._scale.attempts(scale):
@@ -242,18 +242,17 @@ class _Session:
                 return transcript
             self._scale.was_late()
             problem = NotGraded(
-                f"the machine was too busy: what runs there was {lateness(transcript):.1f} s behind the "
-                "arena's clock at scale "
-                f"{attempt_scale:g}; grade again with fewer jobs, or when less else runs here"
+                f"the machine was too busy: at scale {attempt_scale:g} the arena fell {lateness(transcript):.1f} s "
+                "behind its clock; grade again with fewer jobs, or when the machine has less other work"
             )
         raise problem or NotGraded("no attempt was made")
 
     def _runs_of(self, check: Check) -> list[Future[Transcript] | None]:
-        """Return the runs that a check is to be judged on now; None for one that has not begun."""
+        """Return the current run of each of a check's scenarios; None for one that has not started."""
         return [self._runs[self._attempts[check.id, scenario]].get(scenario) for scenario in check.on]
 
     def _judge(self, check: Check) -> None:
-        """Judge a check on its latest runs; only a pass is a verdict at once, the rest is tried again."""
+        """Judge a check on its latest runs; a pass is final, anything else is retried up to MOST_ATTEMPTS."""
         try:
             transcripts = [run.result() for run in self._runs_of(check) if run]
         except NotGraded as error:
@@ -279,9 +278,9 @@ class _Session:
     def _shorter_failure(
         self, check: Check, failed: Sequence[Scenario], transcripts: Sequence[Transcript]
     ) -> tuple[CheckVerdict, list[Transcript]] | None:
-        """Return the failure in a sequence that was drawn as its last few steps show it alone; None if they do not.
+        """Rerun the last one, two and three steps of a failed drawn sequence; return the shortest failure, or None.
 
-        It costs no points, which are lost already: it is for whoever reads the verdict.
+        The points are lost already; a short sequence makes the verdict easier to read.
         """
         runs = list(transcripts)
         index = next((check.on.index(scenario) for scenario in failed if scenario.is_drawn), None)
@@ -299,7 +298,7 @@ class _Session:
             try:
                 runs[index] = self._run(alone, self._scale.first_scale(alone), OVERLOADED, cold=False)
             except NotGraded:
-                continue  # these steps alone make no scenario
+                continue  # for example, because the steps need earlier ones
             verdict = judge(check, runs)
             if verdict.status == "failed":
                 return verdict, runs

@@ -1,13 +1,13 @@
-"""Which of the files that a student handed in is their work, by one rule for whoever reads hand-ins.
+"""Chooses which of a student's files is graded; `check`, `collect` and `grade` share this rule.
 
-A file belongs to an exercise by its name: that of the exercise's notebook or files, in any capitals, with whatever
-Jupyter, browsers, file managers and drives put around the name of a copy. Of several, in this order:
+A file belongs to an exercise by its name: the name of the exercise's notebook or files, in any capitals, with the
+additions that Jupyter, browsers, file managers and cloud drives make for copies. Of several files one is chosen by:
 
-- real work before what cannot be read, and both before the untouched starter;
-- the one handed in later, if the platform says so;
-- the one nearest to the top: never a copy in old/ before it;
-- the one changed later, if their times differ: what was cloned or unpacked together has one time;
-- the notebook before the file that it writes, and its own name before a copy's.
+- readable work, then unreadable files, then the untouched starter;
+- the later hand-in, if the platform gives the order;
+- the smaller folder depth, so that a copy in old/ is not chosen;
+- the later modification, if the times differ by more than ONE_TIME (a clone or an archive gives all files one time);
+- the notebook before the file that it writes, and the exact name before a copy's.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ from autograder.engine.submission import (
 )
 
 ONE_TIME = 60.0  # s; files that differ by less were written together
-ANY_NAME = 2  # as `Named.copy`: the exercise is known from something else
-MOST_FOLDERS = 6  # below a student's that are looked into
-NOT_THEIRS = ("__MACOSX", "__pycache__", "node_modules", "site-packages")  # folders that programs fill
+ANY_NAME = 2  # value of `Named.copy` for a name that does not tell the exercise; the folder or an option does
+MOST_FOLDERS = 6  # levels of folders that are searched below a student's folder
+NOT_THEIRS = ("__MACOSX", "__pycache__", "node_modules", "site-packages")  # folders that tools create
 _COPY = "copy|copie|copia|cópia|kopie|kopia|kopi|kopio|kopya|копия|másolat|副本|コピー|복사본"
 _OF = "of|von|de|di|da|van|av|af|z"
 _KINDS = re.compile(r"(?P<stem>.+?)(?P<kind>\.\w+?)(?:\.txt|\.json|(?P=kind))?", re.IGNORECASE)
@@ -42,12 +42,12 @@ _KINDS = re.compile(r"(?P<stem>.+?)(?P<kind>\.\w+?)(?:\.txt|\.json|(?P=kind))?",
 
 @dataclass(frozen=True)
 class Named:
-    """What a file is by its name.
+    """The exercise and the file that a file name stands for.
 
     Attributes:
-        exercise: to which it belongs.
-        name: as the exercise calls it.
-        copy: 0 for that name itself, negative for a copy that a number makes a later one, positive for others.
+        exercise: name of the exercise.
+        name: the file's name in the exercise.
+        copy: 0: the exact name; -n: a numbered later version, such as "name (n)"; positive: any other copy.
     """
 
     exercise: str
@@ -73,7 +73,7 @@ class Names:
         )
 
     def of(self, name: str) -> Named | None:
-        """Return the exercise and the file for which a file of that name stands; None if it belongs to no exercise."""
+        """Return the exercise and file that a file name stands for; None if it belongs to no exercise."""
         kinds = _KINDS.fullmatch(name)
         words = self._copies.fullmatch(_in_words(kinds["stem"])) if kinds else None
         if not kinds or not words or not (known := self._known.get((words["stem"], kinds["kind"].lower()))):
@@ -86,13 +86,13 @@ class Names:
         return Named(exercise, own, -int(numbers[-1]) if numbers else 1)
 
     def any_of(self, exercise: str, name: str) -> Named | None:
-        """Return what a notebook or program of any name is where it can only be for this exercise."""
+        """Return the exercise's notebook or program that a file of any name stands for, by its suffix; else None."""
         kind = PurePath(name).suffix.lower()
         own = [f"{exercise}.ipynb", *(self.files[exercise] if len(self.files[exercise]) == 1 else ())]
         return next((Named(exercise, one, ANY_NAME) for one in own if PurePath(one).suffix == kind), None)
 
     def exercise_of(self, folder: str) -> str | None:
-        """Return the exercise as which a folder is called; None if it is none."""
+        """Return the exercise whose name a folder has; None if there is none."""
         return self._folders.get(_in_words(folder))
 
 
@@ -109,12 +109,12 @@ class Readable(Protocol):
 
 @dataclass(frozen=True)
 class OwnFile:
-    """A file on this machine in a folder that a student has filled: a link in it is not followed."""
+    """A file in a student's folder on this machine; symbolic links are refused."""
 
     path: Path
 
     def read(self, limit: int) -> bytes:
-        """Return its content; raises `UnusableSubmission`, which calls the file by its name alone."""
+        """Return its content; raises `UnusableSubmission`, whose message has the file's name without its path."""
         name = self.path.name
         if self.path.is_symlink() and self.path.is_dir():
             raise UnusableSubmission(
@@ -127,15 +127,15 @@ class OwnFile:
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A notebook, or the file or files of an exercise, which may be a student's work.
+    """A notebook, or the program files of an exercise, that may be a student's work.
 
     Attributes:
         exercise: its name.
-        path: what it is called where a person reads of it.
-        files: by their names in the exercise.
-        turn: of two hand-ins the one with the higher turn is the later one.
-        depth: in how many folders it lies, but for the exercise's own.
-        changed: when, in s.
+        path: its name in messages.
+        files: readable files by their names in the exercise.
+        turn: order of hand-ins; the highest turn is the latest.
+        depth: number of folders around it, without the exercise's own folder.
+        changed: modification time, s since the epoch.
         copy: as in `Named`.
     """
 
@@ -166,7 +166,7 @@ class Candidate:
 
     @cached_property
     def given(self) -> dict[str, str]:
-        """What those cells of a notebook write that are as they were given to students, by nbgrader's checksums."""
+        """The files that the notebook's untouched solution cells write; empty for other files."""
         if not self.is_notebook or isinstance(self.sources, UnusableSubmission):
             return {}
         (file,) = self.files.values()
@@ -180,7 +180,7 @@ def candidate_at(path: Path, exercise: str) -> Candidate:
 
 
 def work_in(folder: Path, exercise: str, *, depth: int = MOST_FOLDERS) -> tuple[Path, list[str]] | None:
-    """Return where an exercise's work is in a folder, and a sentence for each other file that might be; None without.
+    """Return the path of an exercise's work in a folder, and a sentence on each rejected file; None without work.
 
     Raises:
         OSError: the folder cannot be read.
@@ -194,7 +194,7 @@ def work_in(folder: Path, exercise: str, *, depth: int = MOST_FOLDERS) -> tuple[
 
 
 def merged(found: Iterable[Candidate]) -> list[Candidate]:
-    """Return the same, with those that are some of an exercise's several files made one for each folder."""
+    """Return the candidates, where the files of a multi-file exercise are joined into one candidate per folder."""
     whole: list[Candidate] = []
     parts: dict[tuple[str, PurePath], list[Candidate]] = {}
     for one in found:
@@ -211,7 +211,7 @@ def merged(found: Iterable[Candidate]) -> list[Candidate]:
 
 
 def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
-    """Return the one that counts, and a sentence for each other that holds something else."""
+    """Return the candidate to grade, and a sentence on each other one with different content."""
     if len(candidates) == 1:
         return candidates[0], []
     exercise = candidates[0].exercise
@@ -234,9 +234,9 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
 
     def why(one: Candidate) -> str:
         if one.copy == ANY_NAME != chosen.copy:
-            return f"is not called as {exercise} asks, and {chosen.path} is"
+            return f"does not have the file name of {exercise}, and {chosen.path} has"
         if standings[one] != standings[chosen]:
-            return "is as it was given out" if standings[one] == 2 else f"cannot be read: {one.sources}"
+            return "is the unchanged starter" if standings[one] == 2 else f"cannot be read: {one.sources}"
         if one.turn != chosen.turn:
             return f"was handed in again as {chosen.path}"
         if one.depth != chosen.depth:
@@ -255,7 +255,7 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
 
 
 def given_in(notebook: bytes) -> dict[str, str]:
-    """Return what the cells of a notebook write in which students are to work and have not, by nbgrader's checksums."""
+    """Return the files that a notebook's untouched solution cells write, according to nbgrader's checksums."""
     from nbformat import from_dict
     from nbgrader.utils import compute_checksum, is_solution
 
@@ -265,19 +265,19 @@ def given_in(notebook: bytes) -> dict[str, str]:
             cell.source = "".join(cell.source)
             if is_solution(cell) and cell.metadata.nbgrader.get("checksum") == compute_checksum(cell):
                 untouched.append(cell.source)
-    except Exception:  # metadata can be malformed in many ways: then nobody says that it is as it was given
+    except Exception:  # metadata can be malformed in many ways; such a notebook does not count as untouched
         return {}
     return written_by(untouched).files
 
 
 @lru_cache
 def released(release: Path) -> dict[str, str]:
-    """Return what students were given, if a release is there."""
+    """Return the starter files of the released notebook; empty if there is no release."""
     return given_in(release.read_bytes()) if release.is_file() else {}
 
 
 def _same(one: object, other: object) -> bool:
-    """Whether two mappings of texts are the same, but for what stands around a text."""
+    """Whether two mappings hold the same texts, apart from white space at their ends."""
     if not isinstance(one, dict) or not isinstance(other, dict):
         return False
     return {name: text.strip() for name, text in one.items()} == {
@@ -293,9 +293,9 @@ def _least(candidates: Sequence[Candidate], key: Callable[[Candidate], int]) -> 
 def candidates_in(
     folder: Path, files: Mapping[str, Sequence[str]], *, depth: int = MOST_FOLDERS
 ) -> dict[str, list[Candidate]]:
-    """Return what may be a student's work in a folder of theirs, for each exercise; no link is followed.
+    """Find the candidates in a student's folder, by exercise; symbolic links are not followed.
 
-    A folder called as an exercise holds nothing for others; in it a notebook or program of any name may be the work.
+    A folder with the name of an exercise can hold work for that exercise only, under any file name.
 
     Raises:
         OSError: the folder cannot be read.
@@ -322,7 +322,7 @@ def candidates_in(
 
 
 def _visible_files(folder: Path, depth: int, names: Names) -> Iterator[Path]:
-    """Yield what is no folder, and folders in the place of a file, with at most `depth` folders between."""
+    """Yield all entries that are not folders, and folders with a file's name, down to `depth` levels."""
     deeper: list[Path] = []
     for path in sorted(folder.iterdir()):
         if path.name.startswith(".") or path.name in NOT_THEIRS:

@@ -23,8 +23,8 @@ LOG_LINES = 40
 def judge(check: Check, transcripts: Sequence[Transcript], *, finally_: bool = False) -> CheckVerdict:
     """Judge a check on one transcript of each of its scenarios.
 
-    Whatever the student's program did, it is 'passed' or 'failed'; 'error' means that the arena or the check itself
-    failed, or, unless this is the last attempt (`finally_`), that the program did nothing that could be judged.
+    The verdict is 'passed', 'failed' or 'error'. 'error': the arena or the check itself failed, or the program gave
+    no answer that the check could judge; in the last attempt (`finally_`) the latter is 'failed'.
     """
     log = "\n".join(_log(transcript) for transcript in transcripts)
     try:
@@ -48,7 +48,7 @@ def judge(check: Check, transcripts: Sequence[Transcript], *, finally_: bool = F
                 expected=f"an answer that shows this: {nothing}",
                 observed="none, in any of its answers",
                 help=_with_lesson(
-                    "Mend first what the other checks name: nothing that it did lets this be judged.",
+                    "Fix what the other checks report first: without such an answer this cannot be judged.",
                     check.see,
                 ),
                 log=log,
@@ -63,7 +63,7 @@ def judge(check: Check, transcripts: Sequence[Transcript], *, finally_: bool = F
 
 
 def at_fault(check: Check, transcripts: Sequence[Transcript]) -> list[Scenario]:
-    """Return the scenarios in which a check does not pass: all of them, unless it judges each by itself."""
+    """Return the scenarios in which a check does not pass; all of them if it judges its runs together."""
     if not check.obligations:
         return list(check.on)
     alone = (

@@ -13,12 +13,12 @@ from itertools import islice
 from posixpath import normpath
 from typing import Any
 
-RUN_THEIR_CELL = ("capture", "prun", "time", "timeit")  # magics that hand their cell to IPython again
-MOST_INSIDE = 3  # of those in each other
+RUN_THEIR_CELL = ("capture", "prun", "time", "timeit")  # magics that run the rest of their cell as a cell
+MOST_INSIDE = 3  # nested magics of this kind
 MOST_CELLS, MOST_CODE = 2_000, 3_000_000  # code cells of a notebook, and characters in them
 MOST_ALIASES = 10  # in a cell
-LONGEST_PYTHON_CELL = 100_000  # characters of a cell without a magic that are still looked at
-LONGEST_LINE = 1000  # characters behind a magic, whose parser takes ever longer for more
+LONGEST_PYTHON_CELL = 100_000  # characters of a cell without a magic; a longer one is not parsed
+LONGEST_LINE = 1000  # characters of a magic's arguments; the parser is slow on longer ones
 LONGEST_QUOTE = 120  # characters of a cell's first line
 _ALIAS = re.compile(rf"^[ \t]*%alias_magic[ \t]+(.{{1,{LONGEST_LINE}}})$", re.MULTILINE)
 _VARIABLE = re.compile(r"\{([^{}]+)\}|\$([\w.]+)")  # as IPython puts values into a magic's line
@@ -29,8 +29,8 @@ class Written:
     """What the cells write, run from top to bottom in an empty folder.
 
     Attributes:
-        files: the text of each file by its path as the cell gives it.
-        failures: a sentence for each %%writefile of which it cannot be told what it writes, or which IPython refuses.
+        files: the text of each file, by its path as written in the cell.
+        failures: a sentence for each %%writefile that IPython refuses or whose file name cannot be determined.
     """
 
     files: dict[str, str] = field(default_factory=dict)
@@ -38,7 +38,7 @@ class Written:
 
 
 def cells_in(text: str) -> list[dict[str, Any]]:
-    """Return a notebook's cells, in any version of the format; nothing else of it has to be sound.
+    """Return a notebook's cells, in any version of the format; the rest of the notebook may be malformed.
 
     Raises:
         ValueError: the text is no notebook; the message says why.
@@ -55,13 +55,13 @@ def cells_in(text: str) -> list[dict[str, Any]]:
 
 
 def source_of(cell: Mapping[str, Any]) -> str:
-    """Return what stands in a cell."""
+    """Return the text of a cell."""
     source = cell.get("source", cell.get("input"))  # of nbformat 3 and before
     return "".join(map(str, source)) if isinstance(source, list) else str(source or "")
 
 
 def code_cells(text: str) -> list[str]:
-    """Return what stands in a notebook's code cells.
+    """Return the texts of a notebook's code cells.
 
     Raises:
         ValueError: the text is no notebook, or one with too much code; the message says which.
@@ -76,13 +76,16 @@ def code_cells(text: str) -> list[str]:
 
 
 def written_by(cells: Sequence[str]) -> Written:
-    """Return what code cells write, run in this order."""
+    """Return what these code cells would write if they were run in this order; none is run."""
     from IPython.core.error import UsageError
     from IPython.core.magic_arguments import parse_argstring
     from IPython.core.magics.osm import OSMagics
 
     written = Written()
-    aliases = {"writefile": "", "file": ""}  # with the arguments that each puts before its own
+    aliases = {
+        "writefile": "",
+        "file": "",
+    }  # names of the magic, each with the arguments that an %alias_magic adds in front
     variables: dict[str, str] = {}
     has_variables = any(_VARIABLE.search(cell[:LONGEST_LINE].partition("\n")[0]) for cell in cells)
     for cell in cells:
@@ -96,8 +99,8 @@ def written_by(cells: Sequence[str]) -> Written:
             line = _expanded(line, variables)
             if _VARIABLE.search(line):
                 written.failures.append(
-                    f"{_quoted(name, line)} takes the file's name from a variable, and no cell is run here: "
-                    "write the name"
+                    f"{_quoted(name, line)} takes the file's name from a variable, but the grader runs no cell: "
+                    "write the name itself"
                 )
                 continue
             try:
@@ -125,7 +128,7 @@ def _quoted(name: str, line: str) -> str:
 
 
 def _cell_magics(cell: str, inside: int = 0) -> Iterator[tuple[str, str, str]]:
-    """Yield name, line and body of each cell magic that a cell calls, as IPython's transformer says it in Python."""
+    """Yield name, line and body of each cell magic in a cell, found in the output of IPython's transformer."""
     from IPython.core.inputtransformer2 import TransformerManager
 
     manager: Any = TransformerManager()
@@ -147,7 +150,7 @@ def _transformed(lines: list[str], transforms: Iterable[Callable[[list[str]], li
 
 
 def _calls(code: str) -> Iterator[tuple[str, str, str]]:
-    """Yield what statements of a program hand to get_ipython().run_cell_magic()."""
+    """Yield the three arguments of each statement get_ipython().run_cell_magic(name, line, body)."""
     for statement in _statements(code):
         match statement:
             case ast.Expr(
@@ -160,9 +163,9 @@ def _calls(code: str) -> Iterator[tuple[str, str, str]]:
 
 
 def _statements(code: str) -> list[ast.stmt]:
-    """Return the statements of a program; none of one that Python does not read."""
+    """Return the statements of a program; [] if Python cannot parse it."""
     try:
-        with warnings.catch_warnings():  # of Python, on what a student wrote
+        with warnings.catch_warnings():  # for example, invalid escape sequences in a student's code
             warnings.simplefilter("ignore")
             return ast.parse(code).body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -170,7 +173,7 @@ def _statements(code: str) -> list[ast.stmt]:
 
 
 def _new_aliases(cell: str, known: Mapping[str, str]) -> dict[str, str]:
-    """Return the names that a cell gives to %%writefile with %alias_magic."""
+    """Return the aliases of %%writefile that a cell defines with %alias_magic, with their arguments."""
     from IPython.core.error import UsageError
     from IPython.core.magic_arguments import parse_argstring
     from IPython.core.magics.basic import BasicMagics
@@ -188,7 +191,7 @@ def _new_aliases(cell: str, known: Mapping[str, str]) -> dict[str, str]:
 
 
 def _expanded(line: str, variables: Mapping[str, str]) -> str:
-    """Return a magic's line with the variables' texts in it; as it is, as in IPython, unless all of them are known."""
+    """Substitute variables in a magic's line; like IPython, return it unchanged if one of them is unknown."""
     names = [braces or dollar for braces, dollar in _VARIABLE.findall(line)]
     if not variables.keys() >= set(names):
         return line
@@ -196,7 +199,7 @@ def _expanded(line: str, variables: Mapping[str, str]) -> str:
 
 
 def _texts_set_in(cell: str) -> dict[str, str]:
-    """Return the variables that a cell sets to a text."""
+    """Return the variables that a cell assigns a literal string to, with their values."""
     texts = {}
     for statement in _statements(cell):
         match statement:

@@ -1,8 +1,8 @@
-"""Refuses to grade where a sandbox would show what students may not see.
+"""Refuses to grade where sandboxes could read files that students must not see.
 
-A sandbox shows the system's programs and the interpreter by folder (`isolation/bubblewrap.py`, `python_paths.py`). A
-project under /usr/src, where some Docker images put one, would be shown with them: solutions, hidden checks, and other
-students' work.
+A sandbox can read the folders of the system and of the interpreter (`isolation/bubblewrap.py`, `python_paths.py`). In
+a project under /usr/src, where some Docker images put it, that includes solutions, hidden checks and other students'
+work.
 """
 
 from __future__ import annotations
@@ -23,20 +23,20 @@ class HiddenChecksRefused(CourseError):
 
 
 def require_hidden(hidden: Iterable[Path], shown: Iterable[str | Path] | None = None) -> None:
-    """Require that no sandbox shows these files and folders.
+    """Require that no sandbox can read these files and folders.
 
     Args:
         hidden: solutions, hidden checks, submissions, grades; they need not exist yet.
-        shown: what sandboxes show; None: what students' sandboxes show on this machine.
+        shown: the paths that sandboxes can read; None: those of students' sandboxes on this machine.
 
     Raises:
-        HiddenChecksRefused: one of them lies in something that is shown.
+        HiddenChecksRefused: a hidden path lies in a readable one.
     """
     shown = [*SYSTEM_PATHS, *student_paths()] if shown is None else list(shown)
     for path in hidden:
         for folder in shown:
             if Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder)):
                 raise HiddenChecksRefused(
-                    f"nothing is graded: {path} lies in {folder}, which students' programs can read, and they may not "
-                    "see what is there; move it to a folder of its own, such as /srv or your home"
+                    f"nothing is graded: {path} lies in {folder}, which students' programs can read; "
+                    "move it to a folder that they cannot, such as one in /srv or in your home"
                 )

@@ -1,4 +1,4 @@
-"""The text of a file that a student hands in, read as Python reads it (PEP 263), and what it is if it is no program."""
+"""Decodes a student's file as Python does (PEP 263), and recognizes common files that are not programs."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ import io
 import re
 import tokenize
 
-LONGEST_QUOTE = 100  # characters of what Python says
+LONGEST_QUOTE = 100  # characters of Python's error message
 _ASCII = "".join(map(chr, range(32, 127))) + "\n"
 _UTF_8 = "save it as UTF-8, which editors offer in “Save with encoding”, and hand it in again"
 _BINARY = "hand in the text file that you wrote"
-_WHAT_BYTES_ARE: tuple[tuple[bytes, str], ...] = (  # what a file begins with; what it is and what to do
+_WHAT_BYTES_ARE: tuple[
+    tuple[bytes, str], ...
+] = (  # first bytes of a file; the end of the error message: what it is, what to do
     (codecs.BOM_UTF32_LE, f"is UTF-32 text, and Python reads UTF-8: {_UTF_8}"),
     *(
         (
@@ -24,17 +26,17 @@ _WHAT_BYTES_ARE: tuple[tuple[bytes, str], ...] = (  # what a file begins with; w
     (b"\x1f\x8b", f"is compressed by gzip: {_BINARY}"),
     (
         b"version https://git-lfs",
-        "is git-lfs's pointer to the file: type `git lfs pull`, and hand in the file",
+        "is only a git-lfs pointer: type `git lfs pull`, and hand in the file itself",
     ),
     (b"%PDF", f"is a PDF: {_BINARY}"),
     (b"\x89PNG", f"is a picture: {_BINARY}"),
-    (b"{\\rtf", "is a document of a word processor (RTF): save it as plain text"),
+    (b"{\\rtf", "is a word processor's document (RTF): save it as plain text, and hand it in again"),
 )
-_MERGE = ("\n<<<<<<< ", "\n=======\n", "\n>>>>>>> ")  # the marks of git
+_MERGE = ("\n<<<<<<< ", "\n=======\n", "\n>>>>>>> ")  # git's conflict markers
 _THE_NOTEBOOK = "hand in the notebook itself, the .ipynb file, or the file that its %%writefile cell writes"
 _WHAT_TEXT_IS: tuple[
     tuple[str, str], ...
-] = (  # a sign that no program of Python's has; what it is and what to do
+] = (  # a pattern that no Python program matches; the end of the error message
     (
         r"\A\s*\{(?=[\s\S]*\"cells\")(?=[\s\S]*\"nbformat\")",
         "is a notebook: give it a name that ends in .ipynb",
@@ -69,7 +71,7 @@ def text_of(name: str, content: bytes) -> str:
     if what := next((what for sign, what in _WHAT_BYTES_ARE if content.startswith(sign)), None):
         raise NoProgram(what)
     if nulls := content.count(0):
-        is_text = nulls > len(content) // 3  # of Latin letters every second byte
+        is_text = nulls > len(content) // 3  # UTF-16 has a null byte in every Latin letter
         raise NoProgram(
             f"is UTF-16 text, and Python reads UTF-8: {_UTF_8}" if is_text else f"is no text: {_BINARY}"
         )
@@ -83,7 +85,7 @@ def text_of(name: str, content: bytes) -> str:
         ) from error
     if all(mark in f"\n{text}" for mark in _MERGE):
         raise NoProgram(
-            "holds what git could not merge, between <<<<<<< and >>>>>>>: keep one of the two, and no mark"
+            "has a merge conflict between <<<<<<< and >>>>>>>: keep one of the two versions, and delete the markers"
         )
     if name.endswith((".py", ".ipynb")) and not text.strip():
         raise NoProgram("is empty: save your work, and hand it in again")
@@ -95,7 +97,7 @@ def text_of(name: str, content: bytes) -> str:
 
 
 def bytes_of(name: str, text: str) -> bytes:
-    """Return the file `name` with what `text_of` has read, in the encoding that it declares."""
+    """Return the content of the file `name`, given the text from `text_of`, in the encoding that it declares."""
     content = text.encode()
     return text.encode(_declared(content)) if name.endswith(".py") else content
 
@@ -106,7 +108,7 @@ def _declared(content: bytes) -> str:
         encoding, _ = tokenize.detect_encoding(io.BytesIO(content).readline)
         if encoding == "utf-8-sig" or _ASCII.encode(encoding) == _ASCII.encode():
             return encoding
-        reason = f"no program is written in {encoding}"
+        reason = f"Python cannot read programs in {encoding}"
     except (SyntaxError, LookupError, UnicodeError) as error:
         reason = str(error)[:LONGEST_QUOTE]
     raise NoProgram(f"cannot be read as Python reads it ({reason}): {_UTF_8}")

@@ -1,21 +1,21 @@
-"""How far an arena was behind its clock, which happens on a busy machine."""
+"""How far an arena fell behind its clock; this happens on a busy machine."""
 
 from __future__ import annotations
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 
-STRAINED = 0.15  # s the simulator may be late in a retry
-OVERLOADED = 0.5  # s the simulator may be late before a run is not judged at all
-SPARE = 0.5  # of the time a node has to appear; a sound one needs a fifth of it, so what is lost here delays nothing
+STRAINED = 0.15  # s of lag tolerated in a retry
+OVERLOADED = 0.5  # s of lag tolerated in any run that is judged
+SPARE = 0.5  # share of the waiting time for a missing node that may be lost; a correct node needs a fifth of that time
 
 
 def lateness(transcript: Transcript) -> float:
-    """Return how far (s, arena's clock) the simulator was behind at worst, once the node was ready.
+    """Return the worst lag (s, arena's clock) of the simulator, once the node was ready.
 
-    Without a robot it is the longest delay of the arena's own wake-ups or, if that is more, what the program lost in
-    the worst second because it got no processor. The sum over a run says nothing: two seconds that are lost little by
-    little, in thirty, delay nothing that a check looks at. A node that never came was only waited for.
+    Without a robot: the longest delay of the agent's wake-ups or, if larger, the processor time that the program missed
+    in its worst second. The sum over a run is not used: 2 s lost in small parts over 30 s delay no checked event. If
+    the node never appeared: the time lost in excess of SPARE times the waiting time.
     """
     if absent := transcript.first(ev.NodeNotReady):
         lost = [robot.lag for robot in transcript.ground_truth]

@@ -1,4 +1,4 @@
-"""A request to end what runs, handed down from a batch to the arenas of its submissions."""
+"""A request to stop, passed from a batch to the gradings and arenas in it."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ class Stopped(Exception):
 
 
 class Stop:
-    """Once set, it stays set. A stop below another is set with it, and can be set alone."""
+    """A flag that stays set. A child (`Stop(above)`) counts as set when its parent is; its own flag does not."""
 
     def __init__(self, above: Stop | None = None) -> None:
         self._above = above
         self._event = threading.Event()
 
     def set(self) -> None:
-        """Ask for the end."""
+        """Request the stop."""
         self._event.set()
 
     def is_set(self) -> bool:
-        """Whether the end was asked for, here or above."""
+        """Whether this stop or its parent was set."""
         return self._event.is_set() or (self._above is not None and self._above.is_set())

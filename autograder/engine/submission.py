@@ -17,14 +17,18 @@ MAX_NOTEBOOK_BYTES = 50_000_000  # a notebook also holds pictures of the robot
 CLEAR_OUTPUTS = (
     "clear its outputs (in JupyterLab Edit > Clear Outputs of All Cells), save it and hand it in again"
 )
-_HALF_A_CHARACTER = re.compile("[\ud800-\udfff]")  # half of an emoji, which an editor cut in two
+_HALF_A_CHARACTER = re.compile(
+    "[\ud800-\udfff]"
+)  # an unpaired surrogate, such as half of an emoji after a faulty edit
 
 
 class UnusableSubmission(CourseError):
     """The submission cannot be read; the message says what was found and what is expected."""
 
     def __init__(self, message: str) -> None:
-        super().__init__(message.encode(errors="backslashreplace").decode())  # it may quote half a character
+        super().__init__(
+            message.encode(errors="backslashreplace").decode()
+        )  # the message may quote an unpaired surrogate
 
     def _render_traceback_(self) -> list[str]:
         """Jupyter shows this instead of a traceback."""
@@ -41,7 +45,7 @@ class Submission:
 
     @property
     def files(self) -> dict[str, bytes]:
-        """The files to put beside each other when it runs."""
+        """The content of each file, by its name in the working folder."""
         return {name: bytes_of(name, text) for name, text in self.sources.items()}
 
 

@@ -28,14 +28,14 @@ from ros_runtime.ros_domain import loopback_variables
 from ros_runtime.workarounds.scaled_clock.clock import preload_variables
 
 REPORT_LIMIT = 64 * 2**20  # bytes of events of one scenario
-LIMITS = ArenaLimits(deadline_s=120.0)  # for the arena to begin; each scenario has a deadline of its own
+LIMITS = ArenaLimits(deadline_s=120.0)  # deadline for the arena's start; each scenario sets its own
 IDLE = 3600.0  # s an arena may wait for its next scenario
-_LOOK = 0.1  # s between two looks at whether to stop
+_LOOK = 0.1  # s between two checks of `stop`
 _SWEEPING = 15.0  # s for the processes of a scenario to end
 
 
 class ArenaEnded(Exception):
-    """The arena ended before the scenario did; `events` is what had arrived until then."""
+    """The arena ended before the scenario did; `events` are the lines received until then."""
 
     def __init__(self, report: ArenaReport, events: bytes = b"") -> None:
         super().__init__(f"{report.explain(LIMITS)}\n{report.stderr.text[-2000:]}")
@@ -139,7 +139,7 @@ class SubmissionArena:
 
 
 def ros_paths() -> list[Path]:
-    """Return what any ROS process needs to see: Python with its packages, and a sourced ROS 2 if there is one."""
+    """Return the paths that any ROS process reads: Python with its packages, and a sourced ROS 2 if there is one."""
     sourced = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     return [
         *python_read_only_paths(),
@@ -148,12 +148,12 @@ def ros_paths() -> list[Path]:
 
 
 def student_paths() -> Sequence[Path]:
-    """Return what a student's program may see of this machine beside the system."""
+    """Return the paths of this machine that a student's program may read, besides the system's."""
     return (*ros_paths(), PROJECT / "ros_runtime")
 
 
 def _trusted_paths() -> list[Path]:
-    """Return what any arena may see of the project: no checks, no solutions, no other submissions."""
+    """Return the project's folders that every arena may read: no checks, no solutions, no other submissions."""
     grader = PROJECT / "autograder"
     return [
         PROJECT / "ros_runtime",

@@ -9,17 +9,17 @@ from typing import Any, Literal, get_args
 CheckStatus = Literal["passed", "failed", "not run", "error", "to mark", "marked"]
 GradeStatus = Literal["graded", "not graded", "to mark"]
 
-# Characters of what a verdict says: it may quote a text of a student's, which may be as long as they like.
+# Longest texts of a verdict, in characters: they may quote a student's text of any length.
 LONGEST: Mapping[str, int] = {"expected": 500, "observed": 500, "help": 4000}
-LENGTH_NOTE = 40  # characters at most of what is put in the place of the rest
+LENGTH_NOTE = 40  # characters, at most, of the note that replaces the cut part
 
 
 @dataclass(frozen=True)
 class CheckVerdict:
-    """What one check found; `robot_time` is when, in seconds on the arena's clock.
+    """The result of one check; `robot_time` is the time of the observation, s on the arena's clock.
 
-    `promise` is what it judges, in the statement's words: 'clause 4, “Every request …”'.
-    Of an essay it is what a person gave for one criterion ("marked"), or that nobody has done so yet ("to mark").
+    `promise` quotes the clause that the check judges: 'clause 4, “Every request …”'.
+    For an essay: the points that a person gave for one criterion ("marked"), or none yet ("to mark").
     """
 
     id: str
@@ -38,7 +38,9 @@ class CheckVerdict:
     def __post_init__(self) -> None:
         for name, most in LONGEST.items():
             text = getattr(self, name)
-            if len(text) > most + LENGTH_NOTE:  # so that what is read back from a record stays as it is
+            if (
+                len(text) > most + LENGTH_NOTE
+            ):  # a text that was cut before, read from a record, is not cut again
                 object.__setattr__(self, name, f"{text[:most]}…[cut: {len(text):,} characters]")
 
 
@@ -105,7 +107,7 @@ class Grade:
         """Read back what `to_json` returned.
 
         Raises:
-            ValueError: it is no such record, or one with points that cannot be.
+            ValueError: the record is malformed, or has impossible points.
         """
         try:
             checks = [CheckVerdict(**check) for check in record["checks"]]
@@ -134,7 +136,7 @@ def _require_sound(check: CheckVerdict) -> None:
             f"{check.id[:100]!r} cannot have {check.points!r} of {check.max_points!r} points"[:300]
         )
     if not (check.robot_time is None or _is_number(check.robot_time)) or not isinstance(check.hidden, bool):
-        raise ValueError(f"{check.id[:100]!r} has a time or a mark of hidden checks that is none")
+        raise ValueError(f"{check.id[:100]!r}: robot_time must be a number or null, and hidden true or false")
 
 
 def _text(value: Any) -> str:

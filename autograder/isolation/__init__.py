@@ -1,4 +1,5 @@
-"""Processes that can do no harm: the arena (`arena_process`), the student's (`student_process`).
+"""Sandboxed processes: the arena (`arena_process`) and the student's program in it (`student_process`).
 
-Knows nothing of checks, scenarios or robots. Kept free of imports, because both sides of the wall load it.
+Independent of checks, scenarios and robots. This file imports nothing, because code inside and outside the arena
+loads it.
 """

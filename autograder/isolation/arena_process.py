@@ -1,4 +1,4 @@
-"""The controller's side of an arena: start it, watch its memory and its deadline, know that nothing is left.
+"""The controller's side of an arena: start it, watch memory and deadline, make sure that every process has ended.
 
     spec = ArenaSpec([sys.executable, "-m", "autograder.arena.host"], read_only_paths=[…], pass_fds=[orders])
     arena = start_arena(spec, available_isolation().kind)
@@ -25,9 +25,9 @@ from autograder.isolation.process_tree import cpu_seconds, descendants, resident
 
 __all__ = ["ArenaProcess", "ArenaReport", "ArenaSpec", "Ended", "Kind", "start_arena"]
 
-_POLL = 0.05  # s between two looks at the deadline and at a request to end
-_MEMORY_PERIOD = 0.2  # s between two looks at the memory, which read some dozen files for each process
-_LAST_WORDS = 2.0  # s in which a process of an ended arena may still be found to hold its output open
+_POLL = 0.05  # s between two checks of the deadline and of `kill`
+_MEMORY_PERIOD = 0.2  # s between two measurements of memory, each of which reads a dozen files per process
+_LAST_WORDS = 2.0  # s to read the remaining output of an ended arena, if a process still holds it open
 
 
 class Ended(str, Enum):
@@ -43,15 +43,15 @@ class Ended(str, Enum):
 class ArenaReport:
     """How an arena ended.
 
-    `nothing_survives` is the kernel's word that every process of the arena is gone (with namespaces), or
-    the reaper's (without).
+    `nothing_survives`: every process of the arena is gone, as confirmed by the kernel (with namespaces) or by the
+    reaper (without).
     """
 
     ended: Ended
     exit_code: int  # the command's; 128 + n when signal n ended it
     seconds: float  # wall time from start to end
     peak_memory_mib: float  # resident, all processes together, seen by polling
-    processor_seconds: float  # seen by polling: without what processes used that were ended by force
+    processor_seconds: float  # sampled: misses the last part of killed processes
     nothing_survives: bool
     stdout: CapturedOutput
     stderr: CapturedOutput
@@ -168,7 +168,7 @@ class ArenaProcess:
                 break
         nothing_survives = running.end() if ended is not Ended.EXIT else running.has_ended()
         exit_code = process.wait()
-        if group and group.was_exceeded():  # what the kernel ended may have been all there was
+        if group and group.was_exceeded():  # the kernel may have killed the arena's last process
             ended, peak = Ended.MEMORY, max(peak, float(limits.most_memory_mib))
         pump.finish(_LAST_WORDS)
         process.stdout.close()

@@ -17,7 +17,7 @@ class Kind(str, Enum):
 
     NAMESPACES = "namespaces"
     ANOTHER_USER = (
-        "another-user"  # the student's program alone: root of a container without namespaces steps down
+        "another-user"  # root in a container without namespaces runs only the student's program as a new user
     )
     NONE = "none"
 
@@ -26,11 +26,11 @@ class Kind(str, Enum):
 class ArenaSpec:
     """What to run and what it may see and use.
 
-    `read_only_paths` are host files and folders, visible at the same place inside; files keep their identity,
-    so a mapped page can be shared. `pass_fds` are descriptors inherited under the same number: the caller
-    closes its own copies of them once the arena has started. `stdin` is all that the command can read there.
-    `waiting_env`, if given, is the environment of an interpreter that waits in the arena to become students'
-    programs (`warm_interpreter`); the command is then `python -m MODULE …`. Without namespaces none waits.
+    `read_only_paths`: host files and folders, at the same path inside; they keep their inodes, so memory-mapped pages
+    can be shared. `pass_fds`: descriptors inherited under the same number; the caller closes its own copies after the
+    start. `stdin`: the whole input of the command. `waiting_env`: if given, the environment of a waiting interpreter,
+    whose forks become students' programs (`warm_interpreter`); the command is then `python -m MODULE …`. It is ignored
+    without namespaces.
     """
 
     command: Sequence[str]

@@ -30,7 +30,7 @@ from autograder.isolation.warm_interpreter import first_process
 from ros_runtime.project import PROJECT
 from ros_runtime.ros_domain import NoDomainLeft, ReservedDomain
 
-# Shared memory of two sandboxes, or of two users, cannot be shared, and nodes would choose it.
+# Nodes prefer shared memory, but it does not work between two sandboxes or two users.
 _UDP_ONLY = {"FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
 _END_TIMEOUT = 10.0  # s for the kernel, or the reaper, to end every process
 
@@ -46,15 +46,15 @@ class RunningArena:
         gentle: bool,
         memory_group: MemoryGroup | None = None,
     ) -> None:
-        self.process = process  # ours to wait for
+        self.process = process  # the child process that the controller has to wait for
         self.memory_group = memory_group  # of all processes
-        self.root_pid = root_pid  # every process of the arena is this one or below it
+        self.root_pid = root_pid  # root of the arena's process tree
         self.end_pidfd = end_pidfd  # readable when the root has ended, and with it everything below
         self._gentle = gentle
 
     def end(self) -> bool:
         """End every process; True when it is certain that they are gone."""
-        if self._gentle:  # the reaper sweeps when told to; ended by force it would leave orphans
+        if self._gentle:  # the reaper ends its tree on SIGTERM; SIGKILL would leave orphans
             self.process.terminate()
         else:
             with suppress(ProcessLookupError):
@@ -62,11 +62,11 @@ class RunningArena:
         return self.has_ended()
 
     def has_ended(self) -> bool:
-        """Wait until everything has ended; False when that cannot be said."""
+        """Wait until every process has ended; return False if that is not certain."""
         if not ended_within(self.end_pidfd, _END_TIMEOUT):
             self.process.kill()
             return False
-        return not self._gentle or self.process.wait() >= 0  # a reaper ended by a signal did not sweep
+        return not self._gentle or self.process.wait() >= 0  # a reaper that was killed may have left orphans
 
 
 def start_with_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
@@ -145,7 +145,7 @@ def _start(
 ) -> StartedSandbox:
     def bound(pid: int) -> None:
         if memory_group:
-            with suppress(OSError):  # a container may let root make groups and not fill them
+            with suppress(OSError):  # in some containers root can create groups but not add processes
                 memory_group.add(pid)
 
     if spec.waiting_env is None:
@@ -160,7 +160,7 @@ def _sandbox_environment(spec: ArenaSpec) -> dict[str, str]:
 
 @contextmanager
 def _staging_folder() -> Iterator[Path]:
-    """Yield a folder to mount on. The mounts are seen by the arena alone, which needs them only to start."""
+    """Yield a folder for mounts, which exist only in the arena's mount namespace and are needed only for its start."""
     staging = Path(tempfile.mkdtemp(prefix=f"arena-{os.getpid()}-", dir="/tmp"))
     try:
         yield staging
@@ -176,13 +176,13 @@ def _as_another_user(paths: list[str], staging: Path) -> list[str]:
 
 
 def _environment(spec: ArenaSpec, kind: Kind, home: str, network: Mapping[str, str]) -> dict[str, str]:
-    """Return the command's whole environment: what it needs of ours, the caller's, and the arena's own."""
+    """Return the command's whole environment: defaults, the spec's variables, and the arena's network settings."""
     path = {"PATH": "/usr/local/bin:/usr/bin:/bin", "LANG": "C.UTF-8"}
     return {**path, "HOME": home, "TMPDIR": home, **spec.env, **network, ISOLATION_VARIABLE: kind.value}
 
 
 def _write_stdin(process: subprocess.Popen[bytes], content: bytes) -> None:
-    """Hand over the command's input without waiting for it to read."""
+    """Write the command's input in a background thread."""
 
     def write() -> None:
         assert process.stdin

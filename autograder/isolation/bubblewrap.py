@@ -18,12 +18,13 @@ from types import TracebackType
 
 from autograder.isolation.process_tree import children, ended_within, is_asleep
 
-WRITABLE = ("/tmp", "/dev/shm")  # file systems of a sandbox's own, in memory
+WRITABLE = ("/tmp", "/dev/shm")  # each sandbox's own in-memory file systems
 # where the arena keeps the filters of `seccomp_filter`
 STUDENT_FILTER, BUILD_FILTER = "/run/course/student.seccomp", "/run/course/build.seccomp"
 
 _START_TIMEOUT = 30.0  # s, for the namespaces and mounts on a busy machine
-# The command waits until init will end with bwrap; when we die before that, so does it, as its input ends.
+# The command waits for "go", which is sent once init is bound to bwrap. If this process dies earlier, stdin ends and
+# the shell exits.
 _WAIT_FOR_GO = ("/bin/sh", "-c", 'read -r go && exec "$@"', "sh")
 _UID = 1000  # the same in every sandbox, whatever the user outside
 _ETC = {
@@ -39,7 +40,7 @@ SYSTEM_PATHS = ("/usr", *_SYSTEM_LINKS, *_SYSTEM_FILES)  # of the host, shown in
 
 
 class SandboxError(Exception):
-    """A sandbox could not be started: never the student's fault."""
+    """A sandbox could not be started; the submission is never the cause."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ class StartedSandbox:
 
 
 class Sandbox:
-    """Collects the arguments of a bwrap call; a context manager, as it owns the files that carry them."""
+    """Builds the arguments of a bwrap call; a context manager, because it owns the memory files that hold them."""
 
     def __init__(self) -> None:
         self._arguments: list[str] = []
@@ -106,11 +107,11 @@ class Sandbox:
             self.add("--ro-bind", source, path)
 
     def close_file_system(self) -> None:
-        """Make what is not a mount of its own read-only: it lies in memory and would be unlimited."""
+        """Remount / and /dev read-only: they are in-memory file systems without a size limit."""
         self.add("--remount-ro", "/dev", "--remount-ro", "/")
 
     def add_environment(self, env: Mapping[str, str]) -> None:
-        """Set the variables of the command; there are no others."""
+        """Set the variables of the command, which inherits none."""
         for name, value in env.items():
             self.add("--setenv", name, value)
 
@@ -139,9 +140,9 @@ class Sandbox:
         return started
 
     def start_empty(self) -> StartedSandbox:
-        """Make the sandbox for a program that enters it from outside; in it a shell waits, which `command_pid` names.
+        """Start a sandbox for a program that will enter it from outside; its command is a waiting shell.
 
-        As `start` otherwise. The sandbox ends when its `process` loses its stdin.
+        Otherwise like `start`. The sandbox ends when the stdin of its `process` is closed.
         """
         return self._start((), (), ())
 

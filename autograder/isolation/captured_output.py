@@ -108,8 +108,10 @@ class OutputPump:
         return ready - streams
 
     def finish(self, timeout: float) -> None:
-        """Read on until the streams end, at most `timeout` s: a writer that escaped must not hold us up."""
-        for fd in set(self._selector.get_map()) - self._open.keys():  # they may stay ready and keep us busy
+        """Read until the streams end, at most `timeout` s: an escaped process may keep them open."""
+        for fd in (
+            set(self._selector.get_map()) - self._open.keys()
+        ):  # always-ready descriptors would cause a busy loop
             self._selector.unregister(fd)
         deadline = time.monotonic() + timeout
         while self._open and (left := deadline - time.monotonic()) > 0:

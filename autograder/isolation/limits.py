@@ -11,18 +11,16 @@ class ArenaLimits:
 
     deadline_s: float = 120.0
     memory_mib: int = (
-        1536  # resident memory of all processes, watched by polling; twice as much is never borne
+        1536  # resident memory of all processes, sampled; more is tolerated for the grace time only
     )
-    memory_grace_s: float = (
-        1.0  # above it, in which the agent on a busy machine can still end a student's bomb
-    )
+    memory_grace_s: float = 1.0  # above memory_mib, so that the agent can end the student's processes first
     output_kib: int = 256  # kept of stdout and of stderr each
     tmp_mib: int = 64
     shared_memory_mib: int = 64
 
     @property
     def most_memory_mib(self) -> int:
-        """What is never borne, not for a moment: twice the resident memory, and the files in memory."""
+        """The hard limit, without grace: twice `memory_mib`, plus the in-memory file systems."""
         return 2 * self.memory_mib + self.tmp_mib + self.shared_memory_mib
 
 
@@ -41,7 +39,7 @@ class StudentLimits:
     tmp_mib: int = 32  # its folder and everything else under /tmp
     shared_memory_mib: int = 16
     # The kernel has no limit for these; enforced by arena/student_limits_monitor.py.
-    files: int = 10_000  # and folders and links, which take memory although they are empty
-    sockets: int = 700  # with the arena's, about 60; in a shared network only its own
-    tcp_sockets: int = 64  # of these; each may hold megabytes, and ROS has none
+    files: int = 10_000  # files, folders and links: even empty ones take memory
+    sockets: int = 700  # including about 60 of the arena; in a shared network the program's alone
+    tcp_sockets: int = 64  # among the sockets; one can buffer megabytes, and ROS needs none
     output_kib: int = 256  # kept of stdout and of stderr each

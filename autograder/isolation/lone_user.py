@@ -1,8 +1,8 @@
-"""Becomes a user of its own, with the student's limits and filter, where root has no namespaces to give. Only for root.
+"""Runs a program as a new user, with the student's limits and filter, where namespaces are unavailable. Needs root.
 
-Root of a container, as on Gradescope, may neither make namespaces nor mount. There a student's program runs as a user
-who owns its working folder and nothing else: it cannot write what root wrote, signal or trace root's processes, nor
-become anybody again. It shares network, process list and /tmp with the grader, so hidden checks have no place there.
+Root in a container, as on Gradescope, can neither create namespaces nor mount. There a student's program runs as a
+user who owns only its working folder: it cannot write root's files, signal or trace root's processes, or change its
+user again. It shares network, process list and /tmp with the grader, so it must not be graded with hidden checks.
 
 Run as `python -I -S lone_user.py PLAN PROGRAM ARGUMENTS…`, where PLAN is JSON: the id of the process that starts it
 ("parent"), its working folder ("folder"), a descriptor with the system call filter ("filter") and the most processes
@@ -23,7 +23,7 @@ from ros_runtime.workarounds.die_with_parent import die_with_parent
 
 _PR_SET_NO_NEW_PRIVS, _PR_SET_SECCOMP, _SECCOMP_MODE_FILTER = 38, 22, 2
 _INSTRUCTION = 8  # bytes of one instruction of a filter
-_MOST_FILTER_BYTES = 8 * 4096  # the kernel takes no longer one
+_MOST_FILTER_BYTES = 8 * 4096  # the kernel's limit
 
 _libc = ctypes.CDLL(None, use_errno=True)
 
@@ -35,7 +35,7 @@ class _FilterProgram(ctypes.Structure):
 
 
 def main() -> None:
-    """Own the folder, step down, go on as the program."""
+    """Give the folder to the new user, become that user, and exec the program."""
     plan = json.loads(sys.argv[1])
     instructions = os.pread(plan["filter"], _MOST_FILTER_BYTES, 0)
     os.close(plan["filter"])
@@ -58,7 +58,9 @@ def _step_down(folder: str, processes: int, instructions: bytes) -> None:
     os.setgroups([])
     os.setresgid(user, user, user)
     os.setresuid(user, user, user)
-    resource.setrlimit(resource.RLIMIT_NPROC, (processes, processes))  # of this user, who is nobody else's
+    resource.setrlimit(
+        resource.RLIMIT_NPROC, (processes, processes)
+    )  # counted per user; no other program has this one
     _prctl(_PR_SET_NO_NEW_PRIVS, 1)
     program = _FilterProgram(len(instructions) // _INSTRUCTION, instructions)
     _prctl(_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(program))

@@ -1,8 +1,7 @@
-"""Bounds the memory of an arena as the kernel counts it: by a control group (cgroup), where we may make one.
+"""Limits the memory of an arena with a control group (cgroup), where this user may create one.
 
-The kernel's count has what no process's resident size shows: shared mappings that nobody maps any more, files in
-memory, sockets' buffers. Without a group the resident sizes, the sizes of the file systems and the number of sockets
-are all that is looked at.
+The kernel also counts memory that is in no process's resident size: shared memory that is no longer mapped, files in
+memory, socket buffers. Without a group the grader limits resident sizes, file system sizes and the number of sockets.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ _numbers = count()
 
 @dataclass(frozen=True)
 class _Version:
-    """How one of the kernel's two kinds of control groups names things."""
+    """The paths and file names of one of the two cgroup versions."""
 
     place: Path  # where the groups are made
     limits: tuple[str, ...]  # files for the limit in bytes; those after the first may be missing
@@ -99,13 +98,13 @@ def _make(version: _Version, limit: int) -> MemoryGroup | None:
         return None
     try:
         first, *others = (folder / name for name in version.limits)
-        with first.open("r+") as file:  # only where the kernel made it: a group may have no count of memory
+        with first.open("r+") as file:  # "r+" creates no file: without the memory controller it is missing
             file.write(str(limit))
         for path, value in [*((path, limit) for path in others), (folder / version.no_swap, 0)]:
             with suppress(OSError), path.open("r+") as file:
                 file.write(str(value))
         group = MemoryGroup(folder, version.kills)
-        group.was_exceeded()  # can be read
+        group.was_exceeded()  # raises OSError if the counter cannot be read
     except OSError:
         folder.rmdir()
         return None
@@ -113,7 +112,7 @@ def _make(version: _Version, limit: int) -> MemoryGroup | None:
 
 
 def _sweep(place: Path) -> None:
-    """Remove the groups of graders that were ended by force."""
+    """Remove the groups that killed graders have left."""
     for folder in place.glob("arena-*-*"):
         pid = folder.name.split("-")[1]
         if pid.isdigit() and not Path(f"/proc/{pid}").exists():

@@ -1,4 +1,4 @@
-"""Counts sockets through /proc: those of a whole network, or those of some processes in a network that others share."""
+"""Counts sockets through /proc: those of a whole private network, or those of some processes in a shared one."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ _OWNER, _NUMBER = 7, 9  # columns of the tables of TCP and UDP sockets
 
 
 def too_many_sockets(processes: Iterable[int], limits: StudentLimits, private_network: bool) -> str:
-    """Return which limit of sockets a student's processes exceed, as a reason; empty: none.
+    """Return the reason if a student's processes exceed a limit on sockets, else "".
 
-    In an arena's private network every socket is counted, also one that no process holds at the moment. A network that
-    is shared has the sockets of others, so there only what the processes hold counts.
+    In an arena's private network every socket counts, even one that no process holds at the moment. In a shared network
+    only sockets held by these processes count.
     """
     if private_network:
         held, tcp = _of_the_network()
         had = "with it there were"
     else:
         own = _of_processes(processes)
-        # the table has all connections of the machine: it is read only when it can matter
+        # the TCP table lists all connections of the machine, so it is read only if needed
         held, tcp = len(own), len(own & _numbers("tcp")) if len(own) > limits.tcp_sockets else 0
         had = "it had"
     if held > limits.sockets:
@@ -48,7 +48,7 @@ def _of_the_network() -> tuple[int, int]:
 def _of_processes(pids: Iterable[int]) -> set[str]:
     """Return the numbers of the sockets that these processes hold, each once.
 
-    A container's root may not see what another user's processes hold; then it is what TCP and UDP have of that user's.
+    If root in a container cannot list a process's descriptors, all TCP and UDP sockets of its user are counted.
     """
     found: set[str] = set()
     hidden: set[str] = set()
@@ -82,7 +82,7 @@ def _numbers(protocol: str, user: str = "") -> set[str]:
 
 
 def _users(pid: int) -> set[str]:
-    """Return the user whose process it is; none when it has ended."""
+    """Return the user id of a process as a set of one; empty if the process has ended."""
     return {line.split()[1] for line in _lines(Path(f"/proc/{pid}/status")) if line.startswith("Uid:")}
 
 

@@ -1,6 +1,6 @@
-"""What a student's process may do, as the kernel tells it about the process from outside, and what is promised of it.
+"""The security profile of a student's process: the promised one, and the actual one, read from /proc outside it.
 
-`docs/grading.md` has the promises as a table, which `promise_table` makes; a test looks at real processes.
+`promise_table` makes the table in `docs/grading.md`; a test compares it with real processes.
 """
 
 from __future__ import annotations
@@ -60,9 +60,9 @@ def promise_table() -> str:
 
 
 def posture(pid: int) -> dict[str, str]:
-    """Return what the kernel says of a process and all its threads, in the words of the promises.
+    """Return the security profile of a process and all its threads from /proc, in the words of the promises.
 
-    Call it in the arena, beside the sandbox of the process, so that it can be compared with its surroundings.
+    Call it in the arena but outside the process's sandbox: it compares the namespaces of both.
     """
     threads = [_fields(f"/proc/{pid}/task/{thread}/status") for thread in os.listdir(f"/proc/{pid}/task")]
     mounts = [line.split(" - ") for line in Path(f"/proc/{pid}/mountinfo").read_text().splitlines()]
@@ -89,7 +89,7 @@ def _fields(status: str) -> dict[str, str]:
 
 
 def _only(seen: set, words: Mapping) -> str:
-    """Return the word for what all threads have in common, or everything that was seen."""
+    """Return the word for the only value in `seen`; list the values if there are several or it has no word."""
     one = next(iter(seen)) if len(seen) == 1 else None
     return words.get(one, f"{sorted(map(str, seen))}")
 

@@ -52,18 +52,18 @@ def cpu_seconds(pids: Iterable[int]) -> float:
 
 
 def seconds_without_a_processor(pid: int) -> float:
-    """Return how long (s) a process's main thread was ready to run and did not; 0 where the kernel does not tell."""
+    """Return how long (s) a process's main thread was runnable but not running; 0 if the kernel does not count it."""
     fields = _read(f"/proc/{pid}/schedstat").split()
     return int(fields[1]) / 1e9 if len(fields) > 1 else 0.0
 
 
 def is_asleep(pid: int) -> bool:
-    """Whether a process waits for something."""
+    """Whether a process is in interruptible sleep (state S)."""
     return _read(f"/proc/{pid}/stat").rpartition(")")[2].split()[:1] == ["S"]
 
 
 def ended_within(pidfd: int, seconds: float) -> bool:
-    """Wait for the end of a process, at most `seconds`; whether it has ended."""
+    """Wait at most `seconds` for the end of a process; return whether it has ended."""
     poll = select.poll()
     poll.register(pidfd, select.POLLIN)
     return bool(poll.poll(seconds * 1000))

@@ -14,9 +14,9 @@ from autograder.isolation.process_tree import descendants
 
 
 class RunningProgram:
-    """Its streams, its processes and its end. Process ids are not used again once it is closed.
+    """Streams, processes and exit status of a started program. After `close` no signal is sent to its process ids.
 
-    The program leads a session of its own, and so a process group that it cannot leave.
+    The program leads its own session, and so a process group that it cannot leave.
 
     Attributes:
         stdin, stdout, stderr: the arena's ends of its streams.
@@ -43,7 +43,7 @@ class RunningProgram:
                 os.killpg(self._main_pid, signal.SIGINT)
 
     def end(self) -> None:
-        """End the program and everything below it. Harmless when it has ended."""
+        """Kill the program and its descendants; does nothing if it has ended."""
         with self._lock:
             if not self._is_closed:
                 self._kill_everything()
@@ -60,7 +60,7 @@ class RunningProgram:
         raise NotImplementedError
 
     def files(self) -> int:
-        """Return how many files there are in what the program can write to; 0 where it has no folders of its own."""
+        """Return the number of files in the program's writable folders; 0 without a private file system."""
         return 0
 
     def _kill_everything(self) -> None:
@@ -94,7 +94,7 @@ class ChildProgram(RunningProgram):
         return [self._process.pid, *descendants(self._process.pid)]
 
     def _kill_everything(self) -> None:
-        # with its init the kernel ends all of a sandbox
+        # killing init makes the kernel end the whole sandbox
         below = [self._init] if self._init else descendants(self._process.pid)
         _kill(*below, self._process.pid)
 
@@ -105,7 +105,7 @@ class ChildProgram(RunningProgram):
 
 
 class EnteredProgram(RunningProgram):
-    """A program that entered an empty sandbox. `report` brings its exit status when it has ended."""
+    """A program that entered an empty sandbox. Its exit status is read from `report` after its end."""
 
     def __init__(
         self,

@@ -1,8 +1,8 @@
-"""The system calls a student's process has no business with.
+"""The filter of system calls for students' processes.
 
-The namespaces already bound what these calls could reach; the filter keeps the kernel's less travelled code
-out of reach too, the memory and the processor time that nobody could count, and what tells which pages of a shared file
-another arena has read. Everything else is allowed, so that ordinary programs and their libraries run.
+The namespaces already limit what these calls could reach. The filter also denies rarely used kernel code, memory and
+processor time that escape the accounting, and calls that reveal which pages of a shared file another arena has read.
+Everything else is allowed, so that ordinary programs and their libraries run.
 """
 
 from __future__ import annotations
@@ -43,10 +43,10 @@ _NETLINK, _NETLINK_ROUTE = (
 )  # allowed, because it lists the network interfaces, as unix, IPv4 and IPv6 are
 _OLD_SOCKET_FAMILIES = (0, *range(3, 10), *range(11, 16))
 _CLONE_NEW_NAMESPACES = (0x00020000, 0x02000000, 0x04000000, 0x08000000, 0x10000000, 0x20000000, 0x40000000)
-_CLONE_PARENT = 0x00008000  # a child of the parent, so that it would be a process of nobody we know
+_CLONE_PARENT = 0x00008000  # makes the child a sibling: it would leave the program's process tree
 _MAP_KIND_OR_ANONYMOUS, _MAP_SHARED_ANONYMOUS = 0x2F, 0x21
 _RWF_NOWAIT = 0x8
-_POLICY, _BEFORE_OTHERS = 0xFF, (0, 1, 2, 6, 7)  # scheduling classes that are served before SCHED_BATCH
+_POLICY, _BEFORE_OTHERS = 0xFF, (0, 1, 2, 6, 7)  # scheduling policies with priority over SCHED_BATCH
 
 
 class SeccompUnavailableError(SandboxError):
@@ -65,7 +65,7 @@ def student_filter() -> bytes:
 
 @lru_cache(maxsize=1)
 def build_filter() -> bytes:
-    """Return the filter of our own modules that build students' definitions with CMake; see `student_filter`."""
+    """Return the filter for the grader's modules that build students' definitions with CMake; see `student_filter`."""
     return _filter(handles_children=True)
 
 
@@ -96,9 +96,9 @@ def _filter(handles_children: bool) -> bytes:
         pyseccomp.Arg(0, pyseccomp.EQ, _NETLINK),
         pyseccomp.Arg(2, pyseccomp.NE, _NETLINK_ROUTE),
     )
-    for policy in _BEFORE_OTHERS:  # the middleware sets again what it has
+    for policy in _BEFORE_OTHERS:  # the middleware sets its present policy again, which stays allowed
         rules.add_rule(denied, "sched_setscheduler", pyseccomp.Arg(1, pyseccomp.MASKED_EQ, _POLICY, policy))
-    # without effect, as where a request is beyond what the kernel grants: a buffer is as large as the system has it
+    # report success without effect, as the kernel does above its maximum: buffers keep the default size
     for option in (socket.SO_SNDBUF, socket.SO_RCVBUF):
         rules.add_rule(
             pyseccomp.ERRNO(0),
@@ -106,14 +106,14 @@ def _filter(handles_children: bool) -> bytes:
             pyseccomp.Arg(1, pyseccomp.EQ, int(socket.SOL_SOCKET)),
             pyseccomp.Arg(2, pyseccomp.EQ, int(option)),
         )
-    # such memory stays in use while no process has it in its resident size
+    # shared anonymous memory can stay allocated without being in any process's resident size
     rules.add_rule(
         pyseccomp.ERRNO(errno.ENOMEM),
         "mmap",
         pyseccomp.Arg(3, pyseccomp.MASKED_EQ, _MAP_KIND_OR_ANONYMOUS, _MAP_SHARED_ANONYMOUS),
     )
     if not handles_children:
-        # the kernel counts the processor time of a child when somebody waits for it, so no child may go without that
+        # the kernel counts a child's processor time when its parent waits for it; ignoring SIGCHLD would skip that
         rules.add_rule(
             denied,
             "rt_sigaction",

@@ -24,7 +24,7 @@ from autograder.isolation.running_program import RunningProgram
 from autograder.isolation.student_sandbox import Program, start_program
 from autograder.isolation.warm_interpreter import WarmInterpreter
 
-_POLL = 0.2  # s between two looks when nothing is printed
+_POLL = 0.2  # s between two checks while nothing is printed
 _LAST_WORDS = 2.0  # s for output that is still in the pipes of an ended program
 
 
@@ -42,12 +42,12 @@ def start_student(
 ) -> StudentProcess:
     """Run Python with `arguments` in a fresh writable folder that holds `workdir_files` (relative name → content).
 
-    `interpreter` is one that waits to become the program, instead of a new one. `env` is its environment, to which
-    the arena's network settings are added. `read_only_paths` are files and folders of the arena that it sees at the
-    same place. `builds` says that it is a module of ours that runs CMake, which handles the end of its children itself.
-    `on_line(time, "stdout" | "stderr", text)` is called for each kept line and `on_exit(returncode)` once
-    at the end, after the last line, both on a thread of their own. Raises `SandboxError` when the
-    sandbox cannot be started, ValueError for a file name that leaves the folder.
+    `interpreter`: the waiting interpreter whose fork becomes the program; None: a new one. `env`: the program's
+    environment, to which the arena's network settings are added. `read_only_paths`: files and folders of the arena, at
+    the same path inside. `builds`: the program is a module of the grader that runs CMake, which needs SIGCHLD handlers.
+    `on_line(time, "stdout" | "stderr", text)` is called for each kept line, `on_exit(returncode)` once after the last
+    line, both on a background thread. Raises `SandboxError` when the sandbox cannot be started, ValueError for a file
+    name that leaves the folder.
     """
     for name in workdir_files:
         if PurePosixPath(name).is_absolute() or ".." in PurePosixPath(name).parts:
@@ -97,8 +97,7 @@ class StudentProcess:
     def returncode(self) -> int | None:
         """The program's exit status, -n when signal n ended it; None while it runs.
 
-        In the sandbox the status is seen through a shell-like 128 + n, so a program that itself exits with
-        129-192 looks signalled.
+        bwrap reports signal n as status 128 + n, so in a sandbox an exit status of 129 to 192 counts as a signal.
         """
         return self._returncode
 
@@ -123,7 +122,7 @@ class StudentProcess:
         return self._running.processes()
 
     def files(self) -> int:
-        """Return how many files there are in the program's own folders, where it has any that are its own alone."""
+        """Return the number of files in the program's private folders; 0 if it has none or has ended."""
         return 0 if self._returncode is not None else self._running.files()
 
     def interrupt(self) -> None:
@@ -131,7 +130,7 @@ class StudentProcess:
         self._running.interrupt()
 
     def abort(self) -> None:
-        """Send SIGABRT to the program itself: it ends, with PYTHONFAULTHANDLER after saying where its threads stand."""
+        """Send SIGABRT to the program itself: it ends; with PYTHONFAULTHANDLER it first prints its threads' stacks."""
         self._running.signal(signal.SIGABRT)
 
     def terminate(self) -> None:

@@ -36,8 +36,8 @@ class Program:
     env: Mapping[str, str]
     read_only_paths: Sequence[str | Path]
     limits: StudentLimits
-    interpreter: WarmInterpreter | None = None  # that is to become it; None: a new one
-    builds: bool = False  # it is a module of ours that runs CMake
+    interpreter: WarmInterpreter | None = None  # its fork becomes the program; None: a new interpreter
+    builds: bool = False  # the program is a module of the grader that runs CMake
 
 
 def start_program(program: Program, stack: ExitStack) -> RunningProgram:
@@ -45,7 +45,7 @@ def start_program(program: Program, stack: ExitStack) -> RunningProgram:
     if (kind := os.environ.get(ISOLATION_VARIABLE)) != Kind.NAMESPACES:
         return _start_bare(program, stack, as_lone_user=kind == Kind.ANOTHER_USER)
     if program.interpreter:
-        with suppress(SandboxError):  # not every kernel lets a process enter: a new interpreter does as well
+        with suppress(SandboxError):  # some kernels refuse entering a sandbox: fall back to a new interpreter
             return _start_warm(program, program.interpreter, stack)
     return _start_in_sandbox(program, stack)
 
@@ -57,7 +57,7 @@ def program_environment(env: Mapping[str, str], home: str = _WORKDIR) -> dict[st
 
 
 def waiting_environment(env: Mapping[str, str], home: str = _WORKDIR) -> dict[str, str]:
-    """Return what a program's environment begins with. Its output must arrive line by line to be timed."""
+    """Return a program's environment without the network settings; output is unbuffered, so each line can be timed."""
     ours = {
         "PATH": "/usr/bin:/bin",
         "LANG": "C.UTF-8",
@@ -76,7 +76,11 @@ def _start_in_sandbox(program: Program, stack: ExitStack) -> ChildProgram:
             f"--nproc={program.limits.processes}"  # counted in this sandbox alone, as it has its own users
         )
         limited = [*_limited(program.limits), nproc, "--", sys.executable, *program.arguments]
-        command = ["/usr/bin/setsid", "--", *limited]  # it leads no process group, so no fork is needed
+        command = [
+            "/usr/bin/setsid",
+            "--",
+            *limited,
+        ]  # the command is no group leader, so setsid need not fork
         started = sandbox.start(command, prepare=stand_back)
     stack.callback(os.close, started.init_pidfd)
     return ChildProgram(started.process, started.command_pid, started.init_pid)
@@ -103,9 +107,9 @@ def _describe(sandbox: Sandbox, program: Program) -> None:
     sandbox.add_isolation()
     sandbox.add("--disable-userns")
     sandbox.add_file_system(limits.tmp_mib, limits.shared_memory_mib, same_paths(program.read_only_paths))
-    # writing to its memory shares memory that no limit counts; reading it brings zeros all the same
+    # a shared mapping of /dev/zero is memory that no limit counts; /dev/full also reads as zeros
     sandbox.add("--dev-bind", "/dev/full", "/dev/zero")
-    # the sandbox's first process has the program's user, who could otherwise write to its memory
+    # init runs as the program's user, so the program could otherwise write to init's memory
     sandbox.add("--perms", "0555", "--size", "4096", "--tmpfs", "/proc/1", "--remount-ro", "/proc/1")
     sandbox.add("--dir", _WORKDIR)
     for name, content in program.workdir_files.items():

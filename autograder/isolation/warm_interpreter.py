@@ -21,9 +21,9 @@ _FIRST_PROCESS = Path(ros_runtime.workarounds.warm_start.__file__).with_name("fi
 
 @contextmanager
 def first_process(command: Sequence[str], environment: Mapping[str, str]) -> Iterator[tuple[list[str], int]]:
-    """Yield the command that forks a waiting interpreter before it goes on as `command`, `python -m MODULE …`.
+    """Yield a command line and a descriptor: it forks a waiting interpreter, then runs `command` (`python -m …`).
 
-    The descriptor that comes with it is to be inherited; it holds command and environment.
+    The process must inherit the descriptor, which holds the command and its environment.
     """
     python, *arguments = command
     descriptor = os.memfd_create("first process")
@@ -36,7 +36,7 @@ def first_process(command: Sequence[str], environment: Mapping[str, str]) -> Ite
 
 
 class WarmInterpreter:
-    """A waiting interpreter, by the socket that takes its orders and its process id."""
+    """A waiting interpreter, known by its order socket and its process id."""
 
     def __init__(self, orders: socket.socket, pid: int) -> None:
         self._orders = orders
@@ -44,7 +44,7 @@ class WarmInterpreter:
 
     @classmethod
     def in_this_arena(cls) -> WarmInterpreter | None:
-        """Return the one that the first process of this arena, which is this process, has forked, if it has."""
+        """Return the waiting interpreter that this process, the arena's first one, has forked; None without one."""
         waiting = os.environ.get(ros_runtime.workarounds.warm_start.WAITING)
         if waiting is None:
             return None

@@ -68,7 +68,7 @@ def _field(out: bytearray, declared: str, value: Any) -> None:
 
 @cache
 def _parsed(declared: str) -> tuple[str, bool]:
-    """Return the type of the elements, and whether their number is not fixed."""
+    """Return the element type of a sequence or array, and whether its length is variable."""
     match = _MANY.fullmatch(declared)
     if match is None:
         return declared, False
@@ -89,14 +89,14 @@ def _one(out: bytearray, declared: str, value: Any) -> None:
 
 
 def _numbers(out: bytearray, kind: str, values: list[Any]) -> None:
-    """Write numbers; the first stands at a multiple of its size."""
+    """Write numbers, aligned to their size."""
     if values:
         out += bytes(-len(out) % struct.calcsize(f"={kind}"))
         out += struct.pack(f"<{len(values)}{kind}", *values)
 
 
 def _plain(value: Any) -> Any:
-    return value[0] if isinstance(value, bytes) else value  # what rclpy has for an octet
+    return value[0] if isinstance(value, bytes) else value  # rclpy represents an octet as bytes of length 1
 
 
 def _short(name: str) -> str:

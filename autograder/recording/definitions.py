@@ -1,6 +1,6 @@
-"""The definition of a message type as MCAP files carry it: the .msg text of the type and of all types it is made of.
+"""The definition of a message type for MCAP files: the .msg text of the type and of all its nested types.
 
-It is made from the generated classes, because an action's feedback message and a service's event have no .msg file.
+It is derived from the generated classes, because an action's feedback message and a service's event have no .msg file.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ _NAMES = {"boolean": "bool", "double": "float64", "float": "float32", "octet": "
 _SEQUENCE = re.compile(r"sequence<(.+?)(?:, (\d+))?>")
 _ARRAY = re.compile(r"(.+)\[(\d+)\]")
 _BOUNDED_TEXT = re.compile(r"(w?string)<(\d+)>")
-_IN_IMPL = ("FeedbackMessage", "SendGoal", "GetResult")  # what rclpy keeps in an action's `Impl`
+_IN_IMPL = ("FeedbackMessage", "SendGoal", "GetResult")  # types that rclpy keeps in an action's `Impl`
 
 
 @cache
@@ -45,7 +45,7 @@ def definition(type_name: str) -> str:
 
 
 def class_of(type_name: str) -> Any:
-    """Return the generated class of a type, also of those that a service or an action is made of.
+    """Return the generated class of a type; services' and actions' part types are found, too.
 
     Raises:
         ValueError: there is no such type.
@@ -87,7 +87,7 @@ def _type_text(declared: str) -> str:
 
 
 def _nested(fields: Mapping[str, str], of: str) -> Iterator[str]:
-    """Name the types of the fields that are no primitives, with the part in the middle: 'std_msgs/msg/Header'."""
+    """Return the full names of the fields' message types, such as 'std_msgs/msg/Header'."""
     _, kind, _ = of.split("/")
     for declared in fields.values():
         plain = _type_text(declared).split("[")[0]

@@ -1,4 +1,4 @@
-"""One message of a recording, and what is known of the recording as a whole."""
+"""One message of a recording, and the metadata of the whole recording."""
 
 from __future__ import annotations
 
@@ -8,9 +8,7 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 
-FORMAT = (
-    "1"  # of the metadata and channels; raised when `course replay` could no longer read what it wrote before
-)
+FORMAT = "1"  # version of metadata and channels; raised when `course replay` can no longer read older files
 METADATA = "course_recording"
 
 EVENTS = "/arena/events"  # what happened, in words (rcl_interfaces/Log)
@@ -24,9 +22,9 @@ class Entry:
 
     Attributes:
         t: s on the arena's clock, since the arena's start.
-        topic: its full name.
+        topic: full name of the topic.
         message: a ROS message.
-        essential: it is kept whatever the student's program sends: what the robot did, and the verdicts.
+        essential: never left out, even if the student's program floods the recording: ground truth and verdicts.
     """
 
     t: float
@@ -37,7 +35,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class About:
-    """What a recording is of.
+    """The metadata of a recording.
 
     Attributes:
         exercise, student, scenario: which run.
@@ -62,7 +60,7 @@ class About:
     shows_hidden_checks: str
 
     def to_metadata(self) -> Mapping[str, str]:
-        """Return it as a metadata record of MCAP has it."""
+        """Return the fields as strings, for an MCAP metadata record."""
         return {"format": FORMAT, **vars(self)}
 
 
@@ -73,7 +71,7 @@ def stamp(t: float) -> Time:
 
 
 def as_nanoseconds(t: float) -> int:
-    """Return a time on the arena's clock as MCAP has it; a recording begins at 0."""
+    """Return a time on the arena's clock as an MCAP time in ns; a recording begins at 0."""
     return min(max(0, round(t * 1e9)), 2**31 * 10**9 - 1)
 
 

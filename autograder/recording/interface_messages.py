@@ -2,8 +2,8 @@
 
 Feedback and status of an action are on its hidden topics `_action/feedback` and `_action/status`, goals and results on
 the service events (ROS 2's service introspection) of `_action/send_goal` and `_action/get_result`. The record names
-goals; their UUIDs and sequence numbers are made of the names, the same in every recording. Calls and cancels are told
-in words only (`narration`): rosbags, our independent reader, cannot take types of the kind srv.
+goals; their UUIDs and sequence numbers are derived from the names, so they are the same in every recording.
+Calls and cancels are recorded as text only (`narration`), because rosbags, the reader in the tests, has no srv types.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from ros_runtime.messages import is_message, type_name
 
 _SENT, _RECEIVED = ServiceEventInfo.REQUEST_SENT, ServiceEventInfo.REQUEST_RECEIVED
 _REPLIED, _ANSWERED = ServiceEventInfo.RESPONSE_SENT, ServiceEventInfo.RESPONSE_RECEIVED
-_UUIDS = uuid.UUID("5e1f0c5e-1d0e-4c0a-9d61-0d5d2f2c7a10")  # a name space of our own
+_UUIDS = uuid.UUID("5e1f0c5e-1d0e-4c0a-9d61-0d5d2f2c7a10")  # UUID namespace of the course
 _LONGEST_LIST = 100  # goals in one status message
 
 
 class InterfaceMessages:
-    """Turns the events of one run into messages; give it all events in order.
+    """Converts the events of one run to messages; call `of` with all events in order.
 
-    An event whose parts do not fit together (an answer to nothing, a part of another type) yields nothing.
+    An inconsistent event (an answer without a request, a message of another type) yields nothing.
     """
 
     def __init__(self, namespace: str) -> None:
@@ -100,7 +100,7 @@ class InterfaceMessages:
             yield self._part(t, goal, "get_result", f"{base}_GetResult_Event", kind, response=response)
 
     def _part(self, t: float, goal: str, part: str, event_type: str, kind: int, **parts: Any) -> Entry:
-        """Return the event of one of the services that an action is made of."""
+        """Return a service event of one of the action's services."""
         message = class_of(event_type)()
         message.info.event_type = kind
         message.info.stamp = stamp(t)
@@ -138,6 +138,6 @@ def _uuid(goal: str) -> UUID:
 
 
 def _base_of(message: Any, part: str) -> str:
-    """Return the interface's name that a message is a part of ('std_srvs/srv/Trigger'), or "" if it is none."""
+    """Return the interface that a message is a part of, such as 'std_srvs/srv/Trigger'; "" if it is not a part."""
     name = type_name(message) if is_message(message) else ""
     return name.removesuffix(part) if name.endswith(part) else ""

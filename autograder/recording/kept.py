@@ -14,7 +14,7 @@ Recordings = Mapping[str, bytes]  # MCAP files by their names, such as walk.mcap
 
 
 def keep(folder: Path, recordings: Recordings) -> None:
-    """Write the recordings of one submission into its folder; those of an earlier grading go."""
+    """Write the recordings of one submission into its folder; those of an earlier grading are removed."""
     for old in folder.glob(f"*{SUFFIX}"):
         if old.name not in recordings:
             old.unlink()

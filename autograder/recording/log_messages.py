@@ -1,4 +1,4 @@
-"""Lines of logs (rcl_interfaces/Log): what happened, what the program printed, and every verdict at its time."""
+"""Log messages (rcl_interfaces/Log): the events of a run, the program's output, and every verdict at its time."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ class Judged:
     """A verdict in the recording of a run.
 
     Attributes:
-        verdict: what the check found.
-        elsewhere: it was given on another run of the scenario.
-        beside: names of other scenarios that it was given on, too; its time is of one of them all.
+        verdict: the verdict itself.
+        elsewhere: the verdict was given on another run of the scenario than the recorded one.
+        beside: names of further scenarios that the verdict was given on; its time may be from any of them.
     """
 
     verdict: CheckVerdict
@@ -35,7 +35,7 @@ class Judged:
 
 
 def log_messages(transcript: Transcript, program: str) -> Iterator[Entry]:
-    """Yield what happened (/arena/events) and what the program printed (/rosout)."""
+    """Yield the events of the run (/arena/events) and the program's output (/rosout)."""
     for event in transcript.events:
         if isinstance(event, ev.NodeOutput):
             yield Entry(event.t, ROSOUT, _printed(event, program))
@@ -44,9 +44,9 @@ def log_messages(transcript: Transcript, program: str) -> Iterator[Entry]:
 
 
 def verdict_messages(judged: Iterable[Judged], end: float) -> Iterator[Entry]:
-    """Yield each verdict: a failed check as an ERROR at its time, a passed one as INFO, one not made as WARN.
+    """Yield each verdict: a failed check as an ERROR at its time, a passed one as INFO, one that was not run as WARN.
 
-    One that has no time, or was given on another run, is told at the end (s).
+    A verdict without a time, or from another run, is placed at `end` (s).
     """
     for each in judged:
         verdict = each.verdict
@@ -76,9 +76,9 @@ def _sentence(judged: Judged) -> str:
     if verdict.status == "failed" and verdict.help:
         parts.append(verdict.help)
     if judged.beside:
-        parts.append(f"judged on {', '.join(judged.beside)}, too, and the time may be of one of those")
+        parts.append(f"judged on {', '.join(judged.beside)}, too; the time may be from one of those")
     if judged.elsewhere:
-        parts.append("judged on another run of this scenario, which is not this recording")
+        parts.append("judged on another run of this scenario, not on the recorded one")
     return "; ".join(parts)
 
 

@@ -16,17 +16,17 @@ from autograder.recording.entry import EVENTS, METADATA, Entry, as_nanoseconds
 from autograder.recording.log_messages import log
 from ros_runtime.messages import type_name
 
-LARGEST_MESSAGE = 2**18  # bytes, of one that is not essential
-MOST_OF_THE_REST = 6 * 2**20  # bytes of all that are not essential, before compression
-MOST_TOPICS = 200  # that are not essential
+LARGEST_MESSAGE = 2**18  # bytes of one non-essential message
+MOST_OF_THE_REST = 6 * 2**20  # bytes of all non-essential messages, before compression
+MOST_TOPICS = 200  # non-essential messages
 CHUNK = 2**18  # bytes
 
 
 def mcap_file(entries: Iterable[Entry], metadata: Mapping[str, str]) -> bytes:
     """Return messages as an MCAP file of profile "ros2", compressed with zstd.
 
-    Messages that are not essential have a budget. What does not fit in is left out, and a line on /arena/events says so
-    when that begins.
+    Non-essential messages have a budget. Messages beyond it are left out, and a line on /arena/events marks where that
+    begins.
     """
     out = io.BytesIO()
     file = _File(out)
@@ -54,7 +54,7 @@ class _File:
         try:
             data = serialize(entry.message)
             self._schema(type_name(entry.message))
-        except Exception:  # a message that ROS cannot write is lost, and nothing else
+        except Exception:  # skip only the message that cannot be serialized
             logging.getLogger(__name__).debug("left out: a message on %s", entry.topic, exc_info=True)
             self._leave_out(entry.t)
             return

@@ -1,4 +1,4 @@
-"""What happened, in a line each: for /arena/events, on which `course replay` draws, and any viewer of logs."""
+"""Describes each event in one line of text, for /arena/events, which `course replay` and log viewers show."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ _MOST_ELEMENTS = 6
 
 
 def narrated(event: Any) -> tuple[int, str] | None:
-    """Return the level of an event and what happened, or None for what is told elsewhere (feedback, output)."""
+    """Return an event's log level and text; None for events with their own topics (feedback, output)."""
     told = _of_the_program(event) or _of_interfaces(event) or _of_the_grader(event)
     return (told[0], told[1][:MAX_CHARACTERS]) if told else None
 
 
 def brief(message: Any) -> str:
-    """Return the fields of a message that hold anything in a line: plain ones first, of a pose only the position."""
+    """Return the non-empty fields of a message in one line: plain fields first, of a pose only the position."""
     if not is_message(message):
         return ""
     fields = sorted(_leaves(to_dict(message)), key=_rank)

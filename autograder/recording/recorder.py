@@ -1,4 +1,4 @@
-"""Collects what the checks of one submission were judged on, and makes a recording of each scenario."""
+"""Collects the verdicts and transcripts of one submission, and makes a recording of each scenario."""
 
 from __future__ import annotations
 
@@ -22,14 +22,13 @@ MOST_OF_A_SUBMISSION = 64 * 2**20  # bytes of all its recordings
 
 
 class Recorder:
-    """Gets each verdict with the runs it was given on; makes one recording of each scenario.
+    """Receives each verdict with its transcripts; makes one recording of each scenario.
 
-    A scenario may have run more than once. The recording is of the run on which a point was lost, if one was, else of
-    the last one a verdict was given on.
+    If a scenario ran more than once, the recorded run is one on which a point was lost, else the last judged one.
 
     Args:
-        exercise: with the checks that are made.
-        for_students: keep scenarios of visible checks only, and tell the visible verdicts only.
+        exercise: the exercise, with the checks that are run.
+        for_students: include only scenarios and verdicts of visible checks.
     """
 
     def __init__(self, exercise: Exercise, *, for_students: bool) -> None:
@@ -41,7 +40,7 @@ class Recorder:
         self._judged_on: dict[str, Sequence[Transcript]] = {}
 
     def add(self, verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
-        """Take a verdict and the transcripts it was given on, one for each scenario of the check."""
+        """Add a verdict and its transcripts, one for each scenario of the check."""
         check = self._checks.get(verdict.id)
         if check is None:
             return
@@ -54,9 +53,9 @@ class Recorder:
                 self._lost.add(scenario)
 
     def files(self, grade: Grade) -> Recordings:
-        """Make the recordings; those with a lost point come first, should all together be too large.
+        """Make the recordings, up to the size limit, those with a lost point first.
 
-        One that cannot be made is left out, and logged: it may cost nobody a grade.
+        A recording that cannot be made is logged and left out, so that it does not affect the grade.
         """
         names = self._names()
         made: dict[str, bytes] = {}
@@ -113,7 +112,7 @@ class Recorder:
         ]
 
     def _names(self) -> dict[Scenario, str]:
-        """Name the scenarios of the exercise; those after the first of a name get a number: walk, walk-2."""
+        """Return a name for each scenario of the exercise; repeated names get a number: walk, walk-2."""
         seen: Counter[str] = Counter()
         names: dict[Scenario, str] = {}
         for scenario in (scenario for check in self._exercise.checks for scenario in check.on):

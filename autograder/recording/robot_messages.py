@@ -1,4 +1,4 @@
-"""What the robot did, from the simulator's word: postures at 25 Hz, its mode and its battery when they change."""
+"""Messages of the ground truth: postures at 25 Hz, and the robot's mode and battery when they change."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Transforms for /tf, whose type comes with a ROS of apt but is in no wheel."""
+"""Transforms for /tf; their message type is missing in the ROS wheels, so it is defined here."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ TF_TYPE = "tf2_msgs/msg/TFMessage"
 
 
 class TFMessage:
-    """The message tf2_msgs/msg/TFMessage, as far as it is needed to write one down."""
+    """The message tf2_msgs/msg/TFMessage, with only the members that serialization needs."""
 
     __module__ = "tf2_msgs.msg._tf_message"  # where the generated class is
 
@@ -21,7 +21,7 @@ class TFMessage:
 
     @classmethod
     def get_fields_and_field_types(cls) -> dict[str, str]:
-        """Return what a generated class returns."""
+        """Return the fields with their types, like a generated message class."""
         return {"transforms": "sequence<geometry_msgs/TransformStamped>"}
 
 

@@ -25,21 +25,23 @@ ENVIRONMENT.globals |= {"summary": summary, "marks": {status: mark for status, (
 
 @dataclass(frozen=True)
 class Drawn:
-    """Drawings of our own, which are markup, or the check that they are shown at already."""
+    """The grader's drawings (trusted markup), or the earlier check that already shows the same ones."""
 
     svgs: Sequence[Markup]
     as_at: CheckVerdict | None = None
 
 
 def write_html(path: Path, template: str, **values: Any) -> None:
-    """Fill a template. Every text is escaped that is not Markup."""
+    """Fill a template; every text except Markup is escaped."""
     html = ENVIRONMENT.get_template(template).render(**values)
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(html, encoding="utf-8", errors="backslashreplace")  # a student may print half a character
+    path.write_text(
+        html, encoding="utf-8", errors="backslashreplace"
+    )  # a student's program may print an unpaired surrogate
 
 
 def drawn(grade: Grade, drawings: Mapping[str, Sequence[str]]) -> dict[str, Drawn]:
-    """Return what a page shows of the drawings, by the check's id: checks of one run share theirs, shown once."""
+    """Return the drawings to show, by the check's id; drawings shared by several checks are shown only once."""
     first: dict[tuple[str, ...], CheckVerdict] = {}
     shown: dict[str, Drawn] = {}
     for check in grade.checks:

@@ -13,7 +13,7 @@ from autograder.authoring.checks import Scenario
 
 
 class RunningLine:
-    """The last line of a terminal, a line that is overwritten in a notebook, elsewhere a new line at every change."""
+    """A status line: in a terminal the last line, in a notebook an overwritten line, elsewhere a line per change."""
 
     def __init__(self, console: Console, *, in_notebook: bool = False) -> None:
         self._console = console

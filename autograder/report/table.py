@@ -86,7 +86,7 @@ def grade_table(grade: Grade) -> RenderableType:
 
 
 def summary(grade: Grade) -> str:
-    """Return the score in one line, marked if there was no isolation or no verdict, or a person has to give one."""
+    """Return the score in one line, or "not graded" or "to be marked"; without isolation it is labelled."""
     if grade.status == "not graded":
         return f"NOT GRADED, no points either way: {grade.why_not_graded}"
     if grade.status == "to mark":

@@ -8,9 +8,9 @@ LONGEST_TEXT = 8000  # characters
 
 
 def verdict_text(verdict: CheckVerdict, longest: int = LONGEST_TEXT) -> str:
-    """Say what was expected, what was observed and when, what to do next, and what the node printed.
+    """Return what was expected, what was observed and when, what to do next, and what the node printed.
 
-    It says all that the verdict knows: a hidden one is for instructors.
+    Nothing is left out, so the text of a hidden check's verdict is for instructors only.
     """
     lines = [verdict.status.capitalize() + "."]
     for label, text in (

@@ -24,7 +24,7 @@ from course_cli.exercises_option import CourseOption
 from course_cli.jobs_option import JobsOption
 from ros_runtime.project import PROJECT
 
-FOLDERS_HERE = 2  # below the one in which the command was typed
+FOLDERS_HERE = 2  # levels of folders that are searched below the current one
 
 
 def check(
@@ -54,7 +54,7 @@ def check(
     with SubmissionArenas(scenario_file(exercise)) as arenas:
         if exercise in exercise_names() and path.exists():
             arenas.open_ahead()
-        # imported meanwhile, because the first verdict is waited for
+        # imported while the arena opens, to show the first verdict sooner
         from autograder.self_check import check_and_keep
 
         folder = Path("recordings") / exercise if record else None
@@ -70,7 +70,7 @@ def check(
 
 
 def _show_rubric(console: Console, exercise: str, path: Path) -> None:
-    """Say that the work can be read, and by what a person will mark it."""
+    """Print that the file can be read, and the criteria by which a person marks it."""
     read_submission(path, exercise)
     console.print(f"{path} can be read. A person marks {exercise}, so nothing is checked here:", markup=False)
     for criterion in load_essay(exercise).criteria:
@@ -78,12 +78,14 @@ def _show_rubric(console: Console, exercise: str, path: Path) -> None:
 
 
 def _work(exercise: str, file: Path | None) -> tuple[Path, list[str]]:
-    """Return the student's file, and a sentence for each other one of the exercise that lies there."""
+    """Return the student's file, and a sentence on each other file of the exercise in its folder."""
     if file and not file.is_dir():
         return file, []
     here = Path()
     own = Path("exercises") / exercise
-    below = 0 if here.resolve() == PROJECT else FOLDERS_HERE  # the project has known submissions
+    below = (
+        0 if here.resolve() == PROJECT else FOLDERS_HERE
+    )  # the project's own folders hold the graders' test submissions
     places = [(file, MOST_FOLDERS)] if file else [(here, 0), (own, MOST_FOLDERS), (here, below)]
     for folder, depth in places:
         if folder.is_dir() and (found := work_in(folder, exercise, depth=depth)):

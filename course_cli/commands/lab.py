@@ -19,11 +19,11 @@ from ros_runtime.ros_domain import loopback_variables
 
 # Only what a student needs: nbgrader's "Validate" would run the notebook and call its own time limit a failed check.
 CONFIGURATION = PROJECT / "course_cli" / "jupyter"
-HUB_TOKEN = "JUPYTERHUB_API_TOKEN"  # in the environment of what JupyterHub starts for a user
+HUB_TOKEN = "JUPYTERHUB_API_TOKEN"  # set by JupyterHub in the environment of a user's server
 
 
 def lab(context: typer.Context) -> None:
-    """Open JupyterLab on chapters and exercises, at the page that shows what you have done.
+    """Open JupyterLab on chapters and exercises, at the page that shows your progress.
 
     The address is printed, too. Its terminals and cells have `ros2`. Further arguments go to JupyterLab:
     --no-browser, --port 8890, --help-all. Where the course cannot be written, because several students share it, your

@@ -16,7 +16,7 @@ COMMAND_PERIOD = 0.1  # s; the robot stops by itself 0.5 s after the last comman
 
 
 def publish(topic: str, message: Any, *, timeout: float = 5.0) -> None:
-    """Wait for a subscriber, then publish one message: a message sent before that would be lost.
+    """Wait for a subscriber, then publish one message; without a subscriber it would be lost.
 
     Raises NoRobotError when there is no subscriber within `timeout` s.
     """

@@ -30,7 +30,10 @@ OF_EVERY_NODE = (
     "set_parameters",
     "set_parameters_atomically",
 )
-OF_EVERY_ACTION = ("cancel_goal", "get_result")  # besides send_goal, which has the goal's type
+OF_EVERY_ACTION = (
+    "cancel_goal",
+    "get_result",
+)  # an action's other services; its send_goal service is the one that is listed
 
 T = TypeVar("T")
 
@@ -68,7 +71,7 @@ class Connection:
             args=[],
             context=self._context,
             domain_id=self.domain_id,
-            signal_handler_options=SignalHandlerOptions.NO,  # interrupting a cell must not end the node
+            signal_handler_options=SignalHandlerOptions.NO,  # a KeyboardInterrupt of a cell must not shut the node down
         )
         self.node = Node(
             "notebook", namespace=NAMESPACE, context=self._context, start_parameter_services=False
@@ -81,13 +84,13 @@ class Connection:
         self._thread.start()
 
     def once(self, key: Hashable, make: Callable[[Node], T]) -> T:
-        """Return `make(node)`, called only the first time for each key."""
+        """Return `make(node)`; later calls with the same key return the same object."""
         if key not in self._cache:
             self._cache[key] = make(self.node)
         return self._cache[key]
 
     def client(self, service_type: Any, name: str) -> ServiceClient:
-        """The client of a service. It replaces one of another type, because a node can have only one of a name."""
+        """The client of a service. A client of another type with this name is destroyed first: rcl allows only one."""
         key = ("client", name)
         if key in self._cache and self._cache[key].type is not service_type:
             self._drop_client(self._cache.pop(key).endpoint)
@@ -111,7 +114,7 @@ class Connection:
     def _servers_of(self, name: str, namespace: str) -> dict[str, str]:
         try:
             services = self.node.get_service_names_and_types_by_node(name, namespace)
-        except NodeNameNonExistentError:  # it has just left
+        except NodeNameNonExistentError:  # the node has just left
             return {}
         return {
             service.partition("/_action/")[0]: types[0].removesuffix("_SendGoal")
@@ -133,5 +136,5 @@ class Connection:
                 self._executor.spin()
             except ExternalShutdownException:
                 return
-            except Exception:  # a listener of the notebook's failed: say so and go on
+            except Exception:  # a listener of the notebook failed: print the error and keep spinning
                 traceback.print_exc()

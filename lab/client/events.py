@@ -1,4 +1,4 @@
-"""What happens in a notebook besides what its client of services and actions sends and receives."""
+"""Events of a notebook other than those of its service and action clients."""
 
 from __future__ import annotations
 

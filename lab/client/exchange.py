@@ -15,13 +15,11 @@ from lab.running.student_nodes import output_of_failed_nodes
 from ros_runtime.recorded_client.goal import Cancel, Goal
 from ros_runtime.recorded_client.service_client import Call
 
-MATCHING_TIME = (
-    0.1  # s; a server that has just been found may not have found its client, and its answer would be lost
-)
+MATCHING_TIME = 0.1  # s; a server may not have discovered its client yet, and then its answer would be lost
 
 
 def require_server(is_ready: Callable[[], bool], name: str, interface: Any, timeout: float) -> None:
-    """Wait until a server is matched. `name` is that of the service or action, relative to the namespace.
+    """Wait until a server is matched; `name` of the service or action is relative to the namespace.
 
     Raises NoServerError after `timeout` s; its message names the servers that do exist.
     """
@@ -43,12 +41,12 @@ def require_server(is_ready: Callable[[], bool], name: str, interface: Any, time
 
 
 def give_up(asked: Call | Cancel | Goal, timeout: float, what_is_known: str) -> NoAnswerError:
-    """Stop waiting, ignore a later answer, and return the error to raise; `timeout` s is what the caller allowed."""
+    """Stop waiting, ignore a later answer, and return the error to raise; `timeout`: the caller's limit, s."""
     asked.request.give_up()
     log.append(GaveUp(timeout=timeout))
     return no_answer(what_is_known)
 
 
 def no_answer(what_is_known: str) -> NoAnswerError:
-    """Return the error of an answer that did not come, with what failed nodes printed."""
+    """Return the error for a missing answer, with the output of failed nodes."""
     return NoAnswerError(what_is_known + output_of_failed_nodes())

@@ -17,7 +17,7 @@ def describe(message: Any) -> str:
 
 
 def describe_briefly(message: Any) -> str:
-    """Like `describe`, but shorter, for diagrams: no names of poses, no fields that are zero or empty."""
+    """Like `describe`, but shorter, for diagrams: without names of pose fields, and without zero or empty fields."""
     fields = [(name, value) for name, value in _fields(message) if _is_informative(value)]
     parts = [_value(value) if _is_pose(value) else f"{name} {_value(value)}" for name, value in fields]
     return ", ".join(parts) or describe(message)

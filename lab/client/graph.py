@@ -1,6 +1,6 @@
 """The live ROS graph: topics, their publishers and their subscribers.
 
-Nodes whose names begin with "_" are hidden, as for `ros2 node list`: a `ros2` command is such a node, for a moment.
+Nodes whose names begin with "_" are hidden, as in `ros2 node list`; each running `ros2` command has such a node.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from lab.errors import LabError
 from lab.running.student_nodes import NOT_YET_KNOWN
 
 OF_EVERY_NODE = ("/parameter_events", "/rosout")
-HIDDEN = "_"  # begins the names of nodes that only look, or live for a moment
+HIDDEN = "_"  # prefix of hidden nodes, such as those of ros2 commands
 
 
 @dataclass(frozen=True)
@@ -59,9 +59,9 @@ class Topic:
 
 
 def topics_in_graph(*names: str) -> list[Topic]:
-    """The topics of these names, sorted by name; without names all, except those that every node has.
+    """The topics with these names, sorted; without names all, except those that every node has.
 
-    A name without a slash in front is relative to the robot's namespace.
+    A name without a leading slash is relative to the robot's namespace.
     Raises LabError for a topic without publishers and subscriptions; its message lists the existing topics.
     """
     node = connection().node
@@ -69,7 +69,9 @@ def topics_in_graph(*names: str) -> list[Topic]:
     wanted = [node.resolve_topic_name(name) for name in names]
     missing = [name for name in wanted if name not in types]
     if missing:
-        raise LabError(f"nobody has the topic {', '.join(missing)}; there are: {', '.join(sorted(types))}")
+        raise LabError(
+            f"no node publishes or subscribes to {', '.join(missing)}; there are: {', '.join(sorted(types))}"
+        )
     return [
         Topic(
             name,

@@ -1,7 +1,7 @@
 """The messages between notebook, servers and robot, from which a sequence diagram is drawn.
 
-A call or a goal starts a new interaction unless another one is still pending. So a goal, its cancel and a second goal
-that replaces it are one interaction, and the call of the next cell is another.
+A call or a goal starts a new interaction if nothing is pending. So a goal, its cancel and a second goal that replaces
+it are one interaction, and the call of the next cell starts another.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from ros_runtime.recorded_client.conversation import NOBODYS, Conversation, Read
 
 
 class InteractionLog(EventLog):
-    """The events of the present interaction; those before are dropped, because a session lasts for hours."""
+    """The events of the present interaction; earlier ones are dropped, because a session lasts for hours."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -47,7 +47,7 @@ class InteractionLog(EventLog):
                 self._listeners.remove(listener)
 
     def append(self, event: Event) -> None:
-        """Add an event. It is put into words now: its message is the student's, who may change it later."""
+        """Add an event. Its text is made at once, because the student's code may change the message later."""
         with self._changed:
             if isinstance(event, ServiceCalled | GoalSent) and not self._pending:
                 self.clear()
@@ -63,7 +63,7 @@ class InteractionLog(EventLog):
             return list(self._messages)
 
     def clear(self) -> None:
-        """Remove all events; what was pending is so no longer."""
+        """Remove all events; nothing counts as pending afterwards."""
         with self._changed:
             super().clear()
             self._messages.clear()
@@ -88,7 +88,7 @@ class InteractionLog(EventLog):
 
 
 class _OwnGoals(Reading):
-    """Reads what servers publish for the goals of this notebook, and not for those of other clients."""
+    """Reads the feedback and status of this notebook's goals only, not of other clients' goals."""
 
     def admits(self, what: str, of: str) -> bool:
         return of != NOBODYS

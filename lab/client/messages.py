@@ -28,20 +28,20 @@ NOTEBOOK, ROBOT = "notebook", "robot"
 
 @dataclass(frozen=True)
 class Message(Arrow):
-    """An arrow; `repeats`: it is one of a stream, of which the diagram shows only some."""
+    """An arrow; `repeats`: part of a stream, of which the diagram shows only the first and the last message."""
 
     repeats: bool = False
 
 
 class Messages:
-    """Puts events into words; remembers the last status of each goal and what each cancel request is about."""
+    """Turns events into labelled arrows; remembers each goal's last status and each cancel request's goal."""
 
     def __init__(self) -> None:
         self._statuses: dict[str, int] = {}
         self._cancels: dict[str, str] = {}
 
     def of(self, event: Event) -> Iterator[Message]:
-        """Yield the messages that an event was."""
+        """Yield the arrows for an event."""
         t = event.t
         match event:
             case ServiceCalled(call=call, service=service, request=request):
@@ -94,5 +94,5 @@ def _published(t: float, id: str, label: str, *, repeats: bool = False) -> Messa
 
 
 def _server(id: str) -> str:
-    """The server of a call or goal, which is named after its service or action and has a number."""
+    """The service or action of a call or goal, whose name is that name and a number."""
     return f"{id.rpartition(' ')[0]} server"

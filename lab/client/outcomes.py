@@ -1,4 +1,4 @@
-"""What a goal's end and a cancel request's answer are for a notebook."""
+"""The end of a goal and the answer to a cancel request, as objects for notebooks."""
 
 from __future__ import annotations
 
@@ -29,5 +29,5 @@ class CancelAnswer(NamedTuple):
 
 
 def read_cancel_answer(answer: CancelAnswered, goal: str) -> CancelAnswer:
-    """Return what an answer says of the goal that was to be cancelled; `goal` is its name in the log."""
+    """Return the part of a cancel answer that concerns `goal`, the goal's name in the log."""
     return CancelAnswer(goal in answer.canceling, answer.return_code)

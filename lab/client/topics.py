@@ -35,8 +35,8 @@ TOPICS: dict[str, tuple[Any, Any]] = {
     "odom": (Odometry, QUEUE),
     "joint_states": (JointState, BEST_EFFORT),
 }
-GRIP = "r_gripper/wrench"  # is listened to where there is something to take
-FRESH = 1.0  # s; every one of these topics comes at least twice as often
+GRIP = "r_gripper/wrench"  # subscribed to only in scenes with objects
+FRESH = 1.0  # s; each of these topics has at least twice this rate
 
 
 class Pose(NamedTuple):
@@ -66,7 +66,7 @@ def odometry() -> Odometry:
 
 
 def pose() -> Pose:
-    """Position x, y (m) and heading (rad) out of the last message on odom."""
+    """Position x, y (m) and heading (rad) from the last message on odom."""
     where = odometry().pose.pose
     q = where.orientation
     yaw = yaw_of(q.x, q.y, q.z, q.w)
@@ -92,12 +92,12 @@ def latest(topic: str, timeout: float = 5.0) -> Any:
 
 
 def has_published() -> bool:
-    """Whether every topic of the robot had a message since `forget()`."""
+    """Whether a message was received on every topic of the robot since `forget()`."""
     return _memory().messages.keys() >= TOPICS.keys()
 
 
 def enter(scene: str) -> None:
-    """Also listen, from now on, to the objects of this scene and to the hand that takes them."""
+    """Also subscribe to the objects of this scene and to the wrench of the hand that takes them."""
     memory = _memory()
     memory.scene = scene
     if OBJECTS[scene]:
@@ -107,7 +107,7 @@ def enter(scene: str) -> None:
 
 
 def scene() -> str:
-    """The scene that the robot was started in."""
+    """Name of the scene that the robot was started in."""
     return _memory().scene
 
 
@@ -147,9 +147,9 @@ def _memory() -> _Memory:
 
 
 class _Memory:
-    """Subscribes to the robot's topics and keeps each one's last message with its time of arrival.
+    """Subscribes to the robot's topics and keeps each topic's last message with its time of arrival.
 
-    `scene` is the one that the robot was started in.
+    `scene`: name of the scene that the robot was started in.
     """
 
     def __init__(self, node: Node) -> None:

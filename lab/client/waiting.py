@@ -17,7 +17,7 @@ def wait_until(condition: Callable[[], Any], timeout: float = 10.0, what: str = 
     Raises NotInTimeError after `timeout` s.
     """
     if not comes_true(condition, timeout):
-        raise NotInTimeError(f"{what}: not so within {timeout:g} s")
+        raise NotInTimeError(f"{what}: not within {timeout:g} s")
 
 
 def comes_true(condition: Callable[[], Any], timeout: float) -> bool:

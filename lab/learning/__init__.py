@@ -1,1 +1,1 @@
-"""Questions, gaps, designs, and what a student has done of them."""
+"""Questions, gaps, designs, and the student's progress in them."""

@@ -1,4 +1,4 @@
-"""A design of your own: drawn, and asked for what it does not say yet."""
+"""Draws a student's design and lists its missing facts."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ def draw_design(file: str | Path, title: str = "") -> HTML:
 
 
 def check_design(file: str | Path, links: int = 1) -> None:
-    """Print which facts are missing, link by link, and whether there are at least so many `links`.
+    """Print which facts each link lacks, and whether there are at least `links` links.
 
-    It reads, and does not judge: a fact that is there may still be wrong.
+    Only the presence of a fact is checked: a fact may still be wrong.
 
     Raises LabError when the file cannot be read.
     """
@@ -43,7 +43,7 @@ def check_design(file: str | Path, links: int = 1) -> None:
     for sentence in sentences:
         print(f"  {sentence}")
     if not sentences:
-        print("  Every link says all six facts. Whether they are right, a person decides.")
+        print("  Every link has all six facts. A person decides whether they are right.")
 
 
 def _what_is_missing(design: Design, links: int) -> Iterator[str]:

@@ -22,7 +22,7 @@ from lab.running.student_nodes import stop_nodes
 
 
 class GapError(LabError):
-    """The lines in a gap do not do yet what is asked for."""
+    """The lines in a gap do not meet the task yet."""
 
 
 @dataclass(frozen=True)
@@ -30,8 +30,8 @@ class Gap:
     """A file with a gap.
 
     Attributes:
-        file: its name, which no other gap of the course has.
-        check: runs the file, and returns a sentence that says what it did; raises a LabError when that is not enough.
+        file: its name, unique in the course.
+        check: runs the file and returns a sentence on what it did; raises a LabError if the task is not met.
     """
 
     file: str
@@ -39,16 +39,16 @@ class Gap:
 
 
 def expect(condition: object, *, seen: object, expected: str, next: str) -> None:
-    """Go on when the condition holds.
+    """Require a condition.
 
-    Raises GapError otherwise; it says what was seen, what was expected and what to do next.
+    Raises GapError if it is false; the message says what was seen, what was expected and what to do next.
     """
     if not condition:
         raise not_yet(seen, expected, next)
 
 
 def not_yet(seen: object, expected: str, next: str) -> GapError:
-    """Return the error for lines that do not do yet what is asked for."""
+    """Return the error for lines that do not meet the task yet."""
     return GapError(f"not yet.\n  seen:     {seen}\n  expected: {expected}\n  next:     {next}")
 
 
@@ -73,10 +73,10 @@ def find_gap(file: str) -> Gap:
 
 
 def write_and_check(file: str, program: str) -> None:
-    """Save the program or definition and print what its check saw. What ran before is stopped.
+    """Stop nodes and programs, save the program or definition, run its check and print the result.
 
     Raises:
-        GapError: there are no lines yet, they are not Python, or they do not do what is asked for.
+        GapError: the gap is empty, its lines are not Python, or they do not meet the task.
         LabError: the file has no gap, or its program did not run.
     """
     file = file.strip()

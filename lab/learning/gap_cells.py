@@ -1,4 +1,4 @@
-"""How a gap and its solution stand in the cells of a chapter."""
+"""The format of a gap and of its solution in the cells of a chapter."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ def is_python(file: str) -> bool:
 
 
 def placeholder(file: str) -> str:
-    """Return the line that stands in the gap of this file until lines are written."""
+    """Return the placeholder line of an empty gap in this file."""
     return PLACEHOLDER if is_python(file) else IN_A_DEFINITION
 
 
 def is_empty(program: str) -> bool:
-    """Whether the lines of the gap have not been written."""
+    """Whether the gap still contains its placeholder."""
     return _GAP.search(program) is not None
 
 

@@ -1,4 +1,4 @@
-"""What the checks of several gaps have in common."""
+"""Functions that the checks of several gaps share."""
 
 from __future__ import annotations
 
@@ -14,8 +14,10 @@ from lab.errors import NoAnswerError
 from lab.learning.gap import not_yet
 from lab.running.student_nodes import StudentNode
 
-TO_END = 1.0  # s; a node that an exception ends is gone by then
-HINTS = {"TypeError": "end each path of the callback with `return response`"}  # rclpy's error says no more
+TO_END = 1.0  # s; long enough for a node to exit after an exception
+HINTS = {
+    "TypeError": "end each path of the callback with `return response`"
+}  # rclpy's error message gives no more information
 NO_HINTS: Mapping[str, str] = {}
 
 
@@ -29,9 +31,9 @@ def ask(
 ) -> Any:
     """Call a service of the student's node and return its response.
 
-    `hints` are what to do next when the node has ended, by a part of its last line.
+    `hints`: the next step if the node has ended, by a part of the last line of its log.
 
-    Raises GapError when there is none; it says whether the node has ended, and of what.
+    Raises GapError when no response arrives; it says whether the node has ended, and with which error.
     """
     try:
         return call(name, service_type, request)

@@ -1,4 +1,4 @@
-"""Topic, service or action: the questions that decide it, asked one after the other."""
+"""Questions, asked one after the other, that lead to the choice of topic, service or action."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class PatternChoice:
     """
 
     def __init__(self) -> None:
-        self._asked = 0  # questions answered with no
+        self._asked = 0  # number of questions answered with no
         self._decided = False
         self._note = ipywidgets.HTML()
         self._buttons = {word: ipywidgets.Button(description=word.capitalize()) for word in ("yes", "no")}
@@ -91,7 +91,7 @@ class PatternChoice:
         if word not in self._buttons:
             raise LabError(f'{word!r} is no answer; write "yes" or "no"')
         if self.pattern:
-            raise LabError(f"it is decided: {self.pattern}; begin again with restart()")
+            raise LabError(f"the pattern is decided: {self.pattern}; begin again with restart()")
         self._take(word)
         print(self.text())
 

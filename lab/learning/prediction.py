@@ -1,4 +1,4 @@
-"""Predictions: you choose before a cell is run, and your choice is answered after it."""
+"""Predictions: the student chooses an outcome before an experiment and gets feedback on the choice afterwards."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from lab.errors import LabError
 from lab.learning.kept_choices import in_your_order, keep_letter, kept_letter
 from lab.learning.question import Question, read_question
 
-WIDTH = 80  # characters; Jupyter breaks longer lines in mid-word
+WIDTH = 80  # characters; Jupyter breaks longer lines in the middle of a word
 
 
 def predict(chapter: str, number: int) -> Prediction:
@@ -31,7 +31,7 @@ def predict(chapter: str, number: int) -> Prediction:
 class Prediction:
     """A choice to make: click an answer, or call `choose("b")` where there are no widgets.
 
-    The choice is kept beside the notebook until it is changed or cleared, also when the kernel is restarted.
+    The choice is stored beside the notebook until it is changed or cleared; it survives a restart of the kernel.
     """
 
     def __init__(self, number: int, question: Question) -> None:
@@ -59,7 +59,7 @@ class Prediction:
         self._buttons.value = None
 
     def require(self) -> None:
-        """Let the experiment run only when a choice has been made.
+        """Require a choice, as the first line of an experiment.
 
         Raises LabError when there is none.
         """
@@ -67,7 +67,7 @@ class Prediction:
             raise LabError(self._wish())
 
     def reply(self) -> None:
-        """Print what was sensible about the choice and what it missed; without a choice, ask for one."""
+        """Print the feedback on the choice; without a choice, ask for one."""
         if self.letter is None:
             print(self._wish())
             return

@@ -1,4 +1,4 @@
-"""What you have done so far, by chapter and exercise."""
+"""The student's progress so far, by chapter and exercise."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ros_runtime.self_checks import LastCheck, last_checks
 
 @dataclass(frozen=True)
 class Part:
-    """So many of so many, and perhaps a word more."""
+    """`done` of `of` items, with an optional suffix `also`."""
 
     done: int
     of: int
@@ -28,7 +28,7 @@ class Part:
 
 @dataclass(frozen=True)
 class ChapterProgress:
-    """What is done of one chapter; an exercise that was never checked has None."""
+    """Progress in one chapter; an exercise that was never checked has None."""
 
     chapter: Chapter
     parts: Mapping[str, Part]
@@ -36,23 +36,23 @@ class ChapterProgress:
 
     @property
     def begun(self) -> bool:
-        """Whether anything of it is done."""
+        """Whether any part of the chapter is done."""
         return any(part.done for part in self.parts.values()) or any(check for _, check in self.exercises)
 
     @property
     def read(self) -> bool:
-        """Whether all is done but the exercises."""
+        """Whether everything except the exercises is done."""
         return all(part.done >= part.of for part in self.parts.values())
 
 
 def read_progress() -> list[ChapterProgress]:
-    """Return what is kept beside the chapters and the exercises, chapter by chapter."""
+    """Read the progress stored beside chapters and exercises; one entry per chapter."""
     checks = last_checks()
     return [_of_chapter(chapter, checks) for chapter in read_contents()]
 
 
 def next_step(chapters: Sequence[ChapterProgress]) -> tuple[str, Path]:
-    """Return what to do next: the beginning of a sentence, and the notebook with whose name it ends."""
+    """Return the next step: a sentence that lacks its last word, the name of the notebook, and that notebook."""
     if not any(chapter.begun for chapter in chapters):
         first = chapters[0].chapter
         return (
@@ -88,7 +88,7 @@ def _of_chapter(chapter: Chapter, checks: Mapping[str, LastCheck]) -> ChapterPro
 
 
 def _choices(chosen: Mapping[str, str], questions: Iterable[Question]) -> list[bool]:
-    """Whether the choice is right, for each question that has one whose words are still there."""
+    """Whether the choice is right, for each answered question; choices whose text has changed are left out."""
     return [
         choice.right
         for question in questions

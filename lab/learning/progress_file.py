@@ -1,4 +1,4 @@
-"""What you have done in the chapters, in a file beside the notebooks: it outlives the kernel."""
+"""Stores the student's progress in the chapters in a file beside the notebooks, so that it outlives the kernel."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ Kind = Literal["predictions", "questions", "gaps"]
 
 
 def kept(kind: Kind, folder: Path = Path()) -> dict[str, str]:
-    """Return what was kept of one kind in a folder: a question's chosen answer, or when a file's gap was filled."""
+    """Return the stored entries of one kind in a folder, such as the chosen answers or the times of filled gaps."""
     entries = _read(folder / FILE).get(kind)
     return entries if isinstance(entries, dict) else {}
 
 
 def keep(kind: Kind, key: str, value: str | None) -> None:
-    """Write down a value under its key, or forget it when there is none."""
+    """Store a value under its key; None deletes the key."""
     entries = kept(kind)
     entries.pop(key, None)
     if value is not None:
@@ -27,7 +27,7 @@ def keep(kind: Kind, key: str, value: str | None) -> None:
 
 
 def own_number() -> int:
-    """Return a number that was drawn once for the notebooks of this folder: yours differs from other students'."""
+    """Return a random number that was drawn once for this folder of notebooks, so it differs between students."""
     everything = _read(FILE)
     if not isinstance(number := everything.get("number"), int):
         number = randrange(10**9)
@@ -42,6 +42,6 @@ def _write(everything: dict) -> None:
 def _read(file: Path) -> dict:
     try:
         progress = json.loads(file.read_text(encoding="utf-8"))
-    except (FileNotFoundError, ValueError):  # after damage each question is only asked again
+    except (FileNotFoundError, ValueError):  # a damaged file only means that each question is asked again
         return {}
     return progress if isinstance(progress, dict) else {}

@@ -1,4 +1,4 @@
-"""The table of what you have done, on the page where the lab opens."""
+"""The progress table on the lab's start page."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ONE_LINE = "style='text-align: left; white-space: nowrap'"
 
 
 def show_progress() -> ProgressTable:
-    """Show what you have done: predictions, quiz, gaps, the last self-check of each exercise, and a next step."""
+    """Show the progress: predictions, quiz, gaps, the last self-check of each exercise, and a next step."""
     return ProgressTable(read_progress())
 
 
@@ -87,5 +87,5 @@ def _link(notebook: Path, words: str) -> str:
 
 
 def _relative(path: Path) -> str:
-    """The path as seen from the notebook's folder, which is what Jupyter's links are relative to."""
+    """The path relative to the notebook's folder, as Jupyter's links need it."""
     return Path(os.path.relpath(path)).as_posix()

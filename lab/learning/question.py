@@ -18,7 +18,7 @@ _STYLE = """<style>
 .course-choices button {
     width: auto; height: auto; line-height: 1.4; padding: 0.3em 0.8em; text-align: left; white-space: normal;
 }
-</style>"""  # ipywidgets' own buttons stand in a row and cut a text that is long
+</style>"""  # by default ipywidgets puts buttons in a row and cuts long texts
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class Question:
         return buttons.add_class("course-choices")
 
     def show(self, panel: ipywidgets.Widget, call: str) -> None:
-        """Show the buttons; where there are no widgets, show the choices and the `call` that does the same."""
+        """Show the buttons; without widget support, show the choices and the `call` to type instead."""
         rows = "".join(
             f"<li><b>{letter}</b> {in_html(choice.text)}</li>" for letter, choice in self.by_letter().items()
         )
@@ -85,7 +85,7 @@ class Question:
 
 
 def in_html(text: str) -> str:
-    """Return a text as HTML, with what stands between backticks as code."""
+    """Return a text as HTML; text between backticks becomes code."""
     return re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(text))
 
 

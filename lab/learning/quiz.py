@@ -20,7 +20,7 @@ def quiz(chapter: str, number: int) -> Quiz:
 class Quiz:
     """A question in a notebook: click an answer, or call `answer("b")` where there are no widgets.
 
-    The last answer is kept beside the notebook.
+    The last answer is stored beside the notebook.
     """
 
     def __init__(self, title: str, question: Question) -> None:

@@ -26,7 +26,7 @@ class Mark(NamedTuple):
 
 
 def label_of(event: Event) -> str | None:
-    """Put a request or an answer of the notebook's client into a few words; None for all other events."""
+    """Return a short label for a request or an answer of the notebook's client; None for all other events."""
     match event:
         case ServiceCalled(service=service):
             return f"{service} called"

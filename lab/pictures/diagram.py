@@ -35,7 +35,7 @@ def draw_sequence(title: str = "What just happened") -> HTML:
 
 
 def _without_repetition(messages: Sequence[Message]) -> list[Message]:
-    """The messages, with those in the middle of a stream replaced by one that counts them."""
+    """The messages, where the middle part of each stream is replaced by one that counts it."""
     kept: list[Message] = []
     for (repeats, _sender), group in groupby(messages, key=lambda message: (message.repeats, message.sender)):
         stream = list(group)

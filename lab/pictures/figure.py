@@ -1,4 +1,4 @@
-"""The sheet that plots are drawn on: white, with fonts and colours that are alike in all of them."""
+"""The figure that plots are drawn on: white, with the same fonts and colours in all plots."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 PIXELS_PER_INCH = 96
 LEFT, TOP, BOTTOM = 0.85, 0.42, 0.5  # inches: y labels, title, x axis
-# Of Okabe and Ito, whose colours differ for every eye; the words on the sheet never rely on them.
+# From the palette of Okabe and Ito, safe for colour-blind readers; no text in a figure relies on colours.
 BLUE: str = "#0072B2"
 VERMILION: str = "#B34700"
 GREY: str = "#555555"
@@ -28,7 +28,7 @@ _STYLE = {
     "axes.spines.right": False,
     "axes.grid": True,
     "grid.color": "#e6e6e6",
-    "svg.fonttype": "none",  # letters stay letters: they can be found, copied and enlarged
+    "svg.fonttype": "none",  # keep text as text, not as paths: it can be searched, copied and enlarged
 }
 
 

@@ -1,4 +1,4 @@
-"""A film of the robot, stored in the notebook: from now on, or of what was recorded."""
+"""A film of the robot, stored in the notebook: filmed live, or made from recorded messages."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ MAX_DURATION = 60.0  # s, which are about 5 MB in the notebook
 def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: str = "track") -> HTML:
     """Film the robot for `seconds` from now on, drawn from its own messages; also write it to `file`, a .webp.
 
-    It blocks that long, and the first frame comes a second or two after the call: start a long motion before it. To
-    film what is short, such as a fall, use `record_robot()` and then the recording's `film()`. Without OpenGL you get
-    the caption of the film and the reason why there is none.
+    It blocks that long, and the first frame is taken a second or two after the call: start a long motion before it. For
+    a short event, such as a fall, use `record_robot()` and then the recording's `film()`. Without OpenGL only the
+    caption and the reason are shown.
 
     Raises:
         NoRobotError: no robot is running.
@@ -60,7 +60,7 @@ def film_of_messages(
     camera: str,
     file: str | Path | None,
 ) -> HTML:
-    """Film the robot from 0 to `seconds` as messages tell, each with its time in s; between two it is interpolated.
+    """Film the robot from 0 to `seconds` from messages with their times (s); poses between two are interpolated.
 
     Raises ValueError when the film would last longer than 60 s, or there is no such camera.
     """
@@ -103,7 +103,7 @@ def _film(
     file: str | Path | None,
     scene: str,
 ) -> HTML:
-    """Draw a frame for each posture that a body is brought into; `caption` is asked for at the end."""
+    """Draw a frame for each posture in turn; `caption` is called after the last one."""
     body = Humanoid(scene)
     try:
         reel = Reel(body, WIDTH, HEIGHT, camera=camera, rate=RATE)

@@ -22,7 +22,9 @@ def draw_graph(*names: str, title: str = "The graph now") -> HTML:
     """
     topics = topics_in_graph(*names)
     if not topics:
-        raise LabError("there is nothing to draw: no node has a topic; use lab.start_robot() first")
+        raise LabError(
+            "there is nothing to draw: no node publishes or subscribes to a topic; use lab.start_robot() first"
+        )
     rows = [
         Row(
             topic.name,

@@ -1,4 +1,4 @@
-"""Labels at moments of a time axis, in rows, so that none covers another or is crossed by another's line."""
+"""Places labels on a time axis in rows, so that no label overlaps another or another's line."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ GAP = 0.12  # inches, between a label and the next line on its right
 
 
 def rows_of(marks: Sequence[Mark], inches_per_second: float) -> list[int]:
-    """The row of each label, 0 at the top; marks are in order of time, and each label stands right of its line.
+    """The row of each label, 0 at the top; marks are in order of time, and each label is to the right of its line.
 
-    A label whose line runs through an earlier one stands in a lower row: its line begins below that.
+    If a label's line would cross an earlier label, the label gets a row below that one.
     """
     rows: list[int] = []
     for mark in marks:
@@ -37,7 +37,7 @@ def text_width(text: str) -> float:
     if not text.strip():
         return 0.0
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # a letter that the font lacks is measured as a box
+        warnings.simplefilter("ignore")  # a letter that is missing in the font is measured as a box
         return TextPath((0, 0), text.replace("$", r"\$"), size=FONT_SIZE).get_extents().width / 72
 
 

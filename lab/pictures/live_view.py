@@ -17,14 +17,14 @@ from robot_sim.views.view import View
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 FRAMES = 12.0  # a second, at most
-SHARE = 0.4  # of the time, at most, that is spent drawing: the rest belongs to the notebook
+SHARE = 0.4  # highest share of time spent drawing, so that the notebook gets the rest
 FIRST_FRAME_WITHIN = 20.0  # s
 
 _running: _LiveView | None = None
 
 
 def watch_robot(camera: str = "track") -> ipywidgets.Image | ipywidgets.Label:
-    """Show a live view of the robot below this cell until `stop_watching()`; a second call moves the view there.
+    """Show a live view of the robot below this cell until `stop_watching()`; a call in another cell moves it there.
 
     It is drawn in the notebook's process from the robot's own messages, so watching does not slow the robot down.
     `camera` is "track", "side" or "front". Without OpenGL you get a text that says why there is no picture.
@@ -65,7 +65,7 @@ class _LiveView:
         self._thread = threading.Thread(target=self._draw_until_stopped, name="live view", daemon=True)
 
     def begin(self) -> None:
-        """Return when the first frame is there; raises what kept it from being drawn."""
+        """Wait for the first frame; raises the error that prevented it."""
         self._thread.start()
         if not self._begun.wait(FIRST_FRAME_WITHIN):
             self._problem = NoOpenGLError(f"nothing was drawn within {FIRST_FRAME_WITHIN:g} s")
@@ -96,7 +96,7 @@ class _LiveView:
             try:
                 take_present_posture(body)
                 self.widget.value = _jpeg(view.picture(self._camera))
-            except NoRobotError:  # it may come back
+            except NoRobotError:  # the robot may come back
                 pass
             except ValueError as error:
                 self._problem = error

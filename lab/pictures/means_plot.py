@@ -1,4 +1,4 @@
-"""One quantity against another, each recording a point."""
+"""A scatter plot of the means of two quantities, one point per recording."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What can be plotted of the robot: each quantity, its unit, and how it is read from a message."""
+"""The quantities that can be plotted, with their units and how they are read from messages."""
 
 from __future__ import annotations
 
@@ -14,10 +14,9 @@ from ros_runtime.angles import yaw_of
 
 @dataclass(frozen=True)
 class Quantity:
-    """Something measured: read from the messages of `topic`, in `unit`.
+    """A measured quantity in `unit`, read from the messages of `topic`.
 
-    A plot shows at least a range of `least_range`, so that noise does not look like a motion; `is_angle` if it turns
-    over at ±π.
+    The plot's axis spans at least `least_range`, so that noise does not look like a motion; `is_angle`: wraps at ±π.
     """
 
     topic: str

@@ -1,4 +1,4 @@
-"""A recording of the robot: what its topics said while something happened, and when the notebook did what."""
+"""A recording of the robot's topics, with the times of the notebook's calls, goals and cancels."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ from lab.pictures.time_plot import Curve, draw_panels
 from ros_runtime.message_constants import RobotMode, name_of
 from ros_runtime.record.event import Event
 
-LAST_MESSAGES_WITHIN = 1.0  # s from the end of the block; odom comes twenty times a second
+LAST_MESSAGES_WITHIN = 1.0  # s after the end of the block; odom has 20 Hz
 
 
 @contextmanager
 def record_robot() -> Iterator[Recording]:
-    """Record the robot as long as the `with` block lasts: its topics, and what the notebook calls, sends and cancels.
+    """Record the robot's topics and the notebook's calls, goals and cancels during the `with` block.
 
         with lab.record_robot() as recording:
             ...
@@ -51,10 +51,10 @@ def record_robot() -> Iterator[Recording]:
 
 
 class Recording:
-    """What the robot published, and what the notebook did meanwhile. All times are s since the recording began.
+    """The robot's messages and the notebook's interactions. All times are s since the recording began.
 
-    A message has the time of its stamp, an interaction the time at which the notebook sent or received it; both are
-    of this machine's clock.
+    A message has the time of its stamp, an interaction the time at which the notebook sent or received it; both use
+    this machine's clock.
     """
 
     def __init__(self) -> None:
@@ -70,11 +70,11 @@ class Recording:
         return time.monotonic() - self._start if self._seconds is None else self._seconds
 
     def mark(self, label: str) -> None:
-        """Note that something happens now: plots show it with its label."""
+        """Add a label at the present time; plots show it."""
         self._marks.append(Mark(self.seconds, label))
 
     def time_of(self, label: str) -> float:
-        """When something happened for the first time, in s since the beginning.
+        """The time of the first event with this label, in s since the beginning.
 
             recording.time_of("result: CANCELED") - recording.time_of("cancel requested")
 
@@ -182,17 +182,17 @@ class Recording:
         self._messages[topic].append((stamp.sec + stamp.nanosec * 1e-9 - self._start_of_stamps, message))
 
     def note(self, event: Event) -> None:
-        """Add a request or an answer of the notebook; other events are not shown."""
+        """Add a request or an answer of the notebook; other events are ignored."""
         label = label_of(event)
         if label is not None:
             self._marks.append(Mark(event.t - self._start, label))
 
     def end(self) -> None:
-        """Fix the end: what comes later does not belong to the recording."""
+        """Set the end of the recording to now; later messages are not part of it."""
         self._seconds = self.seconds
 
     def has_all_messages(self) -> bool:
-        """Whether a message from after the end has come, so that none from before is still on its way."""
+        """Whether a message stamped after the end has arrived, so that all earlier ones have arrived, too."""
         return any(at > self.seconds for at, _ in self._messages["odom"][-1:])
 
     def _mode_changes(self) -> list[Mark]:

@@ -95,15 +95,15 @@ def draw_threads(node: StudentNode, *, title: str = "Which callback ran on which
 
 
 def read_steps(log: str) -> list[Step]:
-    """Return the steps that a program printed, in order of time; other lines are passed over."""
+    """Return the steps that a program printed, in order of time; other lines are ignored."""
     found = (Step(float(line[1]), line[2], line[3], line[4]) for line in _LINE.finditer(log))
     return sorted(found, key=lambda step: step.time)
 
 
 def spans_of(steps: Iterable[Step], until: float) -> list[Span]:
-    """Join steps to spans; one that is still open ends at `until`.
+    """Combine steps into spans; an open span ends at `until`.
 
-    A coroutine may resume on another thread, so its steps are joined by the callback's name alone.
+    A coroutine may resume on another thread, so steps are matched by the callback's name only.
     """
     spans: list[Span] = []
     running: dict[tuple[str, str], float] = {}

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 WIDTH, HEIGHT, SPACE = 6.6, 1.6, 0.18  # inches: of a panel, and between two
-FEW = 40  # values that are drawn as points, too
+FEW = 40  # up to this number of values, each is also drawn as a point
 TIME = "s since the recording began (system clock)"
 
 
@@ -77,7 +77,7 @@ def _draw(panel: Axes, curve: Curve, seconds: float) -> None:
 
 
 def _draw_comparison(panel: Axes, name: str, function: Callable[[float], float], seconds: float) -> None:
-    """Draw a function within the limits that the robot's own curve has set."""
+    """Draw a function without changing the axis limits, which the robot's curve has set."""
     limits = panel.get_ylim()
     times = np.linspace(0.0, seconds, 1000)
     values = np.array([float(function(at)) for at in times])
@@ -87,7 +87,7 @@ def _draw_comparison(panel: Axes, name: str, function: Callable[[float], float],
 
 
 def _draw_flag(panels: Sequence[Axes], mark: Mark, above: float, *, is_change: bool) -> None:
-    """Draw a line through all panels up to its label, whose top is so many inches `above` them."""
+    """Draw a line through all panels up to its label, whose top is `above` inches above the panels."""
     colour, line = (VERMILION, ":") if is_change else (GREY, "-")
     for panel in panels:
         panel.axvline(mark.time, color=colour, linestyle=line, linewidth=1.1)

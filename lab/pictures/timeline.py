@@ -1,4 +1,4 @@
-"""Processes side by side on one time axis, with what each printed at the time it came."""
+"""Processes on one time axis, each with the lines that it printed."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ if TYPE_CHECKING:
 WIDTH = 6.6  # inches, of the time axis
 BAR, SPACE = 0.16, 0.16  # inches: height of a process, and below it
 LABEL_LENGTH = 48  # characters
-BURST_GAP = 0.05  # s between lines of one burst, of which a long one is cut
+BURST_GAP = 0.05  # s, at most, between two lines of one burst; a long burst is shortened
 TIME = "s since the first of them began (system clock)"
 
 
 def draw_timeline(*processes: StudentNode | Program, title: str = "Who did what when") -> HTML:
     """Draw nodes and programs as bars from their beginning to their end, each with the lines it printed.
 
-    A line stands at the time at which the notebook received it, some milliseconds after it was printed. Of many lines
-    at once the first and the last are shown.
+    A line has the time at which the notebook received it, some milliseconds after it was printed. Of a burst of lines
+    the first and the last are shown.
 
     Raises LabError when no process is given.
     """
@@ -68,7 +68,7 @@ def draw_timeline(*processes: StudentNode | Program, title: str = "Who did what 
 
 
 def _told_apart(lives: Sequence[Life]) -> list[Life]:
-    """The lives, with numbers after names that occur more than once."""
+    """The lives, with numbers appended to names that occur more than once."""
     counts, seen = Counter(life.name for life in lives), Counter[str]()
     named = []
     for life in lives:
@@ -79,7 +79,7 @@ def _told_apart(lives: Sequence[Life]) -> list[Life]:
 
 
 def _flags(life: Life, zero: float) -> list[Mark]:
-    """What is written along a life: its lines and, at last, its end."""
+    """The labels of a life: its printed lines and its end."""
     bursts: list[list[Mark]] = []
     for line in life.lines:
         if bursts and line.time - bursts[-1][-1].time < BURST_GAP:

@@ -47,6 +47,6 @@ def _end(exit_status: int | None, was_stopped: bool) -> str:
 
 
 def _printable(line: str) -> str:
-    """A line as a label: without a log line's prefix, and without what a drawing cannot hold."""
+    """A line as a label: without the prefix of a log line and without unprintable characters."""
     letters = "".join(letter if letter.isprintable() else " " for letter in line)
     return LOG_PREFIX.sub(r"\1 ", " ".join(letters.split()))

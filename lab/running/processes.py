@@ -28,9 +28,8 @@ _spawner = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lab spawner")
 class Process:
     """A Python program in a process session of its own, with its last output.
 
-    The session keeps the SIGINT of Jupyter's stop button away from it, and `die_with_parent` ends it together with
-    the notebook's kernel. Its output includes stderr, unless `own_stderr` keeps the two apart. It `began` at a time of
-    `time.monotonic()`, s.
+    In its own session it does not get the SIGINT of Jupyter's stop button; `die_with_parent` ends it together with the
+    notebook's kernel. Its output includes stderr, unless `own_stderr` is set. `began`: s of `time.monotonic()`.
     """
 
     def __init__(self, arguments: Sequence[str], *, own_stderr: bool = False) -> None:
@@ -59,7 +58,7 @@ class Process:
         return self._output.text(complete=not self.is_running)
 
     def errors(self) -> str:
-        """The last 2000 lines of stderr, if it is kept apart."""
+        """The last 2000 lines of stderr, if `own_stderr` is set."""
         return self._errors.text(complete=not self.is_running) if self._errors else ""
 
     def lines(self) -> list[tuple[float, str]]:
@@ -69,7 +68,7 @@ class Process:
         )
 
     def ended(self) -> float | None:
-        """When it ended, as its closed output told (s, `time.monotonic()`); None while it runs."""
+        """When its output was closed (s, `time.monotonic()`), which is its end; None while it runs."""
         return None if self.is_running else max(stream.closed() for stream in self._streams())
 
     def wait(self, timeout: float) -> bool:

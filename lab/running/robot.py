@@ -38,7 +38,7 @@ def start_robot(scene: str = "flat") -> None:
         raise NoRobotError(
             f"the robot ended with exit status {robot.exit_status}; it printed:\n{robot.output()}"
         )
-    forget_node(NODE)  # the one that ran already, or that crashed
+    forget_node(NODE)  # the process that was already running, or that crashed
     expect_node(NODE)
     print(f"The robot is up in namespace {NAMESPACE}, ROS_DOMAIN_ID {domain_id}.")
 
@@ -49,7 +49,7 @@ def robot_process() -> Process:
     Raises NoRobotError when it does not run.
     """
     if _robot is None or not _robot.is_running:
-        raise NoRobotError("no robot runs; try lab.start_robot()")
+        raise NoRobotError("no robot is running; try lab.start_robot()")
     return _robot
 
 

@@ -32,7 +32,7 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
         NodeEndedError: it ended with an error at once; the message quotes what it printed.
     """
     path = existing_file(file)
-    log.clear()  # requests that an earlier server never answered do not belong to what follows
+    log.clear()  # pending requests to an earlier server are not part of the next interaction
     earlier = _nodes.pop(path, None)
     if earlier is not None:
         earlier.stop()
@@ -103,7 +103,7 @@ class StudentNode:
         self._expected: list[str] = []
 
     def expect(self, name: str) -> None:
-        """Let the ros2 commands wait for a node of this process, until it is stopped."""
+        """Make the ros2 commands in cells wait for this process's node, until the process is stopped."""
         self._expected.append(name)
         expect_node(name)
 
@@ -149,7 +149,7 @@ class StudentNode:
 
 
 def _nodes_seen() -> dict[bytes, str]:
-    """The full names of the nodes in the graph, by the GID of their /rosout publisher, which is unique."""
+    """The full names of the nodes in the graph, by the unique GID of each node's /rosout publisher."""
     return {
         bytes(info.endpoint_gid): f"{info.node_namespace.rstrip('/')}/{info.node_name}"
         for info in connection().node.get_publishers_info_by_topic("/rosout")

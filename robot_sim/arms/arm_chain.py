@@ -42,11 +42,11 @@ class ArmChain:
         self._is_robot = model.body_rootid == model.body("pelvis").id
 
     def metres_short(self, data: mujoco.MjData, position: np.ndarray) -> float:
-        """Return how much longer (m) the stretched arm had to be to reach `position` (3,), at least; 0: long enough."""
+        """Return by how much (m) the stretched arm is too short to reach `position` (3,), at least; 0: long enough."""
         shoulder = data.xpos[self._shoulder]
         if not self._turns:
             return max(0.0, float(np.linalg.norm(position - shoulder)) - self._length)
-        axis = data.xpos[self._model.body("waist").id]  # the waist takes the shoulder round it
+        axis = data.xpos[self._model.body("waist").id]  # the shoulder turns around the waist
         out = math.dist(position[:2], axis[:2]) - math.dist(shoulder[:2], axis[:2])
         return max(0.0, math.hypot(out, position[2] - shoulder[2]) - self._length)
 
@@ -68,7 +68,7 @@ class ArmChain:
 
 
 def _descendants(model: mujoco.MjModel, root: int) -> np.ndarray:
-    """Return for each body whether it is `root` or hangs on it."""
+    """Return for each body whether it is `root` or a descendant of it."""
     belongs = np.zeros(model.nbody, dtype=bool)
     belongs[root] = True
     for body in range(root + 1, model.nbody):  # a parent goes before its children

@@ -13,7 +13,7 @@ from robot_sim.arms.hand import hand_rotation
 from robot_sim.arms.reach import rotation_vector
 from robot_sim.model.side import SIDES, Side
 
-MOST_GIVEN_WAY = 0.03  # m, by which the body gives way to balance an arm, at most
+MOST_GIVEN_WAY = 0.03  # m, the most that the body moves to balance an arm
 
 
 @dataclass(frozen=True)
@@ -23,9 +23,9 @@ class HandGoal:
     Attributes:
         position: (3,) m.
         rotation: (3, 3) of the hand, x along the fingers, y the way they open; None: any.
-        with_waist: the waist may turn to help.
-        balancing: base_link is where it is now, and gives way as the arm moves, because the robot keeps its centre of
-            mass above its feet; False: base_link moves with the goal.
+        with_waist: the waist may turn, too.
+        balancing: the goal is fixed in the world, and base_link will move as the robot balances the arm, to keep its
+            centre of mass above its feet; False: the goal is fixed to base_link.
     """
 
     position: np.ndarray
@@ -56,7 +56,7 @@ class SolverParameters:
     least_damping: float = 1e-6  # m²
     longest_step: float = 0.6  # rad, of a joint
     most_steps: int = 40  # from one start
-    standstill: float = 0.9  # the share of the squared error that is left after a step which leads nowhere
+    standstill: float = 0.9  # a step that leaves more than this share of the squared error ends a descent
     starts: int = 30
     seed: int = 9  # of the starts at random
 
@@ -87,7 +87,7 @@ class ArmInverseKinematics:
         """Return a posture that brings the hand to the goal, while all other joints are as in `state`.
 
         Raises:
-            Unreachable: there is none, or none without the arm in the robot's own body.
+            Unreachable: no posture was found, or only postures in which the arm meets the robot's own body.
         """
         chain = self._chains[side, goal.with_waist]
         self._stand_at_the_origin(state)
@@ -189,4 +189,4 @@ class _Miss:
 
     distance: float  # m
     angle: float  # rad
-    cost: float  # m², the squared error that the solver goes down
+    cost: float  # m², the squared error that the solver minimizes

@@ -1,4 +1,4 @@
-"""Brakes: a joint is held where it is, as by somebody's hand, against its own motor."""
+"""Brakes that hold a joint in place against its motor, as a person's hand would."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ GRIP = 80.0  # N·m, twice what the strongest motor of an arm has
 
 
 class JointBrakes:
-    """Springs on single joints; each pulls its joint back to where it was when it was taken hold of.
+    """Springs on single joints; each pulls its joint back to the position at the time of `hold`.
 
     A spring acts between the two links of its joint, so it neither lifts the robot nor pushes it over.
     """
@@ -36,7 +36,7 @@ class JointBrakes:
         self._held[joint] = (position, dof, float(self._data.qpos[position]), float(grip))
 
     def release(self, joint: str) -> None:
-        """Let go of a joint; one that is not held stays free."""
+        """Release a joint; does nothing if it is not held."""
         if held := self._held.pop(joint, None):
             self._data.qfrc_applied[held[1]] = 0.0
 

@@ -31,10 +31,10 @@ from ros_runtime.record.ground_truth import (
 )
 
 GROUND_TRUTH_RATE = 50.0  # Hz, simulated
-STATES_A_POSTURE = 2  # states of the robot for one posture, where postures are asked for: 25 Hz
+STATES_A_POSTURE = 2  # one posture per two states of the robot, if requested: 25 Hz
 MOST_POSTURES = 5000  # 200 s, longer than any scenario
-MOST_POWER_MESSAGES = 100  # that are written; a flood of them is no news
-DIGITS = 4  # behind the point, of joints, hands and objects: 0.1 mrad or mm, and records stay small
+MOST_POWER_MESSAGES = 100  # motor_power messages to write; the rest of a flood adds no information
+DIGITS = 4  # decimals for joints, hands and objects (0.1 mrad or mm), to keep records small
 
 
 class GroundTruthWriter:
@@ -92,7 +92,7 @@ class GroundTruthWriter:
             self._object(humanoid, name)
 
     def report_postures(self, humanoid: Humanoid) -> None:
-        """Write where all of the robot is with every second of its states from now on, for a recording."""
+        """Write the whole posture with every second state of the robot from now on, for a recording."""
         self._posture = PostureReader(humanoid)
         self._write(self._posture.description)
 
@@ -127,7 +127,7 @@ class GroundTruthWriter:
         self._write(FeetTruth(left=left, right=right))
 
     def report_hand(self, humanoid: Humanoid, side: Side) -> None:
-        """Write where a hand is and what it feels, now and with each state of the robot from now on."""
+        """Write position, opening and contact forces of a hand, now and with each state of the robot from now on."""
         self._reported_hands.append(side)
         self._hand(humanoid, side)
 

@@ -13,10 +13,10 @@ from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 
 FIXED_SIZE = 64  # bytes, more than any message of fixed length that the robot subscribes to
-MESSAGES_A_SECOND = 200  # simulated; at first, and after a silence, that many at once
+MESSAGES_A_SECOND = 200  # per second of simulated time; after a silence, this many at once
 # Simulated: a little more than the largest trajectory, 10 ms of the processor's time.
 BYTES_A_SECOND = 400_000
-REPORT_PERIOD = 0.25  # s, simulated, between two reports of a topic
+REPORT_PERIOD = 0.25  # s of simulated time between two reports on a topic
 
 FLOOD = f"more than {MESSAGES_A_SECOND} messages or {BYTES_A_SECOND} bytes a second"
 

@@ -58,12 +58,12 @@ class HumanoidNode(Node):
         self.humanoid = humanoid
         self.battery_sensor_connected = True
         self.clock_offset = 0  # ns, from the system's clock to the robot's, which stamps the messages
-        self.charge_measured = True  # if not, battery_state has a percentage of NaN
+        self.charge_measured = True  # if False, battery_state has percentage NaN
         self.joint_sensors_connected = True
         self.imu_connected = True
         self.joint_states_reversed = False
-        self.joint_states_alternate = False  # the order is turned round from each message to the next
-        self.joint_readings: dict[str, float] = {}  # by joint, in place of what is measured: rad (fingers: m)
+        self.joint_states_alternate = False  # the joint order is reversed in every second message
+        self.joint_readings: dict[str, float] = {}  # faked sensor readings by joint: rad (fingers: m)
         self.robot_state_published = True
         self._ground_truth = ground_truth
         self._velocity_command_time: float | None = None
@@ -85,7 +85,7 @@ class HumanoidNode(Node):
             self.create_subscription(Twist, "cmd_vel", self._on_velocity, 10),
             self.create_subscription(Bool, "motor_power", self._on_motor_power, 10),
             self.create_subscription(BalanceGainsMessage, "balance_gains", self._on_balance_gains, 10),
-            # Of a transient local publisher also what it sent earlier; a volatile one matches only the one above.
+            # Receives earlier messages of transient local publishers, too; volatile ones match only the one above.
             self.create_subscription(BalanceGainsMessage, "balance_gains", self._on_balance_gains, LATCHED),
             *manipulation.grippers,
         )
@@ -165,16 +165,16 @@ class HumanoidNode(Node):
             inbox.report()
 
     def restart(self) -> None:
-        """Forget commands and deadlines of before; call it after the humanoid was reset."""
+        """Drop earlier commands and deadlines; call it after a reset of the humanoid."""
         self._velocity_command_time = None
         self._is_taken_over = False
         self._last_announced = None
         self._periodic_jobs.restart()
 
     def take_over(self, velocity: Sequence[float] | None) -> None:
-        """Walk with a velocity (m/s, m/s, rad/s in base_link), whatever cmd_vel says, until called with None.
+        """Walk with a velocity (m/s, m/s, rad/s in base_link) and ignore cmd_vel, until called with None.
 
-        So does an operator's joystick, which goes before the velocities of programs: with zeros it holds the robot.
+        This acts like an operator's joystick, which has priority over programs; zeros hold the robot.
         """
         self._is_taken_over = velocity is not None
         self._velocity_command_time = None
@@ -186,7 +186,7 @@ class HumanoidNode(Node):
     # -- commands -----------------------------------------------------------------------------------------------------
 
     def _on_velocity(self, message: Twist) -> None:
-        """Walk; or, where no walking is asked for, crouch or rise at linear.z (m/s)."""
+        """Walk; if no walking is commanded, crouch or rise at linear.z (m/s)."""
         command = (message.linear.x, message.linear.y, message.angular.z)
         if not all(math.isfinite(value) for value in (*command, message.linear.z)):
             self.get_logger().error(f"cmd_vel ignored: it must be finite, got {command}")
@@ -300,7 +300,7 @@ class HumanoidNode(Node):
         self._clock_topic.publish(self._clock_message)
 
     def _report_peers(self) -> None:
-        """Write when connections change, so that a scenario need not guess how long discovery takes."""
+        """Write changes of connections to the ground truth, so that a scenario can wait for discovery."""
         if self._ground_truth is None:
             return
         publishers = (

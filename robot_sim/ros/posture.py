@@ -11,11 +11,11 @@ from robot_sim.humanoid import Humanoid
 from robot_sim.model.scenes import OBJECTS
 from ros_runtime.record.ground_truth import BodyDescribed, PostureTruth
 
-DIGITS = 5  # behind the point: 0.01 mm
+DIGITS = 5  # decimals: 0.01 mm
 
 
 class PostureReader:
-    """Reads where a humanoid, and whatever lies about in its scene, is."""
+    """Reads the posture of a humanoid and the poses of the objects in its scene."""
 
     def __init__(self, humanoid: Humanoid) -> None:
         model = humanoid.model

@@ -21,7 +21,7 @@ if TYPE_CHECKING:  # no arena needs them
     from robot_sim.views.web_view import WebView
 
 LONGEST_CYCLE = 0.02  # s of physics between two looks at the commands, or less if a message is due
-CATCH_UP_CYCLES = 6  # after this many cycles without a wait, commands are processed all the same
+CATCH_UP_CYCLES = 6  # commands are processed at the latest after this many cycles without a wait
 PAUSE_PERIOD = 0.02  # s between two looks at the commands while the simulation stands still
 SERVICE_RATE = 20.0  # Hz, simulated: answers to requests
 REST_RATE = 1.0  # Hz, simulated: turns of the executor, which cost forty times as much
@@ -38,24 +38,24 @@ def run(
     controls: SimControls | None = None,
     view: WebView | None = None,
 ) -> None:
-    """Drive the simulation until `is_running` says no.
+    """Drive the simulation until `is_running` returns False.
 
     Args:
-        humanoid: what is simulated.
-        node: its ROS face.
-        pacing: of simulated time against the system clock.
-        is_running: asked in every cycle.
-        ground_truth: where it is written, at 50 Hz of simulated time.
-        control: commands of a scenario, for a graded robot.
-        controls: the services under /sim, for one that is not graded.
-        view: shows the robot.
+        humanoid: the simulated robot.
+        node: its ROS node.
+        pacing: keeps simulated time in step with the system clock.
+        is_running: called in every cycle.
+        ground_truth: writes the ground truth at 50 Hz of simulated time.
+        control: reads the commands of a scenario; only for a graded robot.
+        controls: the services under /sim; only for a robot that is not graded.
+        view: shows the robot in a browser.
     """
     services = Services(node)
     jobs = [(SERVICE_RATE, services.answer_requests), (REST_RATE, services.spin_executor)]
     if ground_truth:
         jobs.insert(0, (GROUND_TRUTH_RATE, lambda: ground_truth.robot(humanoid, pacing.take_worst_lag())))
     chores = PeriodicJobs(*jobs)
-    gc.freeze()  # what exists by now stays; looking through it again and again costs milliseconds each time
+    gc.freeze()  # present objects live until the end; without freeze each collection would scan them for milliseconds
     cycles_since_wait = 0
     if ground_truth:
         ground_truth.ready()

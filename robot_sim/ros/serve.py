@@ -56,7 +56,7 @@ def serve_robot(
     Args:
         options: how to run it.
         humanoid: what `build_humanoid` has made for these options, to be used as it is; made here unless given.
-        is_running: asked again and again.
+        is_running: called in every cycle; False ends the robot.
     """
     signalled = False
 
@@ -82,7 +82,7 @@ def serve_robot(
     node.robot_state_published = not options.robot_state_unpublished
     pacing = Pacing(options.rtf)
     controls = view = None
-    if control is None:  # nobody is graded
+    if control is None:  # not a graded run, so /sim is offered
         from robot_sim.ros.sim_controls import SimControls
 
         controls = SimControls(node, humanoid, pacing)

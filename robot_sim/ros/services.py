@@ -12,10 +12,10 @@ SHARE = 20  # answers take at most 1/SHARE of the robot's time
 
 
 class Services:
-    """The services of a node, whose owner calls `answer_requests` now and then.
+    """The services of a node, answered by regular calls of `answer_requests` instead of an executor.
 
     An executor waits on all of a node's entities, some fifty, which costs forty times as much as taking a request from
-    each service. It is still needed now and then for other events, such as that of an incompatible QoS.
+    each service. It still has to run at times for other events, such as an incompatible QoS (`spin_executor`).
     """
 
     def __init__(self, node: Node) -> None:
@@ -36,7 +36,7 @@ class Services:
             if header is not None:
                 try:
                     service.send_response(service.callback(request, kind.Response()), header)
-                except Exception as error:  # no request may end the robot
+                except Exception as error:  # an error in a request must not end the robot
                     self._node.get_logger().error(
                         f"a request to {service.srv_name} was not answered: {error}"
                     )

@@ -118,7 +118,7 @@ class SimControls:
             self._node.get_logger().error(f"/sim/push ignored: {error}")
 
     def _hold_joint(self, joint: String) -> None:
-        """Hold a joint where it is, as a hand would, and let go of the one held before; an empty name: none."""
+        """Hold a joint in place and release the one held before; an empty name only releases."""
         self._humanoid.release_joint(self._held_joint)
         self._held_joint = ""
         if not joint.data:

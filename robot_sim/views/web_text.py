@@ -8,12 +8,14 @@ from mujoco.studio import messages, plugin
 from mujoco.studio.dear_imgui import dear_imgui as imgui
 
 MARGIN = 8.0  # px from the edges
-GROUND = "#16181d"  # below the text, whether the viewer's theme is light or dark: the text's colours are made for it
+GROUND = (
+    "#16181d"  # the background, the same in the viewer's light and dark themes; the text's colours fit it
+)
 OPACITY = 0.8  # of the ground
 
 
 class WebText(plugin.ViewerPlugin):
-    """Text in a window that takes no input. Whoever shows the robot sets `lines`; the viewer's thread draws them."""
+    """Text in a window without input. The caller sets `lines`; the viewer's thread draws them."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -21,7 +23,7 @@ class WebText(plugin.ViewerPlugin):
 
     @messages.handler
     def build_gui(self, _event: messages.BuildGuiEvent) -> None:
-        """Write the lines that there are now."""
+        """Draw the present lines."""
         lines = self.lines
         if not lines:
             return

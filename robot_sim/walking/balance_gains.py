@@ -20,8 +20,8 @@ UNLIMITED = 1e4  # N·m, more than any motion asks for
 class BalanceGains:
     """Torques about the hips that hold the trunk upright: kp·angle - kd·rate, at most `max_torque`.
 
-    They have gravity against them, which topples a trunk that leans by `Trunk.topple` (N·m/rad): kp below it lets
-    the robot fall over, and a kd that is too large for the controller's 200 Hz makes it shake itself over.
+    Gravity topples a leaning trunk with `Trunk.topple` (N·m/rad): with a lower kp the robot falls over, and a kd too
+    large for the controller's 200 Hz makes it oscillate and fall.
 
     Attributes:
         kp_pitch, kp_roll: N·m/rad.
@@ -44,7 +44,9 @@ class BalanceGains:
             if not (math.isfinite(value) and value >= 0):
                 raise ValueError(f"{field.name} is {value}; expected a finite number that is not negative")
         if self.max_torque == 0:
-            raise ValueError("max_torque is 0; expected more, or nothing holds the robot upright")
+            raise ValueError(
+                "max_torque is 0; expected more than 0, because these torques hold the robot upright"
+            )
 
     def roll_torque(self, error: float, rate: float) -> float:
         """Return the torque (N·m) about the roll axis for a tilt error (rad) to remove and a rate (rad/s)."""

@@ -74,7 +74,7 @@ class BodyHeight:
         return self.change
 
     def interrupt(self, problem: str) -> None:
-        """Make a running change fail for this reason; the height stays as it is."""
+        """End a running change as failed, with this reason; the height stays as it is."""
         if self.change is not None:
             self.change.fail(problem)
 

@@ -25,8 +25,8 @@ def cop_against_tipping(
 ) -> Point:
     """Return how far (m, along x and y of the world) to move the CoP of a foot so that its sole lies down again.
 
-    Where less than the whole sole is supported, a CoP beyond the edge of the support turns the foot over that edge: its
-    normal leans the way the CoP is off. The CoP is moved the other way, by how far and how fast the normal leans.
+    If only a part of the sole is supported, a CoP beyond the edge of that part tips the foot over the edge, and the
+    sole's normal leans in the direction of the CoP error. The CoP is moved the opposite way, by a PD law on this lean.
 
     Args:
         sole: rotation matrix of the sole, row by row.

@@ -18,8 +18,8 @@ from ros_runtime.angles import wrap
 SHORTEST_REMAINDER = 0.06  # s; a CoP that had to act faster would jump
 LAST_MOMENT = 0.05  # s; touchdown cannot be moved closer than this
 TIMING_PROGRESS = 0.8  # of the swing; later the touchdown time stays
-OVERDUE_SHARE = 1.4  # of the swing time; then the foot is taken to stand
-SAFE_LEVER = 0.005  # m, between DCM and CoP, for a meaningful time
+OVERDUE_SHARE = 1.4  # times the swing duration; after that the foot counts as landed
+SAFE_LEVER = 0.005  # m, least distance of DCM and CoP for which the step's timing can be computed
 BEYOND_EDGE = -0.75  # of the sole's half-width
 
 

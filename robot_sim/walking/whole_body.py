@@ -1,7 +1,7 @@
 """Whole-body control: leg torques that make the body and the swing foot accelerate as the gait wants.
 
 Inverse dynamics of the floating base without an optimizer: the wanted accelerations of pelvis and feet fix
-those of the legs; M q̈ + h then tells the generalized forces; the rows of the base are what the floor must
+those of the legs; M q̈ + h then gives the generalized forces; the rows of the base are what the floor must
 supply, and mapped through the feet's Jacobians they leave the torques of the legs. As the legs' and arms' own
 motion moves the centre of mass too, the base acceleration is corrected until the whole body's linear momentum
 changes as the inverted pendulum asks (linear momentum rate = contact force + weight; D. E. Orin, A. Goswami,

@@ -57,7 +57,9 @@ def print_info(options: Namespace) -> None:
         def clients_and_servers() -> list[list[tuple[str, list[str]]]]:
             return [_nodes_with(command, action, by_node) for by_node in (_CLIENTS, _SERVERS)]
 
-        command.discover(lambda: any(clients_and_servers()))  # the action's name is seen before whose it is
+        command.discover(
+            lambda: any(clients_and_servers())
+        )  # the action's name is discovered before the names of its nodes
         clients, servers = clients_and_servers()
     print(f"Action: {options.action_name}")
     for kind, nodes in (("clients", clients), ("servers", servers)):
@@ -71,7 +73,7 @@ def _nodes_with(command: CommandNode, action: str, by_node: ByNode) -> list[tupl
     for node in command.node_names(hidden=True):
         try:
             types = dict(by_node(command.node, *split_name(node))).get(action)
-        except NodeNameNonExistentError:  # it has just ended
+        except NodeNameNonExistentError:  # the node has just ended
             continue
         if types is not None:
             found.append((node, types))

@@ -39,7 +39,7 @@ def send(options: Namespace) -> None:
     """
     action_type = interface_class(options.action_type, "action")
     values = given_values(options)
-    message_from_yaml(action_type.Goal, values)  # a wrong value is told before anything is waited for
+    message_from_yaml(action_type.Goal, values)  # report wrong values before waiting
     with CommandNode(options.spin_time) as command:
         client = ActionClient(command.node, action_type, absolute(options.action_name))
         _wait_for_server(command, client, options)

@@ -112,6 +112,6 @@ def _installed(kind: str) -> set[str]:
 
 
 def _shares() -> list[Path]:
-    """Return the folders in which packages lie, those of packages that a notebook has built first."""
+    """Return the share/ folders of all packages; packages that a notebook has built come first."""
     prefixes = [*filter(None, os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)), sys.prefix]
     return [Path(prefix) / "share" for prefix in prefixes]

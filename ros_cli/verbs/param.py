@@ -114,10 +114,10 @@ def print_value(options: Namespace) -> None:
 
 
 def set_parameter(options: Namespace) -> None:
-    """Set a parameter, and print whether the node took it; as with ros2cli, a refusal is exit status 0.
+    """Set a parameter, and print whether the node accepted it; as with ros2cli, a rejection has exit status 0.
 
     Raises:
-        CommandError: there is no such node, or the value is no YAML.
+        CommandError: there is no such node, or the value is not valid YAML.
     """
     parameter = Parameter(name=options.parameter_name, value=_typed(options.value))
     with _node_of(options) as (command, client):
@@ -139,7 +139,7 @@ def dump(options: Namespace) -> None:
 
 
 def load_file(options: Namespace) -> None:
-    """Set the parameters of a file, and print for each whether the node took it.
+    """Set the parameters of a file, and print for each whether the node accepted it.
 
     Raises:
         CommandError: there is no such node, or the file is no parameter file.
@@ -203,7 +203,7 @@ def _of_one_node(verb: ArgumentParser) -> ArgumentParser:
 
 @contextmanager
 def _node_of(options: Namespace) -> Iterator[tuple[CommandNode, AsyncParameterClient]]:
-    """Give a client of the node's parameters, once the node answers.
+    """Yield a command node and a client of the node's parameters, once that node answers.
 
     Raises:
         CommandError: there is no such node, or it does not answer.

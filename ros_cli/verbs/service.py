@@ -71,7 +71,7 @@ def call_service(options: Namespace) -> None:
     """
     service_type = interface_class(options.service_type, "srv")
     values = given_values(options)
-    message_from_yaml(service_type.Request, values)  # a wrong value is told before anything is waited for
+    message_from_yaml(service_type.Request, values)  # report wrong values before waiting
     name = absolute(options.service_name)
     with CommandNode(options.spin_time) as command:
         client = command.node.create_client(service_type, name)

@@ -83,7 +83,7 @@ def print_messages(options: Namespace) -> None:
 
 
 def fitting_qos(publishers: list[TopicEndpointInfo]) -> QoSProfile:
-    """Return sensor QoS, but reliable or transient local where all publishers are; print where only some are."""
+    """Return sensor QoS, with reliable and transient local if all publishers offer it; print if only some do."""
     qos: QoSProfile = QoSPresetProfiles.get_from_short_key("sensor_data")
     for policy, wanted, otherwise in (
         ("reliability", ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT),

@@ -26,7 +26,7 @@ class ArrivalRate:
         self._printed: int | None = None
 
     def arrived(self, now: int) -> str | None:
-        """Take the time of an arrival (ns); return the lines to print when a second has gone by since the last."""
+        """Add the time of an arrival (ns); return the lines to print, once a second, else None."""
         if self._last is not None:
             self._intervals.append(now - self._last)
         self._last = now

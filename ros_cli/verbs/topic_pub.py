@@ -17,7 +17,7 @@ from ros_cli.verb import Verbs, add_graph_verb, add_values, given_values, natura
 from ros_cli.yaml_values import message_from_yaml
 
 QUEUE = 10  # messages; reliable, volatile
-REMINDER = 1.0  # s between two lines that say what it waits for
+REMINDER = 1.0  # s between two "Waiting for …" lines
 LONGEST_DELIVERY = Duration(seconds=2)
 
 
@@ -68,7 +68,7 @@ def publish(options: Namespace) -> None:
     """
     message_type = interface_class(options.message_type, "msg")
     values = given_values(options)
-    message_from_yaml(message_type, values)  # a wrong value is told before anything is waited for
+    message_from_yaml(message_type, values)  # report wrong values before waiting
     topic = absolute(options.topic_name)
     times = 1 if options.once else options.times
     wanted = options.wait_matching_subscriptions
@@ -92,7 +92,7 @@ def publish(options: Namespace) -> None:
 def wait_for_subscriptions(
     command: CommandNode, publisher: Publisher, wanted: int, options: Namespace
 ) -> None:
-    """Wait until that many subscriptions match, and say so each second.
+    """Wait until `wanted` subscriptions match; print a line every second.
 
     Raises:
         CommandError: there are too few after --max-wait-time-secs.
@@ -103,7 +103,7 @@ def wait_for_subscriptions(
             raise CommandError(
                 f"Timed out waiting for subscribers: Expected {wanted} subscribers but only got "
                 f"{publisher.get_subscription_count()} subscribers; "
-                f"`topic info -v {publisher.topic_name}` shows who listens, and with which QoS"
+                f"`topic info -v {publisher.topic_name}` lists the subscriptions with their QoS"
             )
         print(f"Waiting for at least {wanted} matching subscription(s)...")
         patience = min(REMINDER, max(0.0, deadline - time.monotonic()))

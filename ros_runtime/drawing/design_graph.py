@@ -8,7 +8,7 @@ from ros_runtime.drawing.columns import SAND, End, Row, columns_svg
 HEADINGS = ("publishes or asks", "pattern, type", "receives or answers")
 FILLS = {"topic": SAND, "service": "#e8f4ea", "action": "#e6eefb", "wire": "#eeeeee"}
 LONGEST_NODE, LONGEST_TYPE = 24, 56  # characters that fit into a box
-MOST_LINKS = 60  # a drawing that a person can still look at
+MOST_LINKS = 60  # links at most, so that the drawing stays readable
 
 
 def design_svg(design: Design, *, title: str) -> str:

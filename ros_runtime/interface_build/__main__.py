@@ -40,7 +40,7 @@ def main() -> None:
         report = _problems([Problem("", 0, "", str(error), "a definition whose build takes a few seconds")])
     except RuntimeError as error:
         report = {"built": False, "problems": [], "more": 0, "log": str(error)[-LONGEST_LOG:]}
-    # Many short lines: whoever captures them may break a long one.
+    # Short lines, because a program that captures the output may wrap long ones.
     print(json.dumps({"package": wanted.name, **report}, indent=1))
     sys.exit(0 if report["built"] else 1)
 

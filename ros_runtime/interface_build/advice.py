@@ -11,7 +11,7 @@ from rosidl_adapter.parser import PRIMITIVE_TYPES, is_valid_constant_name, is_va
 
 from ros_runtime.interface_build.known_types import KnownTypes
 
-# What people write who know Python, C++ or ROS 1, and what a definition says instead.
+# Types that people write out of habit from Python, C++ or ROS 1, and the right ones.
 SPELLED = {
     "float": "float64",
     "double": "float64",

@@ -9,15 +9,15 @@ from contextlib import contextmanager
 from typing import Any, NoReturn
 
 ENOUGH = (
-    0.5  # of the limit: the kernel ends a process by counting ticks, and tells afterwards what it measured
+    0.5  # share of the limit: the kernel kills by counted ticks but reports measured time, which can be less
 )
-GRACE = 5  # s in which the process itself can still report that it took too long
+GRACE = 5  # s between soft and hard limit, in which the process can still report the timeout
 
 
 class BuildTooLong(BaseException):
-    """A process of the build has used all the processor time it may.
+    """A process of the build has reached its limit of processor time.
 
-    It is no Exception, because it may be raised where every Exception is blamed on the file.
+    A BaseException, because code that it interrupts takes every Exception for a fault of the file.
     """
 
 

@@ -21,7 +21,7 @@ FOLDER = Path(__file__).resolve().parent
 FROM_WHEELS = "from_wheels.cmake"
 BUILD_FILES = (FOLDER / "cmake_package.py", FOLDER / "build_environment.py", *sorted(FOLDER.glob("*.cmake")))
 LOG_TAIL_LINES = 40
-# CMake, and the generators that it runs, stumble over "&", quotes and letters beyond ASCII.
+# CMake and the generators fail on paths with "&", quotes or non-ASCII letters.
 _PLAIN_PATH = re.compile(r"[A-Za-z0-9._/+-]+")
 
 
@@ -30,7 +30,7 @@ def built_prefix(
 ) -> Path:
     """Return the folder under `builds` for the package built from `source` as it is now.
 
-    `made_with` are further files that decide the outcome, such as the lock of the tools' versions.
+    `made_with` are further files that the build depends on, such as the lock file of the tools' versions.
     """
     digest = hashlib.sha256()
     for path in (*_files(source), *BUILD_FILES, *made_with):
@@ -113,7 +113,7 @@ def _run_cmake(source: Path, binary_dir: Path, prefix: Path, ros: RosBuild, log:
 
 
 def _plain_cmake(scratch: Path) -> str:
-    """Return the program, which finds its modules by its real path: of a copy, where it cannot take that path."""
+    """Return the path of cmake, or of a copy if its own path has letters that it cannot handle."""
     package = find_spec("cmake")
     if package is None or package.origin is None:
         return "cmake"
@@ -139,5 +139,5 @@ def _run(command: list[str], environment: Mapping[str, str], output: TextIO, log
 
 
 def _files(folder: Path) -> list[Path]:
-    """Return the files that decide a build's outcome, in a fixed order."""
+    """Return the files that a build depends on, in a fixed order."""
     return sorted(path for path in folder.rglob("*") if path.is_file() and "__pycache__" not in path.parts)

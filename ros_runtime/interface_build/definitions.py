@@ -96,7 +96,7 @@ def _twice(files: Iterable[Path]) -> Iterator[Problem]:
 
 
 class _Reader:
-    """Reads one file, and goes on after a problem, so that all problems are reported at once."""
+    """Reads one file and continues after a problem, so that all problems are reported at once."""
 
     def __init__(self, path: Path, shown: str, package: str, known: KnownTypes) -> None:
         self.problems: list[Problem] = []

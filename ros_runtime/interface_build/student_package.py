@@ -32,7 +32,7 @@ class BuiltPackage:
     is_new: bool
 
     def variables(self, environ: Mapping[str, str]) -> dict[str, str]:
-        """Return what to set in the environment `environ` of a process that is to import the package."""
+        """Return the variables that let a process with the environment `environ` import the package."""
         return {
             "PYTHONPATH": self._put_first(self.prefix / PYTHON_LIB, environ.get("PYTHONPATH", "")),
             "LD_LIBRARY_PATH": self._put_first(self.prefix / "lib", environ.get("LD_LIBRARY_PATH", "")),

@@ -27,7 +27,7 @@ class Event:
 
 
 def to_line(event: Event) -> bytes:
-    """Return an event as one line of JSON; a ROS message in it says its type."""
+    """Return an event as one line of JSON; each ROS message in it is stored with its type name."""
     return as_line(event.kind, to_json(event))
 
 

@@ -12,7 +12,7 @@ from ros_runtime.record.event import Event
 
 E = TypeVar("E", bound=Event)
 
-LOOK = 1.0  # s; a condition may also be about something that is no event, such as a process
+LOOK = 1.0  # s between two tests of a condition, which may also depend on other things, such as a process
 
 
 class EventLog:
@@ -39,7 +39,7 @@ class EventLog:
             return [event for event in self._events[kind] if _has(event, fields)]
 
     def first(self, kind: type[E], **fields: Any) -> E | None:
-        """Return the first of them, or None."""
+        """Return the earliest event of a type with these values in these fields, or None."""
         with self._changed:
             return next((event for event in self._events[kind] if _has(event, fields)), None)
 

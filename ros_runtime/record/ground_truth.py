@@ -38,9 +38,9 @@ class RobotTruth(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class BodyDescribed(Event):
-    """What the postures of this robot are made of, where a recording is asked for.
+    """The names behind the numbers of each PostureTruth; only in recorded runs.
 
-    `scene` is robot_sim's; `joints` and `objects` name what a PostureTruth places, in its order.
+    `scene` is a scene of robot_sim; `joints` and `objects` are in the order of PostureTruth's lists.
     """
 
     scene: str
@@ -50,10 +50,10 @@ class BodyDescribed(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class PostureTruth(Event):
-    """Where every part of the robot is (25 Hz), where a recording is asked for: it is for films, no check sees it.
+    """The whole posture of the robot (25 Hz); only in recorded runs, for films: no check sees it.
 
-    `base` is base_link in odom, as each of `objects` is: position (m) and quaternion (x, y, z, w); `twist` is in
-    base_link, linear m/s and angular rad/s; `positions` and `velocities` are of the joints, rad (fingers: m).
+    `base` (base_link) and each of `objects`: position (m) and quaternion (x, y, z, w) in odom. `twist`: linear m/s and
+    angular rad/s, in base_link. `positions`, `velocities`: of the joints, rad and rad/s (fingers: m and m/s).
     """
 
     base: list[float]
@@ -88,7 +88,7 @@ class ImuPublished(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class JointsTruth(Event):
-    """Where the joints are that a scenario asked about (50 Hz), rad and rad/s; whoever reads joint_states."""
+    """True positions and velocities of the joints that a scenario has requested (50 Hz), rad and rad/s."""
 
     positions: dict[str, float]
     velocities: dict[str, float]
@@ -96,7 +96,7 @@ class JointsTruth(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class FeetTruth(Event):
-    """What each foot carries, N, where a scenario asked about it (50 Hz); whoever reads their topics."""
+    """True load on each foot, N, if a scenario has requested it (50 Hz)."""
 
     left: float
     right: float
@@ -104,9 +104,9 @@ class FeetTruth(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class HandTruth(Event):
-    """Where the point between the pads of a hand is that a scenario asked about (50 Hz), m in odom.
+    """State of a hand that a scenario has requested (50 Hz): the point between its pads, m in odom.
 
-    `opening` is the distance of the pads, m; `forces` is the contact force of each, N.
+    `opening` is the distance between the pads, m; `forces` are their contact forces, N.
     """
 
     side: str
@@ -117,7 +117,7 @@ class HandTruth(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class ObjectTruth(Event):
-    """Where the centre of an object is that a scenario asked about (50 Hz), m in odom.
+    """State of an object that a scenario has requested (50 Hz): its centre, m in odom.
 
     `up` is 1 when it is upright; `speed` is m/s.
     """
@@ -153,20 +153,20 @@ class RobotCommanded(Event):
 
     @property
     def verb(self) -> str:
-        """What the robot was told to do, in words: 'set battery'."""
+        """The command's name in words: 'set battery'."""
         return str(self.command.get("do", "")).replace("_", " ")
 
 
 @dataclass(frozen=True, kw_only=True)
 class MotorPowerReceived(Event):
-    """A message on motor_power reached the robot; of many only the first are written."""
+    """The robot received a message on motor_power; in a flood only the first ones are recorded."""
 
     on: bool
 
 
 @dataclass(frozen=True, kw_only=True)
 class RobotRefused(Event):
-    """How many messages of a topic the robot refused so far, the largest one's bytes, how many it may have, and why."""
+    """The robot refused messages of a topic: `count` so far; `bytes` of the largest, and the `limit` for one."""
 
     topic: str
     count: int

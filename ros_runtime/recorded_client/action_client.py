@@ -33,14 +33,14 @@ from ros_runtime.recorded_client.request import Request
 
 DEEP = QoSProfile(depth=1000)
 LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-GOAL_ID = slice(4, 20)  # bytes of a serialized feedback message: behind what says how it is encoded
+GOAL_ID = slice(4, 20)  # byte range in a serialized feedback message, after the 4-byte encapsulation header
 ITSELF = "client"
 
 
 class ActionClient:
     """A client of one action; `name` is relative to the node's namespace.
 
-    `others` are nodes that may ask to cancel what this client has sent, by name.
+    `others` maps names to further nodes that can request cancels of this client's goals.
     """
 
     def __init__(
@@ -55,7 +55,7 @@ class ActionClient:
         self.type = action_type
         self._conversation = conversation
         self._names: dict[bytes, str] = {}
-        # Weak, so that a goal and its feedback live as long as somebody has it.
+        # Weak references: a goal with its feedback is freed when the caller drops it.
         self._goals: WeakValueDictionary[str, Goal] = WeakValueDictionary()
         self._statuses: dict[str, int] = {}
         types = action_type.Impl

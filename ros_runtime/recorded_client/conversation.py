@@ -1,4 +1,4 @@
-"""What the handles of one client share: the log, the reading of messages, and when waiting is in vain."""
+"""State that the handles of a client share: the log, the reader of messages, and the condition to stop waiting."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from rclpy.serialization import deserialize_message
 from ros_runtime.record.client_events import TooLarge, Unanswered
 from ros_runtime.record.event_log import EventLog
 
-NOBODYS = "nobody's"  # what is published for goals that are not this client's
+NOBODYS = "nobody's"  # stands for goals of other clients, in `Reading.admits`
 
 
 class Reading:
     """Unpacks what servers send, without limits of size and number."""
 
     def admits(self, what: str, of: str) -> bool:
-        """Return whether to read one more event of a kind; `of` is the goal, call or service it is for, or NOBODYS."""
+        """Return whether to read one more event of a kind; `of` names its goal, call or service, or is NOBODYS."""
         return True
 
     def is_too_large(self, what: str, id: str, message: Any) -> bool:
@@ -35,12 +35,12 @@ class Reading:
 
 @dataclass
 class Conversation:
-    """A log and the rules of writing it.
+    """The shared state of a client's handles.
 
     Attributes:
-        log: all that is sent and received goes there, and all waiting is for something there.
-        reading: of what comes in.
-        is_in_vain: whether nobody will answer any more.
+        log: records all requests, answers and messages; every wait is a wait for an event in it.
+        reading: unpacks received messages and limits them.
+        is_in_vain: returns True when the server is gone, so that waits end early.
     """
 
     log: EventLog
@@ -65,7 +65,7 @@ class Conversation:
         has_come: Callable[[], Any],
         timeout: float,
     ) -> bool:
-        """Wait for an answer; if none comes within `timeout` s, or waiting is in vain, record that."""
+        """Return whether an answer came within `timeout` s; if not, or once `is_in_vain`, record Unanswered."""
         started = time.monotonic()
         self.log.wait_until(lambda: has_come() or self.is_in_vain(), timeout)
         if has_come():
@@ -74,5 +74,5 @@ class Conversation:
         return False
 
     def was_too_large(self, what: str, id: str) -> bool:
-        """Return whether an answer came that was too large to be read."""
+        """Return whether an answer was received that exceeded the size limit."""
         return self.log.first(TooLarge, what=what, id=id) is not None

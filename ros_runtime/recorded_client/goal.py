@@ -24,10 +24,10 @@ RESULT_TIMEOUT = 40.0  # s
 
 
 class Cancel:
-    """A request to cancel on its way, or answered.
+    """A cancel request that was sent.
 
     Attributes:
-        answer: None as long as there is none.
+        answer: the server's answer; None before it arrives.
     """
 
     request: Request
@@ -45,20 +45,22 @@ class Cancel:
         return self.answer is not None or self._conversation.was_too_large("cancel answer", self.name)
 
 
-AskToCancel = Callable[[str, bytes, str], Cancel]  # of a goal's name and id, and the name of who asks
+AskToCancel = Callable[
+    [str, bytes, str], Cancel
+]  # from a goal's name and id, and the name of the asking client
 
 
 class Goal:
-    """A goal that was sent, and all that has come for it.
+    """A goal that was sent, with its answer, status, feedback and result so far.
 
     Attributes:
-        request: asks the server to accept it.
+        request: the send_goal request.
         sent_at: s, on the monotonic clock.
         accepted: whether the server accepted it; None before its answer.
-        status: the last one published, or the one that came with the result (action_msgs/GoalStatus).
+        status: the last one published or returned with the result (action_msgs/GoalStatus).
         feedback: the feedback messages so far.
-        result: its end: status and result message; None before that.
-        listeners: are called after each event of the goal, on the thread that spins the node.
+        result: status and result message; None before the end.
+        listeners: called after each event of the goal, on the thread that spins the node.
     """
 
     request: Request
@@ -77,16 +79,18 @@ class Goal:
 
     @property
     def has_ended(self) -> bool:
-        """Whether its result came, readable or not."""
+        """Whether the result was received, even if it was too large to be read."""
         return self.result is not None or self._conversation.was_too_large("result", self.name)
 
     def take(self, event: Event) -> None:
-        """Take what came for it."""
+        """Update the goal with a received event."""
         match event:
             case GoalAnswered(accepted=accepted):
                 self.accepted = accepted
                 if accepted:
-                    self.status = max(self.status, GoalStatus.ACCEPTED)  # the topic may have been faster
+                    self.status = max(
+                        self.status, GoalStatus.ACCEPTED
+                    )  # the status topic may have arrived first
             case FeedbackReceived(feedback=feedback):
                 self.feedback.append(feedback)
             case StatusSeen(status=status):

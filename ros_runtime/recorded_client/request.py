@@ -10,7 +10,7 @@ from rclpy.task import Future
 
 
 class Request:
-    """A request on its way; `on_answer` is called with the answer when it comes, on the thread that spins the node."""
+    """A request that was sent; `on_answer` gets the answer, on the thread that spins the node."""
 
     def __init__(self, client: Client, message: Any, on_answer: Callable[[Any], None]) -> None:
         self._client = client
@@ -19,7 +19,7 @@ class Request:
         self._future.add_done_callback(self._take)
 
     def give_up(self) -> None:
-        """Ignore an answer that comes from now on; rclpy would keep the request for as long as the client lives."""
+        """Ignore a later answer, and remove the request, which rclpy would keep until the client is destroyed."""
         self._client.remove_pending_request(self._future)
 
     def _take(self, future: Future) -> None:

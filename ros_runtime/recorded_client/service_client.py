@@ -15,10 +15,10 @@ ANSWER_TIMEOUT = 5.0  # s
 
 
 class Call:
-    """A request on its way, or answered.
+    """A service request that was sent.
 
     Attributes:
-        response: None as long as there is none.
+        response: the server's response; None before it arrives.
     """
 
     request: Request
@@ -68,10 +68,10 @@ class ServiceClient:
         return self.send(request, as_=as_).wait(timeout)
 
     def call_at_once(self, requests: Sequence[Any], *, times: int = 1) -> bool:
-        """Send several requests without waiting in between, wait for the answers, and repeat that so many times.
+        """Send several requests without waiting in between and wait for all answers; do so `times` times.
 
-        A service keeps its last 10 requests: more than that at once would be lost through no fault of the node. It ends
-        if an answer does not come; returns whether all came.
+        Send at most 10 at once: a service's queue holds 10 requests, and a correct node would lose the rest. Stops at
+        the first missing answer; returns whether all arrived.
         """
         for _ in range(times):
             answered = [call.wait() for call in [self.send(request) for request in requests]]

@@ -9,15 +9,15 @@ from typing import Any
 
 VARIABLE = "MUJOCO_GL"
 BACKENDS = ("egl", "osmesa")  # hardware or Mesa through EGL, else Mesa's off-screen library
-_NONE = ("disable", "disabled", "off", "false", "0")  # MuJoCo's words for it
+_NONE = ("disable", "disabled", "off", "false", "0")  # values of MUJOCO_GL that switch OpenGL off
 HELP = "install libegl1, libgl1-mesa-dri and libopengl0 (EGL) or libosmesa6 (OSMesa)"
 _BOUND_TO_A_PLATFORM = ("mujoco.egl", "mujoco.egl.egl_ext", "mujoco.osmesa")
 
 
 def _set_aside() -> str:
-    """Take the variable from the environment, unless it switches OpenGL off; return it.
+    """Remove MUJOCO_GL from the environment, unless it switches OpenGL off; return its value.
 
-    `import mujoco` fails with a backend that it does not know or that is not installed.
+    `import mujoco` fails if the variable names a backend that is unknown or not installed.
     """
     asked = os.environ.get(VARIABLE, "").strip().lower()
     if asked not in _NONE:
@@ -35,11 +35,11 @@ class NoOpenGLError(RuntimeError):
 def open_context(width: int, height: int) -> Any:
     """Open an OpenGL context for pictures of up to `width` × `height` px; free it with its `free()`.
 
-    MUJOCO_GL decides when it is set to one of the two. Otherwise, also where it names one that needs a screen, EGL is
-    tried, then OSMesa, and MUJOCO_GL is set to what works.
+    MUJOCO_GL=egl or osmesa selects the backend. With any other value, such as one that needs a screen, EGL and then
+    OSMesa are tried, and MUJOCO_GL is set to the one that works.
 
     Raises:
-        NoOpenGLError: none works; the message has the reason for each and what to install.
+        NoOpenGLError: no backend works; the message has the reason for each and what to install.
     """
     asked = _set_aside() or _asked_at_first
     reasons = []

@@ -23,7 +23,7 @@ def load_on_import(package: str, folder: Path) -> None:
 
 
 class _Finder(MetaPathFinder):
-    """Finds no module itself, but is asked before those that do."""
+    """Loads the libraries when the import system asks it for the package; never finds a module itself."""
 
     def __init__(self) -> None:
         self.folders: dict[str, Path] = {}

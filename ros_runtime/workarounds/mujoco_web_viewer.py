@@ -39,9 +39,9 @@ def launch_web_viewer(
     # Imported late: this takes half a second, and a robot that nobody watches does not need it.
     from mujoco.studio import launch_thread, viewer_protocol, web_viewer
 
-    # Its banner names addresses that it is not bound to, and what else it says would come from its own thread, in the
-    # middle of somebody's line.
-    web_viewer.print = _say_nothing
+    # Its banner names addresses that it is not bound to, and its other output, printed from its own thread, would mix
+    # with other lines.
+    web_viewer.print = _discard
 
     config = viewer_protocol.ViewerConfig(title="robot", gfx="web", http_port=port)
     started: Future[int] = Future()
@@ -59,13 +59,13 @@ def launch_web_viewer(
     return launch_thread.launch_thread(serve), started.result(STARTED_WITHIN)
 
 
-def _say_nothing(*_arguments: object, **_options: object) -> None:
-    """Stand in for `print`."""
+def _discard(*_arguments: object, **_options: object) -> None:
+    """Replaces `print`."""
 
 
 @contextmanager
 def _bound_to_loopback() -> Iterator[list[int]]:
-    """Make a viewer that starts meanwhile bind to loopback; the list gets its port."""
+    """Make a viewer that starts in the `with` block bind to loopback; append its port to the yielded list."""
     from mujoco.studio.web import web_server
 
     bind = web_server.bind_public_socket
@@ -74,7 +74,7 @@ def _bound_to_loopback() -> Iterator[list[int]]:
     def bind_to_loopback(_host: str, wanted: int = 0) -> socket:
         try:
             bound = bind(LOOPBACK, wanted)
-        except RuntimeError as error:  # MuJoCo's word for a port that is taken
+        except RuntimeError as error:  # MuJoCo raises this if the port is taken
             raise OSError(str(error)) from error
         ports.append(bound.getsockname()[1])
         return bound

@@ -1,4 +1,4 @@
-"""Archives for others: the same content makes the same bytes."""
+"""Zip archives that are reproducible: the same content gives the same bytes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _DATED = (2026, 1, 1, 0, 0, 0)
 
 
 def write_archive(archive: Path, files: Mapping[str, Path | str]) -> None:
-    """Write a zip of files, by their paths in it; a text is the content of a program of its own, which can be run."""
+    """Write a zip; `files` maps paths in it to files, or to texts, which become executable scripts."""
     archive.parent.mkdir(parents=True, exist_ok=True)
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as bundle:
         for name in sorted(files):

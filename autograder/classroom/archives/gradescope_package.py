@@ -1,6 +1,6 @@
 """The zip that Gradescope takes as an autograder: its two scripts, and the part of the course that grades there.
 
-It holds visible checks alone: a student's program shares a container with them.
+It contains only visible checks, because a student's program runs in the same container.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from pathlib import Path
 from autograder.classroom.archives.archive import write_archive
 from autograder.classroom.archives.student_bundle import files_of, require_no_leak, visible_checks
 
-TOP = "humanoid-course"  # the folder of /autograder/source in which the course lies
+TOP = "humanoid-course"  # the course's folder in /autograder/source
 PARTS = (
     "LICENSE",
     "course",

@@ -48,7 +48,7 @@ FOR_INSTRUCTORS = "autograder/classroom"  # `course` lists only commands whose m
 
 
 class Leak(CourseError):
-    """A file of the archive contains what students must not see."""
+    """A file of the archive contains a solution or a hidden check."""
 
     exit_status = COULD_NOT
 

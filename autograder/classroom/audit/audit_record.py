@@ -1,4 +1,4 @@
-"""The file of `course audit --json`: whole after every run, so that an audit that was interrupted goes on from it."""
+"""The file of `course audit --json`: rewritten after every run, so that an interrupted audit can be resumed."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ _Place = tuple[str, str, int | None]  # exercise, submission, seed: there is one
 
 
 class UnusableAuditRecord(CourseError):
-    """The file cannot be gone on with."""
+    """The file cannot be resumed."""
 
 
 class AuditRecord:
-    """The runs of an audit by exercise, one a line; entries of an earlier run stay until they are graded again.
+    """The runs of an audit by exercise, one per line; entries of an earlier audit stay until they are graded again.
 
-    A run of an earlier audit counts when nothing that its verdict depends on has changed: the submission, the checks
-    and the engine, the robot, the seed, the clock's scale, the isolation. One that was not graded never does, and none
-    whose submission was edited while it was graded.
+    An earlier run is reused if everything that its verdict depends on is unchanged: submission, checks, engine, robot,
+    seed, clock scale and isolation. Not reused: runs that were not graded, and runs whose submission was edited
+    meanwhile.
     """
 
     def __init__(
@@ -39,19 +39,19 @@ class AuditRecord:
         scale: float | None = None,
         earlier: Iterable[dict[str, Any]] = (),
     ) -> None:
-        """`path`: None keeps no record. `earlier`: what `read_runs` found."""
+        """`path`: None writes no file. `earlier`: the runs from `read_runs`."""
         self._path = path
         self._isolation = isolation
         self._scale = scale
         self._runs = {_place(run): json.dumps(run) for run in earlier}
-        self._keys: dict[_Place, str] = {}  # of what is graded, before it is
+        self._keys: dict[_Place, str] = {}  # hash of each submission, taken before it is graded
 
     def earlier_run(
         self, known: KnownSubmission, exercise: Exercise, repetition: int, seed: int
     ) -> AuditedRun | None:
-        """Return the run with the inputs of `seed` that is still true, as this repetition; None if there is none.
+        """Return the reusable earlier run with the inputs of `seed`, as this repetition; None if there is none.
 
-        Ask before the grading begins, so that `add` can tell whether it was of this submission.
+        Call it before grading: it stores the submission's hash, by which `add` notices later edits.
         """
         place = known.exercise, known.name, seed
         key = self._keys[place] = self._key(known, exercise, seed)
@@ -62,11 +62,11 @@ class AuditRecord:
         run = AuditedRun(known, repetition, grade, earlier["seconds"], for_any_fault(exercise))
         if run.grade.status != "graded":
             return None
-        self._put(run, exercise)  # its header may expect something else now
+        self._put(run, exercise)  # the submission's header may have changed
         return run
 
     def add(self, run: AuditedRun, exercise: Exercise) -> None:
-        """Write the file with this run, in the place of an earlier one of the same submission and seed."""
+        """Replace an earlier run of the same submission and seed by this one, and write the file."""
         self._put(run, exercise)
         self.write()
 

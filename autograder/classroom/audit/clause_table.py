@@ -1,6 +1,6 @@
-"""The table of an exercise's clauses: what holds each of them, and in which situations that was judged.
+"""The table of an exercise's clauses: which obligations and checks judge each one, and in which situations.
 
-It is made of the recorded transcripts of a correct submission, so it says what is judged, not what was meant to be.
+It is computed from the recorded transcripts of correct submissions, so it shows what is really judged.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from autograder.classroom.audit.recorded import Case, cases
 from autograder.engine.clauses import clauses_in
 from autograder.engine.exercise import exercises_folder, load_exercise
 
-# By an obligation's sentence or a check's title: how often it was judged, by situation.
+# obligation's sentence or check's title -> situation -> number of times it was judged
 Judged = dict[str, Counter[str]]
 
 
 def clause_table(exercise: str) -> str:
-    """Return the table in Markdown: a clause a row; one that nothing holds says so."""
+    """Return the table in Markdown, one row per clause; a clause that nothing judges gets "nothing"."""
     clauses = clauses_in(exercises_folder() / exercise / f"{exercise}.ipynb")
     judged = judged_by_clause(exercise)
     rows = [
@@ -31,7 +31,7 @@ def clause_table(exercise: str) -> str:
 
 
 def judged_by_clause(exercise: str) -> Mapping[int, Judged]:
-    """Return what holds each clause, by its number, as the recorded transcripts of the correct submission show."""
+    """Return the obligations and checks that judge each clause, by clause number, from the recorded transcripts."""
     found: dict[int, Judged] = {
         number: {} for number in clauses_in(exercises_folder() / exercise / f"{exercise}.ipynb")
     }

@@ -22,7 +22,7 @@ from whatthepatch.exceptions import WhatThePatchException
 from ros_runtime.course_error import CourseError
 
 SUFFIX = ".patch"
-LARGEST_SHARE = 0.6  # of a program's lines; if more differ, the whole file is clearer than a diff
+LARGEST_SHARE = 0.6  # share of a program's lines; if more differ, the whole file is clearer than a diff
 _CONTEXT = 2  # lines around a change
 DOCSTRING = re.compile(r'\A(?:#.*\n|\s)*"""(.*?)"""\n?', re.DOTALL)  # also where the file does not parse
 _BEGINNING = re.compile(r"^--- (\S+)", re.MULTILINE)

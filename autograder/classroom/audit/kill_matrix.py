@@ -18,7 +18,7 @@ SURPRISE = "bold white on red"
 
 
 def print_progress(console: Console, run: AuditedRun, *, earlier: bool = False) -> None:
-    """Print one finished run, with each difference from the expected verdict; `earlier`: it is from a record."""
+    """Print one finished run, with each difference from the expected verdict; `earlier`: reused from a record."""
     surprises = run.surprises()
     mark, colour = ("✗", "red") if surprises else ("✓", "green")
     score = run.grade.score if run.grade.score is not None else "not graded"

@@ -9,7 +9,7 @@ faulty:   Fault: the mistake (M2)            the number of the misconception, wh
 hostile:  Attack: what it tries
           Outcome: what happens
           Caught by: …, Also fails: …        as above, or
-          Passes: nothing it did not do      it solves the task and attacks; the attack must change nothing
+          Passes: nothing it did not do      the program also solves the task; the attack must not change the grade
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _HEADLINE: Mapping[Kind, str] = {"correct": "Style", "faulty": "Fault", "hostile
 
 
 class HeaderError(CourseError):
-    """The docstring of a known submission does not say what the audit needs."""
+    """The header of a known submission lacks a line that the audit needs, or is inconsistent."""
 
 
 @dataclass(frozen=True)

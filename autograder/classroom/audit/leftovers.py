@@ -1,11 +1,11 @@
-"""What gradings leave behind on this machine: nothing, if they are sound.
+"""Finds what gradings leave behind on this machine; a correct grading leaves nothing.
 
     with leftovers() as left:
         grade(…)
     assert not left
 
-It sees what belongs to this process, and in shared memory what no living process uses, so others may grade and run
-nodes on the same machine.
+It considers only resources of this process, and files in shared memory that no process uses, so other gradings and
+nodes may run on the same machine.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ _MIDDLEWARES = ("fastrtps", "fastdds", "sem.")
 
 @contextmanager
 def leftovers(patience: float = 5.0) -> Iterator[list[str]]:
-    """Yield a list, empty until the block ends, then of what is left that was not there before, each in words.
+    """Yield a list that is filled when the block ends: one description for each new leftover.
 
-    What has been ended may take `patience` s to be gone.
+    Processes that were ended get `patience` s to disappear.
     """
     ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)  # orphans become our children, and are found
     before, left = {*_seen(), *(f"file {path}" for path in _of_nodes())}, list[str]()

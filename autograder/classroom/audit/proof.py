@@ -15,9 +15,10 @@ _MISCONCEPTION = re.compile(r"\(M\d+\)")
 def enough_to_prove(
     submissions: Sequence[KnownSubmission], of_each: int | None = None
 ) -> list[KnownSubmission]:
-    """Return few faulty submissions that together name every check and misconception, and correct and hostile ones.
+    """Return a small set of faulty submissions whose headers cover every check and misconception, plus other kinds.
 
-    The first `of_each` correct and hostile ones are taken, by default all. The faulty ones are a greedy set cover.
+    The faulty ones are a greedy set cover. Of the correct and of the hostile ones the first `of_each` are taken (None:
+    all).
     """
     chosen = {
         known.path
@@ -38,9 +39,9 @@ def enough_to_prove(
 def enough_to_catch(known: KnownSubmission, exercise: Exercise) -> Exercise:
     """Return the exercise with only the checks that tell whether a faulty or hostile submission is caught.
 
-    For a faulty one these are the checks that it must fail, without those they need, which it passes. For a hostile
-    one they are those it must or may fail, with what they need: where its effect shows first depends on the machine.
-    Every check stays for one that must fail none.
+    Faulty: the checks that it must fail, without their prerequisites, which it passes. Hostile: the checks that it must
+    or may fail, with their prerequisites, because the machine decides which one its attack affects first. If it must
+    fail none, all checks stay.
     """
     checks = {check.id: check for check in exercise.checks}
     if known.kind == "faulty":
@@ -49,7 +50,7 @@ def enough_to_catch(known: KnownSubmission, exercise: Exercise) -> Exercise:
     if not known.caught_by:
         return exercise
     wanted = [*known.caught_by, *known.also_fails]
-    for check_id in wanted:  # grows as it goes
+    for check_id in wanted:  # the loop appends to this list
         wanted += [need.id for need in checks[check_id].needs if need.id not in wanted]
     return replace(exercise, checks=[check for check in exercise.checks if check.id in wanted])
 

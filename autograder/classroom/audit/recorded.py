@@ -1,7 +1,7 @@
-"""Transcripts of real arenas, kept in `transcripts/` so that checks can be tested without arenas.
+"""Recorded transcripts of real arenas in `transcripts/`, for tests of checks without arenas.
 
-One file is one run of one scenario: a line with the scenario's inputs and the clock's scale, then the events in order
-of time, a line each, all as it was recorded.
+One file is one run of one scenario: a line with the scenario's inputs and the clock's scale, then one line per event,
+in order of time.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Case:
 
 
 def scenarios_of(exercise: str) -> dict[str, Scenario]:
-    """Name the scenarios of an exercise, each in its own words and with a number where two have one name."""
+    """Return the scenarios of an exercise by name; the second and later ones of a name get a number, as in walk-2."""
     named: dict[str, Scenario] = {}
     for check in load_exercise(exercise, hidden=True).checks:
         for scenario in check.on:
@@ -45,7 +45,7 @@ def scenarios_of(exercise: str) -> dict[str, Scenario]:
 
 
 def write(path: Path, transcript: Transcript) -> None:
-    """Keep a transcript."""
+    """Write a transcript to a file."""
     events = sorted([*transcript.events, *transcript.ground_truth], key=lambda event: event.t)
     head = {"params": transcript.params, "scale": transcript.scale}
     lines = [json.dumps(head).encode(), *(to_line(event).rstrip() for event in events)]
@@ -57,7 +57,7 @@ def write(path: Path, transcript: Transcript) -> None:
 
 
 def read(path: Path, scenario: Scenario) -> Transcript:
-    """Return a transcript that was kept; the scenario must still have the inputs it had then."""
+    """Read a transcript; fails if the scenario's inputs have changed since the recording."""
     head, *lines = gzip.decompress(path.read_bytes()).decode().splitlines()
     kept = json.loads(head)
     now = json.dumps(scenario.draw(0))
@@ -68,7 +68,7 @@ def read(path: Path, scenario: Scenario) -> Transcript:
 
 
 def cases(exercise: str) -> list[Case]:
-    """Return every check of an exercise with the transcripts of each submission that has those it needs."""
+    """Return each check of an exercise with a submission's transcripts, for each submission that has all of them."""
     scenarios = scenarios_of(exercise)
     kept: dict[str, dict[Scenario, Transcript]] = {}
     for path in sorted((FOLDER / exercise).glob("*.jsonl.gz")):

@@ -96,14 +96,13 @@ def audit(
     report: Callable[[AuditedRun], None] = lambda run: None,
     grade_one: Callable[..., AuditedRun] | None = None,
 ) -> list[AuditedRun]:
-    """Grade each submission `repeat` times, in `jobs` arenas in parallel, and what could not be graded then once alone.
+    """Grade each submission `repeat` times with `jobs` parallel arenas; retry submissions without a grade once, alone.
 
-    The faulty ones share arenas, one after another; each other one, and each that is graded alone, has its own.
-    The scenarios' inputs are those of `seed`, and of the seeds that follow it for the repetitions. Ctrl-C ends the
-    running arenas at once.
-    `earlier` returns the run of a submission and repetition that need not be done again, or None.
-    `report` gets each run when it is done; all are returned, those of `earlier` too, in the order of the submissions.
-    `grade_one` grades a submission; None: `audit_one`.
+    Faulty submissions share arenas, one after another; all others, and those that are graded alone, have their own.
+    The scenarios' inputs are drawn with `seed`, `seed` + 1, … for the repetitions. Ctrl-C ends the running arenas at
+    once. `earlier` returns the reusable run of a submission and repetition, or None. `report` gets each run when it is
+    done. All runs, also those of `earlier`, are returned in the order of the submissions. `grade_one` grades a
+    submission; None: `audit_one`.
     """
     grade_one = grade_one or audit_one
     for known in submissions:

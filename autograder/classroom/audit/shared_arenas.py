@@ -1,6 +1,6 @@
 """Arenas that the faulty submissions of an exercise share in an audit: opening one costs more than most scenarios.
 
-Nobody's grade comes from here. A correct and a hostile submission are graded as a student's is, in arenas of their own.
+No student's grade comes from them. Correct and hostile submissions get arenas of their own, as students' do.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class SharedArenas:
 
     @contextmanager
     def lent_to(self, known: KnownSubmission, exercise: Exercise) -> Iterator[SubmissionArenas | None]:
-        """Lend a faulty submission what is open; None for any other, which needs arenas of its own."""
+        """Yield the shared arenas for a faulty submission; None for any other, which needs its own."""
         if known.kind != "faulty":
             yield None
             return

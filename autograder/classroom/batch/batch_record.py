@@ -1,4 +1,4 @@
-"""batch.json: what was graded when, with what, and what it took. With grades.json it lets a grade be defended later."""
+"""batch.json: when, where and with which versions each submission was graded. It makes a grade reproducible later."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ class Row:
     Attributes:
         program: SHA-256 of each file as the grader read it, by its name; empty when it could not be read.
         version: of the exercise's checks and the engine, as `batch.version` computes it.
-        began, ended, host, processor_seconds, arenas, scenarios: of the run that gave the grade, which may be an
-            earlier one; "" and 0 if the worker was lost.
+        began, ended, host, processor_seconds, arenas, scenarios: of the run that produced the grade, also if that was
+            an earlier batch; "" and 0 if the worker was lost.
     """
 
     student: str
@@ -81,10 +81,10 @@ class BatchRecord:
     """A batch from its start to its end.
 
     Attributes:
-        state: "running" in a file that nobody writes any more means that the batch was killed.
+        state: "running" stays in the file if the batch is killed.
         began, ended: UTC, ISO 8601, of the last run; `ended` is None until then.
-        seed, seed_per_student, seed_per_submission: what draws the inputs of hidden checks.
-        isolation: the tier that the machine or the cluster offered.
+        seed, seed_per_student, seed_per_submission: see `Seeds`; they draw the inputs of hidden checks.
+        isolation: the kind of isolation on the machine or the cluster.
         jobs: how many submissions were graded at a time.
         cluster: address of the Dask scheduler, or "".
         shard: "K/N", or "".
@@ -120,13 +120,13 @@ class BatchRecord:
         return sorted({row.host for row in self.rows if row.host})
 
     def with_results(self, results: Sequence[Graded]) -> BatchRecord:
-        """Return the record with the rows of these results in the place of what was there on the same submissions."""
+        """Return the record with the rows of these results; they replace earlier rows of the same submissions."""
         rows = {(row.student, row.exercise): row for row in self.rows}
         rows |= {(row.student, row.exercise): row for row in map(Row.of, results)}
         return replace(self, rows=[rows[key] for key in sorted(rows)])
 
     def with_points(self, grades: Sequence[Grade]) -> BatchRecord:
-        """Return the record with what the grades say now: a person may have given points for an essay."""
+        """Return the record with the status and score of these grades, such as points that a person gave an essay."""
         now = {(grade.student, grade.exercise): grade for grade in grades}
         rows = [
             replace(row, status=grade.status, score=grade.score)
@@ -137,7 +137,7 @@ class BatchRecord:
         return replace(self, rows=rows)
 
     def in_words(self) -> dict[str, str]:
-        """Return what the class page says of the batch."""
+        """Return the lines on the batch for the class page, by their labels."""
         seconds = sum(row.processor_seconds for row in self.rows)
         versions = sorted({f"{row.exercise} {row.version[:12]}" for row in self.rows})
         return {
@@ -185,7 +185,7 @@ def write_batch(folder: Path, record: BatchRecord) -> None:
 
 
 def read_batch(folder: Path) -> BatchRecord | None:
-    """Read batch.json; None if there is none, or none of this version."""
+    """Read batch.json; None if it is missing or was written by another version."""
     try:
         return BatchRecord.from_json(json.loads((folder / BATCH).read_text(encoding="utf-8")))
     except (*UNREADABLE, TypeError, KeyError):

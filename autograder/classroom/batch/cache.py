@@ -25,14 +25,14 @@ _EFFORTS = TypeAdapter(Effort)
 
 @dataclass(frozen=True)
 class Known:
-    """A grade that was given before, with what it took then."""
+    """An earlier grade, with the effort of the run that produced it."""
 
     grade: Grade
     effort: Effort
 
 
 def grade_key(submission: Submission, exercise: Exercise, seed: int, isolation: Isolation, *more: Any) -> str:
-    """Return a hash of all that a grade depends on: sources, checks, seed of the inputs, isolation, and `more`."""
+    """Return a hash of everything that a grade depends on: sources, checks, seed, isolation, and `more`."""
     depends_on = [
         dict(submission.sources),
         checks_version(exercise.folder),
@@ -56,7 +56,7 @@ class GradeCache:
     def get(self, submission: Submission, exercise: Exercise, seed: int) -> Known | None:
         """Return the cached grade of a submission with the same sources, under this student's name.
 
-        What is damaged counts as not there: it is graded again.
+        A damaged entry counts as missing.
         """
         path = self._path(submission, exercise, seed)
         if not path.exists():

@@ -1,4 +1,4 @@
-"""Which seeds a batch gets: those it is given, else those of the batch that it continues, else new ones."""
+"""Chooses the seeds of a batch: the given ones, else those of the batch that it continues, else new ones."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ def choose_seeds(
     """Return the seeds of a batch.
 
     Args:
-        request: what is asked.
-        before: the record that the output folder holds.
-        grades: those it holds, in the folder of a version that wrote no record.
-        works: the whole class.
+        request: the options of the batch.
+        before: the record in the output folder, if any.
+        grades: the grades in the output folder; used if an older version wrote no record.
+        works: the submissions of the whole class.
     """
     if request.seed is not None:
         return Seeds(request.seed, request.seed_per_student)
@@ -29,7 +29,7 @@ def choose_seeds(
         return replace(before.seeds, per_student=before.seed_per_student or request.seed_per_student)
     if request.goes_on and (one := _one_seed(grades)) is not None and not request.seed_per_student:
         return Seeds(one)
-    if request.shard:  # the other machines have to come to the same
+    if request.shard:  # all machines must compute the same seed
         return Seeds(seed_of_what_was_handed_in(works), request.seed_per_student)
     return Seeds(
         drawn_seed(), request.seed_per_student, per_submission=request.watch and not request.seed_per_student
@@ -37,6 +37,6 @@ def choose_seeds(
 
 
 def _one_seed(grades: Sequence[Grade]) -> int | None:
-    """The seed that all grades have, if it is one."""
+    """The common seed of all grades; None if they differ."""
     seeds = {grade.seed for grade in grades if grade.seed is not None}
     return seeds.pop() if len(seeds) == 1 else None

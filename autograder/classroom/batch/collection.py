@@ -15,9 +15,9 @@ from autograder.engine.hand_in import Candidate, OwnFile, candidates_in, choose_
 from autograder.engine.submission import Submission, UnusableSubmission
 from ros_runtime.course_error import CourseError
 
-STUDENT = re.compile(r"[\w@+][\w@+.,' -]*")  # what nbgrader, a file system and a shell all take as a name
+STUDENT = re.compile(r"[\w@+][\w@+.,' -]*")  # names that nbgrader, file systems and shells accept
 _SECRET = re.compile("[0-9a-f]{128}")
-MOST_NAMED = 5  # of the files of somebody who handed in nothing
+MOST_NAMED = 5  # files listed for a student without a submission
 LAYOUT = "SUBMITTED/<student>/<exercise>/<exercise>.ipynb or SUBMITTED/<student>/<exercise>.py"
 
 
@@ -27,13 +27,13 @@ class NoSubmissions(CourseError):
 
 @dataclass(frozen=True)
 class Work:
-    """One student's submission for one exercise; without candidates their folder for it has no file of that name."""
+    """One student's submission for one exercise; without candidates the exercise's folder has no usable file."""
 
     student: str
     exercise: str
     candidates: tuple[Candidate, ...] = ()
     timestamp: str = ""  # as in the timestamp.txt of nbgrader's collect
-    secret: str = ""  # as in its submission_secret.txt, by which feedback finds its way back
+    secret: str = ""  # from submission_secret.txt; nbgrader returns feedback by it
 
     def read(self) -> Submission:
         """Read the submission; raises UnusableSubmission, which says what is wrong with it."""
@@ -49,7 +49,7 @@ class Work:
 
     @property
     def left_aside(self) -> list[str]:
-        """A sentence for each file that is this exercise's, too, holds something else and does not count."""
+        """A sentence on each other file of this exercise that has different content and is not graded."""
         return [f"{self.student}: {line}" for line in self._choice[1]] if self.candidates else []
 
     @cached_property
@@ -112,7 +112,7 @@ def files_of_exercises() -> Mapping[str, tuple[str, ...]]:
 
 
 def works_of(student: Path, files: Mapping[str, tuple[str, ...]]) -> Iterator[Work]:
-    """Yield what one student's folder holds, by exercise; raises OSError if it cannot be read."""
+    """Yield the submissions in one student's folder; raises OSError if it cannot be read."""
     found = candidates_in(student, files)
     for exercise in files:
         folder = student / exercise
@@ -130,13 +130,13 @@ def _timestamp(folder: Path) -> str:
     try:
         text = _beginning(folder / "timestamp.txt").decode().strip()
         parse_utc(text)
-    except Exception:  # a date can be malformed in many ways, and a wrong one costs nobody points
+    except Exception:  # a date can be malformed in many ways; without one no points are lost
         return ""
     return text
 
 
 def _secret(folder: Path) -> str:
-    """What nbgrader's submit has written into submission_secret.txt, if it is of that kind; otherwise ""."""
+    """The secret in submission_secret.txt if it has the format that `nbgrader submit` writes; otherwise ""."""
     try:
         text = _beginning(folder / "submission_secret.txt").decode()
     except (OSError, ValueError):
@@ -145,7 +145,7 @@ def _secret(folder: Path) -> str:
 
 
 def _beginning(path: Path) -> bytes:
-    """The first bytes of a small file; none when it is no ordinary one."""
+    """The first bytes of a file; b"" for a link or anything else that is not a regular file."""
     if path.parent.is_symlink() or path.is_symlink() or not path.is_file():
         return b""
     with path.open("rb") as file:

@@ -12,7 +12,7 @@ from autograder.classroom.batch.worker_pool import Workers
 from autograder.isolation.availability import Isolation, available_isolation
 from ros_runtime.course_error import COULD_NOT, CourseError
 
-AT_A_TIME = 1000  # jobs the scheduler knows of, so that an adaptive cluster can grow
+AT_A_TIME = 1000  # jobs submitted ahead, so that an adaptive cluster sees the demand and grows
 _PATIENCE = 30.0  # s for the scheduler to answer and for a first worker
 
 
@@ -36,7 +36,7 @@ class Cluster:
 def dask_cluster(address: str) -> Iterator[Cluster]:
     """Connect to a scheduler and ask each worker for its isolation.
 
-    Where only some workers are isolated, only those grade. A worker that joins later is asked at each of its jobs.
+    If only some workers are isolated, only those grade. Each job checks its worker again, for workers that join later.
 
     Raises:
         NoCluster: `distributed` is not installed, nobody answers, or no worker is there.
@@ -61,7 +61,7 @@ def dask_cluster(address: str) -> Iterator[Cluster]:
             ) from error
         try:
             found: dict[str, Isolation] = client.run(available_isolation)
-        except Exception as error:  # what a worker without this toolkit raises is for Dask to say
+        except Exception as error:  # Dask decides which exception a worker without this toolkit raises
             raise NoCluster(
                 f"a worker cannot run this toolkit ({type(error).__name__}: {error}); start every worker with the "
                 ".venv/bin/dask of a clone at the same commit"

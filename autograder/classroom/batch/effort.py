@@ -9,14 +9,14 @@ from datetime import datetime, timezone
 
 @dataclass(frozen=True)
 class Effort:
-    """What grading one submission took.
+    """Time, place and cost of grading one submission.
 
     Attributes:
         began, ended: UTC, ISO 8601.
         host: the machine's name.
-        processor_seconds: of all processes of its arenas, as far as they could be seen from outside.
-        arenas: how many were opened.
-        scenarios: how many runs they made, retries included.
+        processor_seconds: of all processes of its arenas; sampled, so it misses a part of killed processes.
+        arenas: number of arenas opened.
+        scenarios: number of scenario runs, including retries.
     """
 
     began: str
@@ -28,7 +28,7 @@ class Effort:
 
 
 def without_arena() -> Effort:
-    """Return the effort of what is decided here and now, such as an essay that waits for a person."""
+    """Return the effort of a grade that needs no arena, such as an unmarked essay."""
     now = utc_now()
     return Effort(now, now, socket.gethostname())
 

@@ -1,4 +1,4 @@
-"""Grades that are given without an arena: to what cannot be read, and to what could not be judged."""
+"""Grades for submissions that cannot be read, and for submissions that could not be judged."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def unreadable(student: str, exercise: Exercise, isolation: str, seed: int, prob
 
 
 def with_reason(grade: Grade) -> Grade:
-    """Return the grade with the first cause of a check that could not be judged as its reason."""
+    """Return the grade; if it is not graded, its reason becomes that of the first check that could not be judged."""
     if grade.status == "graded" or grade.reason:
         return grade
     broken = next((verdict for verdict in grade.checks if verdict.status == "error"), None)

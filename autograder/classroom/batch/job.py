@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class GradingJob:
-    """What a worker needs to grade one submission. It can be pickled, and the sources travel with it.
+    """Everything that a worker needs to grade one submission, including the sources; it can be pickled.
 
     Attributes:
         student, exercise, sources: the submission.
@@ -59,7 +59,7 @@ class GradingJob:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a job.
+    """The result of a job.
 
     Attributes:
         grade: the verdicts.
@@ -67,7 +67,7 @@ class Outcome:
         drawn: SVG of the runs that failed checks were judged on, by the check's id.
         effort: what it took; None if no worker answered.
         recordings: MCAP files by name, if they were asked for.
-        may_end_otherwise: the grader failed, and not because of where or how it was set up.
+        may_end_otherwise: the grader failed in a way that a retry may avoid (not a fault of its set-up).
     """
 
     grade: Grade
@@ -80,7 +80,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Live:
-    """What a worker thread shares with the batch: a worker in another process has none of it.
+    """State that a worker thread shares with the batch; workers in other processes run without it.
 
     Attributes:
         isolation: of this machine.
@@ -159,13 +159,15 @@ def _effort(began: str, arenas: SubmissionArenas | None) -> Effort:
 
 
 def _recorder(exercise: Exercise) -> Recorder:
-    from autograder.recording.recorder import Recorder  # what it imports, a grading does without
+    from autograder.recording.recorder import (
+        Recorder,
+    )  # imported here, because gradings without recordings do not need it
 
     return Recorder(exercise, for_students=False)
 
 
 def _why_not_here(job: GradingJob, isolation: Isolation) -> str:
-    """Why this worker must not grade the job, or ""."""
+    """Return the reason why this worker must not grade the job, or ""."""
     here = socket.gethostname()
     if job.trusted and not isolation.trusted:
         return (

@@ -1,4 +1,4 @@
-"""How fast a batch goes, and how long the rest will take at that rate."""
+"""The rate of a batch, and an estimate of the time left."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 
 class Pace:
-    """Counts what is done of `expected`; what was known before takes no time and does not count for the rate."""
+    """Counts done items of `expected`; items from the cache count as done but not for the rate."""
 
     def __init__(self, expected: int, clock: Callable[[], float] = time.monotonic) -> None:
         self.expected = expected
@@ -17,15 +17,15 @@ class Pace:
         self._began = clock()
 
     def add(self, number: int = 1) -> None:
-        """Count what was done just now."""
+        """Add `number` done items."""
         self.done += number
 
     def was_known(self, number: int) -> None:
-        """Say that so many of those counted took no time."""
+        """Exclude `number` of the done items from the rate, because they came from the cache."""
         self._known += number
 
     def expect(self, number: int) -> None:
-        """Expect so many more."""
+        """Add `number` expected items."""
         self.expected += number
 
     def seconds_left(self) -> float | None:
@@ -37,7 +37,7 @@ class Pace:
 
 
 def in_words(seconds: float | None) -> str:
-    """Return a duration to the precision that an estimate has."""
+    """Return the time left, rounded as an estimate: to 10 s, a minute or 0.1 h."""
     if seconds is None:
         return "time left not known yet"
     if seconds < 60:

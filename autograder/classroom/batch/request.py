@@ -21,13 +21,13 @@ class BatchRequest:
         out: where everything is written.
         jobs: how many arenas run in parallel on this machine.
         resume: keep the grades of an earlier run.
-        seed: of the inputs of hidden checks; None: that of the batch that goes on, or a new one.
-        seed_per_student: other inputs for each student.
-        students, exercises: the only ones to grade; the others keep their grades. Empty: all.
+        seed: draws the inputs of hidden checks; None: the seed of the batch that is continued, or a new one.
+        seed_per_student: draw different inputs for each student.
+        students, exercises: grade only these, and keep the grades of the others. Empty: all.
         shard: the part of the class to grade here.
         dask: address of a scheduler whose workers grade.
-        json_file: gets all verdicts, too.
-        watch: go on with what is handed in from now on.
+        json_file: a second file for all verdicts.
+        watch: keep grading new submissions until Ctrl-C.
         record: keep an MCAP file of each scenario.
     """
 
@@ -51,7 +51,9 @@ class BatchRequest:
                 "--shard takes a part of the whole class: leave out --student, --exercise and --json"
             )
         if self.shard and self.watch:
-            raise UnusableRequest("--watch grades what comes, and --shard a part of what is there: give one")
+            raise UnusableRequest(
+                "--watch grades new submissions, --shard a part of the present ones: give only one of them"
+            )
 
     @property
     def keeps_others(self) -> bool:

@@ -26,7 +26,7 @@ from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.availability import Isolation
 from autograder.recording.kept import keep
 
-RESULT_POLL_TIME = 0.5  # s to wait for results before it is looked again for new submissions
+RESULT_POLL_TIME = 0.5  # s to wait for results before the next look for new submissions
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class BatchWatcher:
     """What is called while a batch is graded, on any thread.
 
     Attributes:
-        on_verdict: gets each verdict as soon as it is known; from other machines with the grade.
+        on_verdict: gets each verdict as soon as it is known; from other machines, with the whole grade.
         on_running: gets the jobs that run in this process, whenever they change.
         on_retry: gets each job that could not be graded and is done again at the end, alone, with its first outcome.
     """
@@ -48,7 +48,7 @@ class BatchWatcher:
 class Graded:
     """A submission with its grade. If it could not be read, `sources` is None and `problem` says why.
 
-    `effort` is what the grade took when it was given; None if a worker was lost.
+    `effort` is that of the run that produced the grade; None if a worker was lost.
     """
 
     work: Work
@@ -69,9 +69,9 @@ class BatchRunner:
         seeds: of the scenarios' inputs.
         resume: take grades from the cache.
         watcher: is called as the batch goes on.
-        drawings: keeps those of failed checks.
-        recordings: folder in which they are kept, each in <student>/<exercise>/; None: none are made.
-        workers: where the work is done; None: `jobs` threads of this process.
+        drawings: stores the drawings of failed checks.
+        recordings: folder for recordings, in <student>/<exercise>/; None: do not record.
+        workers: where jobs run; None: in `jobs` threads of this process.
     """
 
     def __init__(
@@ -108,8 +108,8 @@ class BatchRunner:
     def run(self, works: Iterable[Work | None]) -> Generator[Graded, None, None]:
         """Yield each submission as soon as it is graded, each once.
 
-        `works` may be endless: None says that there is nothing to grade at present, so that results are taken. A work
-        may come again when its result is there.
+        `works` may be endless; it yields None while nothing new is there, so that finished results can be collected. A
+        work may be repeated after its result was yielded.
 
         Leaving the loop early, for example by Ctrl-C, ends the running arenas at once; finished grades stay in the
         cache.
@@ -146,15 +146,13 @@ class BatchRunner:
         return load_exercise(name, hidden=self._isolation.trusted)
 
     def _prepare(self, work: Work, arenas: int) -> Graded | GradingJob:
-        """Return what needs no arena with its grade, and of the rest a job."""
+        """Return a submission with its grade if that needs no arena (essay, unreadable, cached), else its job."""
         try:
             submission, problem = work.read(), ""
         except UnusableSubmission as error:
             submission, problem = None, str(error)
         sources = submission.sources if submission else None
-        if (
-            work.exercise in essay_names()
-        ):  # of one that cannot be read a person decides, too, what it is worth
+        if work.exercise in essay_names():  # a person marks essays, even unreadable ones
             waiting = left_to_a_person(load_essay(work.exercise), work.student)
             return Graded(work, waiting, sources, problem, effort=without_arena())
         exercise, seed = self.exercise(work.exercise), self._seeds.of(work.student, sources or {})
@@ -178,7 +176,7 @@ class BatchRunner:
     def _finish(
         self, pool: WorkerPool, handed_over: dict[tuple[str, str], Work], patience: float | None = None
     ) -> Iterator[Graded]:
-        """Wait for outcomes, and cache them all before anybody can interrupt the loop."""
+        """Wait for outcomes, and cache all of them before yielding the first, so that Ctrl-C loses none."""
         finished = []
         for job, outcome in pool.wait(patience):
             work = handed_over.pop((job.student, job.exercise))

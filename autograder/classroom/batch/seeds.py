@@ -1,6 +1,6 @@
-"""The seeds of a batch, drawn anew for each batch unless somebody gives one.
+"""The seeds of a batch, drawn anew for each batch unless one is given.
 
-What a student learns of the inputs of hidden checks in one batch is of no use in the next.
+So the inputs of hidden checks in one batch tell a student nothing about the next.
 """
 
 from __future__ import annotations
@@ -13,18 +13,17 @@ from pathlib import Path
 
 from autograder.classroom.batch.collection import Work
 
-_READ = 65536  # bytes of each file that go into a seed made of what was handed in
+_READ = 65536  # bytes of each file that a seed made of the submissions depends on
 
 
 @dataclass(frozen=True)
 class Seeds:
-    """What draws the inputs of scenarios: `batch` itself, or a number made of it and more.
+    """The seeds that draw the inputs of scenarios: `batch` itself, or hashes of it and more.
 
     Attributes:
-        batch: the number.
-        per_student: each student has a seed of their own, made of the name.
-        per_submission: each program has one, so that what a student learns from handing in is of no use when they
-            hand in again.
+        batch: the seed of the batch.
+        per_student: hash the student's name with it, so that each student has a seed.
+        per_submission: hash name and program with it, so that a second hand-in has another seed than the first.
     """
 
     batch: int = 0
@@ -32,7 +31,7 @@ class Seeds:
     per_submission: bool = False
 
     def of(self, student: str, sources: Mapping[str, str]) -> int:
-        """Return a submission's seed, the same on every machine: 0 to 2³² - 1 where it is not the batch's own."""
+        """Return a submission's seed, the same on every machine: the batch's seed, or a hash from 0 to 2³² - 1."""
         if not (self.per_student or self.per_submission):
             return self.batch
         text = f"{self.batch} {student}"
@@ -51,12 +50,12 @@ ONE_FOR_ALL = Seeds()
 
 
 def drawn_seed() -> int:
-    """Return a seed that nobody can know beforehand."""
+    """Return an unpredictable seed."""
     return secrets.randbits(32)
 
 
 def seed_of_what_was_handed_in(works: Sequence[Work]) -> int:
-    """Return a seed made of all submissions: machines that share nothing else agree on it, and no student knows it."""
+    """Return a hash of all submissions as seed: the same on machines with the same folder, and unknown to students."""
     digest = hashlib.sha256()
     for work in sorted(works, key=lambda work: (work.student, work.exercise)):
         digest.update(f"{work.student}\0{work.exercise}\0".encode())

@@ -11,7 +11,7 @@ from ros_runtime.course_error import CourseError
 
 
 class OtherSeed(CourseError):
-    """The grades that are to stay were given with another seed; the message says what to do."""
+    """Grades that should be kept have another seed; the message says what to do."""
 
 
 class NothingSelected(CourseError):
@@ -19,7 +19,7 @@ class NothingSelected(CourseError):
 
 
 def select(works: Sequence[Work], students: Sequence[str], exercises: Sequence[str]) -> list[Work]:
-    """Return the works of these students for these exercises; none named: of all.
+    """Return the works of these students for these exercises; an empty sequence selects all.
 
     Raises:
         NothingSelected: a name has no submission, or none of the students handed in one of the exercises.
@@ -42,18 +42,18 @@ def select(works: Sequence[Work], students: Sequence[str], exercises: Sequence[s
 
 
 def require_seed(before: Sequence[Grade], seeds: Seeds) -> None:
-    """Require that grades that stay beside new ones were given with the same seeds; raises OtherSeed."""
+    """Require that grades which are kept beside new ones have the same seeds; raises OtherSeed."""
     if seeds.per_submission:
         return
     other = next((grade for grade in before if grade.seed not in (None, seeds.of(grade.student, {}))), None)
     if other:
         raise OtherSeed(
-            f"{other.student}'s {other.exercise} has a grade with seed {other.seed}, and this run gives it seed "
-            f"{seeds.of(other.student, {})}; give --seed and --seed-per-student as then, or grade the whole class"
+            f"{other.student}'s {other.exercise} has a grade with seed {other.seed}, but this run would use seed "
+            f"{seeds.of(other.student, {})}; repeat the earlier --seed and --seed-per-student, or grade the whole class"
         )
 
 
 def with_others(grades: Sequence[Grade], before: Sequence[Grade]) -> list[Grade]:
-    """Return the new grades and those from before of other submissions, in order of student and exercise."""
+    """Return the new grades and the earlier ones of other submissions, in order of student and exercise."""
     merged = {(grade.student, grade.exercise): grade for grade in [*before, *grades]}
     return [merged[key] for key in sorted(merged)]

@@ -1,4 +1,4 @@
-"""A class in parts: each is graded on a machine of its own, and a merge joins them without loss or doubles."""
+"""Splits a class into shards, each graded on its own machine, and merges them without gaps or duplicates."""
 
 from __future__ import annotations
 
@@ -41,9 +41,7 @@ class Shard:
         """Read "K/N"; raises ValueError unless 1 ≤ K ≤ N."""
         match = re.fullmatch(r"([1-9]\d{0,5})/([1-9]\d{0,5})", text)
         if not match or int(match[1]) > int(match[2]):
-            raise ValueError(
-                f"{text[:100]!r} is no part of a class; expected K/N with K from 1 to N, such as 1/4"
-            )
+            raise ValueError(f"{text[:100]!r} is not a shard; expected K/N with K from 1 to N, such as 1/4")
         return cls(int(match[1]), int(match[2]))
 
     def part(self, works: Sequence[Work]) -> list[Work]:
@@ -55,7 +53,7 @@ class Shard:
 def write_shard(
     folder: Path, shard: Shard, seeds: Seeds, works: Sequence[Work], results: Sequence[Graded]
 ) -> None:
-    """Write what a merge needs: the grades with what was handed in, and what the whole class handed in."""
+    """Write the input of a merge: the shard's grades and sources, and the list of the whole class's submissions."""
     exercises = sorted({work.exercise for work in works})
     record = {
         "shard": f"{shard.number}/{shard.of}",
@@ -77,7 +75,7 @@ def write_shard(
 
 
 def _text(value: Any) -> Any:
-    """Return a text as it is: it may quote half a character, which pydantic's own check refuses."""
+    """Accept any str; pydantic's own type refuses unpaired surrogates, which a message may quote."""
     if not isinstance(value, str):
         raise ValueError("expected a text")
     return value
@@ -165,7 +163,7 @@ def _grade_of(row: _Row, folder: Path) -> Grade:
         return Grade.from_json(row["grade"])
     except ValueError as error:
         raise CannotMerge(
-            f"{folder} holds a grade that cannot be ({str(error)[:500]}); grade this shard again"
+            f"{folder} contains an invalid grade ({str(error)[:500]}); grade this shard again"
         ) from error
 
 

@@ -1,9 +1,9 @@
-"""sources/: each graded program as the grader read it, laid out for tools that look for copies (JPlag, MOSS, Dolos).
+"""Writes sources/: each graded program, in the layout of plagiarism detectors (JPlag, MOSS, Dolos).
 
-    sources/<exercise>/<student>/<exercise>.py   what the student wrote, without the given cells of the notebook
-    sources/_base/<exercise>/<exercise>.py       what everyone was given in that place, to be disregarded
+    sources/<exercise>/<student>/<exercise>.py   the student's program, without the given cells of the notebook
+    sources/_base/<exercise>/<exercise>.py       the starter code of that program, which the tools should ignore
 
-A student may be called _base, so the given code lies beside the exercises and not among their students.
+The starter code is not in an exercise's folder, because a student could be called _base.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ SOURCES, BASE = "sources", "_base"
 
 
 def write_sources(out: Path, results: Iterable[Graded]) -> None:
-    """Write the programs of these results; of one that could not be read nothing stays."""
+    """Write the programs of these results; remove the earlier files of a submission that cannot be read."""
     for result in results:
         _replace(out / SOURCES / result.work.exercise / result.work.student, result.sources or {})
 
 
 def write_base_code(out: Path, exercises: Sequence[str], releases: Path) -> None:
-    """Write what students were given, from the notebooks in releases/<exercise>/, where there are such."""
+    """Write the starter code from the notebooks in releases/<exercise>/; exercises without one are skipped."""
     for exercise in sorted(set(exercises)):
         notebook = releases / exercise / f"{exercise}.ipynb"
         try:

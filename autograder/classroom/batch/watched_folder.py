@@ -1,7 +1,7 @@
-"""New and changed submissions in a folder that people hand in to, each as soon as it is wholly there.
+"""Watches a hand-in folder and yields new and changed submissions once they are complete.
 
-The folder is read again and again. Notifications of the kernel (inotify) would be quicker, but a network file system
-sends none for what another machine wrote, and a file that is still being copied has to be looked at twice anyway.
+The folder is polled. Kernel notifications (inotify) would be quicker, but a network file system sends none for files
+written by other machines, and a file that is still being copied has to be checked twice anyway.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from autograder.classroom.batch.collection import Collection, NoSubmissions, Wor
 from autograder.classroom.batch.folder_lock import FolderInUse
 
 Key = tuple[str, str]
-Stamp = tuple[tuple[str, int, int, int], ...]  # of each file: its name, inode, size and time of change
+Stamp = tuple[tuple[str, int, int, int], ...]  # name, inode, size and modification time of each file
 
 
 class WatchedFolder:
-    """Tells at each look which submissions are to be graded now: those that changed, and are as at the last look."""
+    """Finds the submissions to grade: those that have changed, and are unchanged since the previous poll."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -29,19 +29,19 @@ class WatchedFolder:
         self._taken: dict[Key, Stamp] = {}
         self._in_work: set[Key] = set()
         self.collection = Collection([], [], [])
-        self.seconds = 0.0  # that the last look took
+        self.seconds = 0.0  # duration of the last poll
 
     def look(self) -> Iterator[Work]:
-        """Yield what is to be graded; each counts as in work until `is_graded`.
+        """Poll the folder and yield the submissions to grade; each counts as in work until `is_graded`.
 
-        What changes while it is graded comes again after that.
+        A submission that changes while it is graded is yielded again afterwards.
         """
         began = time.monotonic()
         try:
             self.collection = collect(self._folder)
         except NoSubmissions:
             self.collection = Collection([], [], [])
-        except OSError:  # something went away between two steps: the next look will see
+        except OSError:  # a file vanished while it was read: try again at the next poll
             return
         before, self._seen = self._seen, {_key(work): _stamp(work) for work in self.collection.works}
         self.seconds = time.monotonic() - began
@@ -49,18 +49,18 @@ class WatchedFolder:
             key = _key(work)
             if key in self._in_work or before.get(key) != self._seen[key] or self._is_empty(work):
                 continue
-            now = _stamp(work)  # what comes first in a look is graded for a while before this is reached
+            now = _stamp(work)  # grading of the earlier ones may have taken a while, so check again
             if now == self._seen[key] != self._taken.get(key):
                 self._taken[key] = now
                 self._in_work.add(key)
                 yield work
 
     def is_graded(self, work: Work) -> None:
-        """Say that there is a grade, so that what was handed in meanwhile may come."""
+        """Mark a submission as graded, so that a newer version of it can be yielded."""
         self._in_work.discard(_key(work))
 
     def _is_empty(self, work: Work) -> bool:
-        """Whether there is a folder for the exercise and nothing in it yet."""
+        """Whether the exercise's folder is still empty or has vanished."""
         if work.candidates:
             return False
         try:
@@ -70,14 +70,14 @@ class WatchedFolder:
 
     @property
     def unfinished(self) -> int:
-        """How many submissions have no grade yet in the state in which they are."""
+        """Number of submissions whose present version has no grade yet."""
         changed = {key for key, stamp in self._seen.items() if stamp and stamp != self._taken.get(key)}
         return len(changed | self._in_work)
 
 
 @contextmanager
 def only_watcher(folder: Path) -> Iterator[None]:
-    """Hold the folder as its only watcher, without writing into it.
+    """Lock the folder as its only watcher; nothing is written into it.
 
     Raises:
         FolderInUse: another process watches it.
@@ -102,7 +102,7 @@ def _key(work: Work) -> Key:
 
 
 def _stamp(work: Work) -> Stamp:
-    """What tells one state of the files from another; a file that is not there has no part in it."""
+    """Return a fingerprint of the files' state; missing files are left out."""
     stamps = []
     for path in work.files():
         try:

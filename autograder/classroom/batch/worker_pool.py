@@ -1,6 +1,6 @@
-"""Jobs in the hands of an executor: threads here, or workers elsewhere.
+"""Runs jobs on an executor: threads of this process, or workers of a cluster.
 
-Work that gets lost, and what no arena could grade, is done once more at the end, alone.
+Jobs whose worker was lost, and jobs that no arena could grade, are repeated once at the end, one at a time.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ class Workers:
     """Where jobs are carried out.
 
     Attributes:
-        open: makes an executor, and a new one when that broke.
-        at_a_time: how many jobs the executor is given before one of them is done.
-        share_memory: they are threads of this process, and see what happens in it.
+        open: creates an executor; called again if that breaks.
+        at_a_time: number of jobs to submit before one of them is done.
+        share_memory: whether the workers are threads of this process.
     """
 
     open: Callable[[], Executor]
@@ -37,16 +37,16 @@ def threads(number: int) -> Workers:
 
 
 class WorkerPool:
-    """Gives jobs to workers and takes the outcomes, each job's once.
+    """Submits jobs to workers and collects one outcome per job.
 
-    A job whose worker was killed, or whose executor broke, is done again alone when no other is left: one that kills
-    its worker takes no other with it twice. So is one that arenas ran for and that is "not graded": the machine was
-    too busy, and alone it has more of it. What comes of the second time counts.
+    A job is repeated alone, after all others, if its worker was killed, its executor broke, or arenas ran for it and it
+    is "not graded": alone, a job that kills its worker harms no other, and a busy machine has more time for it. The
+    second outcome is final.
 
     Args:
-        workers: carry out the jobs.
-        work: what they do with each.
-        retry_later: gets each job that is to be done again, and what came of it the first time.
+        workers: where the jobs run.
+        work: the function that grades a job.
+        retry_later: gets each job that will be repeated, with its first outcome.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class WorkerPool:
 
     @property
     def has_room(self) -> bool:
-        """Whether it takes another job at once."""
+        """Whether another job can be submitted now."""
         return len(self._running) < self._workers.at_a_time
 
     @property
@@ -74,12 +74,12 @@ class WorkerPool:
         return bool(self._running or self._once_more)
 
     def give(self, job: GradingJob) -> None:
-        """Hand over a job."""
+        """Submit a job."""
         if self._executor is None:
             self._executor = self._workers.open()
         try:
             future = self._executor.submit(self._work, job)
-        except RuntimeError:  # the executor broke meanwhile, and this job had no part in that
+        except RuntimeError:  # the executor broke before this job
             self._close_executor()
             self._executor = self._workers.open()
             future = self._executor.submit(self._work, job)
@@ -89,7 +89,7 @@ class WorkerPool:
         """Wait until something happens to a job, or for `patience` s; return those that are done."""
         if not self._running:
             self._alone = replace(self._once_more.popleft(), arenas=1)
-            self._close_executor()  # it may be breaking still, and would take this job with it
+            self._close_executor()  # the old executor may still be breaking and would fail this job, too
             self.give(self._alone)
         done = wait(self._running, timeout=patience, return_when=FIRST_COMPLETED).done
         outcomes = []
@@ -107,7 +107,7 @@ class WorkerPool:
         return outcomes
 
     def close(self) -> None:
-        """Take back what has not begun; wait for threads of this process, but for no other machine."""
+        """Cancel jobs that have not begun; wait for threads of this process, but not for other machines."""
         for future in self._running:
             future.cancel()
         self._close_executor()

@@ -1,4 +1,4 @@
-"""A chapter executed from top to bottom, as a student would who predicts, answers and fills every gap."""
+"""Executes a chapter from top to bottom, with every prediction and question answered and every gap filled."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Executed:
 def execute(
     chapter: Path, folder: Path, *, on_cell: Callable[[int, int], object] = lambda cell, of: None
 ) -> Executed:
-    """Run all cells of a chapter in a folder; `on_cell` is told each cell's number and how many there are.
+    """Run all cells of a chapter in a folder; `on_cell` gets each cell's number and the number of cells.
 
     Raises:
         ChapterFailed: it names the chapter and the cell.
@@ -74,7 +74,7 @@ def execute(
         kernel_name="python3",
         resources={"metadata": {"path": str(folder)}},
         on_cell_start=begin,
-        extra_arguments=["--log-level=ERROR"],  # the kernel's own log, which else goes to the terminal
+        extra_arguments=["--log-level=ERROR"],  # the kernel's log would otherwise go to the terminal
     )
     try:
         _execute(client)

@@ -1,4 +1,4 @@
-"""Chapters that were executed before: a second build is quick, and one that was interrupted goes on."""
+"""A cache of executed chapters, so that a second build is quick and an interrupted one can continue."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from pathlib import Path
 
 import nbformat
 
-# What a chapter's outputs come from, besides its own text.
+# Folders that a chapter's outputs depend on, besides its own text.
 ROOMS = ("humanoid_interfaces", "lab", "robot_sim", "ros_cli", "ros_runtime")
 SOURCES = {".py", ".xml", ".msg", ".srv", ".action"}
 
 
 class KeptRuns:
-    """Executed notebooks in a folder, under a hash of the chapter and of the rooms that it runs."""
+    """Executed notebooks in a folder, named by a hash of the chapter and of the code that it runs."""
 
     def __init__(self, folder: Path, project: Path) -> None:
         self._folder = folder
         self._project = project
 
     def of(self, chapter: Path) -> nbformat.NotebookNode | None:
-        """Return the chapter's run, or None when there is none of its present content."""
+        """Return the stored run of the chapter's present content, or None."""
         kept = self._file(chapter)
         return nbformat.read(kept, as_version=4) if kept.exists() else None
 
     def keep(self, chapter: Path, executed: nbformat.NotebookNode) -> None:
-        """Keep a run in place of the chapter's earlier ones; killed at any moment, it leaves no half file."""
+        """Store a run and remove the chapter's earlier ones; the file is written atomically."""
         self._folder.mkdir(parents=True, exist_ok=True)
         kept = self._file(chapter)
         for earlier in self._folder.glob(f"{chapter.stem}-*.ipynb"):

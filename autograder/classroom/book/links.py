@@ -1,4 +1,4 @@
-"""Links of a page, made to fit the book: to a cell of a chapter, to another page, or none where the book has none."""
+"""Rewrites a page's links for the book: to a cell of a chapter or to a page; other local links become plain text."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ _LINK = re.compile(r"(?<!!)\[(?P<words>(?:[^\[\]]|\[[^\[\]]*\])+)\]\((?P<target>
 
 
 class Links:
-    """The links of one page, whose path and whose fellows are relative to the project."""
+    """The links of one page; its path and the paths of all pages are relative to the project."""
 
     def __init__(self, page: PurePosixPath, pages: Collection[PurePosixPath]) -> None:
         self._page = page
         self._pages = pages
 
     def rewritten(self, text: str) -> str:
-        """Return Markdown with its links made to fit, except in fenced code."""
+        """Return Markdown with rewritten links; fenced code stays unchanged."""
         parts = _FENCED.split(text)
         parts[::2] = [_LINK.sub(self._fitting, part) for part in parts[::2]]
         return "".join(parts)

@@ -1,4 +1,4 @@
-"""A notebook as a reader of the book sees it: without its buttons, and with the outputs of a run."""
+"""Makes the book's copy of a notebook: with the outputs of a run, and without buttons."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ HIDDEN_INPUT = "remove-input"  # a tag that myst-nb knows
 
 
 def reader_copy(notebook: NotebookNode, run: NotebookNode | None, links: Links) -> NotebookNode:
-    """Return a copy for the book; `run` is the same notebook executed, with cells of its own perhaps, or None.
+    """Return a copy for the book; `run` is the executed notebook, which may have additional cells, or None.
 
     Each cell can be linked to by its id.
     """
@@ -48,7 +48,7 @@ def _shown(
     *,
     anchored: bool,
 ) -> Iterator[NotebookNode]:
-    """The cells that stand for one in the book. A page begins with its heading, so the first has no anchor."""
+    """The cells that replace one cell in the book. A page begins with its heading, so the first has no anchor."""
     anchor = f'<span id="{cell.id}"></span>'
     if cell.cell_type != "code":
         text = links.rewritten(cell.source)

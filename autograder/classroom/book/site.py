@@ -79,7 +79,7 @@ def make_site(
 ) -> Path:
     """Make the site in `output`, with the chapters' `runs` by name, and return its first page.
 
-    `work` is a folder for what Sphinx reads and remembers.
+    `work` is a folder for Sphinx's sources and cache.
 
     Raises BookFailed, with what Sphinx says.
     """

@@ -1,4 +1,4 @@
-"""Predictions and quiz questions on paper: the question, its choices, and a folded reply to each."""
+"""Predictions and quiz questions as static HTML: the question, its choices, and a folded reply to each."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a widget showed last, as HTML that needs no kernel."""
+"""The last state of a widget as static HTML."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def models_of(notebook: Mapping[str, Any]) -> Models:
 
 
 def still(model_id: str, models: Models) -> str:
-    """Return the HTML of a widget and of those in it; a sentence stands for one that says nothing on paper."""
+    """Return the HTML of a widget and its children; a sentence replaces widgets without a static form."""
     model = models.get(model_id, {})
     state = model.get("state", {})
     kind = model.get("model_name", "").removesuffix("Model")

@@ -15,7 +15,7 @@ LOG = "nbgrader.log"
 
 
 class GradebookWriter:
-    """The gradebook of an output folder; it is opened at the first entry."""
+    """The gradebook of an output folder; opened at the first entry."""
 
     def __init__(self, out: Path) -> None:
         self._out = out
@@ -24,7 +24,7 @@ class GradebookWriter:
         self._logs: dict[tuple[str, str], str] = {}
 
     def enter(self, result: Graded) -> Grade:
-        """Enter a grade and return it with what a person has given there."""
+        """Enter a grade; return it with the points that a person gave in the gradebook."""
         key = (result.work.student, result.work.exercise)
         self._problems.pop(key, None)
         self._logs.pop(key, None)
@@ -40,9 +40,9 @@ class GradebookWriter:
             return result.grade
 
     def problems(self) -> list[str]:
-        """Return a sentence for each entry that failed; what nbgrader said goes into a file."""
+        """Return a sentence on each failed entry; nbgrader's output goes into a file."""
         found = list(self._problems.values())
         if self._logs:
             (self._out / LOG).write_text("\n\n".join(self._logs.values()))
-            found.append(f"what nbgrader said about it is in {self._out / LOG}")
+            found.append(f"nbgrader's output is in {self._out / LOG}")
         return found

@@ -37,7 +37,7 @@ def grade_once(console: Console, request: BatchRequest) -> int:
     with prepared(console, request, collection.works) as setting:
         record = replace(setting.record, left_aside=collection.ignored, refused=collection.refused)
         results = _grade(setting, request.shard.part(works) if request.shard else works, record)
-        rows = record.rows if request.keeps_others else ()  # those of removed submissions do not stay
+        rows = record.rows if request.keeps_others else ()  # drops the rows of removed submissions
         record = replace(record, rows=rows, left_aside=left_aside(collection, results))
         record = record.with_results(results).closed("ended")
         if request.shard:
@@ -62,7 +62,7 @@ def _grade(setting: Setting, works: Sequence[Work], record: BatchRecord) -> list
     with BatchProgress(setting.console, elsewhere=elsewhere) as progress:
         runner = setting.runner(progress)
         progress.expect(sum(runner.count(work.exercise) for work in works), len(works))
-        write_batch(out, record)  # with the seed, so that a batch that is killed goes on with it
+        write_batch(out, record)  # stores the seed, so that a killed batch can be resumed with it
         try:
             with closing(runner.run(works)) as graded:
                 for result in graded:
@@ -90,7 +90,7 @@ def _write_class(
     write_grades(out / GRADES, with_others([result.grade for result in results], setting.before))
     unentered, entered = enter_all(setting.console, results, out)
     grades = with_others(entered, setting.before)
-    write_grades(out / GRADES, grades)  # again, with the points that a person has given for essays
+    write_grades(out / GRADES, grades)  # written again, with the points that a person gave for essays
     if request.json_file:
         write_grades(request.json_file, grades)
     record = record.with_points(grades)
@@ -103,12 +103,12 @@ def _write_class(
 
 
 def left_aside(collection: Collection, results: Sequence[Graded]) -> list[str]:
-    """Return a sentence for each thing that was handed in and does not count."""
+    """Return a sentence on each file or folder that was handed in and is not graded."""
     return [*collection.ignored, *(line for result in results for line in result.work.left_aside)]
 
 
 def tell_what_is_left(console: Console, collection: Collection, results: Sequence[Graded]) -> int:
-    """Name what has no grade; return how many submissions the grader failed to judge."""
+    """Print what has no grade; return the number of submissions that the grader failed to judge."""
     for line in left_aside(collection, results):
         console.print(f"left aside: {line}", style="yellow", markup=False)
     for line in collection.refused:

@@ -1,4 +1,4 @@
-"""What the commands that grade a class share: the gradebook, and what they print at the end."""
+"""Functions for the commands that grade a class: fill the gradebook, and print the summary."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from autograder.report.class_table import class_table
 def enter_all(console: Console, results: Sequence[Graded], out: Path) -> tuple[list[str], list[Grade]]:
     """Enter the grades into nbgrader's gradebook one by one.
 
-    Returns a sentence for each that failed, and the grades with what a person has given there.
+    Returns a sentence on each failed entry, and the grades with the points that a person gave in the gradebook.
     """
     writer = GradebookWriter(out)
     grades: list[Grade] = []
@@ -31,14 +31,14 @@ def enter_all(console: Console, results: Sequence[Graded], out: Path) -> tuple[l
 
 
 def sources_of(results: Sequence[Graded]) -> dict[tuple[str, str], Mapping[str, str] | None]:
-    """Return the programs of what was graded now, by student and exercise; None: it could not be read."""
+    """Return the programs of these results, by student and exercise; None if a submission could not be read."""
     return {(result.work.student, result.work.exercise): result.sources for result in results}
 
 
 def tell_the_end(
     console: Console, grades: Sequence[Grade], unentered: Sequence[str], out: Path, page: Path
 ) -> None:
-    """Print the table of the class, what is not in the gradebook, and where everything lies."""
+    """Print the table of the class, the failed gradebook entries, and the paths of the results."""
     console.print(class_table(grades))
     for line in unentered:
         console.print(f"not in the gradebook: {line}", style="red", markup=False)
@@ -58,7 +58,7 @@ def tell_the_end(
 
 
 def tell_of_recordings(console: Console, out: Path, results: Sequence[Graded]) -> None:
-    """Say where the recordings are, and of which grades there are none."""
+    """Print where the recordings are, and how many grades have none."""
     console.print(
         f"recordings: {out / RECORDINGS}/<student>/<exercise>/<scenario>.mcap, hidden checks included; look at one: "
         "./course replay FILE",

@@ -1,4 +1,4 @@
-"""What a batch shows while it runs: what is done, how long the rest will take, and what runs now."""
+"""The progress display of a batch: what is done, the time left, and what is running."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ from autograder.classroom.batch.runner import Graded
 from autograder.engine.verdict import CheckVerdict
 from autograder.report.class_table import progress_line
 
-MOST_SHOWN = 8  # of what runs
-PERIOD = 30.0  # s between two lines on the progress where there is no terminal
+MOST_SHOWN = 8  # running submissions that are listed
+PERIOD = 30.0  # s between two progress lines without a terminal
 BAR = 20  # characters
 
 
 class BatchProgress:
-    """Lines at the end of a terminal that are drawn again and again; elsewhere a line now and then.
+    """Lines at the bottom of a terminal that are redrawn; without a terminal, a line every half minute.
 
     Args:
-        console: where to.
-        elsewhere: how many workers on other machines grade; what runs there is not known here.
-        clock: s.
+        console: the output.
+        elsewhere: number of workers on other machines; their running jobs are not shown.
+        clock: returns the time, s.
     """
 
     def __init__(
@@ -68,7 +68,7 @@ class BatchProgress:
             self._live.stop()
 
     def expect(self, checks: int, submissions: int) -> None:
-        """Say how many verdicts there will be, on how many submissions."""
+        """Set the expected number of verdicts and of submissions."""
         self._pace.expect(checks)
         self._submissions = submissions
 
@@ -79,7 +79,7 @@ class BatchProgress:
         self._say_now_and_then()
 
     def running(self, jobs: Sequence[GradingJob]) -> None:
-        """Take what runs now; on any thread."""
+        """Show these running jobs; on any thread."""
         with self._lock:
             now = self._clock()
             self._began = {
@@ -88,8 +88,8 @@ class BatchProgress:
         self._say_now_and_then()
 
     def retry_later(self, job: GradingJob, outcome: Outcome) -> None:
-        """Say that a job could not be graded, and is done again at the end."""
-        if not self._elsewhere:  # its verdicts were counted, and come again
+        """Print that a job could not be graded and will be repeated at the end."""
+        if not self._elsewhere:  # its verdicts were counted and will be counted again
             self._pace.expect(len(outcome.grade.checks))
         self._console.print(
             f"{job.student} · {job.exercise}  not graded yet, once more at the end, alone: "

@@ -1,4 +1,4 @@
-"""What a batch works with: its output folder, which it holds, its isolation and workers, its seeds and its record."""
+"""The prepared state of a batch: its locked output folder, isolation, workers, seeds and record."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ class Setting:
     """A prepared batch.
 
     Attributes:
-        before: the grades in the output folder that stay where nothing is graded anew.
-        record: of the batch, as it begins.
+        before: grades in the output folder, kept for submissions that are not graded again.
+        record: the batch's record at its beginning.
     """
 
     console: Console
@@ -49,7 +49,7 @@ class Setting:
     record: BatchRecord
 
     def runner(self, progress: BatchProgress) -> BatchRunner:
-        """Return what grades, and tells `progress` about it."""
+        """Return the runner of this batch; it reports to `progress`."""
         return BatchRunner(
             GradeCache(self.request.out / "cache", self.isolation),
             self.isolation,
@@ -74,7 +74,9 @@ def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> 
         OtherSeed: grades that are to stay were given with another seed.
         UnusableRecord: those grades cannot be read.
     """
-    if not request.dask and available_isolation().trusted:  # otherwise they could read it anywhere
+    if (
+        not request.dask and available_isolation().trusted
+    ):  # without isolation a submission can read every file anyway
         require_hidden([exercises_folder(), request.submitted, request.out])
     with (
         locked(request.out),

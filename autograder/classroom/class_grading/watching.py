@@ -1,4 +1,4 @@
-"""Grades submissions as they come into a folder, until Ctrl-C; everything is up to date after each of them."""
+"""Grades submissions as they arrive in a folder, until Ctrl-C; the results are updated after each one."""
 
 from __future__ import annotations
 
@@ -27,12 +27,14 @@ from autograder.classroom.pages.pages import write_class_page, write_student_pag
 from course_cli.ending import batch_status
 
 BETWEEN_LOOKS = 1.0  # s at least
-SHARE_OF_TIME = 0.1  # that looking may take at most, and as much for files on the whole class
+SHARE_OF_TIME = (
+    0.1  # highest share of time for polling the folder, and again for writing the files on the whole class
+)
 _STEP = 0.2  # s
 
 
 def watch_and_grade(console: Console, request: BatchRequest) -> int:
-    """Grade until somebody presses Ctrl-C; return the exit status: 0 if all that was seen has a grade in the gradebook.
+    """Grade until Ctrl-C; return the exit status: 0 if every submission found has a grade in the gradebook.
 
     Raises:
         NoSubmissions: there is no such folder; an empty one is fine.
@@ -47,7 +49,7 @@ def watch_and_grade(console: Console, request: BatchRequest) -> int:
 
 
 class _Watch:
-    """A folder that is watched, and all that is known of it so far."""
+    """A watched folder with the grades, record and results so far."""
 
     def __init__(self, setting: Setting) -> None:
         self._setting = setting
@@ -56,14 +58,14 @@ class _Watch:
         self._grades = list(setting.before)
         self._record = setting.record
         self._results: dict[tuple[str, str], Graded] = {}
-        self._is_written = True  # what is on the whole class
+        self._is_written = True  # whether the files on the whole class are up to date
         self._next_writing = 0.0  # s, monotonic
 
     def run(self) -> int:
         setting, request = self._setting, self._setting.request
         write_batch(request.out, self._record)
         setting.console.print(
-            f"watching {request.submitted}; Ctrl-C ends this, and the same command goes on", markup=False
+            f"watching {request.submitted}; Ctrl-C ends this, and the same command continues", markup=False
         )
         elsewhere = setting.cluster.size if setting.cluster else 0
         with BatchProgress(setting.console, elsewhere=elsewhere) as progress:
@@ -84,7 +86,7 @@ class _Watch:
         return self._tell_the_end()
 
     def _works(self) -> Iterator[Work | None]:
-        """Yield what came in; None while nothing does."""
+        """Yield new submissions; None while there are none."""
         while True:
             for work in self._folder.look():
                 if self._setting.request.selects(work.student, work.exercise):
@@ -98,7 +100,7 @@ class _Watch:
                 time.sleep(_STEP)
 
     def _keep(self, result: Graded) -> None:
-        """Enter a result into the gradebook, write its pages and its program; the class follows when it is due."""
+        """Enter a result into the gradebook, write its pages and program, and the class's files when they are due."""
         out = self._setting.request.out
         grade = self._writer.enter(result)
         self._grades = with_others([grade], self._grades)
@@ -114,7 +116,7 @@ class _Watch:
         self._write_class_when_due()
 
     def _write_class_when_due(self) -> None:
-        """Write the files on the whole class at once, unless that would take most of the time in a large class."""
+        """Write the files on the whole class, at most as often as SHARE_OF_TIME allows: a large class takes longer."""
         began = time.monotonic()
         if self._is_written or began < self._next_writing:
             return
@@ -141,6 +143,6 @@ class _Watch:
         waiting = self._folder.unfinished
         console.print(
             f"{len(self._results)} graded"
-            + (f", {waiting} not yet: the same command goes on with them" if waiting else ""),
+            + (f", {waiting} not graded yet: the same command continues with them" if waiting else ""),
         )
         return batch_status(not_graded=not_graded, complete=not (problems or waiting))

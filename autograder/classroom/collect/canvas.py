@@ -33,7 +33,7 @@ def read(download: Download, assignment: Assignment) -> Reading:
     for file, parts in without_wrapper(download, _NAME):
         match = _NAME.fullmatch(parts[0])
         if not match or len(parts) > 1:
-            reading.unknown.append(f"{file.path} is not called as Canvas calls a submission")
+            reading.unknown.append(f"{file.path} does not have the name of a Canvas submission")
             continue
         try:
             student = student_name(match["anonymous"] or match["name"], match["user"] or "")

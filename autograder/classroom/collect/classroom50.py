@@ -43,14 +43,14 @@ def read(download: Download, assignment: Assignment) -> Reading:
         reading.files.append(HandedIn(student, parts[-1], file, exercise=exercise))
     known = ", ".join(sorted(exercises))
     reading.unknown = [
-        f"{name} is not called <classroom>-<assignment>-<user> with one of {known}"
+        f"{name} is not named <classroom>-<assignment>-<user> with an assignment of {known}"
         for name in sorted(strangers)
     ]
     return reading
 
 
 def _by_slug(assignment: Assignment) -> dict[str, str]:
-    """The exercise by what stands in a folder's name."""
+    """The exercises by the assignment's name in a folder's name."""
     if assignment.slug:
         return {assignment.slug.lower(): assignment.exercise}
     names = [assignment.exercise] if assignment.exercise else all_names()

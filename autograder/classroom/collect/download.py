@@ -1,7 +1,7 @@
-"""A download as a list of files, from a zip or a folder: nothing is unpacked, and everything is read with bounds.
+"""A download as a list of files, from a zip or a folder: nothing is unpacked, and all reading is limited.
 
-What is in it was made by students. Names in a zip are never used as paths; links, devices and names that lead
-elsewhere are refused, and no more of a file is read than a submission can have, whatever the zip says of its size.
+Its content comes from students and is not trusted. Names in a zip are never used as paths; links, devices and paths
+that leave the download are refused; no file is read beyond the size limit of a submission, whatever the zip declares.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from autograder.engine.submission import CLEAR_OUTPUTS, MAX_NOTEBOOK_BYTES, Unus
 from ros_runtime.course_error import CourseError
 
 MOST_FILES = 200_000
-MOST_BYTES = 4 * 2**30  # read of one download
+MOST_BYTES = 4 * 2**30  # bytes read from one download, in total
 _HIDDEN = re.compile(r"\.[^.].*")  # of git, Jupyter, editors and virtual environments, and what macOS adds
 
 
@@ -36,7 +36,7 @@ class Refused(UnusableSubmission):
 
 @dataclass(frozen=True)
 class File:
-    """One file of a download: where it lies there, how it is opened, and when it was changed (s)."""
+    """One file of a download: its path in it, a function that opens it, and its modification time (s)."""
 
     path: PurePosixPath
     open: Callable[[], BinaryIO]
@@ -61,11 +61,11 @@ class File:
             zipfile.BadZipFile,
         ) as error:
             raise Refused(f"{self.path} cannot be read: {error}") from error
-        except Exception as error:  # each way of compression has errors of its own
+        except Exception as error:  # each compression method raises its own errors
             raise Refused(f"{self.path} cannot be unpacked: {error}") from error
         if len(content) > limit:
             advice = f": {CLEAR_OUTPUTS}" if limit == MAX_NOTEBOOK_BYTES else ""
-            raise Refused(f"{self.path} has more than {limit:,} bytes, and no submission has as many{advice}")
+            raise Refused(f"{self.path} has more than {limit:,} bytes, the limit of a submission{advice}")
         self.budget.spend(len(content))
         return content
 
@@ -77,7 +77,7 @@ class Budget:
     left: int = MOST_BYTES
 
     def spend(self, count: int) -> None:
-        """Take so many bytes off; raises `UnusableDownload` when there are not as many."""
+        """Subtract `count` bytes; raises `UnusableDownload` when the budget is exceeded."""
         self.left -= count
         if self.left < 0:
             raise UnusableDownload(
@@ -139,14 +139,14 @@ def _from_zip(archive: zipfile.ZipFile, budget: Budget) -> Iterator[File | str]:
         elif entry.flag_bits & 1:
             yield f"{entry.filename!r} is encrypted"
         elif path in seen:
-            yield f"{entry.filename!r} is there twice"
+            yield f"{entry.filename!r} occurs twice"
         else:
             seen.add(path)
             yield File(path, _opener(archive, entry), budget, _time_of(entry))
 
 
 def _place(name: str) -> PurePosixPath:
-    """Where a file lies: some programs for Windows write backslashes between folders, against the format."""
+    """The path of a zip entry; some Windows programs write backslashes as separators, against the format."""
     return PurePosixPath(name.replace("\\", "/"))
 
 

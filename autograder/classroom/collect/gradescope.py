@@ -25,7 +25,7 @@ from autograder.classroom.collect.handed_in import (
 
 EXPECTED = "submission_metadata.yml, and folders such as submission_12345 beside it"
 METADATA = "submission_metadata.yml"
-MOST_BYTES = 100_000_000  # of the metadata, which repeats every test of every submission
+MOST_BYTES = 100_000_000  # bytes of the metadata, which repeats every test of every submission
 _FOLDER = re.compile(r"submission_(?P<number>\d{1,18})")
 
 
@@ -54,7 +54,7 @@ def read(download: Download, assignment: Assignment) -> Reading:
             continue
         submitters = about.get(":submitters") or []
         if not submitters:
-            reading.refused.append(f"{file.path}: {METADATA} does not say whose it is")
+            reading.refused.append(f"{file.path}: {METADATA} does not name its student")
         for submitter in submitters:
             try:
                 reading.files.append(

@@ -1,4 +1,4 @@
-"""What a student handed in, as every platform's reader says it."""
+"""The common output of the platforms' readers: students' files."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class HandedIn:
         student: the name of their folder.
         name: the file's, as the student called it.
         file: where its content is.
-        turn: of two files for the same exercise the one with the higher turn counts.
+        turn: order of hand-ins; of two files for the same exercise the one with the higher turn is used.
         exercise: if the platform names it.
         late: if the platform says so.
         timestamp: when it was handed in, as nbgrader writes it; "" if the platform does not say.
@@ -38,7 +38,7 @@ class HandedIn:
 
 @dataclass
 class Reading:
-    """What a platform's reader found, and a sentence for each file that is not one of its own or not read."""
+    """The files that a platform's reader found, and a sentence on each file that is unknown or not read."""
 
     files: list[HandedIn] = field(default_factory=list)
     unknown: list[str] = field(default_factory=list)
@@ -47,14 +47,14 @@ class Reading:
 
 @dataclass(frozen=True)
 class Assignment:
-    """What the instructor says of a download: its exercise, and what the platform calls that, if they do."""
+    """The instructor's options for a download: its exercise, and the platform's name for that; "" if not given."""
 
     exercise: str = ""
     slug: str = ""
 
 
 def student_name(*words: str) -> str:
-    """Return a name for a student's folder: the words, if not empty, joined by "-", without what it cannot have.
+    """Return a name for a student's folder: the non-empty words joined by "-", without invalid characters.
 
     Raises:
         Refused: nothing usable is left.
@@ -67,9 +67,9 @@ def student_name(*words: str) -> str:
 
 
 def without_wrapper(download: Download, student: re.Pattern[str]) -> Iterator[tuple[File, tuple[str, ...]]]:
-    """Yield each file with the parts of its path; a folder around everything, which unpacking makes, is left out.
+    """Yield each file with the parts of its path, without a top folder around everything, which unpacking creates.
 
-    So only the platform's own folder, and none that a student has made below it, says whose a file is.
+    So a file's student is read from the platform's own folder, never from a folder that a student made below it.
     """
     tops = {file.path.parts[0] for file in download.files}
     wrapped = len(tops) == 1 and not student.fullmatch(min(tops)) and len(download.files[0].path.parts) > 1

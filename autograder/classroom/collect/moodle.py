@@ -31,10 +31,10 @@ def read(download: Download, assignment: Assignment) -> Reading:
         match = _NAME.fullmatch(parts[0])
         name = match and (match["file"] if len(parts) == 1 else parts[-1])
         if not match or not name:
-            reading.unknown.append(f"{file.path} is not called as Moodle calls a submitted file")
+            reading.unknown.append(f"{file.path} does not have the name of a Moodle submission")
             continue
         if parts[0].count(_MARK) > 1:
-            reading.refused.append(f"{file.path} names two students: who handed it in cannot be told")
+            reading.refused.append(f"{file.path} names two students, so its author is unclear")
             continue
         try:
             reading.files.append(HandedIn(student_name(match["name"], match["user"] or ""), name, file))

@@ -1,4 +1,4 @@
-"""Puts what was chosen into submitted/<student>/<exercise>/, and overwrites nothing unless it is asked to."""
+"""Writes the chosen files to submitted/<student>/<exercise>/; overwrites other work only on request."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TIMESTAMP = "timestamp.txt"
 
 @dataclass
 class Placed:
-    """The submissions that are in place now, by student and exercise, and a sentence for each that is not."""
+    """The submissions written or already there, by student and exercise, and a sentence on each one not written."""
 
     written: list[tuple[str, str]] = field(default_factory=list)
     unchanged: list[tuple[str, str]] = field(default_factory=list)
@@ -25,7 +25,7 @@ class Placed:
 
 
 def place(choice: Choice, out: Path, *, overwrite: bool) -> Placed:
-    """Write every submission as a whole: all of its files, or none where one cannot be read."""
+    """Write each submission completely, or not at all if one of its files cannot be read."""
     placed = Placed()
     for (student, exercise), work in sorted(choice.works.items()):
         folder = out / student / exercise
@@ -51,7 +51,7 @@ def place(choice: Choice, out: Path, *, overwrite: bool) -> Placed:
 
 
 def _there(folder: Path, exercise: str) -> dict[str, bytes | None]:
-    """What a grader would read in the folder now; None for what is no ordinary file."""
+    """The files that a grader would read in the folder now; None for one that is not a regular file."""
     places = [folder / name for name in (f"{exercise}.ipynb", *file_names(exercise))]
     return {
         path.name: path.read_bytes() if path.is_file() and not path.is_symlink() else None

@@ -58,7 +58,7 @@ def audit(
         typer.Option(
             "--generated",
             help="make one mistake each in correct submissions, and grade them: all must lose points. The first "
-            "failure ends a grading. At the end it says what the survivors change, and what to do with them",
+            "failure ends a grading. At the end it prints the diffs of the survivors, and what to do about them",
         ),
     ] = False,
     mutants: Annotated[
@@ -75,7 +75,7 @@ def audit(
     resume: Annotated[
         bool,
         typer.Option(
-            "--resume", help="go on with the file of --json: keep its gradings of what has not changed since"
+            "--resume", help="continue with the file of --json: reuse its gradings of unchanged submissions"
         ),
     ] = False,
     show: Annotated[
@@ -98,7 +98,7 @@ def audit(
     if mutants and not generated:
         raise ended(console, "--mutants says how many to make: add --generated", UNUSABLE)
     if resume and json_file is None:
-        raise ended(console, "--resume goes on with the file of --json: add --json FILE", UNUSABLE)
+        raise ended(console, "--resume continues with the file of --json: add --json FILE", UNUSABLE)
     try:
         if show and generated:
             _show_mutant(exercise, show)
@@ -130,7 +130,11 @@ def audit(
                 known = known_submissions(name, only=only)
                 audited[name] = _audit_all(console, known, name, record, jobs, repeat, seed, scale)
     except KeyboardInterrupt:
-        go_on = f"{json_file} has what is done: add --resume to go on." if json_file else "Nothing is kept."
+        go_on = (
+            f"{json_file} has the finished gradings: add --resume to continue."
+            if json_file
+            else "Nothing is kept."
+        )
         raise ended(console, f"Interrupted. {go_on}", COULD_NOT) from None
     every_run = [run for runs in audited.values() for run in runs]
     if not every_run:
@@ -150,7 +154,7 @@ def _audit_all(
     seed: int,
     scale: float | None,
 ) -> list[AuditedRun]:
-    """Grade what the record does not have yet, and print the kill matrix of all."""
+    """Grade the submissions that the record does not have, and print the kill matrix of all."""
     exercise = load_exercise(name, hidden=True)
 
     def earlier(known: KnownSubmission, repetition: int) -> AuditedRun | None:
@@ -173,7 +177,7 @@ def _audit_all(
 
 
 def _given(context: typer.Context, *options: str) -> str:
-    """Return those of these options that were written on the command line, such as "--jobs, --seed"."""
+    """Return which of these options were given on the command line, such as "--jobs, --seed"."""
     sources = {option: context.get_parameter_source(option) for option in options}
     return ", ".join(
         f"--{option.replace('_', '-')}"

@@ -51,7 +51,7 @@ def bench(
     ] = None,
     trial: Annotated[
         list[str] | None,
-        typer.Option(help="instead of all this, a trial of the robot in full (repeat it, or 'all')"),
+        typer.Option(help="run only this trial of the robot, with all its runs (can be repeated, or 'all')"),
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="with --trial: a few runs of each")] = False,
 ) -> None:

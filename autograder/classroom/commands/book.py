@@ -39,19 +39,21 @@ def book(
         first_page = make_site(output, WORK, _runs(console) if execute else {})
     except KeyboardInterrupt:
         raise ended(
-            console, "Interrupted. The chapters that have run are kept: type it again to go on.", COULD_NOT
+            console,
+            "Interrupted. Finished chapters are kept: type the same command again to continue.",
+            COULD_NOT,
         ) from None
     console.print(f"The book: {first_page}", markup=False, soft_wrap=True)
 
 
 def _runs(console: Console) -> dict[str, NotebookNode | None]:
-    """Every chapter executed, now or before."""
+    """The executed chapters, run now or taken from the cache."""
     kept = KeptRuns(WORK / "runs", PROJECT)
     chapters = sorted((PROJECT / "chapters").glob("*.ipynb"))
     for number, chapter in enumerate(chapters, start=1):
         title = f"{number}/{len(chapters)} {chapter.stem}"
         if kept.of(chapter):
-            console.print(f"{title}: as it ran before", markup=False)
+            console.print(f"{title}: unchanged, outputs of an earlier run", markup=False)
         else:
             seconds = _run(chapter, title, kept, console)
             console.print(f"{title}: ran in {seconds:.0f} s", markup=False)

@@ -28,13 +28,13 @@ def collect(
     exercise: Annotated[
         str,
         typer.Option(
-            help="the exercise of this download: a notebook or program of any name counts as its, and no other is taken"
+            help="the exercise of this download: take a notebook or program of any name for it, and no other exercise"
         ),
     ] = "",
     assignment: Annotated[
         str,
         typer.Option(
-            metavar="SLUG", help="what Classroom 50 calls the exercise, if not by its name; with --exercise"
+            metavar="SLUG", help="Classroom 50's name for the exercise, if it differs; needs --exercise"
         ),
     ] = "",
     overwrite: Annotated[
@@ -80,9 +80,7 @@ def _require_usable(exercise: str, assignment: str) -> None:
     if exercise and exercise not in all_names():
         raise UnknownExercise(f"there is no exercise {exercise!r}; there are {', '.join(all_names())}")
     if assignment and not exercise:
-        raise UnknownExercise(
-            "--assignment SLUG says what an exercise is called there: give --exercise NAME, too"
-        )
+        raise UnknownExercise("--assignment SLUG is the platform's name for an exercise: add --exercise NAME")
 
 
 def _tell(console: Console, reading: Reading, placed: Placed, out: Path) -> None:

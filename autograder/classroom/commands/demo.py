@@ -60,7 +60,7 @@ def demo(
     if out is None:
         out = PROJECT / "demo" if os.access(PROJECT, os.W_OK) else Path("demo")
     out.mkdir(parents=True, exist_ok=True)
-    # the present sys.stdout: below, it is replaced to hide what the lab prints
+    # keep the present sys.stdout, which is replaced below to hide the lab's output
     console = Console(file=sys.stdout, highlight=False)
     try:
         figures = _walk_and_cancel(console)
@@ -207,6 +207,6 @@ def _html(display: object) -> str:
 
 @contextlib.contextmanager
 def _quiet() -> Iterator[None]:
-    """Hide what the lab prints for readers of a notebook."""
+    """Hide the lab's output, which is meant for notebooks."""
     with contextlib.redirect_stdout(io.StringIO()):
         yield

@@ -21,7 +21,7 @@ Format = Enum("Format", {name: name for name in FORMATS}, type=str)  # type: ign
 
 
 class Hidden(str, Enum):
-    """What becomes of hidden checks."""
+    """How hidden checks are exported."""
 
     hide = "hide"
     show = "show"
@@ -59,7 +59,7 @@ def export(
         typer.Option(
             "--assignment",
             metavar="EXERCISE=ID",
-            help="what the platform calls an exercise: Canvas' number or Classroom 50's slug; repeat it",
+            help="the platform's id of an exercise: Canvas' number or Classroom 50's slug; repeat it",
         ),
     ] = None,
     classroom: Annotated[str, typer.Option(help="the classroom's name in Classroom 50")] = "",
@@ -73,7 +73,7 @@ def export(
         roster,
         _assignments(assignment or [], {grade.exercise for grade in grades}),
         classroom,
-        # In a job of Classroom 50, which grades one submission, they say which it is.
+        # In a job of Classroom 50 these variables identify the submission.
         {name: value for name, value in os.environ.items() if len(grades) == 1 or name == "CLASSROOM"},
     )
     made = make_export(format_.value, grades, options)
@@ -89,7 +89,7 @@ def export(
 
 
 def _tell(console: Console, made: Export, folder: Path) -> None:
-    """Say what was written, and name each submission whose score is not there."""
+    """Print what was written, and name each submission without a score in the export."""
     for note in made.notes:
         console.print(note, style="yellow", markup=False)
     for left in made.left_out:

@@ -26,7 +26,7 @@ def grade(
     watch: Annotated[
         Path | None,
         typer.Option(
-            metavar="FOLDER", help="grade this folder, and go on with what is handed in there until Ctrl-C"
+            metavar="FOLDER", help="grade this folder, and keep grading new submissions in it until Ctrl-C"
         ),
     ] = None,
     out: Annotated[
@@ -64,7 +64,8 @@ def grade(
     student: Annotated[
         list[str] | None,
         typer.Option(
-            "--student", help="grade only this student's; repeat it for several. Others keep their grades"
+            "--student",
+            help="grade only this student's submissions; repeat it for several. Others keep their grades",
         ),
     ] = None,
     exercise: Annotated[
@@ -104,7 +105,7 @@ def grade(
     try:
         status = watch_and_grade(console, request) if request.watch else grade_once(console, request)
     except KeyboardInterrupt:
-        console.print("Interrupted. Add --resume to go on where it stopped.", style="yellow")
+        console.print("Interrupted. Add --resume to continue.", style="yellow")
         raise typer.Exit(COULD_NOT) from None
     raise typer.Exit(status)
 

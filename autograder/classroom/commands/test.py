@@ -1,4 +1,4 @@
-"""`course test`: the tests, all or by tier."""
+"""`course test`: runs all tests, or some tiers."""
 
 from __future__ import annotations
 
@@ -72,8 +72,8 @@ def run_pytest(arguments: Sequence[str], folder: Path) -> bool:
 def pass_alone(arguments: Sequence[str], folder: Path) -> bool:
     """Run the tests that failed last once more, one at a time; return whether all of them pass then.
 
-    A correct submission that lost a point stays a failure: that may not happen on a busy machine either. One that
-    could not be graded there has lost none.
+    A correct submission that lost a point remains a failure, because that must not happen even on a busy machine. One
+    that could not be graded has lost no point.
     """
     record, lost = folder / LAST_FAILED, folder / KEPT / LOST_POINTS
     failed = sorted(json.loads(record.read_text())) if record.exists() else []

@@ -1,1 +1,1 @@
-"""The grades of a batch as other platforms take them: one writer a file, and one meaning of "not graded" in all."""
+"""Exports the grades of a batch to other platforms: one module per format; "not graded" means the same in all."""

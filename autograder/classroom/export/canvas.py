@@ -1,4 +1,4 @@
-"""Canvas' gradebook import, one file an exercise: in a file with several, an empty cell would be a grade, too.
+"""Canvas' gradebook import, one file per exercise, because an empty cell in a common file would count as a grade.
 
 Format: lib/gradebook_exporter.rb and lib/gradebook_importer.rb of https://github.com/instructure/canvas-lms. Headings
 are English in every language; numbers and the separator follow the language, and an account may split the names. The
@@ -35,16 +35,14 @@ _ANONYMOUS = re.compile(
 
 @dataclass(frozen=True)
 class Gradebook:
-    """What is known of the class: whom Canvas knows, and which column is an exercise's."""
+    """Canvas' roster of the class, and the column of each exercise."""
 
     students: Table | None  # without the row of the points
     assignments: dict[str, str]  # heading of the column by exercise
-    points: dict[
-        str, str
-    ]  # what Canvas says an assignment is worth, by exercise, where the roster has its column
+    points: dict[str, str]  # points of the assignment in Canvas, by exercise, if the roster has its column
 
     def notes(self, options: Options) -> list[str]:
-        """Say what Canvas will do that may not be meant."""
+        """Return sentences on what Canvas will do that may not be intended."""
         new = [exercise for exercise, title in self.assignments.items() if not _ASSIGNMENT.fullmatch(title)]
         found = self.students.notes(options.roster) if self.students else []
         found += [
@@ -53,13 +51,13 @@ class Gradebook:
             for exercise in new
         ]
         found += [
-            f"no roster says how many points {title} has in Canvas: see that it has as many as the file"
+            f"without a roster the points of {title} in Canvas are unknown: make sure that they equal those in the file"
             for exercise, title in self.assignments.items()
             if exercise not in new and exercise not in self.points
         ]
         if self.students is None:
             found.append(
-                "the folders' names are taken for SIS login ids: --roster FILE knows the students better"
+                "the folders' names are used as SIS login ids; give --roster FILE to look the students up"
             )
         return found
 
@@ -70,7 +68,7 @@ class Gradebook:
         return [name for name in _BEFORE_ASSIGNMENTS if self.students.index(name) is not None]
 
     def cells(self, student: str) -> list[str]:
-        """Return these columns for a student; raises `CannotSay` if Canvas does not know them."""
+        """Return these columns for a student; raises `CannotSay` if the student is not in Canvas' roster."""
         if _ANONYMOUS.fullmatch(student):
             raise CannotSay(
                 "an anonymous download was collected, and Canvas' gradebook takes no anonymous grades: show the names "
@@ -91,7 +89,7 @@ def open_gradebook(options: Options, exercises: Sequence[str]) -> Gradebook:
     """Find each exercise's column.
 
     Raises:
-        UnusableBatch: the roster is no export of a gradebook, or an id is none.
+        UnusableBatch: the roster is not an export of a gradebook, or an id is invalid.
     """
     table = _with_whole_names(read_table(options.roster)) if options.roster else None
     titles: dict[str, str] = {}
@@ -138,7 +136,7 @@ def cells_of(gradebook: Gradebook, published: Published) -> list[str | float]:
     worth = gradebook.points.get(published.exercise)
     if (
         worth is not None and read_number(worth) != published.max_score
-    ):  # 8 out of 12 would be 8 out of 100 there
+    ):  # otherwise 8 of 12 points would become 8 of 100 in Canvas
         raise UnusableBatch(
             f"in Canvas {gradebook.assignments[published.exercise]} has {worth or 'no'} points, and "
             f"{published.exercise} {published.max_score}: set it to as many there, and export the gradebook again"

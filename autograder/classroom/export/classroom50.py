@@ -21,7 +21,7 @@ from autograder.classroom.export.published import (
 from autograder.engine.verdict import Grade
 
 FILE = "result.json"
-_CLASSROOM = "humanoid-course"  # where nobody says its name
+_CLASSROOM = "humanoid-course"  # the default name of the classroom
 
 
 class Test(BaseModel):
@@ -58,11 +58,11 @@ class Result(BaseModel):
 
 
 def notes(options: Options) -> list[str]:
-    """Say what Classroom 50 may not take."""
+    """Return sentences on files that Classroom 50 may refuse."""
     if options.classroom or options.environment.get("CLASSROOM"):
         return []
     return [
-        f"Classroom 50 takes these files if the classroom is called {_CLASSROOM}: --classroom NAME says another"
+        f"Classroom 50 accepts these files only for a classroom named {_CLASSROOM}; for another, give --classroom NAME"
     ]
 
 
@@ -113,5 +113,7 @@ def _classroom(options: Options) -> str:
 
 def _whole(points: float) -> int:
     if not float(points).is_integer():
-        raise CannotSay(f"{number(points)} points, and Classroom 50 takes whole ones only: enter it by hand")
+        raise CannotSay(
+            f"{number(points)} points, but Classroom 50 takes only whole points: enter the grade by hand"
+        )
     return int(points)

@@ -1,4 +1,4 @@
-"""Every format by its name, and an export as a whole: which files it makes, and what it leaves out."""
+"""All formats by name, and the export itself: the files it makes, and the submissions it leaves out."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ FORMATS = ("gradescope", "canvas", "moodle", "classroom50", "junit", "csv")
 
 @dataclass(frozen=True)
 class LeftOut:
-    """A submission without a score in the export; `has_score` says that it has one all the same."""
+    """A submission that is left out of the export; `has_score`: its grade has a score, which the format cannot hold."""
 
     student: str
     exercise: str
@@ -41,10 +41,10 @@ class LeftOut:
 
 @dataclass(frozen=True)
 class Export:
-    """What an export made: the content of each file by its path in the folder, and what is not in them.
+    """The result of an export: the content of each file by its path in the folder, and the submissions left out.
 
-    `places` are the files that the same grades could have made: what an earlier export left there is out of date.
-    `notes` say what the platform may do that is not meant.
+    `places` are all paths that these grades could have produced; other files of an earlier export there are outdated.
+    `notes` warn of unintended effects on the platform.
     """
 
     files: Mapping[str, str]
@@ -53,7 +53,7 @@ class Export:
     notes: Sequence[str] = ()
 
     def write(self, out: Path) -> None:
-        """Write each file whole or not at all, and remove what an earlier export made of what is now left out."""
+        """Write each file atomically, and remove outdated files of an earlier export."""
         for name in self.places:
             if name not in self.files:
                 (out / name).unlink(missing_ok=True)
@@ -86,7 +86,7 @@ def export(name: str, grades: Sequence[Grade], options: Options) -> Export:
 
 
 def _each(writer: Any, grades: Sequence[Grade], options: Options) -> Export:
-    """A file for each submission; where the format has words for it, also for one that has no score."""
+    """Make a file for each submission; for one without a score only if the format can express that."""
     files: dict[str, str] = {}
     left_out: list[LeftOut] = []
     for grade in grades:

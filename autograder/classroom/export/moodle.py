@@ -37,7 +37,7 @@ class Worksheet:
 
 @dataclass(frozen=True)
 class ClassList:
-    """How Moodle finds a student: `key` is the column of its import; a worksheet is handed back filled in."""
+    """The way to identify students: `key` is the column of Moodle's import; a worksheet is returned filled in."""
 
     key: str
     roster: Table | None = None
@@ -58,11 +58,11 @@ class ClassList:
             if (match := _PARTICIPANT.fullmatch(row[0]))
         ]
         numbered = Table([*self.roster.heading, "number of the participant", ""], people_and_numbers)
-        # An anonymous download calls everybody by the word before the number.
+        # In an anonymous download all names are the same word before the number.
         return numbered.row_of(student, [*people, width], width, [1, width + 1])[:width]
 
     def notes(self, options: Options) -> list[str]:
-        """Say what Moodle may not get."""
+        """Return sentences on data that Moodle may not receive."""
         found = self.roster.notes(options.roster) if self.roster else []
         if self.worksheet and self.worksheet.feedback is None:
             found.append(
@@ -92,7 +92,8 @@ def open_class(options: Options, students: Sequence[str]) -> ClassList:
     with_address = sum("@" in student for student in students)
     if 0 < with_address < len(students):
         raise UnusableBatch(
-            "some students are called by an e-mail address and some are not; give a --roster with student and useremail"
+            "some students' folders are named by an e-mail address and some are not; give a --roster with the columns "
+            "student and useremail"
         )
     return ClassList("useremail" if with_address else "useridnumber")
 
@@ -123,7 +124,7 @@ def _worksheet(roster: Table) -> Worksheet | None:
 
 
 def _are_grades(grades: Sequence[str], most: Sequence[str]) -> bool:
-    """Whether a column can hold grades because the next one has the same most points in every row."""
+    """Whether a column can hold grades: the next column has the same maximum of points in every row."""
     points = {read_number(cell) for cell in most}
     highest = points.pop()
     if points or not highest:
@@ -181,7 +182,7 @@ def feedback(published: Published) -> str:
 
 
 def _require_points(heading: str, most: str, published: Published) -> None:
-    """A score of 8 out of 12 would be 8 out of 100 there."""
+    """Require the same maximum in Moodle: otherwise a score of 8 of 12 would become 8 of 100."""
     if read_number(most) != published.max_score:
         raise UnusableBatch(
             f"the worksheet's {heading} is {most} and {published.exercise} has {published.max_score} points: set "

@@ -1,4 +1,4 @@
-"""What a platform needs to know that no grade says."""
+"""The options of an export: facts that a platform needs and a grade does not contain."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ class Options:
 
     Attributes:
         graded_at: when the grades were written, UTC.
-        hidden: whether hidden checks are summed up or shown with all they say.
-        roster: a table of the class as the platform gives it out.
+        hidden: whether hidden checks are summed up or shown in full.
+        roster: a table of the class, exported from the platform.
         assignments: the platform's id of an exercise's assignment, by the exercise's name.
         classroom: the name of the Classroom 50 classroom.
         environment: the process's variables, for jobs that run on the platform itself.

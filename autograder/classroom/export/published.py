@@ -1,4 +1,4 @@
-"""What of a grade leaves the grader: visible checks whole, and of the hidden ones the sum of their points."""
+"""The part of a grade that may be published: the visible checks, and the sum of the hidden checks' points."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from autograder.engine.verdict import CheckVerdict, Grade
 from ros_runtime.course_error import CourseError
 
 HiddenPolicy = Literal["hide", "show"]
-NOT_GRADED = "The grader could not judge this submission. That is no zero: it will be graded again."
-TO_MARK = "This waits for a person's marks."
+NOT_GRADED = "The grader could not judge this submission. This is not a zero: it will be graded again."
+TO_MARK = "This has not been marked by a person yet."
 
 # What XML, terminals and spreadsheets cannot take: control characters but tab and newline, halves of surrogate pairs.
 _UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 
 
 class CannotSay(Exception):
-    """A platform's format cannot say this one thing; the message says why, and what to do."""
+    """A platform's format cannot express this grade; the message says why, and what to do."""
 
 
 class UnusableBatch(CourseError):
@@ -29,11 +29,11 @@ class UnusableBatch(CourseError):
 
 @dataclass(frozen=True)
 class Published:
-    """A graded submission as it is given away.
+    """A graded submission in the form to publish.
 
     Attributes:
-        checks: to be shown with all they say.
-        hidden: to be summed up, or given to instructors alone.
+        checks: to be shown in full.
+        hidden: to be summed up, or shown only to instructors.
     """
 
     student: str
@@ -50,19 +50,19 @@ class Published:
 
     @property
     def hidden_max_points(self) -> float:
-        """The points that there are for the hidden checks together."""
+        """The maximum of points for all hidden checks."""
         return number(sum(check.max_points for check in self.hidden))
 
     @property
     def hidden_sum(self) -> str:
-        """The sentence that stands in the place of the hidden checks; "" where there are none."""
+        """The sentence that replaces the hidden checks; "" if there are none."""
         if not self.hidden:
             return ""
         return f"hidden checks: {self.hidden_points:g} of {self.hidden_max_points:g} points"
 
 
 def publish(grade: Grade, hidden: HiddenPolicy) -> Published:
-    """Return what of a graded submission is given away; with "show" no check is treated as hidden."""
+    """Return the publishable form of a graded submission; with "show" no check is treated as hidden."""
     assert grade.score is not None
     kept_back = [check for check in grade.checks if check.hidden and hidden == "hide"]
     return Published(
@@ -76,17 +76,17 @@ def publish(grade: Grade, hidden: HiddenPolicy) -> Published:
 
 
 def why_no_score(grade: Grade) -> str:
-    """Return why there is no score to give away, in words for anybody: "" if there is one."""
+    """Return the reason for a missing score, without confidential details; "" if there is a score."""
     return {"graded": "", "not graded": "not graded", "to mark": "not marked yet"}[grade.status]
 
 
 def words_for_students(grade: Grade) -> str:
-    """Return what a student reads in place of a score. The grader's own reason may name a hidden check."""
+    """Return the text for students in place of a score; the grader's own reason could name a hidden check."""
     return TO_MARK if grade.status == "to mark" else NOT_GRADED
 
 
 def require_safe_names(grades: Sequence[Grade]) -> None:
-    """Require names that can be those of files, and one grade for each student and exercise.
+    """Require names that are valid file names, and one grade for each student and exercise.
 
     Raises:
         UnusableBatch: a name cannot be used, or two grades are for the same work.
@@ -95,17 +95,17 @@ def require_safe_names(grades: Sequence[Grade]) -> None:
     for grade in grades:
         if not STUDENT.fullmatch(grade.student):
             raise UnusableBatch(
-                f"{grade.student!r} is no name of a student: expected letters, digits and . , _ - @ + ' only"
+                f"{grade.student!r} is not a valid name of a student: expected letters, digits and . , _ - @ + ' only"
             )
         if not grade.exercise.isidentifier():
-            raise UnusableBatch(f"{grade.exercise!r} is no name of an exercise")
+            raise UnusableBatch(f"{grade.exercise!r} is not a valid name of an exercise")
         if (grade.student, grade.exercise) in seen:
             raise UnusableBatch(f"{grade.student} has two grades for {grade.exercise}; expected one")
         seen.add((grade.student, grade.exercise))
 
 
 def printable(text: str) -> str:
-    """Return text that every format can hold: what a student's program printed may be anything."""
+    """Return the text without characters that some format cannot hold; students' programs may print any."""
     return _UNPRINTABLE.sub("\N{REPLACEMENT CHARACTER}", text.replace("\r\n", "\n"))
 
 

@@ -1,4 +1,4 @@
-"""Tables for spreadsheets and gradebooks: written so that no cell is taken for a formula, read with bounds."""
+"""CSV tables for spreadsheets and gradebooks: written so that no cell becomes a formula, read with size limits."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from autograder.classroom.export.published import CannotSay, UnusableBatch, numb
 MOST_BYTES = 20_000_000  # of a roster
 _SEPARATOR_LINE = re.compile(
     r"sep=([,;\t])\r?\n", re.IGNORECASE
-)  # which Excel takes, and some programs write
-_WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # what they begin with, new ones and old ones
-# What begins a formula, also in the wide form that some spreadsheets take for the same.
+)  # separators that Excel accepts and some programs write
+_WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # first bytes of workbooks, new and old formats
+# First characters of a formula; some spreadsheets accept the full-width forms, too.
 _FORMULA = (
     *("=", "+", "-", "@"),
     "\N{FULLWIDTH EQUALS SIGN}",
@@ -33,7 +33,7 @@ _FORMULA = (
 
 @dataclass(frozen=True)
 class Table:
-    """A heading and its rows, all as long as the heading; `encoding` is "" for UTF-8 and UTF-16, else a guess."""
+    """A heading and rows of the same length; `encoding` is "" for UTF-8 and UTF-16, else the guessed encoding."""
 
     heading: Sequence[str]
     rows: Sequence[Sequence[str]]
@@ -62,11 +62,11 @@ class Table:
     ) -> Sequence[str]:
         """Return the row in which one of the columns has the student's name.
 
-        `course collect` puts the platform's own number at the end of a name. It is looked for in the column `numbers`;
-        then the rest of the name has to be like that in a column of `names`, since a name may end so by chance.
+        `course collect` appends the platform's number to a name. The number is looked up in the column `numbers`; then
+        the rest of the name has to resemble that row's cell in a column of `names`, since any name may end in a number.
 
         Raises:
-            CannotSay: there is none, or more than one, or it is somebody else's.
+            CannotSay: no row matches, more than one does, or the number belongs to another name.
         """
         wanted = [(column, student) for column in columns if column is not None]
         name, its_number = _collected(student)
@@ -124,10 +124,10 @@ def _cells(text: str, delimiter: str) -> Iterator[list[str]]:
 
 
 def _decoded(content: bytes) -> tuple[str, str]:
-    """Return the text, and its encoding if that is none of the two which a file tells by itself.
+    """Return the text, and the guessed encoding if it is neither UTF-8 nor UTF-16.
 
-    Platforms write UTF-8, and Excel's “Unicode Text” is UTF-16; its plain CSV is in the code page of its user's
-    language. That can be told for scripts other than Latin; for Latin it is taken to be Western European.
+    Platforms write UTF-8, and Excel's “Unicode Text” is UTF-16; its plain CSV uses the code page of the user's
+    language. The guess works for scripts other than Latin; for Latin, Western European is assumed.
     """
     if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return content.decode("utf-16"), ""
@@ -143,7 +143,7 @@ def _decoded(content: bytes) -> tuple[str, str]:
 
 
 def csv_text(heading: Sequence[str], rows: Iterable[Sequence[str | float]]) -> str:
-    """Return a CSV file's content; every cell has been made by one of the functions below, or is a number."""
+    """Return a CSV file's content; each cell must be a number or come from `text_cell` or `key_cell`."""
     file = io.StringIO(newline="")
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(heading)
@@ -152,16 +152,16 @@ def csv_text(heading: Sequence[str], rows: Iterable[Sequence[str | float]]) -> s
 
 
 def text_cell(text: str) -> str:
-    """Return words that no spreadsheet takes for a formula: an apostrophe stands before such a one."""
+    """Return the text, with an apostrophe in front if a spreadsheet would read it as a formula."""
     words = printable(text)
     return f"'{words}" if words.lstrip().startswith(_FORMULA) and words != "-" else words
 
 
 def key_cell(key: str) -> str:
-    """Return what a platform finds a student by, unchanged.
+    """Return the key by which a platform finds a student, unchanged.
 
     Raises:
-        CannotSay: a spreadsheet would take it for a formula, and changed it would be another key.
+        CannotSay: a spreadsheet would read the key as a formula, and a changed key would not match.
     """
     if text_cell(key) != key or "\n" in key:
         raise CannotSay(
@@ -183,17 +183,17 @@ def read_number(cell: str) -> float | None:
 
 
 def _cell_value(cell: str) -> str:
-    """What stands in a cell, without what keeps Excel from counting with it."""
+    """The text of a cell, without the apostrophe that makes Excel treat it as text."""
     return cell.strip().removeprefix("'")
 
 
 def _collected(student: str) -> tuple[str, str]:
-    """Return the name and the platform's number of a student whom `course collect` called so; else "" twice."""
+    """Split a name that `course collect` made into the student's name and the platform's number; else ("", "")."""
     match = re.fullmatch(r"(.+)-(\d+)", student)
     return (match[1], match[2]) if match else ("", "")
 
 
 def _alike(one: str, other: str) -> bool:
-    """Whether two ways to write a name have most of their letters in common, in any order."""
+    """Whether two spellings of a name share most of their letters, in any order."""
     first, second = ("".join(sorted(filter(str.isalnum, name.casefold()))) for name in (one, other))
     return SequenceMatcher(None, first, second).ratio() > 0.6

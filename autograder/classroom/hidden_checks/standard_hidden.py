@@ -24,9 +24,9 @@ def works_in_any_namespace(
     see: str = "01_robot_and_graph#names-why",
     clauses: Sequence[int] = (),
 ) -> Check:
-    """Make the check that the node does the same in another namespace: `require` tests it, `does` names it.
+    """Make the check that the node works in another namespace: `require` tests what `does` describes.
 
-    Where `require` is an obligation, `clauses` take the place of its own: here it holds that names are relative.
+    `clauses` replace those of an obligation in `require`, because this check judges that names are relative.
     """
     title = f"Started in another namespace, it {does} there"
     if isinstance(require, Obligation):

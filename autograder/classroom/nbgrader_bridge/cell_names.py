@@ -1,4 +1,4 @@
-"""How the checks of an exercise and the grade cells of its notebook name each other, and what stays unnamed."""
+"""The mapping between an exercise's checks and the grade cells of its notebook; hidden checks are only numbered."""
 
 from __future__ import annotations
 

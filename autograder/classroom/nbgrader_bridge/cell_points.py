@@ -20,14 +20,14 @@ UNJUDGED = "unjudged_cells"  # resources["nbgrader"] key: grade_ids that have no
 
 
 class NotGradedError(Exception):
-    """There is no grade to enter, through no fault of the student's; nbgrader must record no score."""
+    """There is no grade to enter, and the student is not the cause; nbgrader must record no score."""
 
 
 class VerdictOutputs(NbGraderPreprocessor):
     """Gives every grade cell one number as its output, the points, and the verdict on stdout.
 
-    nbgrader scores an error or output on stderr as 0 and a cell without a number as full marks. So each cell gets a
-    number; where there is none, this raises.
+    nbgrader scores an error or output on stderr as 0, and a cell without a number as full marks. So each cell gets a
+    number; without one this raises `NotGradedError`.
     """
 
     records = Unicode(help="folder with one JSON file for each student: a list of grades").tag(config=True)
@@ -82,7 +82,7 @@ def outputs(verdict: CheckVerdict | None, max_points: float, count: int) -> list
 
 
 def _text(verdict: CheckVerdict | None) -> str:
-    """What a student may see; of a hidden check only whether it passed, so that its inputs stay secret."""
+    """The text for the student; of a hidden check only whether it passed, so that its inputs stay secret."""
     if verdict is None:
         return "Not checked automatically."
     if verdict.hidden:

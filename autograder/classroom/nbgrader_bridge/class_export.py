@@ -19,11 +19,11 @@ from autograder.classroom.export.grades_csv import FILE, Row, table_text
 from autograder.classroom.export.published import number
 from autograder.classroom.nbgrader_bridge.course_folder import RECORDS
 
-_HIDDEN = "hidden_"  # what the names of hidden checks' cells begin with (cell_names.py)
+_HIDDEN = "hidden_"  # prefix of the names of hidden checks' cells (cell_names.py)
 
 
 class ClassExport(ExportPlugin):
-    """The grades of a class, one row a submission that has a score."""
+    """The grades of a class, one row per submission with a score."""
 
     def export(self, gradebook: Gradebook) -> None:
         """Write the file that --to names, or grades.csv here."""
@@ -44,7 +44,7 @@ class ClassExport(ExportPlugin):
         write_atomically(path, table_text(rows))
 
     def _wanted(self, gradebook: Gradebook) -> Iterator[tuple[str, str]]:
-        """Yield student and assignment of all, or of those that the command names."""
+        """Yield the pairs of student and assignment that the command selects; by default all."""
         assignments, students = set(map(str, self.assignment)), set(map(str, self.student))
         for assignment in gradebook.assignments:
             for student in gradebook.students:
@@ -78,7 +78,7 @@ def _row(submission: Any, student: str, assignment: str) -> Row:
 
 
 def _not_graded(gradebook: Gradebook) -> set[tuple[str, str]]:
-    """What the grader failed to judge when it last tried: the gradebook may hold an earlier score."""
+    """The submissions that the last grading failed to judge; the gradebook may hold an earlier score of them."""
     records = Path(gradebook.engine.url.database or "").parent / RECORDS
     found: set[tuple[str, str]] = set()
     for path in records.glob("*.json"):

@@ -19,7 +19,7 @@ from traitlets.config import Config
 from autograder.atomic_file import write_atomically
 
 CONFIG_FILE = "nbgrader_config.py"
-RELEASE = "release"  # the folder of what students were given
+RELEASE = "release"  # folder of the release notebooks
 RECORDS = "records"  # the folder with one JSON file a student, which VerdictOutputs reads
 
 _BRIDGE = "autograder.classroom.nbgrader_bridge"
@@ -42,7 +42,7 @@ FEEDBACK_PREPROCESSORS = [
 _OPTIONS: dict[str, Any] = {
     "CourseDirectory.source_directory": "source",
     "CourseDirectory.release_directory": RELEASE,
-    # Given back in place of nbgrader's NotImplementedError, so that the starter code runs and its checks can speak.
+    # The stub in place of nbgrader's NotImplementedError, so that the starter code runs and checks can report on it.
     "ClearSolutions.code_stub": {"python": "# YOUR CODE HERE"},
     "Autograde.autograde_preprocessors": AUTOGRADE_PREPROCESSORS,
     "GenerateFeedback.preprocessors": FEEDBACK_PREPROCESSORS,
@@ -89,7 +89,7 @@ def open_course(folder: Path, *, gradebook: bool = True) -> NbGraderAPI:
         config[section][trait] = value
     _let_nbgrader_find_alembic()
     api = NbGraderAPI(config=config)
-    api.log.propagate = False  # what went wrong is in the outcome of each call
+    api.log.propagate = False  # each call reports its own failure
     _require_no_execution(api)
     return api
 
@@ -102,7 +102,7 @@ def call(action: Callable[..., dict[str, Any]], *names: str) -> None:
         outcome = action(*names, force=True)
     if not outcome["success"]:
         error, log = outcome.get("error", "").strip(), outcome.get("log", "")
-        if error.endswith("KeyboardInterrupt"):  # nbgrader takes Ctrl-C for a failure of its own
+        if error.endswith("KeyboardInterrupt"):  # nbgrader reports Ctrl-C as a failure
             raise KeyboardInterrupt
         raise NbgraderError(
             f"nbgrader's {action.__name__}: {_last_error(log) or _last_error(error)}", f"{error}\n{log}"
@@ -110,7 +110,7 @@ def call(action: Callable[..., dict[str, Any]], *names: str) -> None:
 
 
 def write_config_file(folder: Path) -> None:
-    """Write a configuration with which `nbgrader` and its JupyterLab extension behave as our own calls do.
+    """Write a configuration with which `nbgrader` and its JupyterLab extension behave like the calls of this package.
 
     It holds plain values only: nbgrader ignores a configuration file that raises, and would then execute submissions.
     """

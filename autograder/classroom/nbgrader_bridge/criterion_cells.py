@@ -1,7 +1,7 @@
 """Generates the cells of an essay's notebook from its rubric.
 
-They are the table that students read first, and at the end a cell for each criterion, in which formgrader takes a
-person's points.
+The cells are a table at the beginning, for students, and at the end one cell per criterion, into which a person enters
+points in formgrader.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def criterion_cells(essay: Essay) -> list[NotebookNode]:
 
 
 def _criterion_cell(criterion: Criterion) -> NotebookNode:
-    """What nbgrader calls a manually graded task: formgrader asks for its points, whatever the cell holds."""
+    """A manually graded task of nbgrader: formgrader asks for its points, whatever the cell contains."""
     levels = "\n".join(f"- {level}" for level in _levels(criterion))
     source = f"### {criterion.title} ({criterion.points} points)\n\n{levels}"
     metadata = cell_metadata(criterion.id)
@@ -71,5 +71,5 @@ def _rubric_cell(essay: Essay) -> NotebookNode:
 
 
 def _levels(criterion: Criterion) -> list[str]:
-    """What earns how many points, from the most to the fewest."""
+    """The levels of a criterion with their points, from the most to the fewest."""
     return [f"**{points}**: {words}" for points, words in sorted(criterion.levels.items(), reverse=True)]

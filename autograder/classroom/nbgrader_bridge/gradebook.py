@@ -38,11 +38,11 @@ class Entry:
     sources: Mapping[str, str] | None
     problem: str = ""
     timestamp: str = ""  # when it was handed in, as nbgrader writes it
-    secret: str = ""  # of what came by nbgrader's exchange: its feedback goes back by it
+    secret: str = ""  # from nbgrader's exchange, which returns the feedback by it
 
 
 class CourseGradebook:
-    """An nbgrader course folder: gradebook.db, feedback/, and what formgrader needs beside them."""
+    """An nbgrader course folder: gradebook.db, feedback/, and the files that formgrader needs."""
 
     def __init__(self, folder: Path, solutions: Path) -> None:
         self._folder = folder
@@ -56,8 +56,8 @@ class CourseGradebook:
     def enter(self, entry: Entry) -> Path | None:
         """Record one grade and return its feedback page.
 
-        None for what was not graded, which leaves no score, and for an essay that a person has not marked completely.
-        A grade that is entered already is not entered again.
+        Returns None if the submission was not graded, which enters no score, or is an essay that is not completely
+        marked. A grade that was entered before is not entered again.
 
         Raises `NbgraderError` when nbgrader fails.
         """
@@ -73,13 +73,13 @@ class CourseGradebook:
             return self._leave_to_a_person(grade, submission, page, is_entered)
         if is_entered and _is_whole(page):
             return page
-        page.unlink(missing_ok=True)  # it would show a grade that is not entered completely
+        page.unlink(missing_ok=True)  # an earlier page would show a grade that is not completely entered
         self._autograde(grade, submission)
         call(self._course.generate_feedback, grade.exercise, grade.student)
         return page
 
     def as_marked(self, grade: Grade) -> Grade:
-        """Return a grade with what a person has given for it so far, if that is for a person to say."""
+        """Return an essay's grade with the points that a person has given so far; any other grade unchanged."""
         if grade.status != "to mark":
             return grade
         with self._course.gradebook as gradebook:
@@ -121,7 +121,7 @@ class CourseGradebook:
         self._assigned.add(exercise)
 
     def _submission(self, entry: Entry) -> dict[str, str]:
-        """The files that nbgrader reads: the rebuilt notebook, and what it was handed in with."""
+        """The files that nbgrader reads: the rebuilt notebook, and its timestamp and secret if there are any."""
         name = entry.grade.exercise
         release = nbformat.read(self._folder / RELEASE / name / f"{name}.ipynb", as_version=4)
         notebook = rebuild_submission(release, file_names(name), entry.sources, entry.problem)
@@ -130,7 +130,7 @@ class CourseGradebook:
         return files | {name: text for name, text in beside.items() if text}
 
     def _holds(self, grade: Grade, submission: dict[str, str]) -> bool:
-        """Whether the same grade of the same submission was entered before."""
+        """Whether this grade of this submission was entered before."""
         folder = self._submitted(grade)
         before = (
             {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
@@ -151,12 +151,12 @@ class CourseGradebook:
         return self._folder / "submitted" / grade.student / grade.exercise
 
     def _autograded(self, grade: Grade) -> Path:
-        """Where nbgrader puts what it has read."""
+        """The folder in which nbgrader stores the autograded notebook."""
         return self._folder / "autograded" / grade.student / grade.exercise
 
 
 def _is_whole(page: Path) -> bool:
-    """Whether nbgrader came to the end of a page: it writes in place, and may have been killed."""
+    """Whether a page is complete: nbgrader writes it in place, and may have been killed."""
     return page.exists() and page.read_bytes().rstrip().endswith(b"</html>")
 
 

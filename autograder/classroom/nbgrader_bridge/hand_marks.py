@@ -1,4 +1,4 @@
-"""The points that a person gives for an essay in formgrader: read from the gradebook, and asked for again."""
+"""The points that a person gives for an essay in formgrader: reads them, and asks to confirm them for new work."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def with_marks(gradebook: Gradebook, grade: Grade) -> Grade:
 
 
 def ask_again(gradebook: Gradebook, grade: Grade) -> None:
-    """Ask the marker to look again: points that were given for earlier work are kept, and wait for a yes."""
+    """Mark the criteria as needing manual grading again; points for the earlier work stay and have to be confirmed."""
     for verdict in grade.checks:
         _entry(gradebook, grade, verdict).needs_manual_grade = True
     gradebook.db.commit()

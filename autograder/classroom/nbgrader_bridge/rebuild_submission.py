@@ -1,7 +1,7 @@
 """Rebuilds a submission for nbgrader: a copy of the release notebook with the student's code in its solution cells.
 
-A student's notebook can hold anything: metadata that ends a whole batch, duplicate or missing cells, markdown that
-formgrader would render as live HTML. None of it is copied; only the code that was graded is, into one cell a file.
+A student's notebook can contain anything: metadata that aborts a whole batch, duplicate or missing cells, markdown that
+formgrader would render as live HTML. Only the graded code is copied, one cell per file.
 """
 
 from __future__ import annotations

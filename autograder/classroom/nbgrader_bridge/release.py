@@ -45,7 +45,7 @@ def bring_up_to_date(solutions: Path, exercises: Path) -> list[Path]:
 def generate_release(solutions: Path, exercises: Path) -> None:
     """Write exercises/<exercise>/<exercise>.ipynb for each source notebook; the same input gives the same bytes.
 
-    Nothing but notebooks is taken over: beside a source notebook that was tried out lies the solution it wrote.
+    Only notebooks are copied, because a tried-out source notebook has written its solution beside itself.
     """
     with tempfile.TemporaryDirectory() as temporary:
         course = Path(temporary)

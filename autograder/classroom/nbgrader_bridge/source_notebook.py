@@ -1,4 +1,4 @@
-"""An author's notebook as the rest of the bridge wants it: nbformat 4.5, whatever it was written with."""
+"""Reads an author's notebook of any format version as nbformat 4.5."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ def read_source(path: Path) -> NotebookNode:
         UnusableExercise: it is no notebook.
     """
     try:
-        with warnings.catch_warnings():  # of nbformat, on what is put right here
+        with warnings.catch_warnings():  # warnings of nbformat on faults that are repaired here
             warnings.simplefilter("ignore")
             as_written = nbformat.reader.reads(path.read_text(encoding="utf-8-sig"))
             has_ids = nbformat.reader.get_version(as_written) >= (4, 5)
             notebook = nbformat.convert(as_written, 4)
         cells = notebook.cells
-    except Exception as error:  # a broken file fails in many ways: no JSON, no cells, cells that are none
+    except Exception as error:  # a broken file fails in many ways: invalid JSON, no cells, malformed cells
         raise UnusableExercise(f"{path} is not a notebook: {error}") from error
     seen: set[str] = set()
     for number, cell in enumerate(cells, 1):

@@ -1,4 +1,4 @@
-"""Gradescope's container: where things lie in it, and how results.json is kept from the students' programs.
+"""Gradescope's container: its folders, and the protection of results.json against students' programs.
 
 Layout: https://gradescope-autograders.readthedocs.io/en/latest/specs/, "File Hierarchy". The grader is root there, and
 what it grades runs as another user: only the grader can write the results, and read checks and uploads.
@@ -22,7 +22,7 @@ class CannotGrade(Exception):
 
 @dataclass(frozen=True)
 class Container:
-    """The folder /autograder, or what stands in its place."""
+    """The folder /autograder, or another folder with the same layout."""
 
     root: Path
 
@@ -37,12 +37,12 @@ class Container:
         return self.root / "results" / FILE
 
     def forget_results(self) -> None:
-        """Remove what an earlier run left, so that no run is credited with another one's score."""
+        """Remove the results of an earlier run, so that its score is not attributed to this one."""
         self.results.parent.mkdir(parents=True, exist_ok=True)
         self.results.unlink(missing_ok=True)
 
     def close_to_others(self, *more: Path) -> None:
-        """Let root alone into uploads, results, what Gradescope tells of the submitters, and `more`."""
+        """Make uploads, results, submission metadata and `more` accessible to root only."""
         for folder in (self.submission, self.results.parent, *more):
             if folder.is_dir():
                 os.chmod(folder, 0o700)
@@ -53,7 +53,7 @@ class Container:
             os.chmod(metadata, 0o600)
 
     def write(self, results: Results) -> None:
-        """Write what Gradescope reads, whole or not at all."""
+        """Write results.json atomically."""
         write_atomically(self.results, results.text())
 
 
@@ -61,7 +61,7 @@ def isolation_here() -> Isolation:
     """Return the best isolation of this container: namespaces, else another user.
 
     Raises:
-        CannotGrade: there is neither, and a program with the grader's rights could write its own score.
+        CannotGrade: neither is available, so a student's program could write its own score.
     """
     best = available_isolation()
     if best.kind is Kind.NONE and os.environ.get(ISOLATION_VARIABLE) != Kind.NONE:

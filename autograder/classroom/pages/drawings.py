@@ -1,4 +1,4 @@
-"""Drawings of what failed checks were judged on, kept on disk while a class is graded."""
+"""Drawings of the runs of failed checks, stored on disk while a class is graded."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ DrawnRuns = Mapping[str, Sequence[str]]  # SVG of the runs that a check was judg
 
 @dataclass(frozen=True)
 class Drawings:
-    """Those in the output of a batch. Each belongs to one verdict on one program, so a cached grade has its own."""
+    """The drawings in a batch's output. The key is a verdict on a program, so cached grades keep their drawings."""
 
     batch: Path
 
@@ -57,7 +57,7 @@ class Drawings:
 
 
 def _read(path: Path) -> list[str]:
-    """Read drawings that were kept; none if the file is damaged, for they only help to understand a verdict."""
+    """Read stored drawings; none if the file is damaged, since a verdict does not depend on them."""
     try:
         svgs = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
@@ -69,14 +69,14 @@ def _read(path: Path) -> list[str]:
 def drawing_into(
     drawn: dict[str, Sequence[str]],
 ) -> Callable[[CheckVerdict, Sequence[Transcript]], None]:
-    """Return what `grade` calls with each verdict and the transcripts it was judged on: it draws those that failed."""
+    """Return an `on_evidence` callback for `grade` that draws the transcripts of failed verdicts into `drawn`."""
 
     def add(verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
         if verdict.status not in DRAWN:
             return
         try:
             drawn[verdict.id] = draw(transcripts)
-        except Exception:  # a drawing that fails may cost nobody a grade
+        except Exception:  # a failed drawing must not affect the grade
             logging.getLogger(__name__).exception("no drawing of %s", verdict.id)
 
     return add

@@ -1,4 +1,4 @@
-"""What the grades of a class say together: scores by exercise, the hardest checks, who needs help. Pure functions."""
+"""Statistics on the grades of a class: scores by exercise, the hardest checks, who needs help. Pure functions."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from autograder.engine.verdict import CheckVerdict, Grade
 
 TENTHS = [f"{10 * tenth}–{10 * tenth + 9}" for tenth in range(10)]
 FULL = "100"
-NEEDS_HELP = 0.6  # of the points: whoever has less is listed
+NEEDS_HELP = 0.6  # share of the points; submissions below it are listed
 MOST_TOPICS = 3  # of one student's submission
 
 
 @dataclass(frozen=True)
 class HardCheck:
-    """How a check went in a class: `failed` and `not_run` of `graded` submissions, and what those were told most."""
+    """A check's results in a class: `failed` and `not_run` of `graded` submissions, and the most frequent message."""
 
     id: str
     title: str
@@ -62,7 +62,7 @@ class ExerciseFigures:
 
 @dataclass(frozen=True)
 class NeedsHelp:
-    """A submission with few points, and the checks to begin a conversation with."""
+    """A submission with few points, and the checks to discuss first with the student."""
 
     grade: Grade
     topics: Sequence[CheckVerdict]
@@ -96,7 +96,7 @@ def who_needs_help(grades: Sequence[Grade]) -> list[NeedsHelp]:
 
 
 def cause(grade: Grade) -> str:
-    """Return in one line why a submission is not graded; of a traceback its first and its last line."""
+    """Return the reason of a "not graded" in one line; of a traceback the first and the last line."""
     lines = [line.strip() for line in grade.reason.splitlines() if line.strip()] or ["no check was judged"]
     return f"{lines[0]} {lines[-1]}" if len(lines) > 1 and lines[0].endswith(":") else lines[0]
 
@@ -136,7 +136,7 @@ def _hard_check(verdicts: Sequence[CheckVerdict]) -> HardCheck:
 
 
 def _topics(grade: Grade) -> NeedsHelp:
-    """The first checks that failed: what comes later in an exercise builds upon them."""
+    """The first failed checks, because later checks of an exercise build upon earlier ones."""
     failed = [verdict for verdict in grade.checks if lost(verdict)]
     return NeedsHelp(grade, failed[:MOST_TOPICS], len(failed[MOST_TOPICS:]))
 

@@ -1,4 +1,4 @@
-"""What the robot did in a transcript, as plots: how fast it was, with the moments of the goal, and where it went."""
+"""Plots of the robot's motion in a transcript: its speed over time with the goal's events, and its path."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ LEAST_MOTION = 0.1  # m; a robot that stands sways by less
 LEAST_SPEED = 0.2  # m/s that the axis shows
 MOST_FLAGS = 12
 ROW = 11.0  # pt, of a moment's words above the panel
-FARTHEST = 20.0  # m from the origin, of a goal on a map where the way is still to be seen
+FARTHEST = 20.0  # m; goals farther from the origin are not drawn, or the path would be too small to see
 
 
 def motion_svgs(transcript: Transcript, title: str) -> list[str]:
-    """Draw speed over time and the path from above; nothing of a robot that stayed where it was."""
+    """Draw speed over time and the path from above; no drawing if the robot did not move."""
     truth = transcript.ground_truth
     if not truth or math.dist(*_corners(transcript)) < LEAST_MOTION:
         return []
@@ -91,7 +91,7 @@ def _corners(transcript: Transcript) -> tuple[tuple[float, float], tuple[float, 
 
 
 def _moments(transcript: Transcript) -> Iterator[tuple[str, float]]:
-    """Return what happened to goals and robot, in words, and when (s)."""
+    """Return the events of goals and robot, in words, with their times (s)."""
     for event in transcript.events:
         match event:
             case ev.GoalSent(t=t, goal=goal):

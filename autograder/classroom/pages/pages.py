@@ -31,8 +31,8 @@ def write_class_page(
 ) -> Path:
     """Write the page on the whole class.
 
-    `left_out` are sentences on what could not become a submission at all, `batch` says when and with what it was
-    graded.
+    `left_out`: sentences on folders that could not be read as submissions. `batch`: when and with which versions the
+    class was graded, by label.
     """
     students: dict[str, dict[str, Grade]] = {}
     for grade in sorted(grades, key=lambda grade: grade.student):
@@ -90,7 +90,7 @@ def write_student_page(folder: Path, student: str, grades: Sequence[Grade]) -> N
 
 
 def write_submission_pages(folder: Path, grade: Grade, drawings: DrawingsOf) -> None:
-    """Write the student's page, without anything on hidden checks but whether they passed, and the instructor's.
+    """Write the student's page, which shows of hidden checks only whether they passed, and the instructor's page.
 
     Raises:
         ValueError: the student's name or the exercise's cannot be a folder.
@@ -115,11 +115,11 @@ def write_pages(
     Args:
         folder: the output folder.
         grades: of the whole class.
-        sources: the programs of those that get pages anew, as do their students, by student and exercise; None: it
-            could not be read.
-        batches: the output folders where their drawings are; by default `folder`.
-        left_out: sentences on what could not become a submission at all.
-        batch: when and with what it was graded, in words.
+        sources: the programs of the submissions whose pages are rewritten, by student and exercise; None if one could
+            not be read. Their students' pages are rewritten, too.
+        batches: the output folders with their drawings; by default `folder`.
+        left_out: sentences on folders that could not be read as submissions.
+        batch: when and with which versions the class was graded, by label.
     """
     for grade in grades:
         if (key := (grade.student, grade.exercise)) in sources:

@@ -19,14 +19,14 @@ LEFT, RIGHT, BELOW, ABOVE = (
     0.2,
     0.55,
     0.3,
-)  # in, around the panel; fixed, as to measure texts takes its time
+)  # inches around the panel; fixed, because measuring the texts is slow
 CURVE, FLAG, DOT = "#1f5fa8", "#b34700", "#2c7a3f"
 _STYLE = {"svg.fonttype": "none", "text.parse_math": False, "font.size": 9, "axes.edgecolor": "#999999"}
 _NO_METADATA = dict.fromkeys(("Date", "Creator", "Format", "Type"))
 
 
 class Plot:
-    """One panel of a drawing; `svg` is the drawing, once the `with` block of `plotted` is left."""
+    """One panel of a drawing; `svg` is set when the `with` block of `plotted` ends."""
 
     def __init__(self, width: float, height: float, above: float) -> None:
         self.figure = Figure(figsize=(width, height))
@@ -53,7 +53,9 @@ def plotted(title: str, words: str, *, width: float, height: float, pad: float =
         yield plot
         page = io.StringIO()
         plot.figure.savefig(page, format="svg", metadata=_NO_METADATA)
-    drawn = re.sub(r'<g id="[^"]*">', "<g>", page.getvalue())  # a page has several, and ids that are its own
+    drawn = re.sub(
+        r'<g id="[^"]*">', "<g>", page.getvalue()
+    )  # a page has several drawings, whose ids must differ
     box = re.search(r'viewBox="[^"]*"', drawn)
     assert box
     head = (

@@ -1,4 +1,4 @@
-"""What a student may see of a grade: of a hidden check its clause and whether it passed; nothing before it is final."""
+"""The part of a grade that a student may see: of a hidden check its clause and result; nothing before it is final."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from autograder.engine.verdict import CheckVerdict, Grade
 
 
 def student_view(grade: Grade) -> Grade:
-    """Return the grade without the titles, inputs and outputs of hidden checks, and without the grader's own troubles.
+    """Return the grade without titles, inputs and outputs of hidden checks, and without the grader's own errors.
 
-    What is not graded, or not marked yet, has no verdicts: those there are may still change.
+    A grade that is not graded or not completely marked gets no verdicts, because they may still change.
     """
     if grade.status == "not graded":
         return replace(grade, checks=[], reason="")

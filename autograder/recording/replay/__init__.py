@@ -1,1 +1,1 @@
-"""A recorded arena again: as text, as a film, in the web view."""
+"""Shows a recording: as text, as a film, or in the web view."""

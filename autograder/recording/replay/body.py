@@ -36,7 +36,7 @@ class RecordedBody:
         self._times = [posture.t for posture in recording.postures]
 
     def show(self, t: float) -> None:
-        """Take the posture at a time (s); between two it is interpolated."""
+        """Set the body to the posture at a time (s), interpolated between two recorded ones."""
         after = bisect_right(self._times, t)
         later = self._postures[min(after, len(self._postures) - 1)]
         earlier = self._postures[max(after - 1, 0)]
@@ -49,13 +49,13 @@ class RecordedBody:
         data.qpos[self._places] = (1 - share) * np.array(earlier.joints) + share * np.array(later.joints)
         for name, place in earlier.objects.items():
             data.joint(name).qpos[:] = _between(place, later.objects.get(name, place), share)
-        mujoco.mj_forward(self.humanoid.model, data)  # which also makes the quaternions units again
+        mujoco.mj_forward(self.humanoid.model, data)  # mj_forward also normalizes the quaternions
 
 
 def _between(earlier: object, later: object, share: float) -> np.ndarray:
-    """Return a pose between two, as MuJoCo has it: the w of the quaternion comes first."""
+    """Interpolate between two poses; the result has MuJoCo's order, w first in the quaternion."""
     first, second = np.array(earlier, dtype=float), np.array(later, dtype=float)
-    if np.dot(first[3:], second[3:]) < 0:  # the same rotation, from the other side
+    if np.dot(first[3:], second[3:]) < 0:  # q and -q are the same rotation; take the shorter way
         second[3:] *= -1
     pose = (1 - share) * first + share * second
     return pose[[0, 1, 2, 6, 3, 4, 5]]

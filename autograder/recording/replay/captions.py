@@ -1,4 +1,4 @@
-"""What is written beside the robot at a time: what has just happened, and what the checks found."""
+"""The captions at a time of a recording: recent events, and failed checks."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ class Caption(NamedTuple):
 
 
 def captions(t: float, moments: Sequence[Moment], letters: int) -> list[Caption]:
-    """Return the time (s) and the moments that are fresh then, the newest last, in lines of so many `letters`.
+    """Return the time (s) and the recent moments, the newest last, in lines of at most `letters` characters.
 
-    Failed checks stay; where there is not room for all, they come first, then what is newest.
+    Failed checks stay visible; if space is short, they have priority, then the newest moments.
     """
     shown = [moment for moment in moments if _is_shown(moment, t)]
     feedback = [moment for moment in shown if moment.kind is Kind.FEEDBACK][-1:]

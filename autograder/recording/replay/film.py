@@ -19,7 +19,7 @@ from robot_sim.views.view import View
 RATE = 12.5  # frames a second
 MAX_DURATION = 60.0  # s
 WIDTH, HEIGHT = 480, 360  # px of the picture without the text
-LAST_FRAME = 1.5  # s for which the end stands still, so that the verdict can be read
+LAST_FRAME = 1.5  # s for which the last frame is shown, so that the verdict can be read
 FORMATS: Mapping[str, Literal["WEBP", "GIF"]] = {".webp": "WEBP", ".gif": "GIF"}
 
 
@@ -43,7 +43,7 @@ def film(recording: Recording, span: Span, file: Path, *, camera: str = "track")
 
 
 def require_known_format(file: Path) -> None:
-    """Require a name that ends as films here do."""
+    """Require a file name with a known film format."""
     if file.suffix.lower() not in FORMATS:
         raise ValueError(
             f"{file.name} ends in {file.suffix or 'nothing'}; a film here ends in {' or '.join(FORMATS)} "

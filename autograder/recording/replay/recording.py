@@ -1,4 +1,4 @@
-"""A recording read back: where the robot was, what happened, and what the checks found."""
+"""Reads a recording: the robot's postures, the events, and the verdicts."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class NoRecording(CourseError):
 
 @dataclass(frozen=True)
 class Posture:
-    """Where all of the robot was at `t` (s): poses are x, y, z (m) and a quaternion (x, y, z, w), joints rad or m."""
+    """The whole robot at time `t` (s): poses are x, y, z (m) and a quaternion (x, y, z, w), joints rad (fingers: m)."""
 
     t: float
     base: Sequence[float]
@@ -38,7 +38,7 @@ class Posture:
 
 @dataclass(frozen=True)
 class Recording:
-    """What a file of `course grade --record` or `course check --record` holds.
+    """The content of a file of `course grade --record` or `course check --record`.
 
     Attributes:
         path: of the file.
@@ -61,7 +61,7 @@ class Recording:
         """Read a file.
 
         Raises:
-            NoRecording: it is none, it is broken, or another version has written it.
+            NoRecording: the file is not a recording, is damaged, or was written by another version.
         """
         _require_a_small_file(path)
         try:
@@ -76,10 +76,10 @@ class Recording:
                         collected.add(message.log_time / 1e9, channel.topic, schema.name, message.data)
         except NoRecording:
             raise
-        except Exception as error:  # what three libraries raise about bytes that make no sense
+        except Exception as error:  # three libraries raise different errors for malformed bytes
             raise NoRecording(
-                f"{path} is no recording of an arena, or a broken one ({type(error).__name__}: {error}); expected an "
-                "MCAP file that `course grade --record` or `course check --record` wrote"
+                f"{path} is not a recording of an arena, or it is damaged ({type(error).__name__}: {error}); expected "
+                "an MCAP file that `course grade --record` or `course check --record` wrote"
             ) from error
         return cls(
             path, about, collected.joints, list(collected.postures()), collected.moments, collected.verdicts
@@ -122,7 +122,7 @@ class _Collected:
         self.verdicts: list[Verdict] = []
 
     def add(self, t: float, topic: str, type_name: str, data: bytes) -> None:
-        """Take one message."""
+        """Add one message."""
         own = topic.removeprefix(self._own)
         if topic in (EVENTS, ROSOUT):
             self._log(t, topic, deserialize_message(data, Log))
@@ -144,7 +144,7 @@ class _Collected:
             )
 
     def postures(self) -> Iterator[Posture]:
-        """Yield the postures of which all parts are there."""
+        """Yield the complete postures."""
         for t, base in sorted(self._odom.items()):
             joints = self._positions.get(t, ())
             if len(joints) == len(self.joints):

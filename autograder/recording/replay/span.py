@@ -1,4 +1,4 @@
-"""Which seconds of a recording are shown."""
+"""The part of a recording that is shown."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from autograder.recording.replay.recording import NoRecording, Recording
 
 AROUND = 6.0  # s shown around a check
-BEFORE = 2 / 3  # of them lie before its verdict
+BEFORE = 2 / 3  # of these seconds are before the verdict
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ def span_of(recording: Recording, around: str | None, seconds: float | None) -> 
 
 
 def require_postures(recording: Recording) -> None:
-    """Require that there is a robot to be seen."""
+    """Require recorded postures of a robot."""
     if not recording.postures:
         raise NoRecording(
             f"no robot was recorded in {recording.about['scenario']}, as the scenario has none; --text shows what "

@@ -1,4 +1,4 @@
-"""What happened in a recorded arena, as lines for the terminal."""
+"""The events of a recording as lines for the terminal."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ COLOURS = {
 
 
 def title(recording: Recording) -> str:
-    """Say what the recording is of."""
+    """Return a line that names exercise, student, scenario, seed, duration and clock scale of a recording."""
     about = recording.about
     seed = f", seed {about['seed']}" if about["seed"] not in ("", "None") else ""
     return (
@@ -35,7 +35,7 @@ def line(moment: Moment) -> Text:
 
 
 def time_line(recording: Recording) -> Iterator[Text]:
-    """Yield a line for each thing that happened; of feedback that follows feedback only how many there were."""
+    """Yield a line for each event; consecutive feedback messages are summed up in one line."""
     waiting: list[Moment] = []
     for moment in recording.moments:
         if moment.kind is Kind.FEEDBACK:

@@ -1,4 +1,4 @@
-"""A recorded arena in the web view, at the pace of its own clock."""
+"""Shows a recording in the web view, at the pace of the arena's clock."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def play(
     tell: Callable[[Moment], None],
     goes_on: Callable[[], bool] = lambda: True,
 ) -> None:
-    """Show the robot in this span, again and again, with captions; what happens is told the first time.
+    """Show the robot in this span in a loop, with captions; `tell` gets the moments of the first round.
 
     Args:
         recording: what to show.
@@ -34,7 +34,7 @@ def play(
         port: where the view listens; 0: the first free one from 8080 on.
         ready: gets the view's address.
         tell: gets each moment when its time comes.
-        goes_on: asked before every frame.
+        goes_on: called before every frame; False ends the loop.
 
     Raises:
         NoRecording: the recorded robot is another one.

@@ -18,10 +18,10 @@ if TYPE_CHECKING:  # typing itself takes a millisecond to import
 
 
 def install() -> None:
-    """Watch for the import of the modules that are repaired.
+    """Install the finder that repairs modules when they are imported, and unset RMW_IMPLEMENTATION if it names another.
 
-    Another middleware, which a shell names for other ROS work, is set aside: where it is not installed, rcl ends the
-    process at the import of rclpy, and where it is, the course's nodes all use the default one.
+    A shell may set that variable for other ROS work. If the middleware it names is not installed, rcl ends the process
+    at the import of rclpy; if it is, the course's nodes still have to use the default one.
     """
     if os.environ.get("RMW_IMPLEMENTATION") not in (None, "rmw_fastrtps_cpp"):
         del os.environ["RMW_IMPLEMENTATION"]
@@ -63,7 +63,7 @@ def _repair_events_executor(module: ModuleType) -> None:
 
 
 class _Finder:
-    """Finds nothing but one module, once, and has its loader repair what it loaded."""
+    """Finds one module, once, and makes its loader repair the module after loading it."""
 
     def __init__(self, name: str, repair: Callable[[ModuleType], None]) -> None:
         self._name = name

@@ -1,21 +1,21 @@
-"""Repair of what becomes of Ctrl-C while an executor spins.
+"""Repair of rclpy's handling of Ctrl-C while an executor spins.
 
 What happens. A node that catches KeyboardInterrupt and ExternalShutdownException around spin(), as it should,
-still ends now and then with an error that neither of them is, or is aborted by the C++ runtime.
+sometimes still ends with another error, or is aborted by the C++ runtime.
 
 Why. SIGINT does two things at once: a thread of rclpy shuts the context down, and Python raises KeyboardInterrupt
-in the main thread. Either can fall between two steps that rclpy takes for one:
+in the main thread. Either can happen between two steps that rclpy treats as one:
 
-1. Between the look at the context and the making of the wait set: RCLError "failed to initialize wait set".
+1. Between the check of the context and the creation of the wait set: RCLError "failed to initialize wait set".
 2. Into the constructor of a message that C++ code calls: pybind11 loses the KeyboardInterrupt and raises
    RuntimeError "Unable to convert call argument".
-3. Between try_shutdown()'s look at the context and its shutdown: RCLError "rcl_shutdown already called".
+3. Between try_shutdown()'s check of the context and its shutdown: RCLError "rcl_shutdown already called".
 4. While a callback publishes, calls or answers: RCLError "context is invalid".
 5. A daemon thread still waits in C++ code when the interpreter ends. Python before 3.14 ends such a thread by
    unwinding its stack, which C++ answers with "terminate called without an active exception" and SIGABRT.
 
-The repair. 1, 2 and 4 become what they are, ExternalShutdownException or KeyboardInterrupt; in 3 the context is shut
-down, which is all that was asked; in 5 the waits are ended before the interpreter is.
+The repair. 1, 2 and 4 raise ExternalShutdownException or KeyboardInterrupt instead; 3 is ignored, because the context
+is shut down as requested; in 5 the waits are ended before the interpreter exits.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ FIRST_AFFECTED = (7, 1, 0)
 FIRST_UNKNOWN = (7, 2, 0)
 
 _CONTEXT_DOWN_WITHIN = 0.5  # s from SIGINT to the end of the context, on a busy machine
-_WAITS_END_WITHIN = 1.0  # s that the interpreter's end is put off for threads that wait
+_WAITS_END_WITHIN = 1.0  # s to wait at the interpreter's exit for threads to return from C++
 
 
 def needs_repair(version: str) -> bool:
@@ -135,7 +135,7 @@ def _shutting_down(try_shutdown: Callable[[Any], None]) -> Callable[[Any], None]
 class _Waits:
     """The executors that wait for work, by the thread they wait in.
 
-    Without a lock: the interrupt that this module is about could leave it locked.
+    It uses no lock, because a KeyboardInterrupt could leave it locked.
     """
 
     def __init__(self) -> None:
@@ -143,7 +143,7 @@ class _Waits:
         self._ended = False
 
     def begin(self, executor: Any) -> bool:
-        """Note that `executor` goes to wait; False if the interpreter ends."""
+        """Register a waiting executor; return False if the interpreter is exiting."""
         self._executors[threading.get_ident()] = executor
         return not self._ended
 
@@ -156,7 +156,7 @@ class _Waits:
         self.finish()
         for executor in list(self._executors.values()):
             executor._is_shutdown = True
-            with suppress(RuntimeError):  # it has been destroyed meanwhile
+            with suppress(RuntimeError):  # the executor has been destroyed meanwhile
                 executor.wake()
         end = time.monotonic() + _WAITS_END_WITHIN
         while self._executors and time.monotonic() < end:

@@ -3,11 +3,11 @@
 What happens. Where one thread sends and another one spins, a quick answer is dropped with the warning "Ignoring
 unexpected goal response", and the future of the request never completes (ros2/rclpy#1123).
 
-Why. The client sends first and notes the number of its request afterwards. In between the thread that spins may take
-the answer, and it knows of no such request.
+Why. The client sends the request first and stores its sequence number afterwards. If the spinning thread takes the
+answer in between, it finds no request with that number.
 
-The repair. Sending and noting are one step: nothing is taken from the middleware meanwhile. (Upstream's mend, in #1308
-and its backports, holds a lock over the same lines.)
+The repair. A lock makes sending and storing one step, during which no answer is taken. (Upstream's fix, in #1308 and
+its backports, holds a lock over the same lines.)
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _SENDING = ("send_goal_async", "_cancel_goal_async", "_get_result_async")
 
 
 def needs_repair(module: ModuleType) -> bool:
-    """Return whether the ActionClient of rclpy.action.client has the fault: upstream's mend holds a lock, too."""
+    """Return whether the ActionClient of rclpy.action.client has the fault; upstream's fix uses a lock."""
     return "_lock" not in module.ActionClient.send_goal_async.__code__.co_names
 
 

@@ -35,5 +35,5 @@ def numbers(version: str) -> tuple[int, ...]:
 def _list(folder: str) -> list[str]:
     try:
         return os.listdir(folder)
-    except OSError:  # sys.path may name what is no folder
+    except OSError:  # sys.path may contain files and missing folders
         return []

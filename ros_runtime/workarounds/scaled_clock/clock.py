@@ -1,4 +1,4 @@
-"""The writing side of the scaled clock: make the page that an arena's processes share, and set its pace.
+"""The writing side of the scaled clock: create the page that an arena's processes share, and set its pace.
 
     clock = ScaledClock.create(directory / "clock")     # starts at the pace of real time
     subprocess.Popen(..., env={**env, **clock.environment()})
@@ -44,10 +44,10 @@ def preload_variables() -> dict[str, str]:
 
 
 def follow(path: str | os.PathLike[str]) -> None:
-    """Let this process follow the clock at `path`: a fork, with one thread so far, of one that has no clock yet.
+    """Make this process follow the clock at `path`; call it in a single-threaded fork of a process without a clock.
 
     Raises:
-        OSError: the library is not preloaded, or there is no page, or it is not one of ours.
+        OSError: the library is not preloaded, or `path` is not a page of this clock.
     """
     try:
         attach = ctypes.CDLL(None).scaled_clock_follow
@@ -73,7 +73,7 @@ class ScaledClock:
 
     @classmethod
     def create(cls, path: str | os.PathLike[str], *, library: Path | None = None) -> ScaledClock:
-        """Make the page file `path`, running at scale 1 and equal to the wall's clocks until `run_at`.
+        """Create the page file `path`: scale 1, equal to the system's clocks until `run_at`.
 
         `library` is the preloaded library, by default `library_path()`.
 
@@ -91,7 +91,7 @@ class ScaledClock:
 
     @classmethod
     def open(cls, path: str | os.PathLike[str], *, library: Path | None = None) -> ScaledClock:
-        """Join the clock at `path`. A page that this process may only read can be read, not set.
+        """Open the clock at `path`; without write permission it can only be read.
 
         Raises:
             OSError: there is none.
@@ -126,11 +126,11 @@ class ScaledClock:
     def run_at(self, scale: float, *, final: bool = True) -> None:
         """Let the clock run `scale` times as fast as real time, for all processes from the same instant on.
 
-        Returns when that instant has come, about 10 ms later. `final` promises that the pace stays: waits
-        then run undivided. Until then they wake every 10 ms to read the page.
+        Returns when that instant has come, about 10 ms later. `final` promises that the pace stays: processes then
+        sleep without interruption, instead of waking every 10 ms to read the page.
 
-        ROS nodes discover each other in real time. Speed up only 0.2 s after a client has found its server: the
-        server may not know the client yet, and would give up answering it ten times sooner at scale 10.
+        ROS nodes discover each other in real time. Speed up only 0.2 s after a client has found its server: the server
+        may not have discovered the client yet, and at scale 10 its timeout for that is ten times shorter.
 
         Raises:
             RuntimeError: processes cannot follow, the clock is final, or it was changed 15 times.

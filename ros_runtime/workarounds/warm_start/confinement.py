@@ -16,8 +16,8 @@ _SECCOMP_MODE_FILTER = 2
 _CAPABILITY_VERSION_3 = 0x20080522
 _LAST_POSSIBLE_CAPABILITY = 63
 _INSTRUCTION_BYTES = 8  # of a seccomp filter
-NICER = 5  # than the process that starts it: the robot and the grader are served first, three times as much
-OOM_SCORE = 500  # of 1000, added: where memory runs out, the kernel ends students' programs first
+NICER = 5  # nice value above the parent's: robot and grader get about three times the processor time
+OOM_SCORE = 500  # oom_score_adj, at most 1000: out of memory, the kernel ends students' programs first
 
 _libc = ctypes.CDLL(None, use_errno=True)
 
@@ -27,7 +27,7 @@ class _FilterProgram(ctypes.Structure):
 
 
 def join_namespaces(pid: int) -> None:
-    """Enter every namespace of a process but its network; the next fork is in its process namespace, too.
+    """Enter all namespaces of a process except its network; the PID namespace applies from the next fork on.
 
     Raises:
         OSError: the kernel does not permit it; this process must have a single thread.
@@ -40,8 +40,8 @@ def join_namespaces(pid: int) -> None:
 
 
 def stand_back(pid: int) -> None:
-    """Let a process (0: this one) and all it will start yield to others: for a processor, and when memory runs out."""
-    os.sched_setscheduler(pid, os.SCHED_BATCH, os.sched_param(0))  # it waits for its turn when it wakes up
+    """Lower the priority of a process (0: this one) and its future children, for processors and for memory."""
+    os.sched_setscheduler(pid, os.SCHED_BATCH, os.sched_param(0))  # does not preempt others when it wakes up
     os.setpriority(os.PRIO_PROCESS, pid, min(19, os.getpriority(os.PRIO_PROCESS, pid) + NICER))
     with open(f"/proc/{pid or 'self'}/oom_score_adj", "r+") as score:
         wanted = max(int(score.read()), OOM_SCORE)
@@ -59,7 +59,7 @@ def give_up_privileges(limits: Mapping[str, int], seccomp_filter: bytes) -> None
     _prctl(_PR_SET_NO_NEW_PRIVS, 1)
     for capability in range(_LAST_POSSIBLE_CAPABILITY + 1):
         if _libc.prctl(_PR_CAPBSET_DROP, capability, 0, 0, 0) != 0:
-            break  # the kernel knows no more of them
+            break  # the kernel has no more capabilities
     _prctl(_PR_CAP_AMBIENT, _PR_CAP_AMBIENT_CLEAR_ALL)
     header = (ctypes.c_uint32 * 2)(_CAPABILITY_VERSION_3, 0)
     _check(_libc.capset(header, (ctypes.c_uint32 * 6)()), "capset")

@@ -1,9 +1,9 @@
-"""The first process of an arena: it loads rclpy once for two, the interpreter that waits and the program that leads.
+"""The first process of an arena: it loads rclpy once, for the waiting interpreter and for the leading program.
 
-Run as `python first_process.py DESCRIPTOR`, in the environment that programs begin with. It forks the waiting
-interpreter, and only then reads the file DESCRIPTOR: a JSON object with the leading program's `arguments` (-m MODULE …)
-and `environment`. So nothing of that program is ever in the interpreter's memory. It finds the interpreter's socket and
-process id in its environment, under WAITING.
+Run as `python first_process.py DESCRIPTOR`, in the environment of students' programs. It forks the waiting interpreter
+and only then reads the file DESCRIPTOR: a JSON object with the leading program's `arguments` (-m MODULE …) and
+`environment`. So the waiting interpreter's memory never contains anything of the leading program. The leading program
+finds the interpreter's socket and process id in the variable WAITING.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ with Recording() as recording:
 
 
 def wait(orders: socket.socket, guard: ForkGuard) -> int:
-    """Wait for orders in a fork that has nothing else open; return, in a fork of it, a program's exit status."""
+    """Serve orders with all other descriptors closed. Returns only in a fork: the exit status of its program."""
     here = orders.fileno()
     os.closerange(3, here)
     os.closerange(here + 1, os.sysconf("SC_OPEN_MAX"))
@@ -47,7 +47,7 @@ def wait(orders: socket.socket, guard: ForkGuard) -> int:
 
 
 def lead(descriptor: int, waiting: str) -> None:
-    """Go on as `python -m MODULE …` in the environment that the file holds."""
+    """Become `python -m MODULE …`, with the arguments and the environment in the file."""
     with open(descriptor, encoding="utf-8") as file:
         program = json.load(file)
     os.environ.clear()
@@ -60,7 +60,7 @@ def lead(descriptor: int, waiting: str) -> None:
 
 
 if __name__ == "__main__":
-    # Ctrl-C does what it does in a terminal, also where a script started us.
+    # A script's background process ignores SIGINT: restore Python's handler.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     with recording:
         preload()

@@ -1,17 +1,17 @@
-"""Hides loaded modules until a program imports them, which then takes no time.
+"""Hides loaded modules until a program imports them; the import then takes microseconds.
 
     with Recording() as recording:
         import rclpy.node
     hide(recording, before)           # `before`: the names in sys.modules at the start of this process
-    import rclpy                      # takes microseconds, and brings in what it brings in when it is loaded
+    import rclpy                      # takes microseconds, and shows the modules that rclpy itself imports
 
-A program that forgets an import fails as it would have failed in a fresh interpreter: a hidden module is neither in
-sys.modules nor an attribute of its package until somebody imports it, or a module that imports it itself.
+A program that forgets an import fails as in a fresh interpreter: a hidden module is neither in sys.modules nor an
+attribute of its package until the program imports it, directly or through another module.
 """
 
 from __future__ import annotations
 
-# Nothing that a fresh interpreter has not loaded: what is imported before the recording is not recorded.
+# Only modules that a fresh interpreter has loaded anyway: imports before the recording are not recorded.
 import builtins
 import importlib
 import sys
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 class Recording:
-    """Notes which modules the code of each module imports while it is loaded."""
+    """Records, for each module, which modules it imports while it is loaded."""
 
     def __init__(self) -> None:
         self.imports: Imports = {}
@@ -65,7 +65,7 @@ class Recording:
         return module
 
     def _note(self, imported: str) -> None:
-        """Note an import for the module that is being loaded, which is the nearest on the stack."""
+        """Record an import under its importer: the module whose top-level code is innermost on the stack."""
         frame: FrameType | None = sys._getframe(2)
         while frame and frame.f_code.co_name != "<module>":
             frame = frame.f_back
@@ -92,7 +92,7 @@ def hide(recording: Recording, before: Iterable[str]) -> None:
 
 
 class _Finder:
-    """Finds hidden modules, and is their loader: it loads what they import, then shows them as they were."""
+    """Finder and loader of hidden modules: imports their recorded imports, then restores their contents."""
 
     def __init__(self, hidden: dict[str, ModuleType], imports: Imports) -> None:
         self._hidden = hidden
@@ -119,12 +119,12 @@ class _Finder:
         module.__spec__.loader = self._loaders.pop(name)
         for imported in self._imports.get(name, ()):
             importlib.import_module(imported)
-        # a package may have bound the name of a submodule to something else after it had imported it
+        # restore names that the package had rebound after importing a submodule of the same name
         vars(module).update(self._contents.pop(name))
 
 
 def _is_imported_as(name: str, module: Any) -> bool:
-    """Return whether a module was imported under this name; others, such as os.path, are put there by code."""
+    """Return whether a module was imported under this name, not added to sys.modules by code, as os.path is."""
     spec = vars(module).get("__spec__") if isinstance(module, type(sys)) else None
     return spec is not None and spec.name == name
 

@@ -1,6 +1,6 @@
-"""Forks a process in which LTTng runs, loaded by ROS's tracepoints: its threads must be started anew in the fork.
+"""Support for forks with LTTng, which ROS's tracepoints load: its threads must be restarted in the child.
 
-If a fork of a fork goes on, only that one calls `after_in_child`; the process between them just waits.
+After two forks in a row only the last process calls `after_in_child`; the intermediate one just waits.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ _PREFIXES = ("ust_", "lttng_ust_")  # of the functions, before and since LTTng 2
 
 
 class ForkGuard:
-    """Does what liblttng-ust-fork does around a fork, or nothing if LTTng is not loaded."""
+    """Makes the calls of liblttng-ust-fork around a fork; does nothing if LTTng is not loaded."""
 
     def __init__(self) -> None:
         self._signals = ctypes.create_string_buffer(128)  # a sigset_t
@@ -25,11 +25,11 @@ class ForkGuard:
         self._call("before_fork")
 
     def after_in_parent(self) -> None:
-        """Call it after the fork in the process that goes on waiting."""
+        """Call it after the fork in the parent."""
         self._call("after_fork_parent")
 
     def after_in_child(self) -> None:
-        """Call it in the fork that goes on; it starts LTTng's threads."""
+        """Call it in the child that becomes a program; it starts LTTng's threads."""
         self._call("after_fork_child")
 
     def _call(self, function: str) -> None:

@@ -15,23 +15,23 @@ from types import ModuleType
 
 
 def run_program(arguments: Sequence[str], environment: Mapping[str, str], folder: str) -> int:
-    """Run `arguments[0]` in `folder` as the main program; return the exit status, unless it ends by itself.
+    """Run `arguments[0]` in `folder` as the main program; return the exit status, unless it calls sys.exit.
 
-    Tracebacks, SystemExit and Ctrl-C are the interpreter's own business, as they are for any program.
+    The interpreter itself handles tracebacks, SystemExit and Ctrl-C, as for any program.
     """
     os.environ.clear()
     os.environ.update(environment)
-    os.environ["PWD"] = folder  # as a shell would set it
+    os.environ["PWD"] = folder  # a shell sets it, too
     os.chdir(folder)
     if os.environ.get("PYTHONFAULTHANDLER"):
-        import faulthandler  # a new interpreter has it, too, but only with this variable
+        import faulthandler  # a new interpreter imports it only with this variable
 
         faulthandler.enable()
     path = os.path.abspath(arguments[0])
     sys.argv = list(arguments)
     sys.orig_argv = [sys.executable, *arguments]
     sys.path[0] = os.path.dirname(path)
-    sys.path_importer_cache.clear()  # it lists folders as they were seen from outside
+    sys.path_importer_cache.clear()  # its folder listings are from outside the sandbox
     _draw_new_seeds()
     sys.modules["__main__"] = _empty_main()
     gc.enable()
@@ -65,7 +65,7 @@ def _empty_main() -> ModuleType:
 
 
 def _draw_new_seeds() -> None:
-    """Seed the generators that would otherwise be the same in every fork; Python's own does it itself."""
+    """Reseed NumPy's global generator, which would be the same in every fork; Python's `random` reseeds itself."""
     for finder in sys.meta_path:
         hidden = getattr(finder, "_hidden", {})
         if random := hidden.get("numpy.random"):
@@ -73,7 +73,7 @@ def _draw_new_seeds() -> None:
 
 
 def _end_as_interrupted() -> None:
-    """End by SIGINT, so that a parent sees what it sees of any program that Ctrl-C ends."""
+    """Exit by SIGINT, so that the parent gets the same status as from any program that Ctrl-C ends."""
     threading._shutdown()  # type: ignore[attr-defined]
     atexit._run_exitfuncs()
     sys.stdout.flush()

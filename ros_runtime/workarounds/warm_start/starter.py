@@ -1,9 +1,9 @@
-"""A waiting interpreter: at every order it forks a program into a sandbox.
+"""A waiting interpreter: for every order it forks a program into a sandbox.
 
-An order is a JSON object (sandbox, argv, env, folder, limits, clock) with five descriptors: stdin, stdout,
-stderr, where to report, and a file with the seccomp filter. The report is the program's process id and, when it has
-ended, its exit status (negative: a signal), a line each; or one line with what went wrong. The program can read all the
-memory of this process, so that holds nothing but what every program may know.
+An order is a JSON object (sandbox, argv, env, folder, limits, clock) with five descriptors: stdin, stdout, stderr, a
+pipe for the report, and a file with the seccomp filter. The report has two lines, the program's process id and, after
+its end, its exit status (negative: a signal); or one line with an error. The program can read this process's whole
+memory, so nothing secret may be loaded here.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ DESCRIPTORS = 5
 
 
 def wait_for_order(orders: socket.socket, guard: ForkGuard) -> dict:
-    """Serve orders; return, with the order, only in the process that is to become the program."""
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the kernel reaps them
+    """Serve orders; return only in a fork that will become a program, with its order."""
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the kernel reaps the forks
     while True:
         text, descriptors, _, _ = socket.recv_fds(orders, LONGEST_ORDER, DESCRIPTORS)
         if not text:
@@ -38,7 +38,7 @@ def wait_for_order(orders: socket.socket, guard: ForkGuard) -> dict:
 
 
 def keep(order: dict, descriptors: list[int], guard: ForkGuard) -> dict:
-    """Enter the sandbox, fork the program and stay outside its process namespace until it has ended."""
+    """Enter the sandbox and fork the program, in which this returns; report to the arena until the program ends."""
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     *streams, report, filter_file = descriptors
     seccomp_filter = os.pread(filter_file, os.fstat(filter_file).st_size, 0)

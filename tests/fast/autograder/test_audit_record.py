@@ -137,7 +137,7 @@ def test_an_interrupted_audit_says_how_to_go_on_and_then_grades_only_what_is_lef
         patch.setattr("autograder.classroom.commands.audit.print_progress", interrupted)
         ran = CliRunner().invoke(app("audit"), command)
     assert ran.exit_code == 1
-    assert "add --resume to go on" in " ".join(ran.output.split())
+    assert "add --resume to continue" in " ".join(ran.output.split())
 
     graded.clear()
     ran = CliRunner().invoke(app("audit"), [*command, "--resume"])

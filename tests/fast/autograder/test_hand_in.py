@@ -87,12 +87,12 @@ CASES = {
     ),
     "never the starter": (
         [f"{NAME}-Copy1.ipynb", (f"{NAME}.ipynb", "starter")],
-        f"{NAME}.ipynb is as it was given",
+        f"{NAME}.ipynb is the unchanged starter",
     ),
-    "nor what it writes": ([f"{NAME}-Copy1.ipynb", (FIRST, "its file")], f"{FIRST} is as it was given out"),
+    "nor what it writes": ([f"{NAME}-Copy1.ipynb", (FIRST, "its file")], f"{FIRST} is the unchanged starter"),
     "nor one at the top": (
         [f"sub/{FIRST}", (f"{NAME}.ipynb", "starter")],
-        f"{NAME}.ipynb is as it was given out",
+        f"{NAME}.ipynb is the unchanged starter",
     ),
     "never a nested one": ([FIRST, (f"old/{FIRST}", OTHER)], f"old/{FIRST} lies deeper than {FIRST}"),
     "what can be read": (

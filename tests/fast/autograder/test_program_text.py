@@ -53,12 +53,12 @@ def test_a_program_is_read_in_its_encoding_and_runs_in_it(read, declaration: str
         (PROGRAM.encode("latin-1"), r"cannot be read as Python .*UTF-8"),
         (b"\n\n\n" + PROGRAM.encode("latin-1"), r"is not UTF-8 text in line 4: save it as UTF-8"),
         ("# coding: klingon\n" + PROGRAM, "unknown encoding: klingon"),
-        ("# coding: unicode_escape\n" + PROGRAM, "no program is written in unicode_escape"),
+        ("# coding: unicode_escape\n" + PROGRAM, "Python cannot read programs in unicode_escape"),
         (b"\xa7\r\r\n\0\0\0\0compiled", "is no text: hand in the text file"),
         (b"\x1f\x8b\x08", "is compressed by gzip"),
         (" \n", "is empty: save your work"),
-        (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d\n", "git-lfs's pointer to the file"),
-        (f"<<<<<<< HEAD\r\n{PROGRAM}=======\r\n>>>>>>> theirs\r\n", "holds what git could not merge"),
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d\n", "only a git-lfs pointer"),
+        (f"<<<<<<< HEAD\r\n{PROGRAM}=======\r\n>>>>>>> theirs\r\n", "has a merge conflict"),
         (b"PK\3\4", "a zip archive or an office document"),
         (json.dumps(NOTEBOOK), r"is a notebook: give it a name that ends in \.ipynb"),
         (
@@ -79,9 +79,7 @@ def test_what_is_no_program_is_named_as_what_it_is(read, content: bytes | str, n
 @pytest.mark.parametrize("content", ["", '<<<<<<< HEAD\n{"cells": [\n=======\n{\n>>>>>>> theirs\n'])
 def test_so_is_a_notebook_that_is_empty_or_half_merged(tmp_path: Path, content: str) -> None:
     (tmp_path / "work.ipynb").write_text(content)
-    with pytest.raises(
-        UnusableSubmission, match=r"work\.ipynb (is empty: save|holds what git could not merge)"
-    ):
+    with pytest.raises(UnusableSubmission, match=r"work\.ipynb (is empty: save|has a merge conflict)"):
         read_submission(tmp_path / "work.ipynb", EXERCISE)
 
 

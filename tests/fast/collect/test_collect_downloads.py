@@ -118,18 +118,24 @@ def test_a_folder_around_everything_is_nobodys(tmp_path: Path, platform: str) ->
         (
             "canvas",
             [
-                "question.html is of no exercise",
+                "question.html is not named like an exercise",
                 "was handed in again as",
                 "late, as the platform says: oneil",
                 "nothing to grade from: kimcleo-103; --exercise NAME takes a file of any name",
             ],
         ),
-        ("moodle", ["onlinetext.html is not called as Moodle calls"]),
+        ("moodle", ["onlinetext.html does not have the name of a Moodle submission"]),
         (
             "gradescope",
-            ["submission_79/battery_service.py belongs to no submission", "my.ipynb is of no exercise"],
+            [
+                "submission_79/battery_service.py belongs to no submission",
+                "my.ipynb is not named like an exercise",
+            ],
         ),
-        ("classroom50", ["README.md is of no exercise", "walk_to.py is of walk_to, not of battery_service"]),
+        (
+            "classroom50",
+            ["README.md is not named like an exercise", "walk_to.py is of walk_to, not of battery_service"],
+        ),
     ],
 )
 def test_what_is_left_aside_is_named(tmp_path: Path, platform: str, lines: list[str]) -> None:
@@ -167,8 +173,8 @@ def test_a_file_of_any_name_counts_where_the_exercise_is_given(tmp_path: Path) -
     )
     assert programs(tmp_path / "s") == {"leeanna-1": PROGRAM}
     assert "walk_to.py is of walk_to, not of battery_service" in said(done)
-    assert "notes.txt is of no exercise" in said(done)
-    assert "hw.zip is an archive, and none is opened: unpack the download" in said(done)
+    assert "notes.txt is not named like an exercise" in said(done)
+    assert "hw.zip is an archive, and archives are not opened: unpack the download" in said(done)
     assert "nothing to grade from: bo-3, jo-4, kim-2 1 submissions" in said(done)
 
 
@@ -257,7 +263,7 @@ def test_the_last_attachment_counts_whatever_was_put_around_its_name(tmp_path: P
         "zoe-6": "work = 1\n",
     }
     assert "9001_battery_service.ipynb was handed in again as ohl_1_9002" in said(done)
-    assert "zoe_6_9008_battery_service-1.ipynb is as it was given out" in said(done)
+    assert "zoe_6_9008_battery_service-1.ipynb is the unchanged starter" in said(done)
 
 
 TOPS = {

@@ -116,7 +116,7 @@ def test_a_member_that_is_there_twice_counts_once(tmp_path: Path) -> None:
     with zipfile.ZipFile(made, "a") as archive, pytest.warns(UserWarning, match="Duplicate"):
         archive.writestr(next(iter(GOOD)), "other = 1\n")
     done = course(made, "--from", "canvas", "--out", tmp_path / "s")
-    assert "is there twice" in said(done)
+    assert "occurs twice" in said(done)
     assert programs(tmp_path / "s") == {"lee-1": PROGRAM}
 
 

@@ -155,7 +155,7 @@ def test_canvas_may_split_names_and_show_no_points(tmp_path: Path) -> None:
     assert rows(made.files["battery_service.csv"])[2] == ["Lee, Anna", "101", "anna", "A", "5"]
     unseen = replace(CANVAS_OPTIONS, roster=saved(tmp_path, text.replace("4711", "9")))
     assert (
-        "no roster says how many points battery_service (4711) has"
+        "without a roster the points of battery_service (4711) in Canvas are unknown"
         in export("canvas", [ANNA], unseen).notes[0]
     )
 

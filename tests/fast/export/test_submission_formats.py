@@ -155,7 +155,7 @@ def test_classroom50_takes_its_jobs_variables_and_otherwise_says_that_a_person_e
 
 @pytest.mark.parametrize("student", ["../anna", "a/b", "", "-rf", "anna\n", ".hidden"])
 def test_names_that_cannot_be_files_are_refused(student: str) -> None:
-    with pytest.raises(UnusableBatch, match="is no name of a student"):
+    with pytest.raises(UnusableBatch, match="is not a valid name of a student"):
         export("gradescope", [replace(ANNA, student=student)], OPTIONS)
 
 

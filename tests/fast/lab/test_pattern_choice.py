@@ -64,7 +64,7 @@ def test_other_words_and_further_answers_are_told() -> None:
     with pytest.raises(lab.LabError, match="'maybe' is no answer"):
         choice.answer("maybe")
     choice.answer("yes")
-    with pytest.raises(lab.LabError, match=r"it is decided: action; begin again with restart\(\)"):
+    with pytest.raises(lab.LabError, match=r"the pattern is decided: action; begin again with restart\(\)"):
         choice.answer("no")
     choice.restart()
     assert choice.pattern is None

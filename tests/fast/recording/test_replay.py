@@ -272,9 +272,9 @@ def test_what_cannot_be_shown_is_refused_with_what_to_do(fallen: Any, tmp_path: 
     film_file = tmp_path / "film.webp"
     for arguments, words in [
         ((tmp_path / "missing.mcap",), "is no file"),
-        ((text,), "is no recording of an arena, or a broken one"),
-        ((cut,), "is no recording of an arena, or a broken one"),
-        ((flipped,), "is no recording of an arena, or a broken one"),
+        ((text,), "is not a recording of an arena, or it is damaged"),
+        ((cut,), "is not a recording of an arena, or it is damaged"),
+        ((flipped,), "is not a recording of an arena, or it is damaged"),
         ((other_mcap(tmp_path / "bag.mcap", None),), "no recording of an arena; open it with Foxglove"),
         ((other_mcap(tmp_path / "new.mcap", {"format": "99"}),), "another version (format 99"),
         ((no_robot, "--film", film_file), "no robot was recorded in walk"),
@@ -302,7 +302,7 @@ def test_a_damaged_file_is_read_or_refused_but_nothing_else(fallen: Any, tmp_pat
         try:
             Recording.read(path)
         except NoRecording as error:
-            refused += "is no recording of an arena, or a broken one" in str(error)
+            refused += "is not a recording of an arena, or it is damaged" in str(error)
     assert refused > 40
 
 

@@ -39,7 +39,7 @@ def test_battery_service_from_the_task_to_the_verdicts(tmp_path):
     assert "✓" in seen["self-check"]
     assert "✗" not in seen["self-check"]
     assert "The node offers get_battery_status" in seen["server_appears"]
-    assert seen["hidden_1"].strip() == "Hidden check 1 is made when your work is graded."
+    assert seen["hidden_1"].strip() == "Hidden check 1 is run when your work is graded."
 
 
 def test_compute_ik_from_the_task_to_the_arm(tmp_path):

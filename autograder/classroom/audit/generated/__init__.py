@@ -1,1 +1,1 @@
-"""Mistakes with a meaning, made by a program in correct submissions: what the checks do not notice is a gap in them."""
+"""Mutation testing: typical mistakes, made automatically in correct submissions; survivors show gaps in the checks."""

@@ -1,4 +1,4 @@
-"""A mutant as an audit grades it: only until it is plain which checks notice it."""
+"""Grades a mutant for an audit, and stops as soon as the first failing check is known."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from autograder.isolation.availability import available_isolation
 
 @dataclass(frozen=True)
 class GeneratedFault(KnownSubmission):
-    """A submission that no file holds; it may fail any check, and must fail one."""
+    """A mutant as a faulty submission without a file; it has to fail at least one check, whichever that is."""
 
     mutant: Mutant = field(kw_only=True)
 
@@ -55,11 +55,11 @@ class Judged:
 
 
 class _Plain(Exception):
-    """Nothing more is to be known of this mutant."""
+    """Raised to end the grading of a mutant whose first failing check is known."""
 
 
 def as_fault(mutant: Mutant, exercise: Exercise) -> GeneratedFault:
-    """Return what the audit grades; these faults share arenas, as the faulty submissions do."""
+    """Return the mutant as a faulty submission, so that it shares arenas with the others."""
     ids = tuple(check.id for check in exercise.checks)
     return GeneratedFault(
         exercise.name, "faulty", mutant.base, mutant.sentence, also_fails=ids, mutant=mutant
@@ -77,7 +77,7 @@ def first_look(
 ) -> AuditedRun:
     """Grade a mutant until a visible check fails; a hidden one ends it when all visible ones are judged.
 
-    One failure counts, since no points can be lost. Checks that were not judged until then are “not run”.
+    A failed check is not retried, since no points can be lost. Checks that were not judged by then are “not run”.
     """
     started = time.monotonic()
     verdicts: dict[str, CheckVerdict] = {}

@@ -43,7 +43,7 @@ class Mutant:
 
 
 def mutants_of_exercise(exercise: str) -> list[Mutant]:
-    """Return every mutant of the programs in <exercise>/known/correct; none where students write no single program."""
+    """Return every mutant of the programs in <exercise>/known/correct; [] if students do not write a single program."""
     names = file_names(exercise)
     if len(names) != 1 or not names[0].endswith(".py"):
         return []
@@ -75,13 +75,13 @@ def mutants_of_program(base: Path) -> list[Mutant]:
 
 
 def _hash(head: str, edits: Edits) -> str:
-    """Return a few digits that stand for the head of the statement that is changed, and for the change."""
+    """Return a short hash of the first line of the changed statement and of the change."""
     words = [head, *(text for node, new in edits.items() for text in (ast.unparse(node), new))]
     return hashlib.sha256("\n".join(words).encode()).hexdigest()[:6]
 
 
 def _change(before: str, after: str) -> str:
-    """Return what is written instead of what, or what is added, in one line."""
+    """Describe a change in one line: "NEW instead of OLD", or the added text."""
     old, new = before.splitlines(), after.splitlines()
     added = "; ".join(line.strip() for line in new if line not in old)
     removed = "; ".join(line.strip() for line in old if line not in new)

@@ -1,4 +1,4 @@
-"""What a program puts into the fields of messages."""
+"""Finds the values that a program assigns to fields of messages."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from autograder.classroom.audit.generated.program import Edits, Program, last_na
 
 @dataclass(frozen=True)
 class Put:
-    """A value that is put into a field, or into the list in it.
+    """A value that is assigned to a field of a message, or appended to a list in it.
 
     Attributes:
         place: the field as the program writes it, such as `response.battery`, or its name in a constructor.
@@ -28,7 +28,7 @@ class Put:
 
 
 def puts(program: Program) -> Iterator[Put]:
-    """Yield what is put into fields by assignments, `append`, `extend` and constructors."""
+    """Yield the values that assignments, `append`, `extend` and constructors put into fields."""
     types = program.interfaces.types
     for target, value, without in assignments(program):
         if last_name(target) in types and is_field(target):
@@ -44,7 +44,7 @@ def puts(program: Program) -> Iterator[Put]:
 
 
 def copies(program: Program) -> Iterator[tuple[Put, ast.stmt, str]]:
-    """Yield where a statement puts a whole message, which it has from elsewhere, into a field, and the message."""
+    """Yield each statement that assigns an existing message to a field, and that message."""
     for put in puts(program):
         is_made_here = last_name(put.value) in {*program.interfaces.classes, *PARTS}
         for changed in put.without if put.value and message_class(put.type) and not is_made_here else ():

@@ -1,4 +1,4 @@
-"""Makes the mutants of an exercise, grades some of them, and prints what became of them."""
+"""Makes the mutants of an exercise, grades some of them, and prints the results."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def audit_generated(
     seed: int = 0,
     scale: float | None = None,
 ) -> list[Judged]:
-    """Grade up to `number` mutants, of each operator in turn, the usual number if it is None; print and return them."""
+    """Grade up to `number` mutants (None: the usual number), from each operator in turn; print and return them."""
     made = mutants_of_exercise(exercise.name)
     reasons = equivalents(exercise.name)
     mistakes = [mutant for mutant in made if not any(is_one_of(patterns, mutant) for patterns in reasons)]
@@ -106,7 +106,7 @@ def figures(judged: Sequence[Judged]) -> list[str]:
 
 
 def survivors(exercise: str, judged: Sequence[Judged]) -> list[str]:
-    """Return what those that kept full marks, or were not graded, change, and what is to be done with them."""
+    """Return the diffs of the mutants with full marks or without a grade, as lines, and what to do about them."""
     lines = []
     for one in judged:
         if not one.noticed_by:
@@ -115,8 +115,8 @@ def survivors(exercise: str, judged: Sequence[Judged]) -> list[str]:
             lines += [f"{one.mutant.name} {why}", f"    {one.mutant.sentence}", *changes, ""]
     if lines:
         lines += [
-            "Read each beside the statement. If it breaks a clause, mend the obligation of that clause in "
-            f"solutions/{exercise}/, and what the scenarios visit, so that all mistakes of this kind lose points.",
+            "Compare each with the task's clauses. If it breaks one, fix that clause's obligation in "
+            f"solutions/{exercise}/, and add scenarios if needed, so that all mistakes of this kind lose points.",
             f"If it breaks none, write a line “NAME * # why” into solutions/{exercise}/{KNOWN}/{EQUIVALENT}.",
             "",
         ]
@@ -135,7 +135,7 @@ def _print_judged(console: Console, judged: Judged, place: str) -> None:
 
 
 def _table(mistakes: Sequence[Mutant], judged: Sequence[Judged]) -> Table:
-    """Return what became of the mutants, by operator."""
+    """Return a table of the results, one row per operator."""
     table = Table("operator", "made", "graded", "lost points", "by visible", show_edge=False)
     for operator in dict.fromkeys(mutant.operator for mutant in mistakes):
         made = [mutant for mutant in mistakes if mutant.operator == operator]

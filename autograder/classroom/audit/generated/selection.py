@@ -1,4 +1,4 @@
-"""Which mutants of an exercise are graded: those that are not known to be equivalent, a few of each operator."""
+"""Selects the mutants of an exercise to grade: a few of each operator, without the known equivalent ones."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ USUAL, OF_ROBOTS = 60, 30  # mutants; where the robot moves a grading takes minu
 
 
 def usual_number(exercise: Exercise) -> int:
-    """Return how many mutants to grade when nobody says."""
+    """Return the default number of mutants to grade."""
     is_light = all(scenario.is_light for check in exercise.checks for scenario in check.on)
     return USUAL if is_light else OF_ROBOTS
 
 
 def equivalents(exercise: str) -> dict[str, str]:
-    """Return the reasons why mutants are no mistakes, by a pattern of their names and one of their sentences.
+    """Return the reasons why mutants are equivalent, by (pattern of names, pattern of sentences).
 
     Raises `HeaderError` for a line that is not “NAME SENTENCE # reason”.
     """
