@@ -61,7 +61,7 @@ PLACES = {
         "solutions/low_battery_fetch/turns.py _not_made",
         "solutions/stand_up/truth.py bodies",
     ),
-    HOLDS_UP: (f"{ENGINE}/completeness.py _require_the_robots_time require_whole",),
+    HOLDS_UP: (f"{ENGINE}/completeness.py _require_simulated_time require_whole",),
     LATE: (f"{ENGINE}/completeness.py _require_effects",),
     FLOODS: (f"{ENGINE}/bounds.py _require_nothing_dropped",),
     NEVER_SHOWS: (
