@@ -70,6 +70,13 @@ def waits_for_the_end_of_its_child() -> str:
         expected="CANCELED, and no error",
         next="only wait here, and return: finish() makes the terminal call",
     )
+    cancels = _events(legs)[seen:].count("cancel")
+    expect(
+        cancels == 1,
+        seen=f"{cancels} requests to cancel at go_ahead",
+        expected="one",
+        next="remember that you have asked: go_ahead answers every request after the first with a refusal",
+    )
     took = time.monotonic() - asked
     return f"it succeeded when nobody cancelled; cancelled, it waited {took:.1f} s for the end of its child"
 
