@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,6 +16,7 @@ from chapters.support import harness
 from lab.client.connection import connection
 from lab.errors import NoAnswerError, NoServerError
 from lab.learning.gap import Gap, expect, not_yet
+from lab.learning.gap_checks import last_words
 from lab.client.services import call
 from lab.running.programs import run_program
 from lab.running.student_nodes import StudentNode, run_node
@@ -199,11 +199,7 @@ def _where_am_i() -> Iterator[None]:
 
 def _complaint(node: StudentNode) -> str:
     """Return the last error in the log of a node that has ended, to put behind what was seen."""
-    if node.is_running:
-        return ""
-    lines = node.log().strip().splitlines() or ["it printed nothing"]
-    errors = [line for line in lines if re.match(r"[\w.]*(Error|Exception)\b", line)]
-    return f"; the node has ended: {(errors or lines)[-1]}"
+    return "" if node.is_running else f"; the node has ended: {last_words(node.log(), node.file.name)}"
 
 
 GAPS = (

@@ -153,6 +153,7 @@ OWN, DONE = ", callback_group=self.waiting", "lambda: future.set_result(None)"
         (WAIT.format(DONE, "", "await future"), "give the timer callback_group=self.waiting"),
         (WAIT.format(DONE, OWN, "pass"), "await the future before you return"),
         (WAIT.format("future.set_result", OWN, "await future"), "TypeError"),
+        (WAIT.format(DONE, OWN, "await futur"), "in `await futur`"),
         ("await Future()", "let a timer complete the future"),
         (WAIT.format(DONE, OWN, "await future").rpartition("\n")[0], "each wait leaves one more timer"),
         (
