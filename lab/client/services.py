@@ -35,7 +35,8 @@ def call(service: str, service_type: Any, request: Any = None, *, timeout: float
             asked,
             timeout,
             f"no answer from {service} within {timeout:g} s. The request was sent; whether it was carried out is "
-            "unknown. Look at the server: does it run, and what does its log() say?",
+            "unknown. If the server still runs, it is busy: a callback must not wait, sleep or call another service "
+            "while the node has only one thread.",
         )
     return asked.response
 

@@ -107,7 +107,7 @@ def _require_python(file: str, program: str) -> None:
         compile(program, file, "exec")
     except SyntaxError as problem:
         line = (problem.text or "").strip()
-        raise GapError(f"{file}, line {problem.lineno}: {problem.msg}: {line}") from None
+        raise GapError(f"{file}: {problem.msg}: `{line}`") from None
 
 
 if get_ipython() is not None:  # in a notebook

@@ -6,6 +6,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+from autograder.authoring.diagnosis.exit_diagnosis import remedy_for_a_traceback
 from lab.client.connection import NAMESPACE, connection
 from lab.client.interaction_log import log
 from lab.client.waiting import comes_true
@@ -49,7 +50,7 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
                 node.expect(name)
     if not node.is_running and node.exit_status != 0:
         raise NodeEndedError(
-            f"{path.name} ended at once with exit status {node.exit_status}; it printed:\n{node.log()}"
+            f"{path.name} ended at once with exit status {node.exit_status}. {_last_words(node)}"
         )
     return node
 
@@ -82,7 +83,7 @@ def in_namespace(arguments: Sequence[str]) -> list[str]:
 def output_of_failed_nodes() -> str:
     """The output of each node that ended with an error, to quote in an error message; "" if there are none."""
     return "".join(
-        f"\n{node.file.name} has ended with exit status {node.exit_status}; it printed:\n{node.log()}"
+        f"\n{node.file.name} has ended with exit status {node.exit_status}. {_last_words(node)}"
         for node in _nodes.values()
         if node.exit_status and not node.was_stopped
     )
@@ -146,6 +147,13 @@ class StudentNode:
     def __repr__(self) -> str:
         state = "running" if self.is_running else f"ended with exit status {self.exit_status}"
         return f"<{self.file.name}: {state}>"
+
+
+def _last_words(node: StudentNode) -> str:
+    """What to do about its last exception, as the self-check says it, and then all that the node printed."""
+    remedy = remedy_for_a_traceback(node.log())
+    advice = remedy.help.replace("{of}", "") + " " if remedy else ""
+    return f"{advice}It printed:\n{node.log()}"
 
 
 def _nodes_seen() -> dict[bytes, str]:

@@ -122,10 +122,8 @@ def remedy_for_a_limit(killed: ev.NodeKilled) -> Remedy:
 
 def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
     """Return what to do about a program that ended by itself, or by an exception."""
-    traceback = _last_traceback(run)
-    for sign, remedy in _SIGNS.items():
-        if exited.returncode and re.search(sign, traceback, re.MULTILINE):
-            return _with_place(remedy, run)
+    if exited.returncode and (remedy := remedy_for_a_traceback(run.output("stderr"))):
+        return _with_place(remedy, run)
     if -exited.returncode in _CRASHED:
         return Remedy(
             f"{signal.Signals(-exited.returncode).name} ended the program, a crash below Python: use no node "
@@ -148,6 +146,12 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
             SERVES_ONE_REQUEST,
         )
     return Remedy("main() returned before everything was done: look at what it waits for.")
+
+
+def remedy_for_a_traceback(output: str) -> Remedy | None:
+    """Return what to do about the last exception in a program's output, if it has a known sign."""
+    traceback = _last_traceback(output)
+    return next((remedy for sign, remedy in _SIGNS.items() if re.search(sign, traceback, re.MULTILINE)), None)
 
 
 def end_in_words(run: Record, exited: ev.NodeExited) -> str:
@@ -174,14 +178,14 @@ def raised_in(traceback: str) -> str | None:
 
 def _with_place(remedy: Remedy, run: Record) -> Remedy:
     """Name the student's line that raised, if one did, and the service that was being answered."""
-    place = raised_in(_last_traceback(run))
+    place = raised_in(_last_traceback(run.output("stderr")))
     where = f" It was raised in {place}." if place else ""
     return Remedy(remedy.help.replace("{of}", _being_answered(run)) + where, remedy.see)
 
 
-def _last_traceback(run: Record) -> str:
-    """Return the end of stderr from the last traceback on: an earlier one did not end the program."""
-    return run.output("stderr").rpartition("Traceback (most recent call last):")[2]
+def _last_traceback(output: str) -> str:
+    """Return the end of the output from the last traceback on: an earlier one did not end the program."""
+    return output.rpartition("Traceback (most recent call last):")[2]
 
 
 def _being_answered(run: Record) -> str:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-import re
 
 from humanoid_interfaces.action import WalkTo
 from lab.errors import NoRobotError, NotInTimeError
 from lab.learning.gap import Gap, expect, not_yet
+from lab.learning.gap_checks import last_error
 from lab.client.goals import Goal, send_goal
 from lab.client.outcomes import Outcome
 from lab.running.robot import restart_robot, robot_process, start_robot
@@ -226,11 +226,9 @@ def _require_filled(outcome: Outcome, advice: str) -> None:
 
 def _complaint(server: StudentNode) -> str:
     """Return the last error or warning in the node's log, to put behind what was seen."""
-    lines = server.log().splitlines()
-    said = [line for line in lines if re.match(r"[\w.]*(Error|Exception)\b", line)] or [
-        NO_TERMINAL_CALL for line in lines if NO_TERMINAL_CALL in line
-    ]
-    return f"; its log says: {said[-1]}" if said else ""
+    log = server.log()
+    said = last_error(log, server.file.name) or (NO_TERMINAL_CALL if NO_TERMINAL_CALL in log else "")
+    return f"; its log says: {said}" if said else ""
 
 
 GAPS = (

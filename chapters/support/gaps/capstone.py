@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import re
 import time
 from functools import partial
 
 from humanoid_interfaces.action import WalkTo
 from chapters.support import harness
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import asked, read_program
+from lab.learning.gap_checks import asked, last_error, read_program
 from lab.client.goals import Goal, send_goal
 from lab.client.outcomes import Outcome
 from lab.running.student_nodes import StudentNode, run_node, stop_nodes
@@ -69,6 +68,13 @@ def waits_for_the_end_of_its_child() -> str:
         seen=f"the errand ended {outcome.status}{_complaint(parent)}",
         expected="CANCELED, and no error",
         next="only wait here, and return: finish() makes the terminal call",
+    )
+    cancels = _events(legs)[seen:].count("cancel")
+    expect(
+        cancels == 1,
+        seen=f"{cancels} requests to cancel at go_ahead",
+        expected="one",
+        next="remember that you have asked: go_ahead answers every request after the first with a refusal",
     )
     took = time.monotonic() - asked
     return f"it succeeded when nobody cancelled; cancelled, it waited {took:.1f} s for the end of its child"
@@ -273,8 +279,8 @@ def _status(goal: Goal) -> str:
 
 def _complaint(node: StudentNode) -> str:
     """Return the last error in a node's log, to put behind what was seen."""
-    errors = [line for line in node.log().splitlines() if re.match(r"[\w.]*(Error|Exception)\b", line)]
-    return f"; its log says: {errors[-1]}" if errors else ""
+    error = last_error(node.log(), node.file.name)
+    return f"; its log says: {error}" if error else ""
 
 
 GAPS = (

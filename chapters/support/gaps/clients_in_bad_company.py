@@ -6,6 +6,7 @@ import re
 
 from chapters.support import harness
 from lab.learning.gap import Gap, expect
+from lab.learning.gap_checks import last_words
 from lab.running.programs import Program, run_program
 from lab.running.student_nodes import run_node
 
@@ -72,7 +73,7 @@ def sends_a_request_of_its_own() -> str:
 def _require_no_traceback(program: Program) -> None:
     expect(
         "Traceback" not in program.stderr,
-        seen=(program.stderr.strip().splitlines() or [""])[-1],
+        seen=last_words(program.stderr, program.file.name),
         expected="no exception",
         next="mend what this error names",
     )

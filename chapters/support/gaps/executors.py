@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import re
+import json
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,13 +12,18 @@ from typing import Any
 from std_msgs.msg import Empty
 from std_srvs.srv import Trigger
 
+from chapters.support import harness
 from lab.client.connection import connection
 from lab.errors import NoAnswerError, NoServerError
 from lab.learning.gap import Gap, expect, not_yet
+from lab.learning.gap_checks import last_words
 from lab.client.services import call
+from lab.running.programs import run_program
 from lab.running.student_nodes import StudentNode, run_node
 from lab.client.waiting import comes_true
 
+SERVER = f"{harness.__path__[0]}/trigger_server.py"
+WAITS = f"{harness.__path__[0]}/timed_waits.py"
 LOOK = 3.0  # s that look_around takes
 LONGEST_GAP = 1.0  # s between two heartbeats, also on a busy machine; a blocked one waits for LOOK
 TO_BEAT = 5.0  # s until the first heartbeats have come
@@ -58,21 +63,23 @@ def waits_without_a_thread() -> str:
             expected=f"after {LOOK:g} s",
             next="await the future before you return; the timer's period is `seconds`",
         )
+    _require_a_timer_for_each_wait("awaiting", "Awaiting", "wait")
     return f"it looked around twice on one thread; the longest gap between two heartbeats was {gap:.2f} s"
 
 
 def reports_or_says_why_not() -> str:
-    """Ask for a report without a where_am_i, with one, and without one again."""
+    """Ask for a report without a where_am_i, with one, without one again, and with one that keeps silent."""
     node = run_node("report_fixed.py")
     _expect_refusal(node, "nobody offers where_am_i")
+    answers = "where_am_i answers"
     with _where_am_i():
-        if not comes_true(lambda: _report(node).success, TO_MEET):
+        if not comes_true(lambda: _report(node, answers).success, TO_MEET):
             raise not_yet(
-                "success=False, although where_am_i answers",
+                f"success=False, although {answers}",
                 f"the position, {POSITION!r}",
                 "let ask() return what `await future` gives you",
             )
-        answer = _report(node).message
+        answer = _report(node, answers).message
         expect(
             POSITION in answer,
             seen=f"the report {answer!r}",
@@ -80,7 +87,38 @@ def reports_or_says_why_not() -> str:
             next="let ask() return the response of where_am_i, which `await future` gives you",
         )
     _expect_refusal(node, "where_am_i has gone")
-    return "it reported the position, and said so twice when nobody could tell it"
+    silent = run_node(SERVER, "where_am_i", "ignores")
+
+    def has_been_ignored() -> bool:
+        _expect_refusal(node, "where_am_i keeps silent")
+        return "ignored" in silent.log()
+
+    expect(
+        comes_true(has_been_ignored, TO_MEET),
+        seen="no request at where_am_i",
+        expected="a request for each report",
+        next="send it with self.client.call_async(Trigger.Request())",
+    )
+    _require_a_timer_for_each_wait("report_fixed", "Report", "ask")
+    return "it reported the position, and said so three times when nobody told it"
+
+
+def _require_a_timer_for_each_wait(module: str, node: str, coroutine: str) -> None:
+    """Require that a timer of the node ends the wait of a coroutine, and does not call again."""
+    calls = json.loads(run_program(WAITS, module, node, coroutine).stdout.splitlines()[-1])
+    expect(
+        calls["until_the_end"],
+        seen="the wait ended without a call of a timer",
+        expected="a timer that ends it",
+        next="end it by self.create_timer: a loop keeps the processor busy, and the executor does not notice what a "
+        "thread of your own does",
+    )
+    expect(
+        not calls["after"],
+        seen=f"after the wait its timer called {calls['after']} times in a second",
+        expected="a timer that calls once",
+        next="call self.destroy_timer() after the await: each wait leaves one more timer that calls for ever",
+    )
 
 
 def _look_around(node: StudentNode) -> tuple[float, float]:
@@ -120,7 +158,7 @@ def _no_answer(node: StudentNode) -> Exception:
 
 
 def _expect_refusal(node: StudentNode, why: str) -> None:
-    answer = _report(node)
+    answer = _report(node, why)
     expect(
         not answer.success,
         seen=f"{why}, and the report says {answer.message!r}",
@@ -129,7 +167,7 @@ def _expect_refusal(node: StudentNode, why: str) -> None:
     )
 
 
-def _report(node: StudentNode) -> Any:
+def _report(node: StudentNode, why: str) -> Any:
     try:
         return call("report", Trigger, timeout=TO_ASK)
     except (NoAnswerError, NoServerError):
@@ -137,8 +175,8 @@ def _report(node: StudentNode) -> Any:
     if comes_true(lambda: not node.is_running, TO_END):
         raise not_yet(f"no report{_complaint(node)}", "a report", "mend what this error names")
     raise not_yet(
-        f"no report within {TO_ASK:g} s; the node still runs",
-        "a report within 1 s or so, also when nobody answers where_am_i",
+        f"{why}, and no report within {TO_ASK:g} s; the node still runs",
+        "a report within 1 s or so",
         "let a timer call future.cancel after `seconds`, and give the timer callback_group=self.asking: "
         "the default group stays closed while on_request awaits",
     )
@@ -161,11 +199,7 @@ def _where_am_i() -> Iterator[None]:
 
 def _complaint(node: StudentNode) -> str:
     """Return the last error in the log of a node that has ended, to put behind what was seen."""
-    if node.is_running:
-        return ""
-    lines = node.log().strip().splitlines() or ["it printed nothing"]
-    errors = [line for line in lines if re.match(r"[\w.]*(Error|Exception)\b", line)]
-    return f"; the node has ended: {(errors or lines)[-1]}"
+    return "" if node.is_running else f"; the node has ended: {last_words(node.log(), node.file.name)}"
 
 
 GAPS = (

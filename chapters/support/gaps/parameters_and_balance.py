@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-import runpy
-import traceback
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -21,7 +19,7 @@ from std_msgs.msg import Float64
 from lab.client.connection import connection
 from lab.errors import NodeEndedError
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import ask
+from lab.learning.gap_checks import ask, asked, last_words, read_program
 from lab.running.student_nodes import StudentNode, run_node
 from lab.client.waiting import comes_true
 
@@ -30,11 +28,15 @@ ASIDE = "/trial"  # a namespace in which no robot hears cmd_vel
 NODE = "/robot/circle"
 WANTED = {"speed": 0.2, "turn": 0.25}  # of start.yaml
 TO_ARRIVE = 3.0  # s for a message
+HINTS = {
+    "ZeroDivisionError": "a robot that walks straight turns by 0.0: multiply, do not divide by the turn",
+    "": "mend what this error names: an exception in a callback ends the node",
+}
 
 
 def decides_about_what_is_asked_for() -> str:
     """Ask about one set after the other, each with the values as they are."""
-    decide = _program("decide.py")["decide"]
+    decide = read_program("decide.py")["decide"]
     straight, wide, half = (
         {"speed": 0.2, "turn": 0.0},
         {"speed": 0.1, "turn": 0.2},
@@ -72,7 +74,7 @@ def decides_about_what_is_asked_for() -> str:
     for now, new, wanted, advice in cases:
         given = dict(now)
         parameters = [Parameter(name, value=value) for name, value in new.items()]
-        result = _asked(partial(decide, given, parameters))
+        result = asked(partial(decide, given, parameters), "decide.py", hints=HINTS)
         about = f"{_words(new)} on top of {_words(now)}"
         expect(
             isinstance(result, SetParametersResult),
@@ -198,7 +200,7 @@ def _started(**values: float) -> StudentNode:
     try:
         return _start(**values)
     except NodeEndedError as problem:
-        reason = str(problem).strip().splitlines()[-1]
+        reason = last_words(str(problem), "guarded.py")
         if "NotDeclared" in reason:
             advice = (
                 "self.apply needs both parameters: call self.declare(), then register self.apply with "
@@ -238,28 +240,6 @@ def _radii() -> Iterator[list[float]]:
         yield radii
     finally:
         connection().node.destroy_subscription(ear)
-
-
-def _program(file: str) -> dict[str, Any]:
-    """Run a student's file and return what it defines."""
-    return _asked(partial(runpy.run_path, file))
-
-
-def _asked(call: Callable[[], Any]) -> Any:
-    """Call what the student wrote in decide.py; an exception becomes an error that quotes its line."""
-    try:
-        return call()
-    except Exception as problem:
-        lines = [
-            f for f in traceback.extract_tb(problem.__traceback__) if Path(f.filename).name == "decide.py"
-        ]
-        where = f" in line {lines[-1].lineno}: {lines[-1].line}" if lines else ""
-        advice = (
-            "a robot that walks straight turns by 0.0: multiply, do not divide by the turn"
-            if isinstance(problem, ZeroDivisionError)
-            else "mend what this error names: an exception in a callback ends the node"
-        )
-        raise not_yet(f"{type(problem).__name__}: {problem}{where}", "no exception", advice) from None
 
 
 def _words(values: Mapping[str, Any]) -> str:

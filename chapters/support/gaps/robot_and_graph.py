@@ -13,6 +13,7 @@ from std_srvs.srv import SetBool
 from lab.client.connection import NAMESPACE
 from lab.errors import NodeEndedError
 from lab.learning.gap import Gap, expect, not_yet
+from lab.learning.gap_checks import last_words
 from lab.client.graph import topics_in_graph
 from lab.running.robot import restart_robot, robot_process
 from lab.client.services import call
@@ -109,16 +110,16 @@ def _start(file: str, hints: Mapping[str, str]) -> StudentNode:
     try:
         return run_node(file)
     except NodeEndedError as problem:
-        raise _ended(str(problem), hints) from None
+        raise _ended(str(problem), file, hints) from None
 
 
 def _require_running(node: StudentNode, hints: Mapping[str, str]) -> None:
     if not node.is_running:
-        raise _ended(node.log(), hints)
+        raise _ended(node.log(), node.file.name, hints)
 
 
-def _ended(log: str, hints: Mapping[str, str]) -> Exception:
-    reason = (log.strip().splitlines() or ["it printed nothing"])[-1]
+def _ended(log: str, file: str, hints: Mapping[str, str]) -> Exception:
+    reason = last_words(log, file)
     advice = next((hint for part, hint in hints.items() if part in reason), NO_ERROR_HINT)
     return not_yet(f"the node has ended: {reason}", "a node that runs", advice)
 
@@ -165,6 +166,7 @@ def _why_no_state(node: StudentNode) -> Exception:
             f"it printed {printed.splitlines()[-1][:80]!r}", expected, "give self.on_state as the callback"
         )
     if "transient local" not in states:
+        states += ", volatile"
         advice = "request durability=DurabilityPolicy.TRANSIENT_LOCAL in a QoSProfile"
     else:
         advice = "leave the reliability at its default: a kept message goes only to a reliable subscription"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-import runpy
+from functools import partial
 
 from std_msgs.msg import Bool
 from std_srvs.srv import SetBool, Trigger
@@ -11,7 +11,7 @@ from std_srvs.srv import SetBool, Trigger
 from humanoid_interfaces.srv import GetBatteryStatus
 from lab.client.commands import publish
 from lab.learning.gap import Gap, expect
-from lab.learning.gap_checks import ask
+from lab.learning.gap_checks import ask, asked, read_program
 from lab.running.robot import start_robot, stop_robot
 from lab.running.student_nodes import StudentNode, run_node
 from lab.client.waiting import comes_true
@@ -120,22 +120,16 @@ def _march(server: StudentNode, on: bool) -> SetBool.Response:
 
 def decides_by_what_is_known() -> str:
     """Call decide() with known and unknown charges."""
+    decide = read_program("careful_planner.py")["decide"]
     for available, percentage, right, advice in DECISIONS:
         response = GetBatteryStatus.Response(available=available)
         response.battery.percentage = percentage
-        try:
-            decision = runpy.run_path("careful_planner.py")["decide"](response)
-            seen = f"returned {decision!r}"
-        except Exception as problem:
-            decision, seen = None, f"raised {type(problem).__name__}: {problem}"
-            advice = "mend what this error names"
-        if seen == "returned None":
-            advice = "end each path with `return` and one of the three texts"
+        decision = asked(partial(decide, response), "careful_planner.py")
         expect(
             decision == right,
-            seen=f"with available={available}, percentage={percentage} it {seen}",
+            seen=f"with available={available}, percentage={percentage} it returned {decision!r}",
             expected=f"{right!r}",
-            next=advice,
+            next="end each path with `return` and one of the three texts" if decision is None else advice,
         )
     return f"it decided {len(DECISIONS)} cases, and stops when it doesn't know the charge"
 

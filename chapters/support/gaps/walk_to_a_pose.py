@@ -7,6 +7,7 @@ from typing import Any
 
 from chapters.support import harness
 from lab.learning.gap import Gap, expect, not_yet
+from lab.learning.gap_checks import last_words
 from lab.running.programs import run_program
 from lab.running.student_nodes import run_node
 from chapters.support.harness.goal_server import REASON, STEPS
@@ -57,7 +58,7 @@ def rejects_what_cannot_work() -> str:
             said == wanted,
             seen=f"{case}: {said}",
             expected=f"GoalResponse.{wanted}",
-            next=ADVICE[case],
+            next="mend what this error names" if "Error" in said and "NoneType" not in said else ADVICE[case],
         )
     return f"{len(TO_ACCEPT)} goals are accepted, {len(answers) - len(TO_ACCEPT)} rejected"
 
@@ -133,7 +134,7 @@ def reads_the_status_first() -> str:
     for how, program in (("SUCCEEDED", sound), *zip(FAILURES, failed, strict=True)):
         expect(
             "Traceback" not in program.stderr,
-            seen=f"{how}: {(program.stderr.strip().splitlines() or [''])[-1]}",
+            seen=f"{how}: {last_words(program.stderr, 'follow.py')}",
             expected="a client without a traceback",
             next="mend what this error names",
         )

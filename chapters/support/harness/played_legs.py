@@ -30,19 +30,30 @@ def tell(what: str) -> None:
     print(json.dumps({"what": what}), flush=True)
 
 
+class TellingServer(ActionServer):
+    """Tells of each cancel request; a cancel callback is not called again for a goal that is being cancelled."""
+
+    async def execute(self, taken_data: Any) -> None:
+        """Tell, and serve what has arrived."""
+        if "cancel" in taken_data:
+            tell("cancel")
+        await super().execute(taken_data)
+
+
 class PlayedLegs(Node):
     """Offers go_ahead, and moves nothing."""
 
     def __init__(self, how: str) -> None:
         super().__init__("legs")
         self._is_mute = how == "mute"
-        self.server = ActionServer(
-            self, WalkTo, "go_ahead", self._execute, cancel_callback=self._on_cancel, result_timeout=60
+        self.server = TellingServer(
+            self,
+            WalkTo,
+            "go_ahead",
+            self._execute,
+            cancel_callback=lambda _: CancelResponse.ACCEPT,
+            result_timeout=60,
         )
-
-    def _on_cancel(self, _: Any) -> CancelResponse:
-        tell("cancel")
-        return CancelResponse.ACCEPT
 
     def _execute(self, goal_handle: Any) -> Any:
         tell("accepted")

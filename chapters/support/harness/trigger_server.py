@@ -1,12 +1,14 @@
-"""Offers a service of type Trigger that always says the same: `trigger_server.py forward refuses`, or `grants`."""
+"""Offers a service of type Trigger: `trigger_server.py forward refuses`, or `grants`, or `ignores` each request."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import rclpy
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.task import Future
 from rclpy.utilities import remove_ros_args
 from std_srvs.srv import Trigger
 
@@ -16,13 +18,16 @@ def main() -> None:
     rclpy.init()
     _, service, answer = remove_ros_args()
 
-    def on_request(_: Any, response: Any) -> Any:
+    async def on_request(_: Any, response: Any) -> Any:
+        if answer == "ignores":
+            print("ignored", flush=True)
+            await Future()  # which nobody completes
         response.success = answer == "grants"
         response.message = f"{service} {answer}"
         return response
 
     node = Node("trigger_server")
-    node.create_service(Trigger, service, on_request)
+    node.create_service(Trigger, service, on_request, callback_group=ReentrantCallbackGroup())
     try:
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):

@@ -10,6 +10,7 @@ import math
 import os
 import sys
 import threading
+import traceback
 from importlib import import_module
 from typing import Any
 
@@ -97,7 +98,9 @@ def _called(callback: Any, argument: Any) -> str:
     try:
         returned = task.result()
     except Exception as error:
-        return f"{type(error).__name__}: {error}"
+        frames = traceback.extract_tb(error.__traceback__)
+        lines = [frame.line for frame in frames if frame.filename.startswith(os.getcwd())]
+        return f"{type(error).__name__}: {error}{f' in `{lines[-1]}`' if lines else ''}"
     if isinstance(returned, WalkTo.Result):
         return f"a result with final_pose {returned.final_pose.pose.position.x:.2f}"
     return getattr(returned, "name", None) or repr(returned)

@@ -70,8 +70,8 @@ def test_wrong_lines_are_answered_with_what_was_seen_and_what_to_do(
     assert kept("gaps") == {}
 
 
-def test_lines_that_are_not_python_are_told_with_their_line() -> None:
-    with pytest.raises(lab.GapError, match=r"double\.py, line 2: .*: return \(2"):
+def test_lines_that_are_not_python_are_quoted() -> None:
+    with pytest.raises(lab.GapError, match=r"double\.py: .*: `return \(2 x`"):
         write_and_check("double.py", "def double(x):\n    return (2 x\n")
 
 

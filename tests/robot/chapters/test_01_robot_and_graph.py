@@ -208,7 +208,7 @@ BEST_EFFORT = (
     [
         (
             "self.create_subscription(RobotState, 'robot_state', self.on_state, 10)",
-            "your subscription requests reliable\n",
+            "your subscription requests reliable, volatile\n",
         ),
         (
             BEST_EFFORT + "self.create_subscription(RobotState, 'robot_state', self.on_state, qos)",

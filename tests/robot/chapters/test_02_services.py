@@ -198,7 +198,7 @@ def test_the_gap_of_a_refusal_says_what_is_wrong(gaps: GapTrials, lines: str, sa
         ),
         ('return "stop and report"', "0.0 is a charge like any other"),
         ('print("stop and report")', "end each path with `return`"),
-        ("return levl", "raised NameError"),
+        ("return levl", "NameError: name 'levl' is not defined in `return levl`"),
     ],
 )
 def test_the_gap_of_the_planner_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:

@@ -153,7 +153,19 @@ OWN, DONE = ", callback_group=self.waiting", "lambda: future.set_result(None)"
         (WAIT.format(DONE, "", "await future"), "give the timer callback_group=self.waiting"),
         (WAIT.format(DONE, OWN, "pass"), "await the future before you return"),
         (WAIT.format("future.set_result", OWN, "await future"), "TypeError"),
+        (WAIT.format(DONE, OWN, "await futur"), "in `await futur`"),
         ("await Future()", "let a timer complete the future"),
+        (WAIT.format(DONE, OWN, "await future").rpartition("\n")[0], "each wait leaves one more timer"),
+        (
+            "import threading\nfuture = Future()\n"
+            "threading.Timer(seconds, lambda: future.set_result(None)).start()\nawait future",
+            "a thread of your own",
+        ),
+        (
+            "import asyncio\nimport time\nuntil = time.monotonic() + seconds\n"
+            "while time.monotonic() < until:\n    await asyncio.sleep(0)",
+            "a loop keeps the processor busy",
+        ),
     ],
 )
 def test_the_gap_of_the_wait_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
@@ -176,6 +188,15 @@ ASKING, CANCEL, RETURN = ", callback_group=self.asking", "future.cancel", "retur
         (ASK.format(CANCEL, ASKING, "await future", "return None"), "let ask() return what `await future`"),
         (ASK.format(CANCEL, ASKING, "future.result()", RETURN), "let ask() return what `await future`"),
         (ASK.format("self.client.cancel", ASKING, "await future", RETURN), "AttributeError"),
+        (
+            "if not self.client.wait_for_service(seconds):\n    return None\n"
+            "return await self.client.call_async(Trigger.Request())",
+            "where_am_i keeps silent",
+        ),
+        (
+            ASK.format(CANCEL, ASKING, "await future", RETURN).replace("self.destroy_timer(limit)\n", ""),
+            "each wait leaves one more timer",
+        ),
     ],
 )
 def test_the_gap_of_the_question_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:

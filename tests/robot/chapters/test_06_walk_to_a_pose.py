@@ -198,7 +198,7 @@ RANGE = f"if not 0.0 < goal.target_pose.pose.position.x <= FARTHEST:\n    {REJEC
         ),
         (DATA + STANDS + FRAME + RANGE, "the callback returned nothing"),
         (DATA + STANDS + FRAME + RANGE + "return True", "the callback returned True"),
-        (DATA + STANDS + "if goal.frame_id != 'base_link':\n    " + REJECT, "AttributeError"),
+        (DATA + STANDS + "if goal.frame_id != 'base_link':\n    " + REJECT, "in `if goal.frame_id"),
     ],
 )
 def test_the_gap_of_the_goal_callback_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:

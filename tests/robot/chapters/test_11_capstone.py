@@ -186,6 +186,7 @@ ASK = "    if self.should_stop(goal_handle) and not asked:\n        child.cancel
             "finish() makes the terminal call",
         ),
         (f"{LOOP}{ASK}        asked = True\n    time.sleep(TOCK)", "mend what this error names"),
+        (f"{LOOP}{ASK}    time.sleep(TICK)", "remember that you have asked"),
     ],
 )
 def test_the_gap_of_the_cancel_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:

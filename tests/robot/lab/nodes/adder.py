@@ -1,4 +1,4 @@
-"""Adds; sleeps first when a is negative, crashes when b is negative."""
+"""Adds; sleeps first when a is negative, crashes when b is negative, and forgets to return the sum 13."""
 
 import sys
 import time
@@ -23,7 +23,7 @@ class Adder(Node):
             raise ValueError("b is negative")
         response.sum = request.a + request.b + self.offset
         print(f"answered {response.sum}")
-        return response
+        return None if response.sum == 13 else response
 
 
 rclpy.init()
