@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -9,12 +10,9 @@ import typer
 from rich.console import Console
 
 from autograder.engine.exercise import exercise_names, load_exercise
-from bench.arena.check_table import bench_checks
-from bench.arena.tables import bench_arenas
-from bench.overview import bench_overview
-from bench.robot.table import bench_robot
 from course_cli.ending import UNUSABLE, ended
 from course_cli.jobs_option import JobsOption
+from ros_runtime.project import PROJECT
 
 ALL = "all"
 
@@ -56,6 +54,12 @@ def bench(
     quick: Annotated[bool, typer.Option("--quick", help="with --trial: a few runs of each")] = False,
 ) -> None:
     """Print the performance table."""
+    sys.path.append(str(PROJECT / "tests"))  # tests/bench has the measurements
+    from bench.arena.check_table import bench_checks
+    from bench.arena.tables import bench_arenas
+    from bench.overview import bench_overview
+    from bench.robot.table import bench_robot
+
     console = Console()
     if against and not (arena or submission):
         raise ended(console, "--against goes with --arena or --submission", UNUSABLE)

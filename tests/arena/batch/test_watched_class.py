@@ -161,7 +161,7 @@ def test_ctrl_c_ends_what_is_in_work_and_says_what_has_no_grade(tmp_path: Path) 
         until(watcher, lambda: in_work(tmp_path))
         status, said = ctrl_c(watcher)
     assert status == 1
-    assert "0 graded, 1 not yet" in said
+    assert "0 graded, 1 not graded yet" in said
     assert "Traceback" not in said
     assert (record(tmp_path)["state"], record(tmp_path)["submissions"]) == ("interrupted", [])
 
@@ -172,7 +172,7 @@ def test_ctrl_c_ends_what_is_in_work_and_says_what_has_no_grade(tmp_path: Path) 
         (["--watch", "absent"], "is not a folder"),
         (["here", "--watch", "here"], "one folder"),
         ([], "one folder"),
-        (["--watch", "here", "--shard", "1/2"], "give one"),
+        (["--watch", "here", "--shard", "1/2"], "give only one"),
     ],
 )
 def test_what_cannot_be_watched_is_an_unusable_argument(

@@ -144,7 +144,7 @@ def _run(task: dict[str, Any]) -> Iterator[dict[str, Any]]:
         command = [sys.executable, "-m", "bench.arena.measured_run", json.dumps(task)]
         process = subprocess.Popen(
             ["/bin/sh", "-c", 'echo $$ > "$0" && exec "$@"', str(processes), *command],
-            cwd=PROJECT,
+            cwd=PROJECT / "tests",
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,

@@ -81,7 +81,7 @@ def test_patterns_from_the_task_to_the_verdicts(tmp_path):
 def test_arm_architecture_is_drawn_and_asked_for_what_is_missing(tmp_path):
     seen = run("arm_architecture", tmp_path)
     assert "HTML object" in seen["sample-a-draw"]
-    assert "arm_architecture.txt: 11 nodes, 13 links\n  Every link says all six facts." in seen["look"]
+    assert "arm_architecture.txt: 11 nodes, 13 links\n  Every link has all six facts." in seen["look"]
     assert "HTML object" in seen["look"]
 
 
