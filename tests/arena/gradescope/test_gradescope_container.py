@@ -184,7 +184,7 @@ def test_what_cannot_be_read_is_the_students_to_mend(autograder: Path) -> None:
     graded = run(autograder, "ab\0cd")
     assert graded.status == 0, graded.said
     assert graded.results["score"] == 0
-    assert "is binary" in graded.results["tests"][0]["output"]
+    assert "is no text: hand in the text file" in graded.results["tests"][0]["output"]
 
 
 @pytest.mark.parametrize("broken", ["isolation", "checks"])
