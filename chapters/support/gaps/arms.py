@@ -93,8 +93,8 @@ def _cancel(*, stands: bool) -> None:
         expected="canceled(), once",
         next="call goal_handle.canceled() after the hand is done: without it rclpy aborts the goal"
         if not ends
-        else "end the goal with goal_handle.canceled(), once, and with no other call, also where the hand keeps the cup: "
-        "the client asked for a cancel",
+        else "end the goal with goal_handle.canceled(), once, and with no other call, also where the hand keeps the "
+        "cup: the client asked for a cancel",
     )
     expect(
         did[-1] == "canceled()",

@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 
 from humanoid_interfaces.action import WalkTo
+from lab.client.goals import Goal, send_goal
+from lab.client.outcomes import Outcome
+from lab.client.topics import mode, pose
+from lab.client.waiting import comes_true, wait_until
 from lab.errors import NoRobotError, NotInTimeError
 from lab.learning.gap import Gap, expect, not_yet
 from lab.learning.gap_checks import last_error
-from lab.client.goals import Goal, send_goal
-from lab.client.outcomes import Outcome
 from lab.running.robot import restart_robot, robot_process, start_robot
 from lab.running.student_nodes import StudentNode, run_node
-from lab.client.topics import mode, pose
-from lab.client.waiting import comes_true, wait_until
 
 ENDS = ("SUCCEEDED", "CANCELED", "ABORTED")
 NO_TERMINAL_CALL = "Goal state not set, assuming aborted"  # rclpy's warning

@@ -6,14 +6,14 @@ import json
 import time
 from functools import partial
 
-from humanoid_interfaces.action import WalkTo
 from chapters.support import harness
-from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import asked, last_error, read_program
+from humanoid_interfaces.action import WalkTo
 from lab.client.goals import Goal, send_goal
 from lab.client.outcomes import Outcome
-from lab.running.student_nodes import StudentNode, run_node, stop_nodes
 from lab.client.waiting import comes_true
+from lab.learning.gap import Gap, expect, not_yet
+from lab.learning.gap_checks import asked, last_error, read_program
+from lab.running.student_nodes import StudentNode, run_node, stop_nodes
 
 LEGS = f"{harness.__path__[0]}/played_legs.py"
 NOT_MET = "has not accepted the goal"  # what errand.py says when the child's answer did not come

@@ -14,13 +14,13 @@ from std_srvs.srv import Trigger
 
 from chapters.support import harness
 from lab.client.connection import connection
+from lab.client.services import call
+from lab.client.waiting import comes_true
 from lab.errors import NoAnswerError, NoServerError
 from lab.learning.gap import Gap, expect, not_yet
 from lab.learning.gap_checks import last_words
-from lab.client.services import call
 from lab.running.programs import run_program
 from lab.running.student_nodes import StudentNode, run_node
-from lab.client.waiting import comes_true
 
 SERVER = f"{harness.__path__[0]}/trigger_server.py"
 WAITS = f"{harness.__path__[0]}/timed_waits.py"

@@ -82,7 +82,9 @@ def forgets_the_sway() -> str:
             advice = "add each piece that is long enough to metres with +=, and set last = here then"
         else:
             advice = "set last = here when a piece counts, or the same metres count again"
-        raise not_yet(f"{metres:.2f} m for {name}", f"{truth:.2f} m, within {MAX_PATH_ERROR_RATIO:.0%}", advice)
+        raise not_yet(
+            f"{metres:.2f} m for {name}", f"{truth:.2f} m, within {MAX_PATH_ERROR_RATIO:.0%}", advice
+        )
     expect(
         marched <= MOST_SWAY,
         seen=f"{marched:.2f} m for a robot that marches {MARCH:g} s on the spot",

@@ -17,11 +17,11 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Float64
 
 from lab.client.connection import connection
+from lab.client.waiting import comes_true
 from lab.errors import NodeEndedError
 from lab.learning.gap import Gap, expect, not_yet
 from lab.learning.gap_checks import ask, asked, last_words, read_program
 from lab.running.student_nodes import StudentNode, run_node
-from lab.client.waiting import comes_true
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 ASIDE = "/trial"  # a namespace in which no robot hears cmd_vel

@@ -11,15 +11,15 @@ from contextlib import contextmanager
 from std_srvs.srv import SetBool
 
 from lab.client.connection import NAMESPACE
+from lab.client.graph import topics_in_graph
+from lab.client.services import call
+from lab.client.topics import mode, pose
+from lab.client.waiting import comes_true
 from lab.errors import NodeEndedError
 from lab.learning.gap import Gap, expect, not_yet
 from lab.learning.gap_checks import last_words
-from lab.client.graph import topics_in_graph
 from lab.running.robot import restart_robot, robot_process
-from lab.client.services import call
 from lab.running.student_nodes import StudentNode, run_node
-from lab.client.topics import mode, pose
-from lab.client.waiting import comes_true
 
 FIVE = {"odom", "robot_state", "battery_state", "joint_states", "imu"}
 PAUSE = "/sim/set_pause"

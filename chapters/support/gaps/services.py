@@ -10,11 +10,11 @@ from std_srvs.srv import SetBool, Trigger
 
 from humanoid_interfaces.srv import GetBatteryStatus
 from lab.client.commands import publish
+from lab.client.waiting import comes_true
 from lab.learning.gap import Gap, expect
 from lab.learning.gap_checks import ask, asked, read_program
 from lab.running.robot import start_robot, stop_robot
 from lab.running.student_nodes import StudentNode, run_node
-from lab.client.waiting import comes_true
 
 TO_HEAR_THE_ROBOT = 5.0  # s, on a busy machine
 UNKNOWN, HOME, ON = "stop and report", "walk home", "go on"

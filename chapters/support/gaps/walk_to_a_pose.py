@@ -6,11 +6,11 @@ import json
 from typing import Any
 
 from chapters.support import harness
+from chapters.support.harness.goal_server import REASON, STEPS
 from lab.learning.gap import Gap, expect, not_yet
 from lab.learning.gap_checks import last_words
 from lab.running.programs import run_program
 from lab.running.student_nodes import run_node
-from chapters.support.harness.goal_server import REASON, STEPS
 
 CALLBACKS = f"{harness.__path__[0]}/walk_callbacks.py"
 SERVER = f"{harness.__path__[0]}/goal_server.py"

@@ -42,9 +42,7 @@ def main() -> None:
 
     def end(request: Any, response: Any) -> Any:
         feedback.publish(
-            types.FeedbackMessage(
-                goal_id=request.goal_id, feedback=WalkTo.Feedback(distance_remaining=0.25)
-            )
+            types.FeedbackMessage(goal_id=request.goal_id, feedback=WalkTo.Feedback(distance_remaining=0.25))
         )
         status = next(ends)
         response.status = getattr(GoalStatus, f"STATUS_{status}")

@@ -1,6 +1,6 @@
-"""Runs a coroutine of a student's node that waits, and prints how often the node's timers called until it ended and after.
+"""Runs a coroutine that waits in a student's node; prints how often its timers called before and after its end.
 
-    timed_waits.py awaiting Awaiting wait
+timed_waits.py awaiting Awaiting wait
 """
 
 from __future__ import annotations

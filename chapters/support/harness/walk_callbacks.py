@@ -88,7 +88,9 @@ def settles() -> None:
 
     node.result = result
     returned = _called(node.execute, handle)
-    tell(returned=returned, ended=handle.ended, final=node.pose.pose.position.x, filled_late=handle.filled_late)
+    tell(
+        returned=returned, ended=handle.ended, final=node.pose.pose.position.x, filled_late=handle.filled_late
+    )
 
 
 def _called(callback: Any, argument: Any) -> str:
