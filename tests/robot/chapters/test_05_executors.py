@@ -191,7 +191,7 @@ ASKING, CANCEL, RETURN = ", callback_group=self.asking", "future.cancel", "retur
         (
             "if not self.client.wait_for_service(seconds):\n    return None\n"
             "return await self.client.call_async(Trigger.Request())",
-            "where_am_i keeps silent",
+            "and no report within",
         ),
         (
             ASK.format(CANCEL, ASKING, "await future", RETURN).replace("self.destroy_timer(limit)\n", ""),
