@@ -40,10 +40,11 @@ def why_it_ended_so(goal: Goal, wanted: int) -> str:
     ended = goal.status or GoalStatus.UNKNOWN
     if ended == GoalStatus.ABORTED and (unmeant := why_rclpy_aborted(goal)):
         return unmeant
-    if wanted == GoalStatus.CANCELED and ended == GoalStatus.ABORTED and error_name(goal) not in ("", "NONE"):
+    code = error_name(goal)
+    if wanted == GoalStatus.CANCELED and ended == GoalStatus.ABORTED and code not in ("", "NONE"):
         return (
-            f"After the cancel your server aborted the goal with {error_name(goal)}: what it does first on a cancel "
-            "led there. Leave robot and object safe, and then call goal_handle.canceled()."
+            f"After the cancel your server aborted the goal with {code}: what it does first on a cancel led there. "
+            "Leave robot and object safe, and then call goal_handle.canceled()."
         )
     if wanted == GoalStatus.CANCELED and ended in _CANCELED_INSTEAD:
         return _CANCELED_INSTEAD[ended]
