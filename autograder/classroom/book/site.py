@@ -13,6 +13,7 @@ from nbformat import NotebookNode
 
 from autograder.classroom.book.links import Links
 from autograder.classroom.book.reader_copy import reader_copy
+from autograder.classroom.book.week_pages import week_page
 from ros_runtime.course_error import COULD_NOT, CourseError
 from ros_runtime.project import PROJECT
 
@@ -34,6 +35,7 @@ PARTS = {
         "docs/architecture.md",
     ),
 }
+WEEK_PAGES = "One page a week"
 # The README of the students' archive, to which its links and pictures are relative.
 MOVED = {"docs/for_students.md": "README.md"}
 PICTURES = ("chapters/images", "docs/images")
@@ -100,19 +102,24 @@ def make_site(
 def _gather(sources: Path, runs: Mapping[str, NotebookNode | None], project: Path) -> None:
     parts = parts_of(project)
     pages = {page: file for part in parts.values() for page, file in part.items()}
+    week_pages = []
     for page, file in pages.items():
         (sources / page).parent.mkdir(parents=True, exist_ok=True)
         links = Links(page, pages)
         if page.suffix == ".ipynb":
             notebook = nbformat.read(file, as_version=4)
             nbformat.write(reader_copy(notebook, runs.get(page.stem), links), sources / page)
+            if text := week_page(notebook):
+                week_pages.append(page.with_name(f"week_{page.stem}.md"))
+                (sources / week_pages[-1]).write_text(links.rewritten(text), encoding="utf-8")
         else:
             text = file.read_text(encoding="utf-8")
             (sources / page).write_text(links.rewritten(text), encoding="utf-8")
     for folder in PICTURES:
         if (project / folder).is_dir():
             shutil.copytree(project / folder, sources / folder)
-    contents = "\n".join(_table_of_contents(part, pages) for part, pages in parts.items() if pages)
+    tables = {**parts, WEEK_PAGES: week_pages}
+    contents = "\n".join(_table_of_contents(part, pages) for part, pages in tables.items() if pages)
     welcome = WELCOME.format(outputs=OUTPUTS if runs else "")
     (sources / "index.md").write_text(f"{welcome}\n{contents}", encoding="utf-8")
 

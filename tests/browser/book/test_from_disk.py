@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -71,3 +72,13 @@ def test_the_search_finds_a_word_and_the_glossary_leads_to_the_cell(page: Page) 
     page.wait_for_url("**/chapters/03*.html#*")
     cell = page.url.partition("#")[2]
     assert page.locator(f"#{cell}").bounding_box()
+
+
+def test_the_page_of_each_week_prints_on_one_sheet(site: Path, page: Page) -> None:
+    weeks = sorted((site / "chapters").glob("week_*.html"))
+    assert {week.stem.removeprefix("week_") for week in weeks} >= {"02_services", "07_cancel_and_preempt"}
+    for week in weeks:
+        page.goto(week.as_uri())
+        assert page.locator("article img").count() == 1
+        assert page.locator("article li").count() >= 3, week
+        assert len(re.findall(rb"/Type\s*/Page\b", page.pdf(format="A4"))) == 1, week
