@@ -103,4 +103,5 @@ def spin_as_a_sound_node_does(executor):
 EMPTY = Empty()
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where the tests run in the background
     globals()[sys.argv[1]]()
