@@ -48,6 +48,7 @@ from lab.pictures.thread_plot import draw_threads
 from lab.pictures.timeline import draw_timeline
 from lab.running.interfaces import build_interfaces, export_package
 from lab.running.programs import Program, run_program, start_program
+from lab.running.programs_folder import keep_programs_in
 from lab.running.robot import restart_robot, start_robot, stop_robot
 from lab.running.session import stop_everything
 from lab.running.student_nodes import StudentNode, run_node, stop_nodes
@@ -83,6 +84,7 @@ __all__ = [
     "draw_timeline",
     "export_package",
     "film_robot",
+    "keep_programs_in",
     "list_graph",
     "mode",
     "node",

@@ -114,11 +114,12 @@ def answered(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:
 
 
 def processes_in(folder: Path) -> list[psutil.Process]:
-    """The processes that run in a folder: a chapter's robot and nodes do, and so does its kernel."""
+    """The processes that run in a folder or below: a chapter's robot and nodes do, and so does its kernel."""
 
     def runs_there(process: psutil.Process) -> bool:
         try:
-            return process.cwd() == str(folder) and process.status() != psutil.STATUS_ZOMBIE
+            is_zombie = process.status() == psutil.STATUS_ZOMBIE
+            return not is_zombie and Path(process.cwd()).is_relative_to(folder)
         except psutil.Error:
             return False
 

@@ -55,6 +55,12 @@ def test_it_is_stored_without_outputs_and_with_stable_ids(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
+def test_its_first_cell_gives_its_programs_a_folder_of_their_own(name: str) -> None:
+    first = next(cell.source for cell in read(name).cells if cell.cell_type == "code")
+    assert f'lab.keep_programs_in("programs/{name}")\nlab.start_robot()' in first
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_it_has_the_parts_of_a_lesson(name: str) -> None:
     text = markdown(name)
     for part in (

@@ -46,6 +46,8 @@ def gaps(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
 def _outcome(name: str, folder: Path) -> Executed | str:
     """The chapter after its run, or what went wrong: a failed run is not repeated for each test."""
     try:
-        return execute(name, folder)
+        executed = execute(name, folder)
+        assert [path.name for path in folder.iterdir()] == ["programs"], "the rest is beside the notebooks"
+        return executed
     except Exception:
         return traceback.format_exc()

@@ -61,6 +61,8 @@ def test_its_quiz_marks_every_answer_with_a_reason(name: str, executed: Callable
 
 def test_a_run_is_seen_while_it_runs(tmp_path: Path) -> None:
     """The check for processes left behind does see processes."""
-    with subprocess.Popen([sys.executable, "-c", "input()"], cwd=tmp_path, stdin=subprocess.PIPE) as process:
+    folder = tmp_path / "programs"
+    folder.mkdir()
+    with subprocess.Popen([sys.executable, "-c", "input()"], cwd=folder, stdin=subprocess.PIPE) as process:
         assert [seen.pid for seen in processes_in(tmp_path)] == [process.pid]
         process.communicate(b"\n")

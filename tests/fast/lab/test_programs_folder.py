@@ -1,0 +1,54 @@
+"""A notebook's programs are in a folder of their own, and those of an earlier version stay where they are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import lab
+from lab.running import programs_folder
+
+
+@pytest.fixture
+def notebooks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of a student's notebooks, where a kernel begins."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(programs_folder, "BESIDE_THE_NOTEBOOK", tmp_path)
+    return tmp_path
+
+
+def test_each_notebook_writes_its_own_file_of_a_name(notebooks: Path) -> None:
+    for chapter in ("02_services", "03_clients_that_survive", "02_services"):
+        lab.keep_programs_in(f"programs/{chapter}")
+        with Path("where_am_i.py").open("a") as file:
+            file.write(f"# {chapter}\n")
+    written = {path.parent.name: path.read_text() for path in notebooks.rglob("*.py")}
+    assert written == {
+        "02_services": "# 02_services\n# 02_services\n",
+        "03_clients_that_survive": "# 03_clients_that_survive\n",
+    }
+
+
+def test_it_says_where_a_terminal_finds_them(
+    notebooks: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(programs_folder, "WORK", notebooks.parent)
+    lab.keep_programs_in("programs/02_services")
+    expected = f"The programs of this notebook are in {notebooks.name}/programs/02_services\n"
+    assert capsys.readouterr().out == expected
+
+
+def test_programs_beside_the_notebook_are_kept_named_and_not_used(
+    notebooks: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("a", "b", "c", "d"):
+        Path(f"{name}.py").write_text("mine\n")
+    lab.keep_programs_in("programs/02_services")
+    assert capsys.readouterr().out == (
+        "The programs of this notebook are in programs/02_services\n"
+        "Others are beside the notebook, which doesn't use them: a.py, b.py, c.py, …\n"
+    )
+    with pytest.raises(lab.LabError, match=r"there is no file a\.py in .*02_services; run the cell"):
+        lab.run_program("a.py")
+    assert (notebooks / "a.py").read_text() == "mine\n"
