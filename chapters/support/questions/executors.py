@@ -155,8 +155,9 @@ QUESTIONS = (
         "await asyncio.sleep(1.0) in an rclpy callback raises “no running event loop”. Why?",
         (
             Choice(
-                "asyncio is not installed.",
-                "It is part of Python. Its sleep asks for the event loop of the thread, and the thread has none.",
+                "main has to call asyncio.run(rclpy.spin(node)).",
+                "rclpy.spin(node) is an ordinary function, which returns when the node ends. No event loop runs before "
+                "that.",
             ),
             Choice(
                 "rclpy's executor resumes coroutines by itself, without asyncio's event loop.",

@@ -7,8 +7,8 @@ QUESTIONS = (
         "Why does the server decide the phase anew in every round, instead of running three loops one after the other?",
         (
             Choice(
-                "Because one loop needs less time than three.",
-                "The robot needs seconds for a turn and the loop microseconds. What matters is what the loop looks at.",
+                "Because three loops cannot be cancelled.",
+                "They can, if each of them asks is_cancel_requested. They still would not look at the goal again.",
             ),
             Choice(
                 "Because it can then go back to an earlier phase, when a push makes that necessary.",
@@ -16,8 +16,8 @@ QUESTIONS = (
                 right=True,
             ),
             Choice(
-                "Because feedback needs a status.",
-                "Three loops could name themselves, too. They still would not look at the goal again.",
+                "Because odom drifts, and one loop corrects that.",
+                "No loop sees the drift of odom, because it measures in odom. It sees that the robot has left its way.",
             ),
         ),
     ),

@@ -123,8 +123,9 @@ QUESTIONS = (
                 "A result arrives after every end: SUCCEEDED, ABORTED and CANCELED.",
             ),
             Choice(
-                "It should read the feedback first.",
-                "Feedback can get lost and says nothing about the end.",
+                "It should read error_code first: 0 means success.",
+                "A result that nobody filled has error_code 0, too: that of a goal whose server raised an exception, "
+                "for example.",
             ),
             Choice(
                 "It should read the status first.",
