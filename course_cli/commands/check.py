@@ -20,8 +20,7 @@ from autograder.engine.hand_in import MOST_FOLDERS, work_in
 from autograder.engine.submission import UnusableSubmission, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from course_cli.ending import COULD_NOT, NOT_GRADED
-from course_cli.exercises_option import CourseOption
-from course_cli.jobs_option import JobsOption
+from course_cli.options import CourseOption, JobsOption
 from ros_runtime.project import PROJECT
 
 FOLDERS_HERE = 2  # levels of folders that are searched below the current one

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import threading
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import contextmanager
 from dataclasses import dataclass
+from types import TracebackType
 from typing import Any
 
 from autograder.classroom.audit.known_submission import KnownSubmission, require_known_checks
-from autograder.classroom.audit.shared_arenas import SharedArenas
 from autograder.engine.exercise import Exercise
 from autograder.engine.grading import GradingOptions, grade
 from autograder.engine.stop import Stop
@@ -169,3 +172,51 @@ def checks_without_a_killer(runs: Sequence[AuditedRun], exercise: Exercise) -> l
         check_id for run in runs for check_id in run.known.caught_by if run.status(check_id) == "failed"
     }
     return [check.id for check in exercise.checks if check.id not in proved]
+
+
+class SharedArenas:
+    """Lends arenas to one faulty submission after another; those of an exercise are closed after its last.
+
+    A context manager, which closes what is still open.
+    """
+
+    def __init__(self, submissions: Iterable[KnownSubmission]) -> None:
+        """Each of `submissions` will be graded once."""
+        self._left = Counter(known.exercise for known in submissions if known.kind == "faulty")
+        self._open: dict[str, _KeptArenas] = {}
+        self._lock = threading.Lock()
+
+    def __enter__(self) -> SharedArenas:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        for arenas in self._open.values():
+            arenas.close()
+
+    @contextmanager
+    def lent_to(self, known: KnownSubmission, exercise: Exercise) -> Iterator[SubmissionArenas | None]:
+        """Yield the shared arenas for a faulty submission; None for any other, which needs its own."""
+        if known.kind != "faulty":
+            yield None
+            return
+        with self._lock:
+            arenas = self._open.setdefault(known.exercise, _KeptArenas(exercise.scenario_file))
+        try:
+            yield arenas
+        finally:
+            with self._lock:
+                self._left[known.exercise] -= 1
+                last = not self._left[known.exercise]
+            if last:
+                arenas.close()
+
+
+class _KeptArenas(SubmissionArenas):
+    """Arenas that stay open from one grading to the next."""
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Leave them open for the next grading."""

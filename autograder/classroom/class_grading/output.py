@@ -14,7 +14,7 @@ from autograder.classroom.batch.runner import Graded
 from autograder.classroom.class_grading.gradebook_writer import GradebookWriter
 from autograder.engine.verdict import Grade
 from autograder.recording.kept import FOLDER as RECORDINGS
-from autograder.report.class_table import class_table
+from autograder.report.table import class_table
 
 
 def enter_all(console: Console, results: Sequence[Graded], out: Path) -> tuple[list[str], list[Grade]]:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rich.console import Console
 
 from autograder.classroom.batch.batch_record import BatchRecord, read_batch
 from autograder.classroom.batch.cache import GradeCache
-from autograder.classroom.batch.choose_seeds import choose_seeds
 from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.dask_workers import Cluster, dask_cluster
 from autograder.classroom.batch.effort import utc_now
@@ -18,9 +17,9 @@ from autograder.classroom.batch.folder_lock import locked
 from autograder.classroom.batch.records import GRADES, read_grades
 from autograder.classroom.batch.request import BatchRequest
 from autograder.classroom.batch.runner import BatchRunner, BatchWatcher
-from autograder.classroom.batch.seeds import Seeds
+from autograder.classroom.batch.seeds import Seeds, drawn_seed, seed_of_what_was_handed_in
 from autograder.classroom.batch.selection import require_seed
-from autograder.classroom.batch.toolkit_version import commit_of
+from autograder.classroom.batch.version import commit_of
 from autograder.classroom.class_grading.progress import BatchProgress
 from autograder.classroom.pages.drawings import Drawings
 from autograder.engine.exercise import exercises_folder
@@ -119,3 +118,33 @@ def _tell(console: Console, isolation: Isolation, cluster: Cluster | None) -> No
             style="yellow",
             markup=False,
         )
+
+
+def choose_seeds(
+    request: BatchRequest, before: BatchRecord | None, grades: Sequence[Grade], works: Sequence[Work]
+) -> Seeds:
+    """Return the seeds of a batch.
+
+    Args:
+        request: the options of the batch.
+        before: the record in the output folder, if any.
+        grades: the grades in the output folder; used if an older version wrote no record.
+        works: the submissions of the whole class.
+    """
+    if request.seed is not None:
+        return Seeds(request.seed, request.seed_per_student)
+    if request.goes_on and before:
+        return replace(before.seeds, per_student=before.seed_per_student or request.seed_per_student)
+    if request.goes_on and (one := _one_seed(grades)) is not None and not request.seed_per_student:
+        return Seeds(one)
+    if request.shard:  # all machines must compute the same seed
+        return Seeds(seed_of_what_was_handed_in(works), request.seed_per_student)
+    return Seeds(
+        drawn_seed(), request.seed_per_student, per_submission=request.watch and not request.seed_per_student
+    )
+
+
+def _one_seed(grades: Sequence[Grade]) -> int | None:
+    """The common seed of all grades; None if they differ."""
+    seeds = {grade.seed for grade in grades if grade.seed is not None}
+    return seeds.pop() if len(seeds) == 1 else None

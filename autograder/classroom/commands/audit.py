@@ -29,8 +29,7 @@ from autograder.engine.exercise import (
 )
 from autograder.isolation.availability import available_isolation
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
-from course_cli.exercises_option import CourseOption
-from course_cli.jobs_option import JobsOption
+from course_cli.options import CourseOption, JobsOption
 
 MATRIX_WIDTH = 140
 

@@ -16,7 +16,7 @@ from autograder.classroom.collect.placing import Placed, place
 from autograder.classroom.collect.platforms import PLATFORMS
 from autograder.engine.exercise import UnknownExercise, all_names
 from course_cli.ending import COULD_NOT, ended
-from course_cli.exercises_option import CourseOption
+from course_cli.options import CourseOption
 
 PlatformName = Enum("PlatformName", {name: name for name in PLATFORMS}, type=str)  # type: ignore[misc]
 

@@ -25,11 +25,11 @@ from autograder.engine.exercise import load_exercise
 from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.submission import read_submission
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.report.page import Section, write_page
+from autograder.report.rendering import Section, write_page
 from autograder.report.sequence import transcript_svg
 from autograder.report.table import MARKS, summary
 from course_cli.ending import COULD_NOT, NOT_GRADED, ended
-from course_cli.jobs_option import JobsOption
+from course_cli.options import JobsOption
 from humanoid_interfaces.action import WalkTo
 from ros_runtime.project import PROJECT
 

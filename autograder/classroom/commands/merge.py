@@ -19,7 +19,7 @@ from autograder.classroom.nbgrader_bridge.course_folder import RELEASE
 from autograder.classroom.pages.pages import write_pages
 from autograder.recording.kept import FOLDER as RECORDINGS
 from course_cli.ending import batch_status
-from course_cli.exercises_option import CourseOption
+from course_cli.options import CourseOption
 
 
 def merge(

@@ -12,8 +12,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from autograder.classroom.export.options import Options
-from autograder.classroom.export.published import CannotSay, Published, UnusableBatch
+from autograder.classroom.export.published import CannotSay, Options, Published, UnusableBatch
 from autograder.classroom.export.tables import Table, csv_text, key_cell, read_number, read_table, text_cell
 
 _BEFORE_ASSIGNMENTS = (

@@ -10,8 +10,13 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict
 
-from autograder.classroom.export.options import Options
-from autograder.classroom.export.published import printable, publish, why_no_score, words_for_students
+from autograder.classroom.export.published import (
+    Options,
+    printable,
+    publish,
+    why_no_score,
+    words_for_students,
+)
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.verdict_text import verdict_text
 

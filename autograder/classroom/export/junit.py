@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from xml.etree import ElementTree as Xml
 
-from autograder.classroom.export.options import Options
 from autograder.classroom.export.published import (
+    Options,
     Published,
     printable,
     publish,

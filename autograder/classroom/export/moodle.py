@@ -13,8 +13,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from autograder.classroom.export.options import Options
-from autograder.classroom.export.published import Published, UnusableBatch, printable
+from autograder.classroom.export.published import Options, Published, UnusableBatch, printable
 from autograder.classroom.export.tables import Table, csv_text, key_cell, read_number, read_table, text_cell
 from autograder.report.verdict_text import verdict_text
 

@@ -11,7 +11,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
-from autograder.classroom.nbgrader_bridge.check_cells import cell_metadata
+from autograder.classroom.nbgrader_bridge.generated_cells import cell_metadata
 from ros_runtime.course_error import CourseError
 
 KINDS_FOLDER = Path(__file__).with_name("kinds")

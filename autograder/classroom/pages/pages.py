@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from urllib.parse import quote
 
 from markupsafe import Markup
 
+from autograder.classroom.nbgrader_bridge.generated_cells import HIDDEN, cell_names, hidden_help
 from autograder.classroom.pages.drawings import Drawings, Sources
 from autograder.classroom.pages.figures import NEEDS_HELP, cause, exercise_figures, who_needs_help
 from autograder.classroom.pages.plots import bars_svg
-from autograder.classroom.pages.student_view import student_view
-from autograder.engine.verdict import Grade
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.rendering import drawn, write_html
 
 CLASS_PAGE = "class.html"
@@ -160,3 +161,31 @@ def _require_plain_names(grade: Grade) -> None:
     for name in (grade.student, grade.exercise):
         if name in ("", ".", "..") or "/" in name or "\0" in name:
             raise ValueError(f"{name!r} cannot be the name of a folder; expected a name without / in it")
+
+
+def student_view(grade: Grade) -> Grade:
+    """Return the grade without titles, inputs and outputs of hidden checks, and without the grader's own errors.
+
+    A grade that is not graded or not completely marked gets no verdicts, because they may still change.
+    """
+    if grade.status == "not graded":
+        return replace(grade, checks=[], reason="")
+    if grade.status == "to mark":
+        return replace(grade, checks=[replace(each, status="to mark", points=0) for each in grade.checks])
+    names = cell_names(grade.checks)
+    return replace(grade, checks=[_seen(verdict, names[verdict.id]) for verdict in grade.checks])
+
+
+def _seen(verdict: CheckVerdict, name: str) -> CheckVerdict:
+    if not verdict.hidden:
+        return verdict
+    passed = verdict.status == "passed"
+    return CheckVerdict(
+        name,
+        name.replace(HIDDEN, "Hidden check "),
+        "passed" if passed else "failed",
+        verdict.points,
+        verdict.max_points,
+        help="" if passed else hidden_help(verdict.promise),
+        hidden=True,
+    )

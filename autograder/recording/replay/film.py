@@ -23,6 +23,10 @@ MAX_DURATION = 60.0  # s
 WIDTH, HEIGHT = 480, 360  # px of the picture without the text
 LAST_FRAME = 1.5  # s for which the last frame is shown, so that the verdict can be read
 FORMATS: Mapping[str, Literal["WEBP", "GIF"]] = {".webp": "WEBP", ".gif": "GIF"}
+SIZE = 13  # px, of the letters
+LEADING = 17  # px from line to line
+MARGIN = 8  # px
+BACKGROUND = "#16181d"
 
 
 def film(recording: Recording, span: Span, file: Path, *, camera: str = "track") -> int:
@@ -65,12 +69,6 @@ def _frames(recording: Recording, span: Span, camera: str) -> list[Image.Image]:
     finally:
         view.close()
     return frames
-
-
-SIZE = 13  # px, of the letters
-LEADING = 17  # px from line to line
-MARGIN = 8  # px
-BACKGROUND = "#16181d"
 
 
 def with_captions(picture: np.ndarray, t: float, moments: Sequence[Moment]) -> Image.Image:

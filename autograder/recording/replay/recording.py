@@ -19,6 +19,8 @@ from ros_runtime.course_error import CourseError
 
 LARGEST_FILE = 128 * 2**20  # bytes
 MOST_MESSAGES = 500_000
+AROUND = 6.0  # s shown around a check
+BEFORE = 2 / 3  # of these seconds are before the verdict
 
 
 class NoRecording(CourseError):
@@ -211,10 +213,6 @@ def _metadata(path: Path, records: Iterator[Any]) -> Mapping[str, str]:
 def readable(text: str) -> str:
     """Return text in one line without control characters, which a program may have printed to move a cursor."""
     return "".join(letter if letter.isprintable() else " " for letter in text)
-
-
-AROUND = 6.0  # s shown around a check
-BEFORE = 2 / 3  # of these seconds are before the verdict
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from urllib.parse import unquote
 import pytest
 from bs4 import BeautifulSoup, Tag
 
-from autograder.classroom.nbgrader_bridge.cell_names import HIDDEN_HELP
+from autograder.classroom.nbgrader_bridge.generated_cells import HIDDEN_HELP
 from autograder.classroom.pages.pages import write_pages, write_submission_pages
 from autograder.engine.verdict import CheckVerdict, Grade
 

@@ -20,8 +20,7 @@ from autograder.engine.exercise import load_exercise
 from autograder.engine.judging import judge
 from autograder.engine.verdict import LENGTH_NOTE, LONGEST, CheckVerdict, Grade
 from autograder.isolation.captured_output import CapturedOutput, OutputLine
-from autograder.report.class_table import class_table
-from autograder.report.table import grade_table, print_verdict
+from autograder.report.table import class_table, grade_table, print_verdict
 from fuzz import strategies as odd
 from fuzz.fuzzer import Fuzzer
 
