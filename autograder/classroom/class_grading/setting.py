@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, nullcontext
+from collections.abc import Generator, Iterable, Iterator, Sequence
+from contextlib import closing, contextmanager, nullcontext
 from dataclasses import dataclass, replace
 
 from rich.console import Console
@@ -16,7 +16,7 @@ from autograder.classroom.batch.effort import utc_now
 from autograder.classroom.batch.folder_lock import locked
 from autograder.classroom.batch.records import GRADES, read_grades
 from autograder.classroom.batch.request import BatchRequest
-from autograder.classroom.batch.runner import BatchRunner, BatchWatcher
+from autograder.classroom.batch.runner import BatchRunner, BatchWatcher, Graded
 from autograder.classroom.batch.seeds import Seeds, drawn_seed, seed_of_what_was_handed_in
 from autograder.classroom.batch.selection import require_seed
 from autograder.classroom.batch.version import commit_of
@@ -47,19 +47,27 @@ class Setting:
     before: Sequence[Grade]
     record: BatchRecord
 
-    def runner(self, progress: BatchProgress) -> BatchRunner:
-        """Return the runner of this batch; it reports to `progress`."""
-        return BatchRunner(
-            GradeCache(self.request.out / "cache", self.isolation),
-            self.isolation,
-            jobs=self.request.jobs,
-            seeds=self.seeds,
-            resume=self.request.resume or self.request.watch,
-            workers=self.cluster.workers if self.cluster else None,
-            watcher=BatchWatcher(progress.verdict, progress.running, progress.retry_later),
-            drawings=Drawings(self.request.out),
-            recordings=self.request.out / RECORDINGS if self.request.record else None,
-        )
+    def graded(self, works: Iterable[Work | None]) -> Generator[Graded, None, None]:
+        """Yield each submission when it is graded (`BatchRunner.run`), and show the progress meanwhile."""
+        request, cluster = self.request, self.cluster
+        with BatchProgress(self.console, elsewhere=cluster.size if cluster else 0) as progress:
+            runner = BatchRunner(
+                GradeCache(request.out / "cache", self.isolation),
+                self.isolation,
+                jobs=request.jobs,
+                seeds=self.seeds,
+                resume=request.resume or request.watch,
+                workers=cluster.workers if cluster else None,
+                watcher=BatchWatcher(progress.verdict, progress.running, progress.retry_later),
+                drawings=Drawings(request.out),
+                recordings=request.out / RECORDINGS if request.record else None,
+            )
+            if isinstance(works, Sequence):
+                progress.expect(sum(runner.count(work.exercise) for work in works if work), len(works))
+            with closing(runner.run(works)) as graded:
+                for result in graded:
+                    progress.graded(result, runner.count(result.work.exercise))
+                    yield result
 
 
 @contextmanager

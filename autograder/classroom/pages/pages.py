@@ -10,7 +10,6 @@ from urllib.parse import quote
 from markupsafe import Markup
 
 from autograder.classroom.nbgrader_bridge.generated_cells import HIDDEN, cell_names, hidden_help
-from autograder.classroom.pages.drawings import Drawings, Sources
 from autograder.classroom.pages.figures import NEEDS_HELP, cause, exercise_figures, who_needs_help
 from autograder.classroom.pages.plots import bars_svg
 from autograder.engine.verdict import CheckVerdict, Grade
@@ -100,40 +99,6 @@ def write_submission_pages(folder: Path, grade: Grade, drawings: DrawingsOf) -> 
     visible = {check.id for check in grade.checks if not check.hidden}
     seen = {check: svgs for check, svgs in drawings.items() if check in visible}
     _write(folder, student_view(grade), seen, for_student=True)
-
-
-def write_pages(
-    folder: Path,
-    grades: Sequence[Grade],
-    sources: Mapping[tuple[str, str], Sources | None],
-    *,
-    batches: Sequence[Path] = (),
-    left_out: Sequence[str] = (),
-    batch: Mapping[str, str] | None = None,
-) -> Path:
-    """Write the pages of a batch into its output folder, and return the class page's path.
-
-    Args:
-        folder: the output folder.
-        grades: of the whole class.
-        sources: the programs of the submissions whose pages are rewritten, by student and exercise; None if one could
-            not be read. Their students' pages are rewritten, too.
-        batches: the output folders with their drawings; by default `folder`.
-        left_out: sentences on folders that could not be read as submissions.
-        batch: when and with which versions the class was graded, by label.
-    """
-    for grade in grades:
-        if (key := (grade.student, grade.exercise)) in sources:
-            drawings: dict[str, Sequence[str]] = {}
-            for output in batches or (folder,):
-                drawings |= Drawings(output).of(grade, sources[key])
-            write_submission_pages(folder, grade, drawings)
-    of_student: dict[str, list[Grade]] = {}
-    for grade in grades:
-        of_student.setdefault(grade.student, []).append(grade)
-    for student in {student for student, _ in sources} & of_student.keys():
-        write_student_page(folder, student, of_student[student])
-    return write_class_page(folder, grades, left_out, batch)
 
 
 def _write(folder: Path, grade: Grade, drawings: DrawingsOf, *, for_student: bool) -> None:
