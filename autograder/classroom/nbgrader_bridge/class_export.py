@@ -66,7 +66,7 @@ def _row(submission: Any, student: str, assignment: str) -> Row:
     grades = [grade for notebook in submission.notebooks for grade in notebook.grades]
     hidden = [grade for grade in grades if grade.name.startswith(HIDDEN)]
     score = max(0.0, submission.score - submission.late_submission_penalty)
-    return Row(
+    return (
         student,
         assignment,
         number(score),
