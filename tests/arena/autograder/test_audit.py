@@ -14,8 +14,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
+from audited.proof import enough_to_catch, enough_to_prove
 from autograder.classroom.audit.known_submission import known_submissions
-from autograder.classroom.audit.proof import enough_to_catch, enough_to_prove
 from autograder.classroom.audit.run import SharedArenas, audit_one
 from autograder.classroom.commands.test import LOST_POINTS
 from autograder.engine.exercise import exercise_names, load_exercise

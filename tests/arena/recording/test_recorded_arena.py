@@ -12,9 +12,9 @@ from typing import Any
 import pytest
 from rosbags.highlevel import AnyReader
 
+from audited.proof import enough_to_catch
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.audit.known_submission import known_submission
-from autograder.classroom.audit.proof import enough_to_catch
 from autograder.engine.exercise import load_exercise
 from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.verdict import CheckVerdict, Grade

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
+from audited.proof import enough_to_catch, enough_to_prove
 from autograder.authoring.checks import Scenario, check
 from autograder.classroom.audit.kill_matrix import figures, kill_matrix
 from autograder.classroom.audit.known_submission import HeaderError, known_submissions, read_known_submission
-from autograder.classroom.audit.proof import enough_to_catch, enough_to_prove
 from autograder.classroom.audit.run import AuditedRun, audit, checks_without_a_killer
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise
 from autograder.engine.verdict import CheckVerdict, Grade
