@@ -14,7 +14,7 @@ from rich.text import Text
 from autograder.classroom.audit.audit_record import AuditRecord
 from autograder.classroom.audit.generated.first_look import Judged, as_fault, first_look
 from autograder.classroom.audit.generated.mutant import Mutant, mutants_of_exercise
-from autograder.classroom.audit.known_submission import KNOWN, HeaderError, KnownSubmission
+from autograder.classroom.audit.known_submission import KNOWN, HeaderError
 from autograder.classroom.audit.run import AuditedRun, audit
 from autograder.engine.exercise import Exercise, exercises_folder
 
@@ -32,7 +32,6 @@ def audit_generated(
     only: str = "*",
     jobs: int = 2,
     seed: int = 0,
-    scale: float | None = None,
 ) -> list[Judged]:
     """Grade up to `number` mutants (None: the usual number), from each operator in turn; print and return them."""
     made = mutants_of_exercise(exercise.name)
@@ -42,18 +41,10 @@ def audit_generated(
     faults = {mutant.name: as_fault(mutant, exercise) for mutant in chosen}
     judged: list[Judged] = []
 
-    def add(run: AuditedRun, mark: str = "") -> None:
+    def add(run: AuditedRun, is_kept: bool) -> None:
         judged.append(Judged(faults[run.known.name].mutant, run))
-        _print_judged(console, judged[-1], f"{len(judged)} of {len(faults)}{mark}")
-
-    def earlier(known: KnownSubmission, repetition: int) -> AuditedRun | None:
-        if run := record.earlier_run(known, exercise, repetition, seed):
-            add(run, ", kept")
-        return run
-
-    def keep(run: AuditedRun) -> None:
-        record.add(run, exercise)
-        add(run)
+        place = f"{len(judged)} of {len(faults)}{', kept' if is_kept else ''}"
+        _print_judged(console, judged[-1], place)
 
     same = len(made) - len(mistakes)
     console.print(
@@ -62,18 +53,8 @@ def audit_generated(
     for patterns in reasons:
         if not any(is_one_of(patterns, mutant) for mutant in made):
             console.print(f"{KNOWN}/{EQUIVALENT}: no mutant is like “{patterns}” any more", markup=False)
-    audit(
-        [*faults.values()],
-        exercise,
-        jobs=jobs,
-        seed=seed,
-        scale=scale,
-        earlier=earlier,
-        report=keep,
-        grade_one=first_look,
-    )
+    audit([*faults.values()], exercise, record, add, jobs=jobs, seed=seed, grade_one=first_look)
     if judged:
-        record.write()  # also when nothing was left to grade
         console.print(_table(mistakes, judged))
         for line in (*survivors(exercise.name, judged), *figures(judged)):
             console.print(line, markup=False, soft_wrap=True)
