@@ -35,9 +35,8 @@ def write_html(path: Path, template: str, **values: Any) -> None:
     """Fill a template; every text except Markup is escaped."""
     html = ENVIRONMENT.get_template(template).render(**values)
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(
-        html, encoding="utf-8", errors="backslashreplace"
-    )  # a student's program may print an unpaired surrogate
+    # A student's program may print an unpaired surrogate.
+    path.write_text(html, encoding="utf-8", errors="backslashreplace")
 
 
 def drawn(grade: Grade, drawings: Mapping[str, Sequence[str]]) -> dict[str, Drawn]:

@@ -11,14 +11,8 @@ from ros_runtime.project import PROJECT
 
 # The checks and the engine, the robot, the clock.
 JUDGING = ("autograder", "robot_sim", "ros_runtime", "humanoid_interfaces")
-WITHOUT_INFLUENCE = (
-    "batch",
-    "nbgrader_bridge",
-    "recording",
-    "report",
-    "audit",
-    "new_exercise",
-)  # folders of autograder/
+WITHOUT_INFLUENCE = ("autograder/classroom", "autograder/recording", "autograder/report")
+HIDDEN_CHECKS = "autograder/classroom/hidden_checks"  # of the classroom these alone have influence
 
 
 @lru_cache
@@ -36,7 +30,7 @@ def checks_version(exercise: Path) -> str:
 
 
 def _has_influence(place: Path) -> bool:
-    return not (place.parts[0] == "autograder" and place.parts[1] in WITHOUT_INFLUENCE)
+    return place.is_relative_to(HIDDEN_CHECKS) or not any(map(place.is_relative_to, WITHOUT_INFLUENCE))
 
 
 def commit_of(folder: Path) -> str:

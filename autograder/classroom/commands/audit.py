@@ -21,11 +21,7 @@ from autograder.classroom.audit.known_submission import (
 from autograder.classroom.audit.leftovers import leftovers
 from autograder.classroom.audit.run import AuditedRun
 from autograder.classroom.audit.run import audit as audit_submissions
-from autograder.engine.exercise import (
-    Exercise,
-    exercise_names,
-    load_exercise,
-)
+from autograder.engine.exercise import Exercise, exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
 from course_cli.ending import COULD_NOT, ended
 from course_cli.options import CourseOption, JobsOption

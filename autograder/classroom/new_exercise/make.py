@@ -18,10 +18,8 @@ KINDS_FOLDER = Path(__file__).with_name("kinds")
 KINDS = tuple(sorted(folder.name for folder in KINDS_FOLDER.iterdir()))
 _TEMPLATE = ".j2"
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
-_SOLUTION, _TASK = (
-    f"solution.py{_TEMPLATE}",
-    f"task.md{_TEMPLATE}",
-)  # become the notebook and the correct submission
+# They become the notebook and the correct submission.
+_SOLUTION, _TASK = f"solution.py{_TEMPLATE}", f"task.md{_TEMPLATE}"
 _MARKS = re.compile(r"^ *### (BEGIN|END) SOLUTION\n", re.MULTILINE)
 
 

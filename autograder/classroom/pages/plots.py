@@ -14,12 +14,8 @@ from matplotlib.ticker import MaxNLocator
 
 from ros_runtime.drawing.xml_text import escape
 
-LEFT, RIGHT, BELOW, ABOVE = (
-    0.7,
-    0.2,
-    0.55,
-    0.3,
-)  # inches around the panel; fixed, because measuring the texts is slow
+# Inches around the panel; fixed, because measuring the texts is slow.
+LEFT, RIGHT, BELOW, ABOVE = 0.7, 0.2, 0.55, 0.3
 CURVE, FLAG, DOT = "#1f5fa8", "#b34700", "#2c7a3f"
 _STYLE = {"svg.fonttype": "none", "text.parse_math": False, "font.size": 9, "axes.edgecolor": "#999999"}
 _NO_METADATA = dict.fromkeys(("Date", "Creator", "Format", "Type"))
@@ -53,9 +49,8 @@ def plotted(title: str, words: str, *, width: float, height: float, pad: float =
         yield plot
         page = io.StringIO()
         plot.figure.savefig(page, format="svg", metadata=_NO_METADATA)
-    drawn = re.sub(
-        r'<g id="[^"]*">', "<g>", page.getvalue()
-    )  # a page has several drawings, whose ids must differ
+    # A page has several drawings, whose ids must differ.
+    drawn = re.sub(r'<g id="[^"]*">', "<g>", page.getvalue())
     box = re.search(r'viewBox="[^"]*"', drawn)
     assert box
     head = (

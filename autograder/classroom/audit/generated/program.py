@@ -82,9 +82,8 @@ class Program:
     def changed(self, edits: Edits, inside: ast.AST | None = None) -> str:
         """Return the source with the edits made, of the whole program or of one node."""
         new = {id(node): _parsed(source, node) for node, source in edits.items()}
-        return ast.unparse(
-            copy.deepcopy(inside or self.tree, new)
-        )  # which takes what it finds there for a copy
+        # deepcopy takes what it finds in its second argument for a copy that was made already.
+        return ast.unparse(copy.deepcopy(inside or self.tree, new))
 
 
 def last_name(node: ast.AST | None) -> str:
