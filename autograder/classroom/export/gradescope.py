@@ -18,7 +18,7 @@ from autograder.classroom.export.published import (
     words_for_students,
 )
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.report.verdict_text import verdict_text
+from autograder.report.table import verdict_text
 
 Visibility = Literal["visible", "hidden", "after_due_date", "after_published"]
 FILE = "results.json"

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from autograder.classroom.export.published import Options, Published, UnusableBatch, printable
 from autograder.classroom.export.tables import Table, csv_text, key_cell, read_number, read_table, text_cell
-from autograder.report.verdict_text import verdict_text
+from autograder.report.table import verdict_text
 
 EMAIL, ID_NUMBER = ("useremail", "email address", "email"), ("useridnumber", "id number", "idnumber")
 _PARTICIPANT = re.compile(r"(?P<word>.*\D)(?P<number>\d+)\s*")  # "Participant 123456", in any language

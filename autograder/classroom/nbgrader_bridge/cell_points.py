@@ -18,7 +18,7 @@ from autograder.engine.essay import load_essay
 from autograder.engine.exercise import essay_names, file_names
 from autograder.engine.notebook import written_by
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.report.verdict_text import verdict_text
+from autograder.report.table import verdict_text
 
 UNJUDGED = "unjudged_cells"  # resources["nbgrader"] key: grade_ids that have no verdict
 ON_PAPER = "Your marker saw this drawn."  # for the feedback page, from which nbgrader takes every drawing

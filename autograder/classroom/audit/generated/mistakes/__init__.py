@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 from autograder.classroom.audit.generated.mistakes import conditions, fields, memory, timing
-from autograder.classroom.audit.generated.mistakes.numbers import NUMBERS, with_wrong_numbers
+from autograder.classroom.audit.generated.mistakes.fields import NUMBERS, with_wrong_numbers
 from autograder.classroom.audit.generated.mistakes.rewrites import rewrites, rewritten
 from autograder.classroom.audit.generated.program import Edits, Program
 
