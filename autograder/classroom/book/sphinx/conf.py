@@ -13,7 +13,6 @@ html_show_copyright = False
 language = "en"
 
 extensions = ["myst_nb"]
-exclude_patterns: list[str] = []
 
 html_theme = "furo"
 html_static_path = ["static"]
