@@ -6,6 +6,7 @@ To add a command, write <name>.py with a function of that name into its folder, 
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 from collections.abc import Callable, Sequence
@@ -23,9 +24,8 @@ from ros_runtime.course_error import CourseError
 
 HELP = "Learn ROS 2 services and actions on a humanoid that really balances."
 FORWARDING = {"ignore_unknown_options": True, "allow_extra_args": True}
-
-
 FOR_EVERYBODY, FOR_INSTRUCTORS = "course_cli.commands", "autograder.classroom.commands"
+UTF8_VARIABLE = "PYTHONUTF8"  # of Python; its child processes read it, too
 
 
 @dataclass(frozen=True)
@@ -98,6 +98,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     processes, such as students' nodes. Therefore the default handler of SIGINT is restored first.
     """
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    if arguments is None:
+        _require_utf8()
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     chosen = next((word for word in arguments if not word.startswith("-")), None)
     try:
@@ -106,6 +108,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
         if sentence := in_a_sentence(error):
             sys.exit(sentence)
         raise
+
+
+def _require_utf8() -> None:
+    """Start again in Python's UTF-8 mode where the locale has no UTF-8: students' names and texts need it."""
+    if sys.getfilesystemencoding() != "utf-8" and os.environ.get(UTF8_VARIABLE) != "1":
+        os.environ[UTF8_VARIABLE] = "1"
+        os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
 
 
 class _Course(TyperGroup):

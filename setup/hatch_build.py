@@ -25,10 +25,8 @@ from ros_runtime.interface_build.cmake_package import build, built_prefix
 
 ROOT = Path(__file__).resolve().parents[1]
 BUILD_REQUIREMENTS = ROOT / "setup/build-requirements.txt"
-TOOLS = (
-    BUILD_REQUIREMENTS,
-    ROOT / "requirements.lock",
-)  # the interfaces are rebuilt when one of these files changes
+# The interfaces are rebuilt when one of these files changes.
+TOOLS = (BUILD_REQUIREMENTS, ROOT / "requirements.lock")
 
 
 class CourseBuildHook(BuildHookInterface):

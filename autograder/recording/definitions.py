@@ -6,11 +6,12 @@ It is derived from the generated classes, because an action's feedback message a
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any
 
-from autograder.recording.transforms import TF_TYPE, TFMessage
+from geometry_msgs.msg import TransformStamped
+
 from ros_runtime.messages import message_type
 
 _SEPARATOR = "=" * 80
@@ -19,6 +20,21 @@ _SEQUENCE = re.compile(r"sequence<(.+?)(?:, (\d+))?>")
 _ARRAY = re.compile(r"(.+)\[(\d+)\]")
 _BOUNDED_TEXT = re.compile(r"(w?string)<(\d+)>")
 _IN_IMPL = ("FeedbackMessage", "SendGoal", "GetResult")  # types that rclpy keeps in an action's `Impl`
+TF_TYPE = "tf2_msgs/msg/TFMessage"
+
+
+class TFMessage:
+    """The message TF_TYPE, which the ROS wheels lack, with only the members that serialization needs."""
+
+    __module__ = "tf2_msgs.msg._tf_message"  # where the generated class is
+
+    def __init__(self, transforms: Sequence[TransformStamped] = ()) -> None:
+        self.transforms = list(transforms)
+
+    @classmethod
+    def get_fields_and_field_types(cls) -> dict[str, str]:
+        """Return the fields with their types, like a generated message class."""
+        return {"transforms": "sequence<geometry_msgs/TransformStamped>"}
 
 
 @cache

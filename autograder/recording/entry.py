@@ -1,8 +1,7 @@
-"""One message of a recording, and the metadata of the whole recording."""
+"""One message of a recording, and the names that its writer and its reader share."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -31,37 +30,6 @@ class Entry:
     topic: str
     message: Any
     essential: bool = False
-
-
-@dataclass(frozen=True)
-class About:
-    """The metadata of a recording.
-
-    Attributes:
-        exercise, student, scenario: which run.
-        namespace: of robot and student.
-        params: the scenario's inputs.
-        seed: drew them.
-        scale: how much faster than real time the arena's clock ran.
-        end: s on that clock.
-        scene: of the robot; "": there was none.
-        shows_hidden_checks: it is not for students.
-    """
-
-    exercise: str
-    student: str
-    scenario: str
-    namespace: str
-    params: str
-    seed: str
-    scale: str
-    end: str
-    scene: str
-    shows_hidden_checks: str
-
-    def to_metadata(self) -> Mapping[str, str]:
-        """Return the fields as strings, for an MCAP metadata record."""
-        return {"format": FORMAT, **vars(self)}
 
 
 def stamp(t: float) -> Time:

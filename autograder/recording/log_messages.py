@@ -15,7 +15,6 @@ from autograder.engine.verdict import CheckVerdict
 from autograder.recording.entry import CHECKS, EVENTS, ROSOUT, Entry, stamp
 from autograder.recording.narration import narrated
 
-LEVELS = {"DEBUG": Log.DEBUG, "INFO": Log.INFO, "WARN": Log.WARN, "ERROR": Log.ERROR, "FATAL": Log.FATAL}
 _OF_RCLPY = re.compile(r"\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[[\d.]+\] \[([^\]]*)\]: (.*)", re.DOTALL)
 
 
@@ -64,7 +63,7 @@ def log(t: float, level: int, name: str, text: str, function: str = "") -> Log:
 def _printed(event: ev.NodeOutput, program: str) -> Any:
     """Return a line of output: with rclpy's own level and logger where it wrote them, else stderr as WARN."""
     if match := _OF_RCLPY.fullmatch(event.text):
-        return log(event.t, LEVELS[match[1]], match[2], match[3])
+        return log(event.t, getattr(Log, match[1]), match[2], match[3])
     return log(event.t, Log.INFO if event.stream == "stdout" else Log.WARN, program, event.text)
 
 

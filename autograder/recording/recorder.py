@@ -11,7 +11,7 @@ from autograder.authoring.checks import Scenario
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import Exercise
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.recording.entry import About, Entry
+from autograder.recording.entry import FORMAT, Entry
 from autograder.recording.interface_messages import InterfaceMessages
 from autograder.recording.kept import Recordings
 from autograder.recording.log_messages import Judged, log_messages, verdict_messages
@@ -83,19 +83,23 @@ class Recorder:
             for verdict in grade.checks
             if verdict.id in self._checks and scenario in self._checks[verdict.id].on
         ]
-        about = About(
-            exercise=grade.exercise,
-            student=grade.student,
-            scenario=scenario.name,
-            namespace=scenario.namespace,
-            params=json.dumps(run.params),
-            seed=str(grade.seed),
-            scale=f"{run.scale:g}",
-            end=f"{run.end:.6f}",
-            scene=scene_of(run),
-            shows_hidden_checks="yes" if self._shows_hidden else "no",
-        )
-        return mcap_file(self._entries(run, scenario, judged), about.to_metadata())
+        return mcap_file(self._entries(run, scenario, judged), self._metadata(run, scenario, grade))
+
+    def _metadata(self, run: Transcript, scenario: Scenario, grade: Grade) -> dict[str, str]:
+        """Return what `course replay` and a viewer say about the recording."""
+        return {
+            "format": FORMAT,
+            "exercise": grade.exercise,
+            "student": grade.student,
+            "scenario": scenario.name,
+            "namespace": scenario.namespace,  # of robot and student
+            "params": json.dumps(run.params),
+            "seed": str(grade.seed),
+            "scale": f"{run.scale:g}",  # how much faster than real time the arena's clock ran
+            "end": f"{run.end:.6f}",  # s on that clock
+            "scene": scene_of(run),  # "": there was no robot
+            "shows_hidden_checks": "yes" if self._shows_hidden else "no",
+        }
 
     def _judged(self, verdict: CheckVerdict, scenario: Scenario, run: Transcript) -> Judged:
         runs = self._judged_on.get(verdict.id, [run])

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from geometry_msgs.msg import Pose, PoseStamped
+from geometry_msgs.msg import Pose, PoseStamped, TransformStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.recording.definitions import TFMessage
 from autograder.recording.entry import Entry, full_name, stamp
-from autograder.recording.transforms import TF, transforms
 from humanoid_interfaces.msg import RobotState
+
+TF = "/tf"
 
 
 def robot_messages(transcript: Transcript, namespace: str) -> Iterator[Entry]:
@@ -49,20 +51,13 @@ def _messages(posture: ev.PostureTruth, body: ev.BodyDescribed) -> Iterator[tupl
     _set_xyz(odometry.twist.twist.linear, posture.twist[:3])
     _set_xyz(odometry.twist.twist.angular, posture.twist[3:])
     yield "odom", odometry
-    yield (
-        "joint_states",
-        JointState(
-            header=Header(stamp=at),
-            name=body.joints,
-            position=posture.positions,
-            velocity=posture.velocities,
-        ),
-    )
-    frames = {"base_link": posture.base}
-    for name, place in zip(body.objects, posture.objects, strict=False):
-        frames[name] = place
+    joints = Header(stamp=at)
+    moving = {"position": posture.positions, "velocity": posture.velocities}
+    yield "joint_states", JointState(header=joints, name=body.joints, **moving)
+    objects = dict(zip(body.objects, posture.objects, strict=False))
+    for name, place in objects.items():
         yield f"objects/{name}/pose", PoseStamped(header=odom, pose=_pose(place))
-    yield TF, transforms(at, "odom", frames)
+    yield TF, _transforms(odom, {"base_link": posture.base, **objects})
 
 
 def _states(transcript: Transcript, topic: str) -> Iterator[Entry]:
@@ -90,3 +85,14 @@ def _pose(place: Sequence[float]) -> Pose:
 
 def _set_xyz(vector: Any, numbers: Sequence[float]) -> None:
     vector.x, vector.y, vector.z = map(float, numbers)
+
+
+def _transforms(header: Header, poses: Mapping[str, Sequence[float]]) -> TFMessage:
+    """Return the poses of frames in the header's: x, y, z (m) and a quaternion (x, y, z, w) for each."""
+    message = TFMessage()
+    for child, pose in poses.items():
+        stamped = TransformStamped(header=header, child_frame_id=child)
+        moved, turned = stamped.transform.translation, stamped.transform.rotation
+        moved.x, moved.y, moved.z, turned.x, turned.y, turned.z, turned.w = map(float, pose)
+        message.transforms.append(stamped)
+    return message

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -35,9 +35,8 @@ def write_html(path: Path, template: str, **values: Any) -> None:
     """Fill a template; every text except Markup is escaped."""
     html = ENVIRONMENT.get_template(template).render(**values)
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(
-        html, encoding="utf-8", errors="backslashreplace"
-    )  # a student's program may print an unpaired surrogate
+    # A student's program may print an unpaired surrogate.
+    path.write_text(html, encoding="utf-8", errors="backslashreplace")
 
 
 def drawn(grade: Grade, drawings: Mapping[str, Sequence[str]]) -> dict[str, Drawn]:
@@ -49,3 +48,31 @@ def drawn(grade: Grade, drawings: Mapping[str, Sequence[str]]) -> dict[str, Draw
             owner = first.setdefault(svgs, check)
             shown[check.id] = Drawn(list(map(Markup, svgs))) if owner is check else Drawn([], owner)
     return shown
+
+
+@dataclass(frozen=True)
+class Section:
+    """One grade with the drawings (SVG) that explain its verdicts, by check id."""
+
+    heading: str
+    grade: Grade
+    drawings: Mapping[str, Sequence[str]] = field(default_factory=dict)
+
+
+def write_page(
+    path: Path,
+    *,
+    title: str,
+    introduction: str,
+    figures: Sequence[str] = (),
+    sections: Sequence[Section] = (),
+) -> None:
+    """Write an HTML page. `figures` and the drawings are trusted markup; all other texts are escaped."""
+    write_html(
+        path,
+        "page.html",
+        title=title,
+        introduction=introduction,
+        figures=[Markup(figure) for figure in figures],
+        sections=[(section, drawn(section.grade, section.drawings)) for section in sections],
+    )

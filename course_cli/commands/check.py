@@ -10,18 +10,12 @@ import typer
 from rich.console import Console
 
 from autograder.engine.essay import load_essay
-from autograder.engine.exercise import (
-    essay_names,
-    exercise_names,
-    file_names,
-    scenario_file,
-)
+from autograder.engine.exercise import essay_names, exercise_names, file_names, scenario_file
 from autograder.engine.hand_in import MOST_FOLDERS, work_in
 from autograder.engine.submission import UnusableSubmission, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from course_cli.ending import COULD_NOT, NOT_GRADED
-from course_cli.exercises_option import CourseOption
-from course_cli.jobs_option import JobsOption
+from course_cli.options import CourseOption, JobsOption
 from ros_runtime.project import PROJECT
 
 FOLDERS_HERE = 2  # levels of folders that are searched below the current one
@@ -83,9 +77,8 @@ def _work(exercise: str, file: Path | None) -> tuple[Path, list[str]]:
         return file, []
     here = Path()
     own = Path("exercises") / exercise
-    below = (
-        0 if here.resolve() == PROJECT else FOLDERS_HERE
-    )  # the project's own folders hold the graders' test submissions
+    # The project's own folders hold the grader's test submissions.
+    below = 0 if here.resolve() == PROJECT else FOLDERS_HERE
     places = [(file, MOST_FOLDERS)] if file else [(here, 0), (own, MOST_FOLDERS), (here, below)]
     for folder, depth in places:
         if folder.is_dir() and (found := work_in(folder, exercise, depth=depth)):

@@ -9,8 +9,7 @@ import typer
 from rich.console import Console
 
 from autograder.recording.replay.film import film, require_known_format
-from autograder.recording.replay.recording import NoRecording, Recording
-from autograder.recording.replay.span import Span, require_postures, span_of
+from autograder.recording.replay.recording import NoRecording, Recording, Span, require_postures, span_of
 from autograder.recording.replay.text import line, time_line, title
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from ros_runtime.workarounds.gl_backend import NoOpenGLError

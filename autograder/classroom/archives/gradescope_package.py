@@ -7,8 +7,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from autograder.classroom.archives.archive import write_archive
-from autograder.classroom.archives.student_bundle import files_of, require_no_leak, visible_checks
+from autograder.classroom.archives.student_bundle import (
+    files_of,
+    require_no_leak,
+    visible_checks,
+    write_archive,
+)
 
 TOP = "humanoid-course"  # the course's folder in /autograder/source
 PARTS = (
@@ -28,7 +32,7 @@ PARTS = (
         f"autograder/classroom/batch/{name}.py"
         for name in ("__init__", "collection", "records", "grades_without_run")
     ),
-    *(f"course_cli/{name}.py" for name in ("__init__", "app", "ending", "exercises_option", "jobs_option")),
+    *(f"course_cli/{name}.py" for name in ("__init__", "app", "ending", "options")),
     *(f"course_cli/commands/{name}.py" for name in ("__init__", "check")),
 )
 _SETUP = f"""#!/usr/bin/env bash

@@ -39,10 +39,10 @@ class AuditRecord:
         scale: float | None = None,
         earlier: Iterable[dict[str, Any]] = (),
     ) -> None:
-        """`path`: None writes no file. `earlier`: the runs from `read_runs`."""
+        """`path`: None writes no file. `scale`: of the clock. `earlier`: the runs from `read_runs`."""
+        self.scale = scale
         self._path = path
         self._isolation = isolation
-        self._scale = scale
         self._runs = {_place(run): json.dumps(run) for run in earlier}
         self._keys: dict[_Place, str] = {}  # hash of each submission, taken before it is graded
 
@@ -84,7 +84,7 @@ class AuditRecord:
         self._runs[place] = json.dumps(entry)
 
     def _key(self, known: KnownSubmission, exercise: Exercise, seed: int) -> str:
-        return grade_key(known.read(), exercise, seed, self._isolation, self._scale)
+        return grade_key(known.read(), exercise, seed, self._isolation, self.scale)
 
     def _text(self) -> str:
         by_exercise: dict[str, list[str]] = {}

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import threading
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
 
 from autograder.classroom.audit.known_submission import KnownSubmission, require_known_checks
-from autograder.classroom.audit.shared_arenas import SharedArenas
 from autograder.engine.exercise import Exercise
 from autograder.engine.grading import GradingOptions, grade
 from autograder.engine.stop import Stop
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckStatus, Grade
+
+if TYPE_CHECKING:
+    from autograder.classroom.audit.audit_record import AuditRecord
 
 
 @dataclass(frozen=True)
@@ -87,53 +93,61 @@ class AuditedRun:
 def audit(
     submissions: Sequence[KnownSubmission],
     exercise: Exercise,
+    record: AuditRecord,
+    report: Callable[[AuditedRun, bool], None],
     *,
-    jobs: int = 2,
+    jobs: int,
     repeat: int = 1,
     seed: int = 0,
-    scale: float | None = None,
-    earlier: Callable[[KnownSubmission, int], AuditedRun | None] = lambda known, repetition: None,
-    report: Callable[[AuditedRun], None] = lambda run: None,
     grade_one: Callable[..., AuditedRun] | None = None,
 ) -> list[AuditedRun]:
     """Grade each submission `repeat` times with `jobs` parallel arenas; retry submissions without a grade once, alone.
 
+    Runs that `record` has already are reused; all others are added to it. `report` gets each run when it is there, and
+    whether it was reused. `grade_one` grades a submission; None: `audit_one`. All runs are returned, in the order of
+    the submissions.
+
     Faulty submissions share arenas, one after another; all others, and those that are graded alone, have their own.
     The scenarios' inputs are drawn with `seed`, `seed` + 1, … for the repetitions. Ctrl-C ends the running arenas at
-    once. `earlier` returns the reusable run of a submission and repetition, or None. `report` gets each run when it is
-    done. All runs, also those of `earlier`, are returned in the order of the submissions. `grade_one` grades a
-    submission; None: `audit_one`.
+    once.
     """
     grade_one = grade_one or audit_one
     for known in submissions:
         require_known_checks(known, [check.id for check in exercise.checks])
-    wanted = [(repetition, known) for repetition in range(repeat) for known in submissions]
-    runs = {(repetition, known): run for repetition, known in wanted if (run := earlier(known, repetition))}
+    wanted = [(known, repetition) for repetition in range(repeat) for known in submissions]
+    runs: dict[tuple[KnownSubmission, int], AuditedRun] = {}
+    for known, repetition in wanted:
+        if run := record.earlier_run(known, exercise, repetition, seed + repetition):
+            runs[known, repetition] = run
+            report(run, True)
     left = [one for one in wanted if one not in runs]
+
+    def keep(run: AuditedRun) -> None:
+        runs[run.known, run.repetition] = run
+        record.add(run, exercise)
+        report(run, False)
+
     stop = Stop()
-    with SharedArenas(known for _, known in left) as shared, ThreadPoolExecutor(jobs) as pool:
+    with SharedArenas(known for known, _ in left) as shared, ThreadPoolExecutor(jobs) as pool:
 
         def audit_in_shared(known: KnownSubmission, repetition: int) -> AuditedRun:
             with shared.lent_to(known, exercise) as arenas:
-                return grade_one(known, exercise, repetition, seed, scale, arenas=arenas, stop=stop)
+                return grade_one(known, exercise, repetition, seed, record.scale, arenas=arenas, stop=stop)
 
-        futures = {
-            pool.submit(audit_in_shared, known, repetition): (repetition, known) for repetition, known in left
-        }
+        futures = [pool.submit(audit_in_shared, *one) for one in left]
         try:
             for future in as_completed(futures):
-                run = future.result()
-                if run.grade.status != "not graded":
-                    runs[futures[future]] = run
-                    report(run)
+                if future.result().grade.status != "not graded":
+                    keep(future.result())
         except BaseException:
             stop.set()
             pool.shutdown(cancel_futures=True)
             raise
-    for repetition, known in left:
-        if (repetition, known) not in runs:
-            runs[repetition, known] = grade_one(known, exercise, repetition, seed, scale)
-            report(runs[repetition, known])
+    for known, repetition in left:
+        if (known, repetition) not in runs:
+            keep(grade_one(known, exercise, repetition, seed, record.scale))
+    if runs:
+        record.write()  # also when nothing was left to grade
     return [runs[one] for one in wanted]
 
 
@@ -169,3 +183,51 @@ def checks_without_a_killer(runs: Sequence[AuditedRun], exercise: Exercise) -> l
         check_id for run in runs for check_id in run.known.caught_by if run.status(check_id) == "failed"
     }
     return [check.id for check in exercise.checks if check.id not in proved]
+
+
+class SharedArenas:
+    """Lends arenas to one faulty submission after another; those of an exercise are closed after its last.
+
+    A context manager, which closes what is still open.
+    """
+
+    def __init__(self, submissions: Iterable[KnownSubmission]) -> None:
+        """Each of `submissions` will be graded once."""
+        self._left = Counter(known.exercise for known in submissions if known.kind == "faulty")
+        self._open: dict[str, _KeptArenas] = {}
+        self._lock = threading.Lock()
+
+    def __enter__(self) -> SharedArenas:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        for arenas in self._open.values():
+            arenas.close()
+
+    @contextmanager
+    def lent_to(self, known: KnownSubmission, exercise: Exercise) -> Iterator[SubmissionArenas | None]:
+        """Yield the shared arenas for a faulty submission; None for any other, which needs its own."""
+        if known.kind != "faulty":
+            yield None
+            return
+        with self._lock:
+            arenas = self._open.setdefault(known.exercise, _KeptArenas(exercise.scenario_file))
+        try:
+            yield arenas
+        finally:
+            with self._lock:
+                self._left[known.exercise] -= 1
+                last = not self._left[known.exercise]
+            if last:
+                arenas.close()
+
+
+class _KeptArenas(SubmissionArenas):
+    """Arenas that stay open from one grading to the next."""
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Leave them open for the next grading."""

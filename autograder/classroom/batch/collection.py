@@ -81,6 +81,7 @@ def collect(folder: Path) -> Collection:
     files = files_of_exercises()
     works: dict[tuple[str, str], Work] = {}
     ignored: list[str] = []
+    without: list[str] = []
     refused: list[str] = []
     for student in _visible(folder):
         if not student.is_dir() or student.is_symlink():
@@ -91,16 +92,16 @@ def collect(folder: Path) -> Collection:
             )
         else:
             try:
-                found = list(works_of(student, files))
+                found = {(work.student, work.exercise): work for work in works_of(student, files)}
             except OSError as error:
                 refused.append(f"the folder {student.name!r} cannot be read: {error.strerror}")
                 continue
+            works |= found
             if not found:
                 there = ", ".join(path.name for path in _visible(student)[:MOST_NAMED]) or "nothing"
-                ignored.append(
-                    f"{student.name} handed in none of {', '.join(files)}; their folder holds {there}"
-                )
-            works |= {(work.student, work.exercise): work for work in found}
+                without.append(f"{student.name} handed in none of the exercises; their folder holds {there}")
+    if without:
+        ignored += [*without, f"the exercises, by which files are named: {', '.join(files)}"]
     if not works and not refused:
         raise NoSubmissions(f"found nothing to grade in {folder}; expected {LAYOUT}")
     return Collection([works[key] for key in sorted(works)], ignored, refused)

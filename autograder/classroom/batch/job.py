@@ -159,9 +159,8 @@ def _effort(began: str, arenas: SubmissionArenas | None) -> Effort:
 
 
 def _recorder(exercise: Exercise) -> Recorder:
-    from autograder.recording.recorder import (
-        Recorder,
-    )  # imported here, because gradings without recordings do not need it
+    # Imported here, because gradings without recordings do not need it.
+    from autograder.recording.recorder import Recorder
 
     return Recorder(exercise, for_students=False)
 

@@ -59,10 +59,11 @@ class Graded:
     effort: Effort | None = None
 
 
+@dataclass
 class BatchRunner:
     """Grades submissions; without trusted isolation only with the visible checks.
 
-    Args:
+    Attributes:
         cache: gets every grade as soon as there is one.
         isolation: of the workers.
         jobs: how many arenas run in parallel here.
@@ -74,28 +75,17 @@ class BatchRunner:
         workers: where jobs run; None: in `jobs` threads of this process.
     """
 
-    def __init__(
-        self,
-        cache: GradeCache,
-        isolation: Isolation,
-        *,
-        jobs: int,
-        seeds: Seeds = ONE_FOR_ALL,
-        resume: bool = False,
-        watcher: BatchWatcher = BatchWatcher(),
-        drawings: Drawings | None = None,
-        recordings: Path | None = None,
-        workers: Workers | None = None,
-    ) -> None:
-        self._cache = cache
-        self._isolation = isolation
-        self._jobs = jobs
-        self._seeds = seeds
-        self._resume = resume
-        self._watcher = watcher
-        self._drawings = drawings
-        self._recordings = recordings
-        self._workers = workers
+    cache: GradeCache
+    isolation: Isolation
+    jobs: int
+    seeds: Seeds = ONE_FOR_ALL
+    resume: bool = False
+    watcher: BatchWatcher = BatchWatcher()
+    drawings: Drawings | None = None
+    recordings: Path | None = None
+    workers: Workers | None = None
+
+    def __post_init__(self) -> None:
         self._stop = Stop()
         self._now_running: list[GradingJob] = []
         self._lock = threading.Lock()
@@ -114,11 +104,11 @@ class BatchRunner:
         Leaving the loop early, for example by Ctrl-C, ends the running arenas at once; finished grades stay in the
         cache.
         """
-        at_a_time = len(works) if isinstance(works, Sized) else self._jobs
-        arenas = 1 if self._workers else max(1, self._jobs // max(1, at_a_time))
-        workers = self._workers or threads(max(1, self._jobs // arenas))
+        at_a_time = len(works) if isinstance(works, Sized) else self.jobs
+        arenas = 1 if self.workers else max(1, self.jobs // max(1, at_a_time))
+        workers = self.workers or threads(max(1, self.jobs // arenas))
         live = self._live() if workers.share_memory else None
-        pool = WorkerPool(workers, partial(carry_out, live=live), self._watcher.on_retry)
+        pool = WorkerPool(workers, partial(carry_out, live=live), self.watcher.on_retry)
         handed_over: dict[tuple[str, str], Work] = {}
         try:
             for work in works:
@@ -129,7 +119,7 @@ class BatchRunner:
                 prepared = self._prepare(work, arenas)
                 if isinstance(prepared, Graded):
                     for verdict in prepared.grade.checks:
-                        self._watcher.on_verdict(verdict)
+                        self.watcher.on_verdict(verdict)
                     yield prepared
                     continue
                 while not pool.has_room:
@@ -143,7 +133,7 @@ class BatchRunner:
             pool.close()
 
     def _load(self, name: str) -> Exercise:
-        return load_exercise(name, hidden=self._isolation.trusted)
+        return load_exercise(name, hidden=self.isolation.trusted)
 
     def _prepare(self, work: Work, arenas: int) -> Graded | GradingJob:
         """Return a submission with its grade if that needs no arena (essay, unreadable, cached), else its job."""
@@ -155,22 +145,22 @@ class BatchRunner:
         if work.exercise in essay_names():  # a person marks essays, even unreadable ones
             waiting = left_to_a_person(load_essay(work.exercise), work.student)
             return Graded(work, waiting, sources, problem, effort=without_arena())
-        exercise, seed = self.exercise(work.exercise), self._seeds.of(work.student, sources or {})
+        exercise, seed = self.exercise(work.exercise), self.seeds.of(work.student, sources or {})
         if submission is None:
-            grade = unreadable(work.student, exercise, self._isolation.label, seed, problem)
+            grade = unreadable(work.student, exercise, self.isolation.label, seed, problem)
             return Graded(work, grade, None, problem, effort=without_arena())
-        if self._resume and (known := self._cache.get(submission, exercise, seed)):
+        if self.resume and (known := self.cache.get(submission, exercise, seed)):
             return Graded(work, known.grade, sources, cached=True, effort=known.effort)
         return GradingJob(
             work.student,
             work.exercise,
             dict(submission.sources),
             seed,
-            self._isolation.trusted,
+            self.isolation.trusted,
             checks_version(exercise.folder),
             arenas,
             os.environ.get(FOLDER_VARIABLE),
-            self._recordings is not None,
+            self.recordings is not None,
         )
 
     def _finish(
@@ -182,26 +172,26 @@ class BatchRunner:
             work = handed_over.pop((job.student, job.exercise))
             if outcome.effort:
                 known = Known(outcome.grade, outcome.effort)
-                self._cache.put(job.submission, self.exercise(job.exercise), job.seed, known)
-            if self._drawings:
-                self._drawings.keep_all(outcome.grade, job.sources, outcome.drawn)
-            if self._recordings:
-                keep(self._recordings / job.student / job.exercise, outcome.recordings)
+                self.cache.put(job.submission, self.exercise(job.exercise), job.seed, known)
+            if self.drawings:
+                self.drawings.keep_all(outcome.grade, job.sources, outcome.drawn)
+            if self.recordings:
+                keep(self.recordings / job.student / job.exercise, outcome.recordings)
             finished.append(Graded(work, outcome.grade, job.sources, effort=outcome.effort))
-            if self._workers and not self._workers.share_memory:
+            if self.workers and not self.workers.share_memory:
                 for verdict in outcome.grade.checks:
-                    self._watcher.on_verdict(verdict)
+                    self.watcher.on_verdict(verdict)
         yield from finished
 
     def _live(self) -> Live:
-        return Live(self._isolation, self._stop, self._watcher.on_verdict, self._begins, self._ends)
+        return Live(self.isolation, self._stop, self.watcher.on_verdict, self._begins, self._ends)
 
     def _begins(self, job: GradingJob) -> None:
         with self._lock:
             self._now_running.append(job)
-            self._watcher.on_running(list(self._now_running))
+            self.watcher.on_running(list(self._now_running))
 
     def _ends(self, job: GradingJob) -> None:
         with self._lock:
             self._now_running.remove(job)
-            self._watcher.on_running(list(self._now_running))
+            self.watcher.on_running(list(self._now_running))

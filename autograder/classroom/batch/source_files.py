@@ -9,7 +9,7 @@ The starter code is not in an exercise's folder, because a student could be call
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 from autograder.atomic_file import write_atomically
@@ -19,21 +19,18 @@ from autograder.engine.submission import UnusableSubmission, read_submission
 SOURCES, BASE = "sources", "_base"
 
 
-def write_sources(out: Path, results: Iterable[Graded]) -> None:
-    """Write the programs of these results; remove the earlier files of a submission that cannot be read."""
-    for result in results:
-        _replace(out / SOURCES / result.work.exercise / result.work.student, result.sources or {})
+def write_source(out: Path, result: Graded) -> None:
+    """Write the program of a result; remove the earlier files of a submission that cannot be read."""
+    _replace(out / SOURCES / result.work.exercise / result.work.student, result.sources or {})
 
 
-def write_base_code(out: Path, exercises: Sequence[str], releases: Path) -> None:
-    """Write the starter code from the notebooks in releases/<exercise>/; exercises without one are skipped."""
-    for exercise in sorted(set(exercises)):
-        notebook = releases / exercise / f"{exercise}.ipynb"
-        try:
-            given = read_submission(notebook, exercise).sources
-        except UnusableSubmission:
-            continue
-        _replace(out / SOURCES / BASE / exercise, given)
+def write_base_code(out: Path, exercise: str, releases: Path) -> None:
+    """Write the starter code from the notebook in releases/<exercise>/, if there is one."""
+    try:
+        given = read_submission(releases / exercise / f"{exercise}.ipynb", exercise).sources
+    except UnusableSubmission:
+        return
+    _replace(out / SOURCES / BASE / exercise, given)
 
 
 def _replace(folder: Path, files: Mapping[str, str]) -> None:

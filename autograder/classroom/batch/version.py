@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import subprocess
 from functools import lru_cache
 from pathlib import Path
 
@@ -10,14 +11,8 @@ from ros_runtime.project import PROJECT
 
 # The checks and the engine, the robot, the clock.
 JUDGING = ("autograder", "robot_sim", "ros_runtime", "humanoid_interfaces")
-WITHOUT_INFLUENCE = (
-    "batch",
-    "nbgrader_bridge",
-    "recording",
-    "report",
-    "audit",
-    "new_exercise",
-)  # folders of autograder/
+WITHOUT_INFLUENCE = ("autograder/classroom", "autograder/recording", "autograder/report")
+HIDDEN_CHECKS = "autograder/classroom/hidden_checks"  # of the classroom these alone have influence
 
 
 @lru_cache
@@ -35,4 +30,22 @@ def checks_version(exercise: Path) -> str:
 
 
 def _has_influence(place: Path) -> bool:
-    return not (place.parts[0] == "autograder" and place.parts[1] in WITHOUT_INFLUENCE)
+    return place.is_relative_to(HIDDEN_CHECKS) or not any(map(place.is_relative_to, WITHOUT_INFLUENCE))
+
+
+def commit_of(folder: Path) -> str:
+    """Return the commit of a folder's repository, with a note on files that differ from it; "" outside of one."""
+    commit = _git(folder, "rev-parse", "HEAD")
+    if commit and _git(folder, "status", "--porcelain", "--untracked-files=no", "--", "."):
+        return f"{commit} with changes that are not committed"
+    return commit
+
+
+def _git(folder: Path, *arguments: str) -> str:
+    try:
+        ran = subprocess.run(
+            ["git", "-C", str(folder), *arguments], capture_output=True, text=True, check=False, timeout=30
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return ""
+    return ran.stdout.strip() if ran.returncode == 0 else ""

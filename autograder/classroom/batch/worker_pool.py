@@ -36,6 +36,7 @@ def threads(number: int) -> Workers:
     return Workers(lambda: ThreadPoolExecutor(number), number, share_memory=True)
 
 
+@dataclass
 class WorkerPool:
     """Submits jobs to workers and collects one outcome per job.
 
@@ -43,21 +44,17 @@ class WorkerPool:
     is "not graded": alone, a job that kills its worker harms no other, and a busy machine has more time for it. The
     second outcome is final.
 
-    Args:
+    Attributes:
         workers: where the jobs run.
         work: the function that grades a job.
         retry_later: gets each job that will be repeated, with its first outcome.
     """
 
-    def __init__(
-        self,
-        workers: Workers,
-        work: Callable[[GradingJob], Outcome],
-        retry_later: RetryLater = lambda job, outcome: None,
-    ) -> None:
-        self._workers = workers
-        self._work = work
-        self._retry_later = retry_later
+    workers: Workers
+    work: Callable[[GradingJob], Outcome]
+    retry_later: RetryLater = lambda job, outcome: None
+
+    def __post_init__(self) -> None:
         self._executor: Executor | None = None
         self._running: dict[Future[Outcome], GradingJob] = {}
         self._once_more: deque[GradingJob] = deque()
@@ -66,7 +63,7 @@ class WorkerPool:
     @property
     def has_room(self) -> bool:
         """Whether another job can be submitted now."""
-        return len(self._running) < self._workers.at_a_time
+        return len(self._running) < self.workers.at_a_time
 
     @property
     def is_busy(self) -> bool:
@@ -76,13 +73,13 @@ class WorkerPool:
     def give(self, job: GradingJob) -> None:
         """Submit a job."""
         if self._executor is None:
-            self._executor = self._workers.open()
+            self._executor = self.workers.open()
         try:
-            future = self._executor.submit(self._work, job)
+            future = self._executor.submit(self.work, job)
         except RuntimeError:  # the executor broke before this job
             self._close_executor()
-            self._executor = self._workers.open()
-            future = self._executor.submit(self._work, job)
+            self._executor = self.workers.open()
+            future = self._executor.submit(self.work, job)
         self._running[future] = job
 
     def wait(self, patience: float | None = None) -> Sequence[tuple[GradingJob, Outcome]]:
@@ -103,7 +100,7 @@ class WorkerPool:
                 outcomes.append((job, outcome))
             else:
                 self._once_more.append(job)
-                self._retry_later(job, outcome)
+                self.retry_later(job, outcome)
         return outcomes
 
     def close(self) -> None:
@@ -114,7 +111,7 @@ class WorkerPool:
 
     def _close_executor(self) -> None:
         if self._executor:
-            self._executor.shutdown(wait=self._workers.share_memory)
+            self._executor.shutdown(wait=self.workers.share_memory)
             self._executor = None
 
 

@@ -9,9 +9,8 @@ import nbformat
 from nbformat import NotebookNode
 from nbformat.v4 import new_markdown_cell, new_output
 
-from autograder.classroom.book import still_questions
 from autograder.classroom.book.links import Links
-from autograder.classroom.book.still_widgets import VIEW, Models, models_of, still
+from autograder.classroom.book.still_widgets import VIEW, Models, models_of, prediction, quiz, replies, still
 from lab.learning.question import Question, read_question
 
 ASKS = re.compile(r'(?P<name>\w+) = lab\.(?P<way>predict|quiz)\("(?P<chapter>\w+)", (?P<number>\d+)\)')
@@ -60,10 +59,10 @@ def _shown(
         number = int(asks["number"])
         question = read_question(asks["chapter"], KINDS[asks["way"]], number)
         asked[asks["name"]] = number, question
-        draw = still_questions.prediction if asks["way"] == "predict" else still_questions.quiz
+        draw = prediction if asks["way"] == "predict" else quiz
         yield _paper(cell, draw(number, question))
-    elif (replies := REPLIES.match(cell.source)) and replies["name"] in asked:
-        yield _paper(cell, still_questions.replies(*asked[replies["name"]]))
+    elif (reply := REPLIES.match(cell.source)) and reply["name"] in asked:
+        yield _paper(cell, replies(*asked[reply["name"]]))
     else:
         yield _changed(
             cell,

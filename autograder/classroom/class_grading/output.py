@@ -1,51 +1,50 @@
-"""Functions for the commands that grade a class: fill the gradebook, and print the summary."""
+"""What the commands that grade a class print: the table, what has no grade, and where the results are."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+from autograder.classroom.batch.collection import Collection
 from autograder.classroom.batch.records import GRADES
 from autograder.classroom.batch.runner import Graded
-from autograder.classroom.class_grading.gradebook_writer import GradebookWriter
-from autograder.engine.verdict import Grade
+from autograder.classroom.class_grading.class_files import ClassFiles
 from autograder.recording.kept import FOLDER as RECORDINGS
-from autograder.report.class_table import class_table
+from autograder.report.table import class_table
 
 
-def enter_all(console: Console, results: Sequence[Graded], out: Path) -> tuple[list[str], list[Grade]]:
-    """Enter the grades into nbgrader's gradebook one by one.
-
-    Returns a sentence on each failed entry, and the grades with the points that a person gave in the gradebook.
-    """
-    writer = GradebookWriter(out)
-    grades: list[Grade] = []
-    with _bar(console) as progress:
+def add_all(console: Console, files: ClassFiles, results: Sequence[Graded]) -> None:
+    """Add results to the files of a class, behind a progress bar: nbgrader takes its time."""
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(elapsed_when_finished=True),
+    )
+    with Progress(*columns, console=console) as progress:
         for result in progress.track(results, description="gradebook"):
-            grades.append(writer.enter(result))
-    return writer.problems(), grades
+            files.add(result)
 
 
-def sources_of(results: Sequence[Graded]) -> dict[tuple[str, str], Mapping[str, str] | None]:
-    """Return the programs of these results, by student and exercise; None if a submission could not be read."""
-    return {(result.work.student, result.work.exercise): result.sources for result in results}
-
-
-def tell_the_end(
-    console: Console, grades: Sequence[Grade], unentered: Sequence[str], out: Path, page: Path
-) -> None:
-    """Print the table of the class, the failed gradebook entries, and the paths of the results."""
-    console.print(class_table(grades))
-    for line in unentered:
+def tell_problems(console: Console, files: ClassFiles) -> bool:
+    """Print the grades that are not in the gradebook; return whether there are none."""
+    problems = files.problems()
+    for line in problems:
         console.print(f"not in the gradebook: {line}", style="red", markup=False)
-    to_mark = [grade for grade in grades if grade.status == "to mark"]
-    if to_mark:
+    return not problems
+
+
+def tell_the_end(console: Console, files: ClassFiles, out: Path, page: Path) -> bool:
+    """Print the table of the class and the paths of the results; return whether the gradebook has all grades."""
+    console.print(class_table(files.grades))
+    is_entered = tell_problems(console, files)
+    if to_mark := sum(grade.status == "to mark" for grade in files.grades):
         console.print(
-            f"{len(to_mark)} to be marked by hand, in formgrader; then run this again with --resume, and {GRADES} has "
+            f"{to_mark} to be marked by hand, in formgrader; then run this again with --resume, and {GRADES} has "
             "the points",
             style="cyan",
         )
@@ -55,6 +54,7 @@ def tell_the_end(
     console.print(
         f"to look at them in nbgrader: cd {out} && {jupyter} lab, then Nbgrader > Formgrader", style="dim"
     )
+    return is_entered
 
 
 def tell_of_recordings(console: Console, out: Path, results: Sequence[Graded]) -> None:
@@ -65,8 +65,7 @@ def tell_of_recordings(console: Console, out: Path, results: Sequence[Graded]) -
         style="dim",
         markup=False,
     )
-    cached = sum(result.cached for result in results)
-    if cached:
+    if cached := sum(result.cached for result in results):
         console.print(
             f"{cached} grades are from an earlier run, and nothing was recorded of them now; to record them, grade "
             "again without --resume, with the --seed that batch.json names",
@@ -74,11 +73,22 @@ def tell_of_recordings(console: Console, out: Path, results: Sequence[Graded]) -
         )
 
 
-def _bar(console: Console) -> Progress:
-    return Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(elapsed_when_finished=True),
-        console=console,
-    )
+def left_aside(collection: Collection, results: Iterable[Graded]) -> list[str]:
+    """Return a sentence on each file or folder that was handed in and is not graded."""
+    return [*collection.ignored, *(line for result in results for line in result.work.left_aside)]
+
+
+def tell_what_is_left(console: Console, collection: Collection, results: Iterable[Graded]) -> int:
+    """Print what has no grade; return the number of submissions that the grader failed to judge."""
+    results = list(results)
+    for line in left_aside(collection, results):
+        console.print(f"left aside: {line}", style="yellow", markup=False)
+    for line in collection.refused:
+        console.print(f"not graded: {line}", style="red", markup=False)
+    not_graded = sum(result.grade.status == "not graded" for result in results)
+    if not_graded:
+        console.print(
+            f"{not_graded} not graded; try those again with --resume --jobs 1, when the machine has less to do",
+            style="magenta",
+        )
+    return not_graded

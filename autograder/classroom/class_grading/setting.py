@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass
+from collections.abc import Generator, Iterable, Iterator, Sequence
+from contextlib import closing, contextmanager, nullcontext
+from dataclasses import dataclass, replace
 
 from rich.console import Console
 
 from autograder.classroom.batch.batch_record import BatchRecord, read_batch
 from autograder.classroom.batch.cache import GradeCache
-from autograder.classroom.batch.choose_seeds import choose_seeds
 from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.dask_workers import Cluster, dask_cluster
 from autograder.classroom.batch.effort import utc_now
 from autograder.classroom.batch.folder_lock import locked
 from autograder.classroom.batch.records import GRADES, read_grades
 from autograder.classroom.batch.request import BatchRequest
-from autograder.classroom.batch.runner import BatchRunner, BatchWatcher
-from autograder.classroom.batch.seeds import Seeds
+from autograder.classroom.batch.runner import BatchRunner, BatchWatcher, Graded
+from autograder.classroom.batch.seeds import Seeds, drawn_seed, seed_of_what_was_handed_in
 from autograder.classroom.batch.selection import require_seed
-from autograder.classroom.batch.toolkit_version import commit_of
+from autograder.classroom.batch.version import commit_of
 from autograder.classroom.class_grading.progress import BatchProgress
 from autograder.classroom.pages.drawings import Drawings
 from autograder.engine.exercise import exercises_folder
@@ -48,19 +47,27 @@ class Setting:
     before: Sequence[Grade]
     record: BatchRecord
 
-    def runner(self, progress: BatchProgress) -> BatchRunner:
-        """Return the runner of this batch; it reports to `progress`."""
-        return BatchRunner(
-            GradeCache(self.request.out / "cache", self.isolation),
-            self.isolation,
-            jobs=self.request.jobs,
-            seeds=self.seeds,
-            resume=self.request.resume or self.request.watch,
-            workers=self.cluster.workers if self.cluster else None,
-            watcher=BatchWatcher(progress.verdict, progress.running, progress.retry_later),
-            drawings=Drawings(self.request.out),
-            recordings=self.request.out / RECORDINGS if self.request.record else None,
-        )
+    def graded(self, works: Iterable[Work | None]) -> Generator[Graded, None, None]:
+        """Yield each submission when it is graded (`BatchRunner.run`), and show the progress meanwhile."""
+        request, cluster = self.request, self.cluster
+        with BatchProgress(self.console, elsewhere=cluster.size if cluster else 0) as progress:
+            runner = BatchRunner(
+                GradeCache(request.out / "cache", self.isolation),
+                self.isolation,
+                jobs=request.jobs,
+                seeds=self.seeds,
+                resume=request.resume or request.watch,
+                workers=cluster.workers if cluster else None,
+                watcher=BatchWatcher(progress.verdict, progress.running, progress.retry_later),
+                drawings=Drawings(request.out),
+                recordings=request.out / RECORDINGS if request.record else None,
+            )
+            if isinstance(works, Sequence):
+                progress.expect(sum(runner.count(work.exercise) for work in works if work), len(works))
+            with closing(runner.run(works)) as graded:
+                for result in graded:
+                    progress.graded(result, runner.count(result.work.exercise))
+                    yield result
 
 
 @contextmanager
@@ -119,3 +126,33 @@ def _tell(console: Console, isolation: Isolation, cluster: Cluster | None) -> No
             style="yellow",
             markup=False,
         )
+
+
+def choose_seeds(
+    request: BatchRequest, before: BatchRecord | None, grades: Sequence[Grade], works: Sequence[Work]
+) -> Seeds:
+    """Return the seeds of a batch.
+
+    Args:
+        request: the options of the batch.
+        before: the record in the output folder, if any.
+        grades: the grades in the output folder; used if an older version wrote no record.
+        works: the submissions of the whole class.
+    """
+    if request.seed is not None:
+        return Seeds(request.seed, request.seed_per_student)
+    if request.goes_on and before:
+        return replace(before.seeds, per_student=before.seed_per_student or request.seed_per_student)
+    if request.goes_on and (one := _one_seed(grades)) is not None and not request.seed_per_student:
+        return Seeds(one)
+    if request.shard:  # all machines must compute the same seed
+        return Seeds(seed_of_what_was_handed_in(works), request.seed_per_student)
+    return Seeds(
+        drawn_seed(), request.seed_per_student, per_submission=request.watch and not request.seed_per_student
+    )
+
+
+def _one_seed(grades: Sequence[Grade]) -> int | None:
+    """The common seed of all grades; None if they differ."""
+    seeds = {grade.seed for grade in grades if grade.seed is not None}
+    return seeds.pop() if len(seeds) == 1 else None

@@ -11,14 +11,8 @@ from __future__ import annotations
 
 import re
 
-from autograder.classroom.collect.download import Download, Refused
-from autograder.classroom.collect.handed_in import (
-    Assignment,
-    HandedIn,
-    Reading,
-    student_name,
-    without_wrapper,
-)
+from autograder.classroom.collect.download import Download
+from autograder.classroom.collect.handed_in import Assignment, Reading, without_wrapper
 
 EXPECTED = "files such as leeanna_12345_678_battery_service.ipynb"
 _NAME = re.compile(
@@ -35,13 +29,7 @@ def read(download: Download, assignment: Assignment) -> Reading:
         if not match or len(parts) > 1:
             reading.unknown.append(f"{file.path} does not have the name of a Canvas submission")
             continue
-        try:
-            student = student_name(match["anonymous"] or match["name"], match["user"] or "")
-        except Refused as error:
-            reading.refused.append(str(error))
-            continue
-        turn = int(match["attachment"])
-        reading.files.append(
-            HandedIn(student, match["file"], file, turn, late=bool(match["late"] or match["late_anonymous"]))
-        )
+        late = bool(match["late"] or match["late_anonymous"])
+        student = match["anonymous"] or match["name"], match["user"] or ""
+        reading.add(file, match["file"], *student, turn=int(match["attachment"]), late=late)
     return reading

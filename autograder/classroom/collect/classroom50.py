@@ -9,14 +9,8 @@ from __future__ import annotations
 
 import re
 
-from autograder.classroom.collect.download import Download, Refused
-from autograder.classroom.collect.handed_in import (
-    Assignment,
-    HandedIn,
-    Reading,
-    student_name,
-    without_wrapper,
-)
+from autograder.classroom.collect.download import Download
+from autograder.classroom.collect.handed_in import Assignment, Reading, without_wrapper
 from autograder.engine.exercise import all_names
 
 EXPECTED = "folders such as robotics-battery-service-anna"
@@ -34,13 +28,7 @@ def read(download: Download, assignment: Assignment) -> Reading:
         if not match or len(parts) == 1:
             strangers.add(parts[0])
             continue
-        try:
-            student = student_name(match["user"])
-        except Refused as error:
-            reading.refused.append(str(error))
-            continue
-        exercise = exercises[match["slug"].lower()]
-        reading.files.append(HandedIn(student, parts[-1], file, exercise=exercise))
+        reading.add(file, parts[-1], match["user"], exercise=exercises[match["slug"].lower()])
     known = ", ".join(sorted(exercises))
     reading.unknown = [
         f"{name} is not named <classroom>-<assignment>-<user> with an assignment of {known}"

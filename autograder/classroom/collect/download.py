@@ -52,17 +52,8 @@ class File:
         try:
             with self.open() as file:
                 content = file.read(limit + 1)
-        except (
-            OSError,
-            RuntimeError,
-            NotImplementedError,
-            EOFError,
-            ValueError,
-            zipfile.BadZipFile,
-        ) as error:
-            raise Refused(f"{self.path} cannot be read: {error}") from error
         except Exception as error:  # each compression method raises its own errors
-            raise Refused(f"{self.path} cannot be unpacked: {error}") from error
+            raise Refused(f"{self.path} cannot be read: {error}") from error
         if len(content) > limit:
             advice = f": {CLEAR_OUTPUTS}" if limit == MAX_NOTEBOOK_BYTES else ""
             raise Refused(f"{self.path} has more than {limit:,} bytes, the limit of a submission{advice}")

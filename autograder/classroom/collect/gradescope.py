@@ -15,13 +15,7 @@ from typing import Any
 import yaml
 
 from autograder.classroom.collect.download import Download, Refused, UnusableDownload
-from autograder.classroom.collect.handed_in import (
-    Assignment,
-    HandedIn,
-    Reading,
-    student_name,
-    without_wrapper,
-)
+from autograder.classroom.collect.handed_in import Assignment, Reading, without_wrapper
 
 EXPECTED = "submission_metadata.yml, and folders such as submission_12345 beside it"
 METADATA = "submission_metadata.yml"
@@ -52,22 +46,13 @@ def read(download: Download, assignment: Assignment) -> Reading:
         if not found or len(parts) == 1 or not isinstance(about, Mapping):
             reading.unknown.append(f"{file.path} belongs to no submission that {METADATA} lists")
             continue
-        submitters = about.get(":submitters") or []
-        if not submitters:
-            reading.refused.append(f"{file.path}: {METADATA} does not name its student")
-        for submitter in submitters:
-            try:
-                reading.files.append(
-                    HandedIn(
-                        _name_of(submitter),
-                        file.path.name,
-                        file,
-                        int(found["number"]),
-                        timestamp=_timestamp(about.get(":created_at")),
-                    )
-                )
-            except Refused as error:
-                reading.refused.append(f"{file.path}: {error}")
+        submitters = about.get(":submitters") or [{}]
+        for name in map(_name_of, submitters):
+            if name:
+                turn, when = int(found["number"]), _timestamp(about.get(":created_at"))
+                reading.add(file, file.path.name, name, turn=turn, timestamp=when)
+            else:
+                reading.refused.append(f"{file.path}: {METADATA} does not name its student")
     return reading
 
 
@@ -90,8 +75,8 @@ def _name_of(submitter: Any) -> str:
     known = submitter if isinstance(submitter, Mapping) else {}
     for key in (":sid", ":email", ":name"):
         if known.get(key):
-            return student_name(str(known[key]))
-    raise Refused(f"{METADATA} has neither id nor address of a submitter")
+            return str(known[key])
+    return ""
 
 
 def _timestamp(created: Any) -> str:

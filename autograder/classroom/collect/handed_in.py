@@ -6,6 +6,7 @@ import re
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 from autograder.classroom.batch.collection import STUDENT
 from autograder.classroom.collect.download import Download, File, Refused
@@ -43,6 +44,13 @@ class Reading:
     files: list[HandedIn] = field(default_factory=list)
     unknown: list[str] = field(default_factory=list)
     refused: list[str] = field(default_factory=list)
+
+    def add(self, file: File, name: str, *student: str, **more: Any) -> None:
+        """Add a file: its name, the words of its student's name, and fields of `HandedIn`; refuse unusable names."""
+        try:
+            self.files.append(HandedIn(student_name(*student), name, file, **more))
+        except Refused as error:
+            self.refused.append(f"{file.path}: {error}")
 
 
 @dataclass(frozen=True)

@@ -10,14 +10,8 @@ from __future__ import annotations
 
 import re
 
-from autograder.classroom.collect.download import Download, Refused
-from autograder.classroom.collect.handed_in import (
-    Assignment,
-    HandedIn,
-    Reading,
-    student_name,
-    without_wrapper,
-)
+from autograder.classroom.collect.download import Download
+from autograder.classroom.collect.handed_in import Assignment, Reading, without_wrapper
 
 EXPECTED = "folders such as Anna Lee_12345_assignsubmission_file, or files whose names begin so"
 _MARK = "_assignsubmission_file"
@@ -36,8 +30,5 @@ def read(download: Download, assignment: Assignment) -> Reading:
         if parts[0].count(_MARK) > 1:
             reading.refused.append(f"{file.path} names two students, so its author is unclear")
             continue
-        try:
-            reading.files.append(HandedIn(student_name(match["name"], match["user"] or ""), name, file))
-        except Refused as error:
-            reading.refused.append(str(error))
+        reading.add(file, name, match["name"], match["user"] or "")
     return reading

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -22,15 +21,11 @@ from autograder.classroom.audit.known_submission import (
 from autograder.classroom.audit.leftovers import leftovers
 from autograder.classroom.audit.run import AuditedRun
 from autograder.classroom.audit.run import audit as audit_submissions
-from autograder.engine.exercise import (
-    Exercise,
-    exercise_names,
-    load_exercise,
-)
+from autograder.engine.exercise import Exercise, exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
-from course_cli.exercises_option import CourseOption
-from course_cli.jobs_option import JobsOption
+from course_cli.ending import COULD_NOT, ended
+from course_cli.options import CourseOption, JobsOption
+from ros_runtime.course_error import CourseError
 
 MATRIX_WIDTH = 140
 
@@ -92,43 +87,43 @@ def audit(
 ) -> None:
     """Grade submissions with known faults; exit status 0 only if every verdict is as expected."""
     console = Console(highlight=False)
-    audited: dict[str, list[AuditedRun]] = {}
     if generated and (ignored := _given(context, "repeat", "to_patch")):
-        raise ended(console, f"--generated makes its own submissions: leave out {ignored}", UNUSABLE)
+        raise CourseError(f"--generated makes its own submissions: leave out {ignored}")
     if mutants and not generated:
-        raise ended(console, "--mutants says how many to make: add --generated", UNUSABLE)
+        raise CourseError("--mutants says how many to make: add --generated")
     if resume and json_file is None:
-        raise ended(console, "--resume continues with the file of --json: add --json FILE", UNUSABLE)
+        raise CourseError("--resume continues with the file of --json: add --json FILE")
+    if show and generated:
+        _show_mutant(exercise, show)
+        return
+    if show:
+        _show(_found(exercise, show))
+        return
+    if to_patch:
+        console.print(_to_patch(_found(exercise, to_patch)), markup=False, soft_wrap=True)
+        return
+    earlier = read_runs(json_file) if resume and json_file else ()
+    record = AuditRecord(json_file, isolation=available_isolation(), scale=scale, earlier=earlier)
+    exercises = (load_exercise(name, hidden=True) for name in ([exercise] if exercise else exercise_names()))
+    left: list[str] = []
     try:
-        if show and generated:
-            _show_mutant(exercise, show)
-            return
-        if show:
-            _show(_found(exercise, show))
-            return
-        if to_patch:
-            console.print(_to_patch(_found(exercise, to_patch)), markup=False, soft_wrap=True)
-            return
-        record = AuditRecord(
-            json_file,
-            isolation=available_isolation(),
-            scale=scale,
-            earlier=read_runs(json_file) if resume and json_file else (),
-        )
-        names = [exercise] if exercise else exercise_names()
         if generated:
-            judged = []
-            for one in (load_exercise(name, hidden=True) for name in names):
-                judged += audit_generated(
-                    one, record, console, number=mutants, only=only, jobs=jobs, seed=seed, scale=scale
+            judged = [
+                found
+                for one in exercises
+                for found in audit_generated(
+                    one, record, console, number=mutants, only=only, jobs=jobs, seed=seed
                 )
-            if not judged:
-                raise ended(console, f"no mutant matches {only!r}", UNUSABLE)
-            raise typer.Exit(0 if all(one.noticed_by for one in judged) else COULD_NOT)
-        with leftovers() as left:
-            for name in names:
-                known = known_submissions(name, only=only)
-                audited[name] = _audit_all(console, known, name, record, jobs, repeat, seed, scale)
+            ]
+            found, is_as_expected = len(judged), all(one.noticed_by for one in judged)
+        else:
+            with leftovers() as left:
+                runs = [
+                    run
+                    for one in exercises
+                    for run in _audit(console, one, record, only, jobs=jobs, repeat=repeat, seed=seed)
+                ]
+            found, is_as_expected = len(runs), not (left or any(run.surprises() for run in runs))
     except KeyboardInterrupt:
         go_on = (
             f"{json_file} has the finished gradings: add --resume to continue."
@@ -136,60 +131,43 @@ def audit(
             else "Nothing is kept."
         )
         raise ended(console, f"Interrupted. {go_on}", COULD_NOT) from None
-    every_run = [run for runs in audited.values() for run in runs]
-    if not every_run:
-        raise ended(console, f"no submission matches {only!r}", UNUSABLE)
+    if not found:
+        raise CourseError(f"no {'mutant' if generated else 'submission'} matches {only!r}")
     for line in left:
         console.print(f"left behind: {line}", style="red", markup=False)
-    raise typer.Exit(COULD_NOT if left or any(run.surprises() for run in every_run) else 0)
+    raise typer.Exit(0 if is_as_expected else COULD_NOT)
 
 
-def _audit_all(
+def _audit(
     console: Console,
-    submissions: Sequence[KnownSubmission],
-    name: str,
+    exercise: Exercise,
     record: AuditRecord,
+    only: str,
+    *,
     jobs: int,
     repeat: int,
     seed: int,
-    scale: float | None,
 ) -> list[AuditedRun]:
-    """Grade the submissions that the record does not have, and print the kill matrix of all."""
-    exercise = load_exercise(name, hidden=True)
+    """Grade the submissions of an exercise that the record does not have, and print the kill matrix of all."""
 
-    def earlier(known: KnownSubmission, repetition: int) -> AuditedRun | None:
-        run = record.earlier_run(known, exercise, repetition, seed + repetition)
-        if run:
-            print_progress(console, run, earlier=True)
-        return run
+    def report(run: AuditedRun, is_earlier: bool) -> None:
+        print_progress(console, run, earlier=is_earlier)
 
-    def keep(run: AuditedRun) -> None:
-        record.add(run, exercise)
-        print_progress(console, run)
-
-    runs = audit_submissions(
-        submissions, exercise, jobs=jobs, repeat=repeat, seed=seed, scale=scale, earlier=earlier, report=keep
-    )
-    if runs:
-        record.write()  # also when nothing was left to grade
-    _print_matrix(console, runs, exercise)
+    known = known_submissions(exercise.name, only=only)
+    runs = audit_submissions(known, exercise, record, report, jobs=jobs, repeat=repeat, seed=seed)
+    console.print()
+    console.print(kill_matrix(runs, exercise), width=max(console.width, MATRIX_WIDTH))
+    console.print()
     return runs
 
 
 def _given(context: typer.Context, *options: str) -> str:
     """Return which of these options were given on the command line, such as "--jobs, --seed"."""
-    sources = {option: context.get_parameter_source(option) for option in options}
     return ", ".join(
         f"--{option.replace('_', '-')}"
-        for option, source in sources.items()
-        if source and source.name == "COMMANDLINE"
+        for option in options
+        if (source := context.get_parameter_source(option)) and source.name == "COMMANDLINE"
     )
-
-
-def _print_matrix(console: Console, runs: list[AuditedRun], exercise: Exercise) -> None:
-    console.print()
-    console.print(kill_matrix(runs, exercise), width=max(console.width, MATRIX_WIDTH))
-    console.print()
 
 
 def _found(exercise: str | None, name: str) -> KnownSubmission:

@@ -11,7 +11,7 @@ from rich.console import Console
 
 from autograder.engine.exercise import exercise_names, load_exercise
 from course_cli.ending import UNUSABLE, ended
-from course_cli.jobs_option import JobsOption
+from course_cli.options import JobsOption
 from ros_runtime.project import PROJECT
 
 ALL = "all"

@@ -9,15 +9,17 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from autograder.classroom.collect import canvas, classroom50, gradescope, moodle
 from autograder.classroom.collect.choice import choose
 from autograder.classroom.collect.download import UnusableDownload, open_download
 from autograder.classroom.collect.handed_in import Assignment, Reading
 from autograder.classroom.collect.placing import Placed, place
-from autograder.classroom.collect.platforms import PLATFORMS
 from autograder.engine.exercise import UnknownExercise, all_names
 from course_cli.ending import COULD_NOT, ended
-from course_cli.exercises_option import CourseOption
+from course_cli.options import CourseOption
 
+# What reads each platform's downloads, and says what these look like.
+PLATFORMS = {"canvas": canvas, "moodle": moodle, "gradescope": gradescope, "classroom50": classroom50}
 PlatformName = Enum("PlatformName", {name: name for name in PLATFORMS}, type=str)  # type: ignore[misc]
 
 
@@ -57,7 +59,7 @@ def collect(
                 aside = [*reading.unknown, *choice.left_aside]
                 found = f"found {aside[0]}" if aside else "it is empty"
                 raise UnusableDownload(
-                    f"{download} holds nothing to grade: expected {source.expected}; {found}"
+                    f"{download} holds nothing to grade: expected {source.EXPECTED}; {found}"
                     + (f", and {len(aside) - 1} more" if len(aside) > 1 else "")
                 )
             placed = place(choice, out, overwrite=overwrite)

@@ -7,7 +7,7 @@ import io
 import json
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -25,12 +25,13 @@ from autograder.engine.exercise import load_exercise
 from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.submission import read_submission
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.report.page import Section, write_page
+from autograder.report.rendering import Section, write_page
 from autograder.report.sequence import transcript_svg
 from autograder.report.table import MARKS, summary
-from course_cli.ending import COULD_NOT, NOT_GRADED, ended
-from course_cli.jobs_option import JobsOption
+from course_cli.ending import COULD_NOT, NOT_GRADED
+from course_cli.options import JobsOption
 from humanoid_interfaces.action import WalkTo
+from ros_runtime.course_error import CourseError
 from ros_runtime.project import PROJECT
 
 EXERCISE = "cancellable_walk"
@@ -38,16 +39,19 @@ SOLUTION = PROJECT / "solutions" / EXERCISE / f"{EXERCISE}.ipynb"
 FAULTY = {"ignores cancel": "faulty/ignores_cancel", "crashes": "faulty/crashes_in_execute"}
 
 
-class DemoFailed(Exception):
+class DemoFailed(CourseError):
     """A step of the demo did not do what it should show."""
 
-    status = COULD_NOT
+    exit_status = COULD_NOT
+
+    def __str__(self) -> str:
+        return f"The demo failed: {super().__str__()}"
 
 
 class DemoNotGraded(DemoFailed):
     """The machine had too much to do."""
 
-    status = NOT_GRADED
+    exit_status = NOT_GRADED
 
 
 def demo(
@@ -64,12 +68,10 @@ def demo(
     console = Console(file=sys.stdout, highlight=False)
     try:
         figures = _walk_and_cancel(console)
-        grades, sections = _grade_three(console, jobs)
-        _require_expected(grades)
     except lab.LabError as error:
-        raise ended(console, f"The demo failed: {error}", COULD_NOT) from error
-    except DemoFailed as error:
-        raise ended(console, f"The demo failed: {error}", error.status) from error
+        raise DemoFailed(error) from error
+    grades, sections = _grade_three(console, jobs)
+    _require_expected(grades)
     console.print(_comparison(grades))
     report = out / "report.html"
     write_page(
@@ -88,7 +90,9 @@ def _walk_and_cancel(console: Console) -> list[str]:
     """Walk the live robot with the reference server and cancel a goal; returns figures for the report."""
     console.print("1  The robot stands up in MuJoCo, and the reference server starts beside it", style="bold")
     submission = read_submission(SOLUTION, EXERCISE)
-    with TemporaryDirectory() as folder, _quiet(), contextlib.ExitStack() as end:
+    # What the lab prints is meant for notebooks.
+    quiet = contextlib.redirect_stdout(io.StringIO())
+    with TemporaryDirectory() as folder, quiet, contextlib.ExitStack() as end:
         end.callback(lab.stop_everything)
         lab.start_robot()
         file = Path(folder) / f"{EXERCISE}.py"
@@ -203,10 +207,3 @@ def _ahead(distance: float) -> WalkTo.Goal:
 
 def _html(display: object) -> str:
     return str(getattr(display, "data"))  # noqa: B009  IPython's HTML declares no attributes
-
-
-@contextlib.contextmanager
-def _quiet() -> Iterator[None]:
-    """Hide the lab's output, which is meant for notebooks."""
-    with contextlib.redirect_stdout(io.StringIO()):
-        yield

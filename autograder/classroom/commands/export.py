@@ -10,11 +10,9 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.classroom.export.batch import read_batch
-from autograder.classroom.export.formats import FORMATS, Export, LeftOut
+from autograder.classroom.export.formats import FORMATS, Export, LeftOut, read_batch
 from autograder.classroom.export.formats import export as make_export
-from autograder.classroom.export.options import Options
-from autograder.classroom.export.published import UnusableBatch
+from autograder.classroom.export.published import Options, UnusableBatch
 from course_cli.ending import COULD_NOT, ended
 
 Format = Enum("Format", {name: name for name in FORMATS}, type=str)  # type: ignore[misc]

@@ -14,8 +14,7 @@ from autograder.classroom.batch.shards import Shard
 from autograder.classroom.class_grading.once import grade_once
 from autograder.classroom.class_grading.watching import watch_and_grade
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
-from course_cli.exercises_option import CourseOption
-from course_cli.jobs_option import JobsOption
+from course_cli.options import CourseOption, JobsOption
 
 
 def grade(

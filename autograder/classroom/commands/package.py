@@ -11,7 +11,7 @@ from rich.console import Console
 from autograder.classroom.archives.gradescope_package import write_package
 from autograder.engine.exercise import essay_names, exercise_names
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
-from course_cli.exercises_option import CourseOption
+from course_cli.options import CourseOption
 from ros_runtime.project import PROJECT
 
 package = typer.Typer(no_args_is_help=True)

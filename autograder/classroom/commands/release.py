@@ -13,7 +13,7 @@ from autograder.classroom.nbgrader_bridge.course_folder import NbgraderError
 from autograder.classroom.nbgrader_bridge.release import bring_up_to_date, out_of_date
 from autograder.engine.exercise import exercises_folder
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
-from course_cli.exercises_option import CourseOption
+from course_cli.options import CourseOption
 from ros_runtime.project import PROJECT
 
 

@@ -14,7 +14,6 @@ import typer
 from ros_runtime.project import PROJECT
 
 TIERS = ("fast", "arena", "robot", "browser")  # folders of tests/
-SHOWN = 3000  # characters of each finding
 KEPT = Path(".pytest_cache/v")  # by pytest
 LAST_FAILED = KEPT / "cache/lastfailed"  # pytest's own record
 LOST_POINTS = "course/lost_points"  # pytest's key of a correct submission that lost a point

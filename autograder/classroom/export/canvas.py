@@ -12,8 +12,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from autograder.classroom.export.options import Options
-from autograder.classroom.export.published import CannotSay, Published, UnusableBatch
+from autograder.classroom.export.published import CannotSay, Options, Published, UnusableBatch
 from autograder.classroom.export.tables import Table, csv_text, key_cell, read_number, read_table, text_cell
 
 _BEFORE_ASSIGNMENTS = (
@@ -28,9 +27,8 @@ _BEFORE_ASSIGNMENTS = (
 _KEYS = ("SIS Login ID", "SIS User ID", "ID", "Student")
 _POINTS = "Points Possible"
 _ASSIGNMENT = re.compile(r"(?P<title>.+) \((?P<id>\d+)\)")
-_ANONYMOUS = re.compile(
-    r"anon_[A-Za-z0-9]{5}"
-)  # as `course collect` calls a student of an anonymous download
+# As `course collect` calls a student of an anonymous download.
+_ANONYMOUS = re.compile(r"anon_[A-Za-z0-9]{5}")
 
 
 @dataclass(frozen=True)
@@ -61,14 +59,38 @@ class Gradebook:
             )
         return found
 
-    def heading(self) -> list[str]:
-        """Return the columns before the assignment's, in Canvas' order."""
+    def cells(self, published: Published) -> list[str | float]:
+        """Return the row of a submission.
+
+        Raises:
+            CannotSay: Canvas does not know the student.
+            UnusableBatch: in Canvas the assignment has other points.
+        """
+        exercise, points = published.exercise, published.max_score
+        worth = self.points.get(exercise)
+        if (
+            worth is not None and read_number(worth) != points
+        ):  # 8 of 12 points would become 8 of 100 in Canvas
+            raise UnusableBatch(
+                f"in Canvas {self.assignments[exercise]} has {worth or 'no'} points, and {exercise} {points}: set it "
+                "to as many there, and export the gradebook again"
+            )
+        return [*self._person(published.student), published.score]
+
+    def text(self, exercise: str, max_score: float, rows: Sequence[Sequence[str | float]]) -> str:
+        """Return the file's content for an exercise."""
+        heading = self._heading()
+        points: list[str | float] = [f"    {_POINTS}", *[""] * (len(heading) - 1), max_score]
+        return csv_text([*heading, text_cell(self.assignments[exercise])], [points, *rows])
+
+    def _heading(self) -> list[str]:
+        """The columns before the assignment's, in Canvas' order."""
         if self.students is None:
             return ["Student", "ID", "SIS User ID", "SIS Login ID", "Section"]
         return [name for name in _BEFORE_ASSIGNMENTS if self.students.index(name) is not None]
 
-    def cells(self, student: str) -> list[str]:
-        """Return these columns for a student; raises `CannotSay` if the student is not in Canvas' roster."""
+    def _person(self, student: str) -> list[str]:
+        """These columns for a student; raises `CannotSay` if the student is not in Canvas' roster."""
         if _ANONYMOUS.fullmatch(student):
             raise CannotSay(
                 "an anonymous download was collected, and Canvas' gradebook takes no anonymous grades: show the names "
@@ -78,14 +100,13 @@ class Gradebook:
             return [text_cell(student), "", "", key_cell(student), ""]
         index = self.students.index
         row = self.students.row_of(student, [index(name) for name in _KEYS], index("ID"), [index("Student")])
-        cells = {name: row[self.students.index(name) or 0] for name in self.heading()}
         return [
-            text_cell(cell) if name in ("Student", "Section") else key_cell(cell)
-            for name, cell in cells.items()
+            (text_cell if name in ("Student", "Section") else key_cell)(row[index(name) or 0])
+            for name in self._heading()
         ]
 
 
-def open_gradebook(options: Options, exercises: Sequence[str]) -> Gradebook:
+def open_class(options: Options, scored: Sequence[Published]) -> Gradebook:
     """Find each exercise's column.
 
     Raises:
@@ -107,7 +128,7 @@ def open_gradebook(options: Options, exercises: Sequence[str]) -> Gradebook:
         worth = next((row for row in table.rows if _POINTS in row[0]), [""] * len(table.heading))
         students = replace(table, rows=[row for row in table.rows if _POINTS not in row[0]])
     columns, points = {}, {}
-    for exercise in exercises:
+    for exercise in sorted({published.exercise for published in scored}):
         number = options.assignments.get(exercise) or titled.get(exercise)
         if number and not number.isdigit():
             raise UnusableBatch(f"--assignment {exercise}={number}: expected a number as Canvas' id")
@@ -124,30 +145,3 @@ def _with_whole_names(table: Table) -> Table:
         return table
     rows = [[f"{row[last]}, {row[first]}".strip(", "), *row] for row in table.rows]
     return replace(table, heading=["Student", *table.heading], rows=rows)
-
-
-def cells_of(gradebook: Gradebook, published: Published) -> list[str | float]:
-    """Return the row of a submission.
-
-    Raises:
-        CannotSay: Canvas does not know the student.
-        UnusableBatch: in Canvas the assignment has other points.
-    """
-    worth = gradebook.points.get(published.exercise)
-    if (
-        worth is not None and read_number(worth) != published.max_score
-    ):  # otherwise 8 of 12 points would become 8 of 100 in Canvas
-        raise UnusableBatch(
-            f"in Canvas {gradebook.assignments[published.exercise]} has {worth or 'no'} points, and "
-            f"{published.exercise} {published.max_score}: set it to as many there, and export the gradebook again"
-        )
-    return [*gradebook.cells(published.student), published.score]
-
-
-def table_text(
-    gradebook: Gradebook, exercise: str, max_score: float, rows: Sequence[Sequence[str | float]]
-) -> str:
-    """Return the file's content for an exercise."""
-    heading = gradebook.heading()
-    points: list[str | float] = [f"    {_POINTS}", *[""] * (len(heading) - 1), max_score]
-    return csv_text([*heading, text_cell(gradebook.assignments[exercise])], [points, *rows])

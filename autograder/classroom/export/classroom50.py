@@ -10,9 +10,9 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from autograder.classroom.export.options import Options
 from autograder.classroom.export.published import (
     CannotSay,
+    Options,
     number,
     printable,
     publish,

@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import json
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from datetime import datetime, timezone
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 from autograder.atomic_file import write_atomically
+from autograder.classroom.batch.records import GRADES, UNREADABLE
 from autograder.classroom.export import canvas, classroom50, grades_csv, gradescope, junit, moodle
-from autograder.classroom.export.options import Options
 from autograder.classroom.export.published import (
     CannotSay,
+    Options,
     Published,
+    UnusableBatch,
     publish,
     require_safe_names,
     why_no_score,
 )
 from autograder.engine.verdict import Grade
 
-PER_SUBMISSION: Mapping[str, Any] = {
-    "gradescope": gradescope,
-    "classroom50": classroom50,
-    "junit": junit,
-}
-_Tables = tuple[dict[str, str], list["LeftOut"], list[str]]  # files, what is not in them, notes
+PER_SUBMISSION: Mapping[str, Any] = {"gradescope": gradescope, "classroom50": classroom50, "junit": junit}
+PER_EXERCISE: Mapping[str, Any] = {"canvas": canvas, "moodle": moodle}
 FORMATS = ("gradescope", "canvas", "moodle", "classroom50", "junit", "csv")
 
 
@@ -72,17 +72,14 @@ def export(name: str, grades: Sequence[Grade], options: Options) -> Export:
         return _each(PER_SUBMISSION[name], grades, options)
     scored = [publish(grade, options.hidden) for grade in grades if not why_no_score(grade)]
     without = [
-        LeftOut(grade.student, grade.exercise, why_no_score(grade), False)
-        for grade in grades
-        if why_no_score(grade)
+        LeftOut(grade.student, grade.exercise, why, False) for grade in grades if (why := why_no_score(grade))
     ]
     if name == "csv":
         rows = [grades_csv.row_of(published) for published in scored]
         return Export({grades_csv.FILE: grades_csv.table_text(rows)}, without, [grades_csv.FILE])
-    exercises = sorted({grade.exercise for grade in grades})
-    tables = _canvas_tables if name == "canvas" else _moodle_tables
-    files, unknown, notes = tables(scored, options)
-    return Export(files, [*without, *unknown], [_table_file(exercise) for exercise in exercises], notes)
+    places = [_table_file(exercise) for exercise in sorted({grade.exercise for grade in grades})]
+    files, unknown, notes = _tables(PER_EXERCISE[name], scored, options)
+    return Export(files, [*without, *unknown], places, notes)
 
 
 def _each(writer: Any, grades: Sequence[Grade], options: Options) -> Export:
@@ -105,49 +102,50 @@ def _place(writer: Any, grade: Grade) -> str:
     return f"{grade.student}/{grade.exercise}/{writer.FILE}"
 
 
-def _canvas_tables(scored: Sequence[Published], options: Options) -> _Tables:
+def _tables(
+    platform: Any, scored: Sequence[Published], options: Options
+) -> tuple[dict[str, str], list[LeftOut], list[str]]:
+    """Make a table for each exercise; return them, the submissions that are not in them, and notes."""
     files: dict[str, str] = {}
     left_out: list[LeftOut] = []
-    by_exercise = dict(_by_exercise(scored))
-    gradebook = canvas.open_gradebook(options, list(by_exercise))
-    for exercise, group in by_exercise.items():
-        rows, unknown = _rows(group, lambda published: canvas.cells_of(gradebook, published))
-        left_out += unknown
-        if rows:
-            files[_table_file(exercise)] = canvas.table_text(gradebook, exercise, group[0].max_score, rows)
-    return files, left_out, gradebook.notes(options)
-
-
-def _moodle_tables(scored: Sequence[Published], options: Options) -> _Tables:
-    files: dict[str, str] = {}
-    left_out: list[LeftOut] = []
-    class_list = moodle.open_class(options, [published.student for published in scored])
-    for exercise, group in _by_exercise(scored):
-        rows, unknown = _rows(group, lambda published: moodle.cells_of(class_list, published))
-        left_out += unknown
-        if rows:
-            files[_table_file(exercise)] = moodle.table_text(class_list, exercise, rows)
-    return files, left_out, class_list.notes(options)
-
-
-def _rows(
-    group: Sequence[Published], cells: Callable[[Published], list[str | float]]
-) -> tuple[list[list[str | float]], list[LeftOut]]:
-    rows: list[list[str | float]] = []
-    left_out: list[LeftOut] = []
-    for published in group:
-        try:
-            rows.append(cells(published))
-        except CannotSay as error:
-            left_out.append(LeftOut(published.student, published.exercise, str(error), True))
-    return rows, left_out
-
-
-def _by_exercise(scored: Sequence[Published]) -> Iterator[tuple[str, list[Published]]]:
+    class_list = platform.open_class(options, scored)
     in_order = sorted(scored, key=lambda published: (published.exercise, published.student))
     for exercise, group in groupby(in_order, key=lambda published: published.exercise):
-        yield exercise, list(group)
+        rows = []
+        for published in group:
+            try:
+                rows.append(class_list.cells(published))
+            except CannotSay as error:
+                left_out.append(LeftOut(published.student, exercise, str(error), True))
+        if rows:
+            files[_table_file(exercise)] = class_list.text(exercise, published.max_score, rows)
+    return files, left_out, class_list.notes(options)
 
 
 def _table_file(exercise: str) -> str:
     return f"{exercise}.csv"
+
+
+def read_batch(source: Path) -> tuple[Sequence[Grade], datetime]:
+    """Return the grades in a folder's grades.json, or in the JSON file given, and when they were written.
+
+    Raises:
+        UnusableBatch: there are none, or the file is another one.
+    """
+    path = source / GRADES if source.is_dir() or source.suffix != ".json" else source
+    try:
+        records = json.loads(path.read_text(encoding="utf-8"))
+        grades = [Grade.from_json(record) for record in (records if isinstance(records, list) else [records])]
+        written = datetime.fromtimestamp(path.stat().st_mtime, timezone.utc)
+    except FileNotFoundError as error:
+        raise UnusableBatch(
+            f"there is no {path}; grade first (./course grade SUBMITTED --out {path.parent}), or name the folder: "
+            "--from FOLDER"
+        ) from error
+    except UNREADABLE as error:
+        raise UnusableBatch(
+            f"{path} does not hold the grades of a batch: {type(error).__name__}: {error}"
+        ) from error
+    if not grades:
+        raise UnusableBatch(f"{path} has no grades; expected those of at least one submission")
+    return grades, written

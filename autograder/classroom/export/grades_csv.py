@@ -7,29 +7,18 @@ The names of the columns are those of nbgrader's own export, as far as it has th
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import astuple, dataclass, fields
 
 from autograder.classroom.export.published import Published
 from autograder.classroom.export.tables import csv_text, text_cell
 
 FILE = "grades.csv"
-
-
-@dataclass(frozen=True)
-class Row:
-    """One submission; the columns in their order."""
-
-    student_id: str
-    assignment: str
-    score: float
-    max_score: float
-    hidden_score: float
-    hidden_max_score: float
+COLUMNS = ("student_id", "assignment", "score", "max_score", "hidden_score", "hidden_max_score")
+Row = tuple[str, str, float, float, float, float]  # one submission, by COLUMNS
 
 
 def row_of(published: Published) -> Row:
     """Return the row of a graded submission."""
-    return Row(
+    return (
         published.student,
         published.exercise,
         published.score,
@@ -41,8 +30,5 @@ def row_of(published: Published) -> Row:
 
 def table_text(rows: Iterable[Row]) -> str:
     """Return the file's content, in order of exercise and student."""
-    in_order = sorted(rows, key=lambda row: (row.assignment, row.student_id))
-    cells = [
-        [text_cell(cell) if isinstance(cell, str) else cell for cell in astuple(row)] for row in in_order
-    ]
-    return csv_text([field.name for field in fields(Row)], cells)
+    in_order = sorted(rows, key=lambda row: (row[1], row[0]))
+    return csv_text(COLUMNS, [(*map(text_cell, row[:2]), *row[2:]) for row in in_order])

@@ -10,10 +10,15 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict
 
-from autograder.classroom.export.options import Options
-from autograder.classroom.export.published import printable, publish, why_no_score, words_for_students
+from autograder.classroom.export.published import (
+    Options,
+    printable,
+    publish,
+    why_no_score,
+    words_for_students,
+)
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.report.verdict_text import verdict_text
+from autograder.report.table import verdict_text
 
 Visibility = Literal["visible", "hidden", "after_due_date", "after_published"]
 FILE = "results.json"

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from xml.etree import ElementTree as Xml
 
-from autograder.classroom.export.options import Options
 from autograder.classroom.export.published import (
+    Options,
     Published,
     printable,
     publish,
@@ -17,7 +17,7 @@ from autograder.classroom.export.published import (
     words_for_students,
 )
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.report.verdict_text import verdict_text
+from autograder.report.table import verdict_text
 
 FILE = "junit.xml"
 

@@ -13,10 +13,9 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from autograder.classroom.export.options import Options
-from autograder.classroom.export.published import Published, UnusableBatch, printable
+from autograder.classroom.export.published import Options, Published, UnusableBatch, printable
 from autograder.classroom.export.tables import Table, csv_text, key_cell, read_number, read_table, text_cell
-from autograder.report.verdict_text import verdict_text
+from autograder.report.table import verdict_text
 
 EMAIL, ID_NUMBER = ("useremail", "email address", "email"), ("useridnumber", "id number", "idnumber")
 _PARTICIPANT = re.compile(r"(?P<word>.*\D)(?P<number>\d+)\s*")  # "Participant 123456", in any language
@@ -43,8 +42,41 @@ class ClassList:
     roster: Table | None = None
     worksheet: Worksheet | None = None
 
-    def row_of(self, student: str) -> Sequence[str]:
-        """Return a student's row of the roster; raises `CannotSay` if there is none."""
+    def cells(self, published: Published) -> list[str | float]:
+        """Return the row of a submission.
+
+        Raises:
+            CannotSay: Moodle does not know the student.
+            UnusableBatch: in Moodle the assignment has other points.
+        """
+        words = text_cell(feedback(published))
+        if self.roster is None:
+            return [key_cell(published.student), published.score, words]
+        row = self._row_of(published.student)
+        if self.worksheet is None:
+            column = self.roster.index(*(EMAIL if self.key == "useremail" else ID_NUMBER))
+            assert column is not None
+            return [key_cell(row[column].strip()), published.score, words]
+        title, most = (line[self.worksheet.grade + 1] for line in (self.roster.heading, row))
+        if read_number(most) != published.max_score:  # 8 of 12 points would become 8 of 100 in Moodle
+            raise UnusableBatch(
+                f"the worksheet's {title} is {most} and {published.exercise} has {published.max_score} points: set "
+                "the assignment in Moodle to as many, and download the worksheet again"
+            )
+        filled: list[str | float] = [text_cell(cell) for cell in row]
+        filled[self.worksheet.grade] = published.score
+        if self.worksheet.feedback is not None:
+            filled[self.worksheet.feedback] = words
+        return filled
+
+    def text(self, exercise: str, max_score: float, rows: Sequence[Sequence[str | float]]) -> str:
+        """Return the file's content for an exercise."""
+        if self.roster and self.worksheet:
+            return csv_text(self.roster.heading, rows)
+        return csv_text([self.key, exercise, f"{exercise} feedback"], rows)
+
+    def _row_of(self, student: str) -> Sequence[str]:
+        """A student's row of the roster; raises `CannotSay` if there is none."""
         assert self.roster
         index = self.roster.index
         if not self.worksheet:
@@ -71,7 +103,7 @@ class ClassList:
         return found
 
 
-def open_class(options: Options, students: Sequence[str]) -> ClassList:
+def open_class(options: Options, scored: Sequence[Published]) -> ClassList:
     """Find out how students are named.
 
     Raises:
@@ -89,8 +121,8 @@ def open_class(options: Options, students: Sequence[str]) -> ClassList:
                 "graded by points, with a column for grades and the maximum grade after it"
             )
         return ClassList("useridnumber" if email is None else "useremail", roster)
-    with_address = sum("@" in student for student in students)
-    if 0 < with_address < len(students):
+    with_address = sum("@" in published.student for published in scored)
+    if 0 < with_address < len(scored):
         raise UnusableBatch(
             "some students' folders are named by an e-mail address and some are not; give a --roster with the columns "
             "student and useremail"
@@ -133,41 +165,6 @@ def _are_grades(grades: Sequence[str], most: Sequence[str]) -> bool:
     return all(grade is not None and grade <= highest for grade in given)
 
 
-def heading_of(class_list: ClassList, exercise: str) -> list[str]:
-    """Return the columns of an exercise's file."""
-    if class_list.roster and class_list.worksheet:
-        return list(class_list.roster.heading)
-    return [class_list.key, exercise, f"{exercise} feedback"]
-
-
-def cells_of(class_list: ClassList, published: Published) -> list[str | float]:
-    """Return the row of a submission.
-
-    Raises:
-        CannotSay: Moodle does not know the student.
-        UnusableBatch: in Moodle the assignment has other points.
-    """
-    words = text_cell(feedback(published))
-    if class_list.roster is None:
-        return [key_cell(published.student), published.score, words]
-    row = class_list.row_of(published.student)
-    if worksheet := class_list.worksheet:
-        _require_points(class_list.roster.heading[worksheet.grade + 1], row[worksheet.grade + 1], published)
-        filled: list[str | float] = [text_cell(cell) for cell in row]
-        filled[worksheet.grade] = published.score
-        if worksheet.feedback is not None:
-            filled[worksheet.feedback] = words
-        return filled
-    column = class_list.roster.index(*(EMAIL if class_list.key == "useremail" else ID_NUMBER))
-    assert column is not None
-    return [key_cell(row[column].strip()), published.score, words]
-
-
-def table_text(class_list: ClassList, exercise: str, rows: Sequence[Sequence[str | float]]) -> str:
-    """Return the file's content for an exercise."""
-    return csv_text(heading_of(class_list, exercise), rows)
-
-
 def feedback(published: Published) -> str:
     """Return what a student reads beside the points, as HTML: the checks that did not pass, and the hidden sum."""
     lines = [
@@ -179,15 +176,6 @@ def feedback(published: Published) -> str:
     passed = len(published.checks) - len(lines)
     lines.insert(0, f"{passed} of {len(published.checks)} visible checks passed.")
     return "<br><br>".join([*lines, *filter(None, [published.hidden_sum])])
-
-
-def _require_points(heading: str, most: str, published: Published) -> None:
-    """Require the same maximum in Moodle: otherwise a score of 8 of 12 would become 8 of 100."""
-    if read_number(most) != published.max_score:
-        raise UnusableBatch(
-            f"the worksheet's {heading} is {most} and {published.exercise} has {published.max_score} points: set "
-            "the assignment in Moodle to as many, and download the worksheet again"
-        )
 
 
 def _escaped(text: str) -> str:

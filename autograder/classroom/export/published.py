@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
 from typing import Literal
 
 from autograder.classroom.batch.collection import STUDENT
@@ -112,3 +114,24 @@ def printable(text: str) -> str:
 def number(value: float) -> float:
     """Return 3 for 3.0, and 2.5 as it is."""
     return int(value) if float(value).is_integer() else value
+
+
+@dataclass(frozen=True)
+class Options:
+    """The choices for one export.
+
+    Attributes:
+        graded_at: when the grades were written, UTC.
+        hidden: whether hidden checks are summed up or shown in full.
+        roster: a table of the class, exported from the platform.
+        assignments: the platform's id of an exercise's assignment, by the exercise's name.
+        classroom: the name of the Classroom 50 classroom.
+        environment: the process's variables, for jobs that run on the platform itself.
+    """
+
+    graded_at: datetime
+    hidden: HiddenPolicy = "hide"
+    roster: Path | None = None
+    assignments: Mapping[str, str] = field(default_factory=dict)
+    classroom: str = ""
+    environment: Mapping[str, str] = field(default_factory=dict)

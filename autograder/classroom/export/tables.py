@@ -17,18 +17,11 @@ from charset_normalizer import from_bytes
 from autograder.classroom.export.published import CannotSay, UnusableBatch, number, printable
 
 MOST_BYTES = 20_000_000  # of a roster
-_SEPARATOR_LINE = re.compile(
-    r"sep=([,;\t])\r?\n", re.IGNORECASE
-)  # separators that Excel accepts and some programs write
+# Names the separator; Excel reads it, and some programs write it.
+_SEPARATOR_LINE = re.compile(r"sep=([,;\t])\r?\n", re.IGNORECASE)
 _WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # first bytes of workbooks, new and old formats
 # First characters of a formula; some spreadsheets accept the full-width forms, too.
-_FORMULA = (
-    *("=", "+", "-", "@"),
-    "\N{FULLWIDTH EQUALS SIGN}",
-    "\N{FULLWIDTH PLUS SIGN}",
-    "\N{FULLWIDTH HYPHEN-MINUS}",
-    "\N{FULLWIDTH COMMERCIAL AT}",
-)
+_FORMULA = tuple("=+-@＝＋－＠")
 
 
 @dataclass(frozen=True)

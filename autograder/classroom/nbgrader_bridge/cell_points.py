@@ -1,4 +1,4 @@
-"""The preprocessor that writes verdicts as cell outputs, in place of stock nbgrader's execution of a submission."""
+"""The preprocessors of nbgrader that write verdicts into a submission, in place of stock nbgrader's execution."""
 
 from __future__ import annotations
 
@@ -8,15 +8,20 @@ from typing import Any
 
 from nbformat import NotebookNode
 from nbformat.v4 import new_output
+from nbgrader.api import Gradebook
 from nbgrader.preprocessors import NbGraderPreprocessor
 from nbgrader.utils import is_grade, is_solution
 from traitlets import Unicode
 
-from autograder.classroom.nbgrader_bridge.cell_names import cell_names, hidden_help
+from autograder.classroom.nbgrader_bridge.generated_cells import cell_names, hidden_help
+from autograder.engine.essay import load_essay
+from autograder.engine.exercise import essay_names, file_names
+from autograder.engine.notebook import written_by
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.report.verdict_text import verdict_text
+from autograder.report.table import verdict_text
 
 UNJUDGED = "unjudged_cells"  # resources["nbgrader"] key: grade_ids that have no verdict
+ON_PAPER = "Your marker saw this drawn."  # for the feedback page, from which nbgrader takes every drawing
 
 
 class NotGradedError(Exception):
@@ -88,3 +93,36 @@ def _text(verdict: CheckVerdict | None) -> str:
     if verdict.hidden:
         return "Passed." if verdict.status == "passed" else hidden_help(verdict.promise)
     return verdict_text(verdict)
+
+
+class EssayPictures(NbGraderPreprocessor):
+    """Puts the picture below the cell that writes an essay's first file. Nothing a student wrote is executed."""
+
+    def preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
+        """Draw, where the exercise is an essay with a picture."""
+        name = resources["nbgrader"]["assignment"]
+        if name not in essay_names() or (picture := load_essay(name).picture) is None:
+            return nb, resources
+        solutions = [cell for cell in nb.cells if cell.cell_type == "code" and is_solution(cell)]
+        written = [(cell, written_by([cell.source]).files) for cell in solutions]
+        cells = {file: cell for file in file_names(name) for cell, files in written if file in files}
+        svg = picture({file: text for _, files in written for file, text in files.items() if file in cells})
+        if svg and cells:
+            first = next(iter(cells.values()))
+            first.outputs = [new_output("display_data", data={"image/svg+xml": svg, "text/plain": ON_PAPER})]
+        return nb, resources
+
+
+class UnjudgedCells(NbGraderPreprocessor):
+    """Removes the saved scores of checks that were not run: hidden ones where there is no isolation."""
+
+    def preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
+        """Mark the cells in the gradebook as needing manual grading."""
+        names = resources["nbgrader"]
+        with Gradebook(names["db_url"]) as gradebook:
+            for cell in names[UNJUDGED]:
+                grade = gradebook.find_grade(cell, names["notebook"], names["assignment"], names["student"])
+                grade.auto_score = None
+                grade.needs_manual_grade = True
+            gradebook.db.commit()
+        return nb, resources

@@ -18,8 +18,7 @@ from autograder.atomic_file import write_atomically
 from autograder.classroom.export.grades_csv import FILE, Row, table_text
 from autograder.classroom.export.published import number
 from autograder.classroom.nbgrader_bridge.course_folder import RECORDS
-
-_HIDDEN = "hidden_"  # prefix of the names of hidden checks' cells (cell_names.py)
+from autograder.classroom.nbgrader_bridge.generated_cells import HIDDEN
 
 
 class ClassExport(ExportPlugin):
@@ -65,9 +64,9 @@ def _submission(gradebook: Gradebook, student: str, assignment: str) -> Any:
 
 def _row(submission: Any, student: str, assignment: str) -> Row:
     grades = [grade for notebook in submission.notebooks for grade in notebook.grades]
-    hidden = [grade for grade in grades if grade.name.startswith(_HIDDEN)]
+    hidden = [grade for grade in grades if grade.name.startswith(HIDDEN)]
     score = max(0.0, submission.score - submission.late_submission_penalty)
-    return Row(
+    return (
         student,
         assignment,
         number(score),

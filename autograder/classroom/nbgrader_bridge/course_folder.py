@@ -26,11 +26,11 @@ _BRIDGE = "autograder.classroom.nbgrader_bridge"
 # Stock nbgrader begins with Execute, which runs the student's cells with the grader's rights. Nothing here runs a cell.
 AUTOGRADE_PREPROCESSORS = [
     f"{_BRIDGE}.cell_points.VerdictOutputs",
-    f"{_BRIDGE}.essay_pictures.EssayPictures",
+    f"{_BRIDGE}.cell_points.EssayPictures",
     "nbconvert.preprocessors.ClearMetadataPreprocessor",
     "nbgrader.preprocessors.LimitOutput",
     "nbgrader.preprocessors.SaveAutoGrades",
-    f"{_BRIDGE}.unjudged_cells.UnjudgedCells",
+    f"{_BRIDGE}.cell_points.UnjudgedCells",
     "nbgrader.preprocessors.AssignLatePenalties",
     "nbgrader.preprocessors.CheckCellMetadata",
 ]

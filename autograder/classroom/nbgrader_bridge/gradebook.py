@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import shutil
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import nbformat
+from nbgrader.api import Gradebook
 
 from autograder.atomic_file import write_atomically
 from autograder.classroom.nbgrader_bridge.course_folder import (
@@ -21,11 +22,10 @@ from autograder.classroom.nbgrader_bridge.course_folder import (
     write_config_file,
 )
 from autograder.classroom.nbgrader_bridge.generated_cells import with_generated_cells
-from autograder.classroom.nbgrader_bridge.hand_marks import ask_again, with_marks
 from autograder.classroom.nbgrader_bridge.rebuild_submission import rebuild_submission
 from autograder.classroom.nbgrader_bridge.source_notebook import read_source
 from autograder.engine.exercise import file_names
-from autograder.engine.verdict import Grade
+from autograder.engine.verdict import CheckVerdict, Grade
 
 TIMESTAMP, SECRET = "timestamp.txt", "submission_secret.txt"
 
@@ -171,3 +171,28 @@ def record(folder: Path, grade: Grade) -> None:
 def _records(folder: Path, student: str) -> list[dict[str, Any]]:
     path = folder / RECORDS / f"{student}.json"
     return json.loads(path.read_text()) if path.exists() else []
+
+
+def with_marks(gradebook: Gradebook, grade: Grade) -> Grade:
+    """Return the grade of an essay with the points given so far; raises `MissingEntry` when it is not entered."""
+    return replace(grade, checks=[_marked(gradebook, grade, verdict) for verdict in grade.checks])
+
+
+def ask_again(gradebook: Gradebook, grade: Grade) -> None:
+    """Mark the criteria as needing manual grading again; points for the earlier work stay and have to be confirmed."""
+    for verdict in grade.checks:
+        _entry(gradebook, grade, verdict).needs_manual_grade = True
+    gradebook.db.commit()
+
+
+def _marked(gradebook: Gradebook, grade: Grade, verdict: CheckVerdict) -> CheckVerdict:
+    entry = _entry(gradebook, grade, verdict)
+    if entry.needs_manual_grade:
+        return replace(verdict, status="to mark", points=0)
+    points = float(entry.score)
+    return replace(verdict, status="marked", points=int(points) if points.is_integer() else points)
+
+
+def _entry(gradebook: Gradebook, grade: Grade, verdict: CheckVerdict) -> Any:
+    """Nbgrader's record of one criterion."""
+    return gradebook.find_grade(verdict.id, grade.exercise, grade.exercise, grade.student)

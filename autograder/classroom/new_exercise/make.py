@@ -11,17 +11,15 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
-from autograder.classroom.nbgrader_bridge.check_cells import cell_metadata
+from autograder.classroom.nbgrader_bridge.generated_cells import cell_metadata
 from ros_runtime.course_error import CourseError
 
 KINDS_FOLDER = Path(__file__).with_name("kinds")
 KINDS = tuple(sorted(folder.name for folder in KINDS_FOLDER.iterdir()))
 _TEMPLATE = ".j2"
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
-_SOLUTION, _TASK = (
-    f"solution.py{_TEMPLATE}",
-    f"task.md{_TEMPLATE}",
-)  # become the notebook and the correct submission
+# They become the notebook and the correct submission.
+_SOLUTION, _TASK = f"solution.py{_TEMPLATE}", f"task.md{_TEMPLATE}"
 _MARKS = re.compile(r"^ *### (BEGIN|END) SOLUTION\n", re.MULTILINE)
 
 

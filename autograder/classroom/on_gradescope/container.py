@@ -46,9 +46,8 @@ class Container:
         for folder in (self.submission, self.results.parent, *more):
             if folder.is_dir():
                 os.chmod(folder, 0o700)
-        metadata = (
-            self.root / "submission_metadata.json"
-        )  # names, addresses, and the results of earlier uploads
+        # It has names, addresses, and the results of earlier uploads.
+        metadata = self.root / "submission_metadata.json"
         if metadata.is_file():
             os.chmod(metadata, 0o600)
 

@@ -8,8 +8,7 @@ from datetime import datetime, timezone
 from autograder.classroom.batch.collection import Work, files_of_exercises, works_of
 from autograder.classroom.batch.grades_without_run import unreadable
 from autograder.classroom.export.gradescope import Results, render
-from autograder.classroom.export.options import Options
-from autograder.classroom.export.published import NOT_GRADED
+from autograder.classroom.export.published import NOT_GRADED, Options
 from autograder.classroom.on_gradescope.container import Container
 from autograder.engine.exercise import Exercise, file_names, load_exercise
 from autograder.engine.grading import GradingOptions, grade

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from autograder.atomic_file import write_atomically
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.classroom.pages.motion import motion_svgs
+from autograder.classroom.pages.plots import motion_svgs
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.sequence import transcript_svg
 

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from urllib.parse import quote
 
 from markupsafe import Markup
 
-from autograder.classroom.pages.drawings import Drawings, Sources
+from autograder.classroom.nbgrader_bridge.generated_cells import HIDDEN, cell_names, hidden_help
 from autograder.classroom.pages.figures import NEEDS_HELP, cause, exercise_figures, who_needs_help
 from autograder.classroom.pages.plots import bars_svg
-from autograder.classroom.pages.student_view import student_view
-from autograder.engine.verdict import Grade
+from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.rendering import drawn, write_html
 
 CLASS_PAGE = "class.html"
@@ -101,40 +101,6 @@ def write_submission_pages(folder: Path, grade: Grade, drawings: DrawingsOf) -> 
     _write(folder, student_view(grade), seen, for_student=True)
 
 
-def write_pages(
-    folder: Path,
-    grades: Sequence[Grade],
-    sources: Mapping[tuple[str, str], Sources | None],
-    *,
-    batches: Sequence[Path] = (),
-    left_out: Sequence[str] = (),
-    batch: Mapping[str, str] | None = None,
-) -> Path:
-    """Write the pages of a batch into its output folder, and return the class page's path.
-
-    Args:
-        folder: the output folder.
-        grades: of the whole class.
-        sources: the programs of the submissions whose pages are rewritten, by student and exercise; None if one could
-            not be read. Their students' pages are rewritten, too.
-        batches: the output folders with their drawings; by default `folder`.
-        left_out: sentences on folders that could not be read as submissions.
-        batch: when and with which versions the class was graded, by label.
-    """
-    for grade in grades:
-        if (key := (grade.student, grade.exercise)) in sources:
-            drawings: dict[str, Sequence[str]] = {}
-            for output in batches or (folder,):
-                drawings |= Drawings(output).of(grade, sources[key])
-            write_submission_pages(folder, grade, drawings)
-    of_student: dict[str, list[Grade]] = {}
-    for grade in grades:
-        of_student.setdefault(grade.student, []).append(grade)
-    for student in {student for student, _ in sources} & of_student.keys():
-        write_student_page(folder, student, of_student[student])
-    return write_class_page(folder, grades, left_out, batch)
-
-
 def _write(folder: Path, grade: Grade, drawings: DrawingsOf, *, for_student: bool) -> None:
     _require_plain_names(grade)
     top, other = (FOR_STUDENTS, FOR_INSTRUCTOR) if for_student else (FOR_INSTRUCTOR, FOR_STUDENTS)
@@ -160,3 +126,31 @@ def _require_plain_names(grade: Grade) -> None:
     for name in (grade.student, grade.exercise):
         if name in ("", ".", "..") or "/" in name or "\0" in name:
             raise ValueError(f"{name!r} cannot be the name of a folder; expected a name without / in it")
+
+
+def student_view(grade: Grade) -> Grade:
+    """Return the grade without titles, inputs and outputs of hidden checks, and without the grader's own errors.
+
+    A grade that is not graded or not completely marked gets no verdicts, because they may still change.
+    """
+    if grade.status == "not graded":
+        return replace(grade, checks=[], reason="")
+    if grade.status == "to mark":
+        return replace(grade, checks=[replace(each, status="to mark", points=0) for each in grade.checks])
+    names = cell_names(grade.checks)
+    return replace(grade, checks=[_seen(verdict, names[verdict.id]) for verdict in grade.checks])
+
+
+def _seen(verdict: CheckVerdict, name: str) -> CheckVerdict:
+    if not verdict.hidden:
+        return verdict
+    passed = verdict.status == "passed"
+    return CheckVerdict(
+        name,
+        name.replace(HIDDEN, "Hidden check "),
+        "passed" if passed else "failed",
+        verdict.points,
+        verdict.max_points,
+        help="" if passed else hidden_help(verdict.promise),
+        hidden=True,
+    )

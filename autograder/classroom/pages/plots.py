@@ -1,8 +1,12 @@
-"""Plots on the pages of a class: a figure of matplotlib as SVG, with its title and the same facts in words."""
+"""Plots on the pages of a class, each as SVG with the same facts in words.
+
+They show scores as bars and, of a run, the robot's speed over time with the events of its goals, and its path.
+"""
 
 from __future__ import annotations
 
 import io
+import math
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -12,17 +16,21 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
 from ros_runtime.drawing.xml_text import escape
+from ros_runtime.message_constants import GoalStatus, name_of
 
-LEFT, RIGHT, BELOW, ABOVE = (
-    0.7,
-    0.2,
-    0.55,
-    0.3,
-)  # inches around the panel; fixed, because measuring the texts is slow
+# Inches around the panel; fixed, because measuring the texts is slow.
+LEFT, RIGHT, BELOW, ABOVE = 0.7, 0.2, 0.55, 0.3
 CURVE, FLAG, DOT = "#1f5fa8", "#b34700", "#2c7a3f"
 _STYLE = {"svg.fonttype": "none", "text.parse_math": False, "font.size": 9, "axes.edgecolor": "#999999"}
 _NO_METADATA = dict.fromkeys(("Date", "Creator", "Format", "Type"))
+LEAST_MOTION = 0.1  # m; a robot that stands sways by less
+LEAST_SPEED = 0.2  # m/s that the axis shows
+MOST_FLAGS = 12
+ROW = 11.0  # pt, of a moment's words above the panel
+FARTHEST = 20.0  # m; goals farther from the origin are not drawn, or the path would be too small to see
 
 
 class Plot:
@@ -53,9 +61,8 @@ def plotted(title: str, words: str, *, width: float, height: float, pad: float =
         yield plot
         page = io.StringIO()
         plot.figure.savefig(page, format="svg", metadata=_NO_METADATA)
-    drawn = re.sub(
-        r'<g id="[^"]*">', "<g>", page.getvalue()
-    )  # a page has several drawings, whose ids must differ
+    # A page has several drawings, whose ids must differ.
+    drawn = re.sub(r'<g id="[^"]*">', "<g>", page.getvalue())
     box = re.search(r'viewBox="[^"]*"', drawn)
     assert box
     head = (
@@ -76,3 +83,99 @@ def bars_svg(numbers: Mapping[str, int], *, title: str, across: str, up: str) ->
         plot.axes.set(xlabel=across, ylabel=up)
         plot.axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
     return plot.svg
+
+
+def motion_svgs(transcript: Transcript, title: str) -> list[str]:
+    """Draw speed over time and the path from above; no drawing if the robot did not move."""
+    truth = transcript.ground_truth
+    if not truth or math.dist(*_corners(transcript)) < LEAST_MOTION:
+        return []
+    return [
+        _speed_svg(transcript, f"How fast the robot was: {title}"),
+        _path_svg(transcript, f"Where the robot went, from above: {title}"),
+    ]
+
+
+def _speed_svg(transcript: Transcript, title: str) -> str:
+    times = [robot.t for robot in transcript.ground_truth]
+    speeds = [robot.speed for robot in transcript.ground_truth]
+    moments = list(_moments(transcript))[:MOST_FLAGS]
+    feedback = [event.t for event in transcript.events if isinstance(event, ev.FeedbackReceived)]
+    said = [
+        f"speed, m/s: {speeds[0]:.2f} at first, {speeds[-1]:.2f} at last, {max(speeds):.2f} at most; "
+        f"time, s: {times[0]:.2f} to {times[-1]:.2f}.",
+        *(f"{label}: at {t:.2f}." for label, t in moments),
+    ]
+    if feedback:
+        said.append(f"{len(feedback)} feedback messages from {feedback[0]:.2f} to {feedback[-1]:.2f}.")
+    above = ROW * len(moments)
+    with plotted(title, " ".join(said), width=8.0, height=2.6 + above / 72, pad=6.0 + above) as plot:
+        plot.axes.plot(times, speeds, color=CURVE)
+        plot.axes.set_ylim(0.0, max(LEAST_SPEED, 1.1 * max(speeds)))
+        plot.axes.plot(feedback, [0.0] * len(feedback), "|", color=DOT, markersize=14)
+        plot.axes.set(xlabel="time, s" + "; green: feedback messages" * bool(feedback), ylabel="speed, m/s")
+        for row, (label, t) in enumerate(sorted(moments, key=lambda moment: -moment[1])):
+            plot.axes.axvline(t, color=FLAG, linestyle="--", linewidth=1)
+            is_late = t > (times[0] + times[-1]) / 2
+            plot.axes.annotate(
+                label,
+                (t, 1.0),
+                xycoords=("data", "axes fraction"),
+                xytext=(-3 if is_late else 3, 4 + ROW * row),
+                textcoords="offset points",
+                ha="right" if is_late else "left",
+                color=FLAG,
+            )
+    return plot.svg
+
+
+def _path_svg(transcript: Transcript, title: str) -> str:
+    truth = transcript.ground_truth
+    places = [
+        ("start", truth[0].x, truth[0].y),
+        *_goal_places(transcript),
+        ("end", truth[-1].x, truth[-1].y),
+    ]
+    words = " ".join(f"{label}: at {x:.2f}, {y:.2f}." for label, x, y in places)
+    with plotted(title, f"x and y in odom, m. {words}", width=6.0, height=4.0) as plot:
+        plot.axes.plot([robot.x for robot in truth], [robot.y for robot in truth], color=CURVE)
+        plot.axes.set_aspect("equal", adjustable="datalim")
+        plot.axes.margins(0.15)
+        plot.axes.set(xlabel="x in odom, m", ylabel="y in odom, m")
+        middle = sum(plot.axes.get_xlim()) / 2
+        for number, (label, x, y) in enumerate(places):
+            plot.axes.plot(x, y, "o", color=FLAG)
+            # Above and below in turn: neighbours are often close.
+            offset = (-6 if x > middle else 6, -13 if number % 2 else 6)
+            side = "right" if x > middle else "left"
+            plot.axes.annotate(label, (x, y), offset, textcoords="offset points", ha=side, color=FLAG)
+    return plot.svg
+
+
+def _corners(transcript: Transcript) -> tuple[tuple[float, float], tuple[float, float]]:
+    xs = [robot.x for robot in transcript.ground_truth]
+    ys = [robot.y for robot in transcript.ground_truth]
+    return (min(xs), min(ys)), (max(xs), max(ys))
+
+
+def _moments(transcript: Transcript) -> Iterator[tuple[str, float]]:
+    """Return the events of goals and robot, in words, with their times (s)."""
+    for event in transcript.events:
+        match event:
+            case ev.GoalSent(t=t, goal=goal):
+                yield f"goal “{goal}”", t
+            case ev.CancelSent(t=t, goal=goal):
+                yield f"cancel “{goal}”" if goal else "cancel every goal", t
+            case ev.ResultReceived(t=t, goal=goal, status=status):
+                yield f"“{goal}” ends {name_of(GoalStatus, status)}", t
+            case ev.RobotCommanded(t=t, verb=verb):
+                yield f"the grader: {verb}", t
+
+
+def _goal_places(transcript: Transcript) -> Iterator[tuple[str, float, float]]:
+    """Where (x, y in m) the goals that name a pose on the ground want the robot."""
+    for sent in transcript.all(ev.GoalSent)[:MOST_FLAGS]:
+        stamped = getattr(sent.request, "target_pose", None) or getattr(sent.request, "pose", None)
+        position = getattr(getattr(stamped, "pose", None), "position", None)
+        if position is not None and math.hypot(position.x, position.y) < FARTHEST:  # NaN is not
+            yield f"goal “{sent.goal}”", position.x, position.y

@@ -6,7 +6,7 @@ import textwrap
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from autograder.recording.replay.moment import Kind, Moment
+from autograder.recording.replay.recording import Kind, Moment
 
 LINES = 7  # of moments
 FRESH = 2.5  # s for which a moment is shown; what a check found stays

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from enum import Enum
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +15,12 @@ from rclpy.serialization import deserialize_message
 from autograder.recording.definitions import class_of
 from autograder.recording.entry import CHECKS, EVENTS, FORMAT, METADATA, ROSOUT
 from autograder.recording.narration import brief
-from autograder.recording.replay.moment import Kind, Moment, Verdict, readable
 from ros_runtime.course_error import CourseError
 
 LARGEST_FILE = 128 * 2**20  # bytes
 MOST_MESSAGES = 500_000
+AROUND = 6.0  # s shown around a check
+BEFORE = 2 / 3  # of these seconds are before the verdict
 
 
 class NoRecording(CourseError):
@@ -36,6 +37,27 @@ class Posture:
     objects: Mapping[str, Sequence[float]]
 
 
+class Kind(Enum):
+    """What a moment is about."""
+
+    EVENT = "event"
+    FEEDBACK = "feedback"
+    OUTPUT = "output"
+    PASSED = "passed"
+    FAILED = "failed"
+    TROUBLE = "trouble"
+
+
+@dataclass(frozen=True)
+class Moment:
+    """What happened at `t` (s on the arena's clock); `check`: the id of the check whose verdict it is, else ""."""
+
+    t: float
+    kind: Kind
+    text: str
+    check: str = ""
+
+
 @dataclass(frozen=True)
 class Recording:
     """The content of a file of `course grade --record` or `course check --record`.
@@ -45,8 +67,7 @@ class Recording:
         about: exercise, student, scenario, …: the metadata that was written.
         joints: names of the joints of the postures.
         postures: in order of time, 25 a second of the arena's clock; none where there was no robot.
-        moments: what happened, in order of time.
-        verdicts: of the checks that were judged on this run.
+        moments: what happened, in order of time, and the verdicts of the checks that were judged on this run.
     """
 
     path: Path
@@ -54,7 +75,6 @@ class Recording:
     joints: Sequence[str]
     postures: Sequence[Posture] = field(repr=False)
     moments: Sequence[Moment] = field(repr=False)
-    verdicts: Sequence[Verdict]
 
     @classmethod
     def read(cls, path: Path) -> Recording:
@@ -81,31 +101,29 @@ class Recording:
                 f"{path} is not a recording of an arena, or it is damaged ({type(error).__name__}: {error}); expected "
                 "an MCAP file that `course grade --record` or `course check --record` wrote"
             ) from error
-        return cls(
-            path, about, collected.joints, list(collected.postures()), collected.moments, collected.verdicts
-        )
+        return cls(path, about, collected.joints, list(collected.postures()), collected.moments)
 
     @property
     def end(self) -> float:
         """When the scenario ended, s."""
         return float(self.about["end"])
 
-    @cached_property
-    def first_failed(self) -> Verdict | None:
+    @property
+    def first_failed(self) -> Moment | None:
         """The failed check with the earliest time, or None."""
-        failed = [verdict for verdict in self.verdicts if verdict.failed]
-        return min(failed, key=lambda verdict: verdict.t, default=None)
+        failed = [moment for moment in self.moments if moment.kind is Kind.FAILED]
+        return min(failed, key=lambda moment: moment.t, default=None)
 
-    def verdict(self, check: str) -> Verdict:
+    def verdict(self, check: str) -> Moment:
         """Return the verdict of a check.
 
         Raises:
             NoRecording: it was not judged on this run; the message names those that were.
         """
-        for verdict in self.verdicts:
-            if verdict.check == check:
-                return verdict
-        known = ", ".join(verdict.check for verdict in self.verdicts) or "none"
+        verdicts = {moment.check: moment for moment in reversed(self.moments) if moment.check}
+        if check in verdicts:
+            return verdicts[check]
+        known = ", ".join(reversed(verdicts)) or "none"
         raise NoRecording(f"no check {check!r} was judged on this run; there are {known}")
 
 
@@ -119,7 +137,6 @@ class _Collected:
         self._objects: dict[float, dict[str, Sequence[float]]] = {}
         self.joints: Sequence[str] = ()
         self.moments: list[Moment] = []
-        self.verdicts: list[Verdict] = []
 
     def add(self, t: float, topic: str, type_name: str, data: bytes) -> None:
         """Add one message."""
@@ -155,10 +172,8 @@ class _Collected:
         if topic == EVENTS:
             self.moments.append(Moment(t, Kind.EVENT if line.level < Log.WARN else Kind.TROUBLE, text))
         elif line.name == CHECKS:
-            failed = line.level >= Log.ERROR
-            kind = Kind.FAILED if failed else Kind.PASSED if line.level < Log.WARN else Kind.TROUBLE
-            self.moments.append(Moment(t, kind, text))
-            self.verdicts.append(Verdict(t, line.function, text, failed))
+            kind = {Log.ERROR: Kind.FAILED, Log.INFO: Kind.PASSED}.get(line.level, Kind.TROUBLE)
+            self.moments.append(Moment(t, kind, text, line.function))
         else:
             self.moments.append(Moment(t, Kind.OUTPUT, readable(f"{line.name}: {line.msg}")))
 
@@ -193,3 +208,47 @@ def _metadata(path: Path, records: Iterator[Any]) -> Mapping[str, str]:
             f"{FORMAT}): show it with that version, or record it again"
         )
     return about
+
+
+def readable(text: str) -> str:
+    """Return text in one line without control characters, which a program may have printed to move a cursor."""
+    return "".join(letter if letter.isprintable() else " " for letter in text)
+
+
+@dataclass(frozen=True)
+class Span:
+    """From `start` to `end`, s on the arena's clock."""
+
+    start: float
+    end: float
+
+
+def span_of(recording: Recording, around: str | None, seconds: float | None) -> Span:
+    """Return what to show: the seconds around a check, by default around the first that failed, else all.
+
+    Args:
+        recording: of which.
+        around: id of a check.
+        seconds: how long; without a check, from the beginning.
+
+    Raises:
+        NoRecording: there is no such check.
+        ValueError: the duration is not positive.
+    """
+    if seconds is not None and not seconds > 0:
+        raise ValueError(f"--seconds is {seconds:g}; expected a positive number")
+    verdict = recording.verdict(around) if around else recording.first_failed
+    if verdict is None:
+        return Span(0.0, min(recording.end, seconds or recording.end))
+    length = min(seconds or AROUND, recording.end)
+    start = min(max(0.0, verdict.t - BEFORE * length), recording.end - length)
+    return Span(start, start + length)
+
+
+def require_postures(recording: Recording) -> None:
+    """Require recorded postures of a robot."""
+    if not recording.postures:
+        raise NoRecording(
+            f"no robot was recorded in {recording.about['scenario']}, as the scenario has none; --text shows what "
+            "happened"
+        )

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 
 from rich.text import Text
 
-from autograder.recording.replay.moment import Kind, Moment
-from autograder.recording.replay.recording import Recording
+from autograder.recording.replay.recording import Kind, Moment, Recording
 
 COLOURS = {
     Kind.EVENT: "",

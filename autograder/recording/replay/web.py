@@ -7,9 +7,7 @@ from collections.abc import Callable
 
 from autograder.recording.replay.body import RecordedBody
 from autograder.recording.replay.captions import captions
-from autograder.recording.replay.moment import Moment
-from autograder.recording.replay.recording import Recording
-from autograder.recording.replay.span import Span
+from autograder.recording.replay.recording import Moment, Recording, Span
 from robot_sim.views.web_view import WebView
 
 FRAME = 0.04  # s, between two postures

@@ -12,11 +12,11 @@ import json
 import sys
 from dataclasses import replace
 
+from audited.clause_table import clause_table
+from audited.proof import enough_to_catch
+from audited.recorded import FOLDER, scenarios_of, write
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.classroom.audit.clause_table import clause_table
 from autograder.classroom.audit.known_submission import KnownSubmission, known_submission
-from autograder.classroom.audit.proof import enough_to_catch
-from autograder.classroom.audit.recorded import FOLDER, scenarios_of, write
 from autograder.engine.arena_run import ArenaRun, run_in_arena
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise
 from autograder.engine.simulation_lag import STRAINED, lateness

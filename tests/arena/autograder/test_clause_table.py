@@ -2,7 +2,7 @@
 
 import pytest
 
-from autograder.classroom.audit.clause_table import clause_table, judged_by_clause
+from audited.clause_table import clause_table, judged_by_clause
 from autograder.engine.exercise import exercise_names
 from ros_runtime.project import PROJECT
 

@@ -15,11 +15,11 @@ from zlib import crc32
 
 import pytest
 
+from audited.recorded import FOLDER, Case, cases
 from autograder.authoring.diagnosis.root_cause import ALLOWED_LOAD, STARTUP_CPU_TIME
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.audit.known_submission import known_submissions
-from autograder.classroom.audit.recorded import FOLDER, Case, cases
 from autograder.engine.exercise import exercise_names, load_exercise
 from autograder.engine.judging import judge
 from autograder.engine.verdict import CheckVerdict

@@ -5,8 +5,7 @@ import os
 import pytest
 
 from autograder.classroom.audit.known_submission import known_submissions
-from autograder.classroom.audit.run import audit_one
-from autograder.classroom.audit.shared_arenas import SharedArenas
+from autograder.classroom.audit.run import SharedArenas, audit_one
 from autograder.engine.exercise import load_exercise
 from autograder.isolation.availability import available_isolation
 from autograder.isolation.process_tree import descendants

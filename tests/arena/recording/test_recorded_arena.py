@@ -12,16 +12,15 @@ from typing import Any
 import pytest
 from rosbags.highlevel import AnyReader
 
+from audited.proof import enough_to_catch
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.audit.known_submission import known_submission
-from autograder.classroom.audit.proof import enough_to_catch
 from autograder.engine.exercise import load_exercise
 from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.recording.kept import keep
 from autograder.recording.recorder import Recorder
-from autograder.recording.replay.recording import Recording
-from autograder.recording.replay.span import span_of
+from autograder.recording.replay.recording import Recording, span_of
 
 EXERCISE = "cancellable_walk"
 KNOWN = known_submission(EXERCISE, "faulty/cuts_the_motors")  # the robot falls when it is canceled
@@ -116,7 +115,7 @@ def test_check_keeps_visible_scenarios_only_and_names_the_folder(tmp_path: Path)
     assert files
     assert {path.stem.split("-")[0] for path in files} <= visible
     assert f"{len(files)} recordings in recordings/battery_service" in ran.stdout
-    told = {verdict.check for path in files for verdict in Recording.read(path).verdicts}
+    told = {moment.check for path in files for moment in Recording.read(path).moments if moment.check}
     checks = json.loads((tmp_path / "verdicts.json").read_text())["checks"]
     assert told == {check["id"] for check in checks}
     assert any(Recording.read(path).first_failed for path in files)

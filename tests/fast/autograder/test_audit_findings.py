@@ -2,14 +2,15 @@
 
 from io import StringIO
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from rich.console import Console
 
+from audited.proof import enough_to_catch, enough_to_prove
 from autograder.authoring.checks import Scenario, check
 from autograder.classroom.audit.kill_matrix import figures, kill_matrix
 from autograder.classroom.audit.known_submission import HeaderError, known_submissions, read_known_submission
-from autograder.classroom.audit.proof import enough_to_catch, enough_to_prove
 from autograder.classroom.audit.run import AuditedRun, audit, checks_without_a_killer
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise
 from autograder.engine.verdict import CheckVerdict, Grade
@@ -178,7 +179,8 @@ def test_what_could_not_be_graded_is_graded_once_more_at_the_end(folder, exercis
     monkeypatch.setattr("autograder.classroom.audit.run.audit_one", busy_at_first)
     reported = []
     known = [read(where, "correct"), read(where, "faulty")]
-    runs = audit(known, exercise, jobs=1, report=reported.append)
+    empty = SimpleNamespace(scale=None, earlier_run=lambda *_: None, add=lambda *_: None, write=lambda: None)
+    runs = audit(known, exercise, empty, lambda run, is_earlier: reported.append(run), jobs=1)
     assert gradings == ["correct", "faulty", "correct"]
     assert [run.known.kind for run in reported] == ["faulty", "correct"]
     assert [run.grade.status for run in runs] == ["graded", "graded"]

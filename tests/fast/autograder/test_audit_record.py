@@ -126,7 +126,7 @@ def test_an_interrupted_audit_says_how_to_go_on_and_then_grades_only_what_is_lef
         graded.append(known.name)
         return run_of(known, seed + repetition)
 
-    def interrupted(console, run):
+    def interrupted(console, run, earlier):
         printed.append(run.known.name)
         if len(printed) == 2:
             raise KeyboardInterrupt

@@ -15,7 +15,7 @@ from autograder.authoring.rubric import Criterion, criteria_in
 from autograder.classroom.batch.cache import GradeCache
 from autograder.classroom.batch.collection import collect
 from autograder.classroom.batch.runner import BatchRunner, BatchWatcher
-from autograder.classroom.nbgrader_bridge.criterion_cells import with_criterion_cells
+from autograder.classroom.nbgrader_bridge.generated_cells import with_criterion_cells
 from autograder.engine.essay import left_to_a_person, load_essay
 from autograder.engine.exercise import (
     UnknownExercise,
@@ -28,7 +28,7 @@ from autograder.engine.exercise import (
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
-from autograder.report.class_table import class_table, progress_line
+from autograder.report.table import class_table, progress_line
 from course_cli.app import app
 
 NAME = "arm_architecture"

@@ -11,12 +11,11 @@ from typer.testing import CliRunner
 
 from autograder.classroom.audit.generated import first_look as first_look_module
 from autograder.classroom.audit.generated import mutant as mutant_module
-from autograder.classroom.audit.generated import selection
+from autograder.classroom.audit.generated import run as run_module
 from autograder.classroom.audit.generated.first_look import Judged, as_fault, first_look
 from autograder.classroom.audit.generated.mistakes import OPERATORS
 from autograder.classroom.audit.generated.pattern import filled, match, parsed
-from autograder.classroom.audit.generated.run import figures, survivors
-from autograder.classroom.audit.generated.selection import equivalents, is_one_of, selected
+from autograder.classroom.audit.generated.run import equivalents, figures, is_one_of, selected, survivors
 from autograder.classroom.audit.known_submission import HeaderError
 from autograder.classroom.audit.run import AuditedRun
 from autograder.engine.exercise import exercise_names, load_exercise
@@ -241,7 +240,7 @@ def test_selection_by_name():
 def test_equivalent_needs_a_reason(tmp_path, monkeypatch):
     known = tmp_path / "walk_to" / "known"
     known.mkdir(parents=True)
-    monkeypatch.setattr(selection, "exercises_folder", lambda: tmp_path)
+    monkeypatch.setattr(run_module, "exercises_folder", lambda: tmp_path)
     assert equivalents("walk_to") == {}
     (known / "equivalent.txt").write_text("# judged by hand\nmisses_a_cancel.* * # never reached\n")
     assert equivalents("walk_to") == {"misses_a_cancel.* *": "never reached"}

@@ -10,9 +10,8 @@ from rich.console import Console
 from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.effort import Effort
 from autograder.classroom.batch.job import GradingJob, Outcome
-from autograder.classroom.batch.pace import Pace, in_words
 from autograder.classroom.batch.runner import Graded
-from autograder.classroom.class_grading.progress import MOST_SHOWN, PERIOD, BatchProgress
+from autograder.classroom.class_grading.progress import MOST_SHOWN, PERIOD, BatchProgress, Pace, in_words
 from autograder.engine.verdict import CheckVerdict, Grade
 
 VERDICT = CheckVerdict("id", "title", "passed", 1, 1)

@@ -69,6 +69,8 @@ def test_what_was_not_graded_is_not_cached(tmp_path):
         ("solutions/cancellable_walk/checks.py", False),
         ("solutions/battery_service/known/faulty/sleeps.py", False),
         ("autograder/report/table.py", False),
+        ("autograder/classroom/export/canvas.py", False),
+        ("autograder/classroom/hidden_checks/standard_hidden.py", True),
     ],
 )
 def test_a_change_of_what_judges_makes_old_grades_void(tmp_path, monkeypatch, changed, matters):

@@ -92,10 +92,13 @@ def test_names_that_would_match_others_or_break_a_page_are_refused_by_name(tmp_p
 def test_what_is_no_submission_is_left_aside_with_the_reason(tmp_path):
     put(tmp_path / "anna/battery_service.py")
     put(tmp_path / "bert/holiday.py")
+    (tmp_path / "cleo").mkdir()
     put(tmp_path / "grades.csv")
     put(tmp_path / ".DS_Store")
     ignored = "\n".join(collect(tmp_path).ignored)
-    assert f"bert handed in none of {', '.join(all_names())}" in ignored
+    assert "bert handed in none of the exercises; their folder holds holiday.py" in ignored
+    assert "cleo handed in none of the exercises; their folder holds nothing" in ignored
+    assert ignored.count(", ".join(all_names())) == 1
     assert "grades.csv" in ignored
     assert "DS_Store" not in ignored
 

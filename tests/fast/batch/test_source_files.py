@@ -6,7 +6,7 @@ from pathlib import Path
 
 from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.runner import Graded
-from autograder.classroom.batch.source_files import write_base_code, write_sources
+from autograder.classroom.batch.source_files import write_base_code, write_source
 from autograder.engine.verdict import Grade
 from ros_runtime.project import PROJECT
 
@@ -23,14 +23,9 @@ def files(folder: Path) -> dict[str, str]:
 
 def test_a_folder_an_exercise_and_a_student_with_what_was_graded(tmp_path):
     interfaces = {"NavigateToPose.action": "#\n", "GetBatteryStatus.srv": "#\n"}
-    write_sources(
-        tmp_path,
-        [
-            result("anna", {"battery_service.py": "x = 1\n"}),
-            result("_base", {"battery_service.py": "x = 2\n"}),
-            result("anna", interfaces, "interfaces"),
-        ],
-    )
+    write_source(tmp_path, result("anna", {"battery_service.py": "x = 1\n"}))
+    write_source(tmp_path, result("_base", {"battery_service.py": "x = 2\n"}))
+    write_source(tmp_path, result("anna", interfaces, "interfaces"))
     assert files(tmp_path / "sources") == {
         "battery_service/anna/battery_service.py": "x = 1\n",
         "battery_service/_base/battery_service.py": "x = 2\n",
@@ -41,20 +36,19 @@ def test_a_folder_an_exercise_and_a_student_with_what_was_graded(tmp_path):
 
 def test_what_is_handed_in_again_replaces_what_was_and_the_unreadable_leaves_nothing(tmp_path):
     both = {"NavigateToPose.action": "1\n", "GetBatteryStatus.srv": "1\n"}
-    write_sources(
-        tmp_path, [result("anna", both, "interfaces"), result("bert", {"battery_service.py": "1\n"})]
-    )
-    write_sources(
-        tmp_path, [result("anna", {"GetBatteryStatus.srv": "2\n"}, "interfaces"), result("bert", None)]
-    )
+    write_source(tmp_path, result("anna", both, "interfaces"))
+    write_source(tmp_path, result("bert", {"battery_service.py": "1\n"}))
+    write_source(tmp_path, result("anna", {"GetBatteryStatus.srv": "2\n"}, "interfaces"))
+    write_source(tmp_path, result("bert", None))
     assert files(tmp_path / "sources") == {"interfaces/anna/GetBatteryStatus.srv": "2\n"}
 
 
 def test_what_everyone_was_given_lies_apart_in_the_same_shape(tmp_path):
-    write_base_code(tmp_path, ["battery_service", "battery_service", "walk_to"], PROJECT / "exercises")
+    for exercise in ("battery_service", "battery_service", "walk_to"):
+        write_base_code(tmp_path, exercise, PROJECT / "exercises")
     given = files(tmp_path / "sources/_base")
     assert set(given) == {"battery_service/battery_service.py", "walk_to/walk_to.py"}
     assert "# YOUR CODE HERE" in given["walk_to/walk_to.py"]
     assert "%%writefile" not in given["walk_to/walk_to.py"]
-    write_base_code(tmp_path, ["battery_service"], tmp_path)  # no notebook there
+    write_base_code(tmp_path, "battery_service", tmp_path)  # no notebook there
     assert set(files(tmp_path / "sources/_base")) == set(given)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -289,3 +292,16 @@ def test_backslashes_between_folders_are_slashes(tmp_path: Path, packed) -> None
     done = course(packed(tmp_path / "d", files), "--from", "moodle", "--out", tmp_path / "s")
     assert done.exit_code == 0, done.output
     assert programs(tmp_path / "s") == WANTED["moodle"]
+
+
+@pytest.mark.parametrize("packed", [zipped, unpacked])
+def test_a_locale_without_utf8_takes_every_name(tmp_path: Path, packed) -> None:
+    download = packed(tmp_path / "d", {"李伟_101_5001_battery_service.py": PROGRAM})
+    done = subprocess.run(
+        [Path(sys.executable).with_name("course"), "collect", download, "--from", "canvas"],
+        cwd=tmp_path,
+        env={**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0"},
+        capture_output=True,
+    )
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "submitted/李伟-101/battery_service/battery_service.py").read_text() == PROGRAM

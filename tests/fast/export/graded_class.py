@@ -7,7 +7,7 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 from autograder.classroom.batch.records import GRADES, write_grades
-from autograder.classroom.export.options import Options
+from autograder.classroom.export.published import Options
 from autograder.engine.verdict import CheckVerdict, Grade
 
 SECRETS = (

@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
@@ -27,11 +28,8 @@ from autograder.authoring.evidence import events as ev
 from autograder.recording.entry import METADATA
 from autograder.recording.replay import web
 from autograder.recording.replay.body import RecordedBody
-from autograder.recording.replay.captioned_picture import band_height
-from autograder.recording.replay.film import RATE, film
-from autograder.recording.replay.moment import Kind, Moment
-from autograder.recording.replay.recording import NoRecording, Recording
-from autograder.recording.replay.span import Span, span_of
+from autograder.recording.replay.film import RATE, band_height, film
+from autograder.recording.replay.recording import Kind, Moment, NoRecording, Recording, Span, span_of
 from autograder.recording.replay.text import time_line
 from course_cli.app import app
 from falls import FALL, FELL_AT, recorded_fall, recordings, simulated, walk
@@ -142,7 +140,7 @@ def test_the_time_line_says_what_happened_in_order(fallen: Any) -> None:
 
 def test_much_feedback_is_summed_up() -> None:
     moments = [Moment(number / 10, Kind.FEEDBACK, f"feedback {number}") for number in range(11)]
-    recording = Recording(Path("x"), {}, (), (), [*moments, Moment(2.0, Kind.EVENT, "end")], ())
+    recording = Recording(Path("x"), {}, (), (), [*moments, Moment(2.0, Kind.EVENT, "end")])
     lines = [line.plain.strip() for line in time_line(recording)]
     assert [line.split("  ")[-1] for line in lines] == [
         "feedback 0",
@@ -308,13 +306,6 @@ def test_a_damaged_file_is_read_or_refused_but_nothing_else(fallen: Any, tmp_pat
 
 def test_another_robot_is_refused(fallen: Any) -> None:
     recording = Recording.read(fallen[0])
-    other = Recording(
-        recording.path,
-        recording.about,
-        ["third_arm", *recording.joints[1:]],
-        recording.postures,
-        recording.moments,
-        recording.verdicts,
-    )
+    other = replace(recording, joints=["third_arm", *recording.joints[1:]])
     with pytest.raises(NoRecording, match=r"another robot.*third_arm"):
         RecordedBody(other)

@@ -10,8 +10,8 @@ from urllib.parse import unquote
 import pytest
 from bs4 import BeautifulSoup, Tag
 
-from autograder.classroom.nbgrader_bridge.cell_names import HIDDEN_HELP
-from autograder.classroom.pages.pages import write_pages, write_submission_pages
+from autograder.classroom.nbgrader_bridge.generated_cells import HIDDEN_HELP
+from autograder.classroom.pages.pages import write_class_page, write_student_page, write_submission_pages
 from autograder.engine.verdict import CheckVerdict, Grade
 
 MARKUP = "<img src=x onerror=alert(1)>"
@@ -62,8 +62,10 @@ def grade(student, *checks, exercise="walk_to", **more):
 
 
 def pages_of(folder: Path, *grades: Grade, left_out=()) -> Path:
-    sources = {(grade.student, grade.exercise): None for grade in grades}
-    return write_pages(folder, grades, sources, left_out=left_out)
+    for each in grades:
+        write_submission_pages(folder, each, {})
+        write_student_page(folder, each.student, [one for one in grades if one.student == each.student])
+    return write_class_page(folder, grades, left_out)
 
 
 def read(path: Path) -> BeautifulSoup:
@@ -296,8 +298,8 @@ def test_a_name_that_leads_elsewhere_is_refused(tmp_path, name):
 def test_the_class_page_says_how_it_was_graded_and_no_student_reads_the_seed(tmp_path):
     batch = {"seed of hidden checks": "314159", "isolation": MARKUP}
     graded = grade("anna", failed(), seed=314159)
-    page = read(write_pages(tmp_path, [graded], {("anna", "walk_to"): None}, batch=batch))
+    assert "How it was graded" not in words(read(pages_of(tmp_path, graded)))
+    page = read(write_class_page(tmp_path, [graded], batch=batch))
     assert "314159" in words(page)
     assert MARKUP in words(page)
     assert "314159" not in (tmp_path / "pages/anna/walk_to.html").read_text()
-    assert "How it was graded" not in words(read(pages_of(tmp_path, graded)))

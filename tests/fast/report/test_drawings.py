@@ -9,7 +9,7 @@ from geometry_msgs.msg import PoseStamped
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.pages.drawings import Drawings, drawing_into
-from autograder.classroom.pages.motion import motion_svgs
+from autograder.classroom.pages.plots import motion_svgs
 from autograder.engine.verdict import CheckVerdict, Grade
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState

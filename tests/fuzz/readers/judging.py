@@ -11,9 +11,9 @@ from typing import Any
 
 from hypothesis import strategies as st
 
+from audited.recorded import Case, cases
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.classroom.audit.recorded import Case, cases
 from autograder.engine.exercise import exercise_names
 from autograder.engine.judging import judge
 from autograder.engine.verdict import LENGTH_NOTE, LONGEST

@@ -14,14 +14,13 @@ from rich.console import Console
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.classroom.pages.pages import write_pages
+from autograder.classroom.pages.pages import write_class_page, write_student_page, write_submission_pages
 from autograder.engine.arena_run import read_events
 from autograder.engine.exercise import load_exercise
 from autograder.engine.judging import judge
 from autograder.engine.verdict import LENGTH_NOTE, LONGEST, CheckVerdict, Grade
 from autograder.isolation.captured_output import CapturedOutput, OutputLine
-from autograder.report.class_table import class_table
-from autograder.report.table import grade_table, print_verdict
+from autograder.report.table import class_table, grade_table, print_verdict
 from fuzz import strategies as odd
 from fuzz.fuzzer import Fuzzer
 
@@ -78,7 +77,9 @@ def require_harmless_pages(words: tuple[str, str, str, str]) -> None:
     console.print(grade_table(grade))
     console.print(class_table([grade]))
     with tempfile.TemporaryDirectory() as folder:
-        write_pages(Path(folder), [grade], {("anna", "battery_service"): {}})
+        write_submission_pages(Path(folder), grade, {})
+        write_student_page(Path(folder), "anna", [grade])
+        write_class_page(Path(folder), [grade])
         for page in Path(folder).rglob("*.html"):
             html = page.read_text(encoding="utf-8")
             assert odd.MARKUP not in html, page.name

@@ -25,7 +25,7 @@ from autograder.engine.submission import Submission
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_spec import Kind
 from autograder.isolation.availability import Isolation
-from autograder.report.class_table import class_table
+from autograder.report.table import class_table
 from fuzz import strategies as odd
 from fuzz.fuzzer import Fuzzer
 

@@ -14,6 +14,14 @@ Function = Named | ast.Lambda
 Edits = dict[ast.AST, str]  # nodes of a program with the source that takes the place of each
 
 _Node = TypeVar("_Node", bound=ast.AST)
+# What takes callbacks: the kind of each, by its place or keyword among the arguments.
+_TAKERS: dict[str, dict[int | str | None, str]] = {
+    "create_subscription": {2: "subscription", "callback": "subscription"},
+    "create_service": {2: "service", "callback": "service"},
+    "create_timer": {1: "timer", "callback": "timer"},
+    "send_goal_async": {1: "feedback", "feedback_callback": "feedback"},
+    "ActionServer": {"goal_callback": "goal", "cancel_callback": "cancel"},
+}
 
 
 class Program:
@@ -74,9 +82,8 @@ class Program:
     def changed(self, edits: Edits, inside: ast.AST | None = None) -> str:
         """Return the source with the edits made, of the whole program or of one node."""
         new = {id(node): _parsed(source, node) for node, source in edits.items()}
-        return ast.unparse(
-            copy.deepcopy(inside or self.tree, new)
-        )  # which takes what it finds there for a copy
+        # deepcopy takes what it finds in its second argument for a copy that was made already.
+        return ast.unparse(copy.deepcopy(inside or self.tree, new))
 
 
 def last_name(node: ast.AST | None) -> str:
@@ -91,3 +98,18 @@ def last_name(node: ast.AST | None) -> str:
 def _parsed(source: str, node: ast.AST) -> ast.AST:
     """Parse what takes the place of a node; of a statement it is a module, which may hold several."""
     return ast.parse(source) if isinstance(node, ast.stmt) else ast.parse(source, mode="eval").body
+
+
+def callbacks(program: Program, *kinds: str) -> Iterator[Named]:
+    """Yield the functions that are called for one of these kinds of events, each once, without lambdas."""
+    named = [one for one in program.every(ast.stmt) if isinstance(one, Named)]
+    found: dict[Named, None] = {}
+    for call in program.every(ast.Call):
+        given = [*enumerate(call.args), *((word.arg, word.value) for word in call.keywords)]
+        taken = _TAKERS.get(last_name(call), {})
+        around = set(program.above(call))
+        for name in [last_name(value) for place, value in given if taken.get(place) in kinds]:
+            of_one_name = [one for one in named if one.name == name]
+            of_its_class = [one for one in of_one_name if program.parent(one) in around]
+            found |= dict.fromkeys((of_its_class or of_one_name)[:1])
+    yield from found

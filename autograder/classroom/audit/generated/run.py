@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+from collections import Counter
 from collections.abc import Sequence
+from fnmatch import fnmatchcase
 
 from rich.console import Console
 from rich.table import Table
@@ -11,18 +14,13 @@ from rich.text import Text
 from autograder.classroom.audit.audit_record import AuditRecord
 from autograder.classroom.audit.generated.first_look import Judged, as_fault, first_look
 from autograder.classroom.audit.generated.mutant import Mutant, mutants_of_exercise
-from autograder.classroom.audit.generated.selection import (
-    EQUIVALENT,
-    equivalents,
-    is_one_of,
-    selected,
-    usual_number,
-)
-from autograder.classroom.audit.known_submission import KNOWN, HeaderError, KnownSubmission
+from autograder.classroom.audit.known_submission import KNOWN, HeaderError
 from autograder.classroom.audit.run import AuditedRun, audit
-from autograder.engine.exercise import Exercise
+from autograder.engine.exercise import Exercise, exercises_folder
 
 GOAL, GOAL_OF_VISIBLE = 98, 75  # percent of mutants that lose points at all, and by visible checks alone
+EQUIVALENT = "equivalent.txt"  # in an exercise's known/
+USUAL, OF_ROBOTS = 60, 30  # mutants; where the robot moves a grading takes minutes
 
 
 def audit_generated(
@@ -34,7 +32,6 @@ def audit_generated(
     only: str = "*",
     jobs: int = 2,
     seed: int = 0,
-    scale: float | None = None,
 ) -> list[Judged]:
     """Grade up to `number` mutants (None: the usual number), from each operator in turn; print and return them."""
     made = mutants_of_exercise(exercise.name)
@@ -44,18 +41,10 @@ def audit_generated(
     faults = {mutant.name: as_fault(mutant, exercise) for mutant in chosen}
     judged: list[Judged] = []
 
-    def add(run: AuditedRun, mark: str = "") -> None:
+    def add(run: AuditedRun, is_kept: bool) -> None:
         judged.append(Judged(faults[run.known.name].mutant, run))
-        _print_judged(console, judged[-1], f"{len(judged)} of {len(faults)}{mark}")
-
-    def earlier(known: KnownSubmission, repetition: int) -> AuditedRun | None:
-        if run := record.earlier_run(known, exercise, repetition, seed):
-            add(run, ", kept")
-        return run
-
-    def keep(run: AuditedRun) -> None:
-        record.add(run, exercise)
-        add(run)
+        place = f"{len(judged)} of {len(faults)}{', kept' if is_kept else ''}"
+        _print_judged(console, judged[-1], place)
 
     same = len(made) - len(mistakes)
     console.print(
@@ -64,18 +53,8 @@ def audit_generated(
     for patterns in reasons:
         if not any(is_one_of(patterns, mutant) for mutant in made):
             console.print(f"{KNOWN}/{EQUIVALENT}: no mutant is like “{patterns}” any more", markup=False)
-    audit(
-        [*faults.values()],
-        exercise,
-        jobs=jobs,
-        seed=seed,
-        scale=scale,
-        earlier=earlier,
-        report=keep,
-        grade_one=first_look,
-    )
+    audit([*faults.values()], exercise, record, add, jobs=jobs, seed=seed, grade_one=first_look)
     if judged:
-        record.write()  # also when nothing was left to grade
         console.print(_table(mistakes, judged))
         for line in (*survivors(exercise.name, judged), *figures(judged)):
             console.print(line, markup=False, soft_wrap=True)
@@ -145,3 +124,60 @@ def _table(mistakes: Sequence[Mutant], judged: Sequence[Judged]) -> Table:
         style = "bold red" if len(noticed) < len(ours) else ""
         table.add_row(operator, *map(str, numbers), style=style)
     return table
+
+
+def usual_number(exercise: Exercise) -> int:
+    """Return the default number of mutants to grade."""
+    is_light = all(scenario.is_light for check in exercise.checks for scenario in check.on)
+    return USUAL if is_light else OF_ROBOTS
+
+
+def equivalents(exercise: str) -> dict[str, str]:
+    """Return the reasons why mutants are equivalent, by (pattern of names, pattern of sentences).
+
+    Raises `HeaderError` for a line that is not “NAME SENTENCE # reason”.
+    """
+    path = exercises_folder() / exercise / KNOWN / EQUIVALENT
+    lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
+    found = {}
+    for number, line in enumerate(lines, start=1):
+        patterns, _, reason = (part.strip() for part in line.partition(" # "))
+        if line.strip() and not line.startswith("#"):
+            if not reason or " " not in patterns:
+                raise HeaderError(
+                    f"{path}, line {number}: expected “<pattern of names> <pattern of sentences> # why these are no "
+                    "mistakes”"
+                )
+            found[patterns] = reason
+    return found
+
+
+def is_one_of(patterns: str, mutant: Mutant) -> bool:
+    """Whether a mutant's name and sentence match a line of `equivalents`."""
+    name, _, sentence = patterns.partition(" ")
+    return fnmatchcase(mutant.name, name) and fnmatchcase(mutant.sentence, sentence.strip())
+
+
+def selected(mutants: Sequence[Mutant], number: int, *, seed: int = 0, only: str = "*") -> list[Mutant]:
+    """Return up to `number` mutants whose name matches: of each operator in turn, from each base in turn.
+
+    The order within an operator is drawn by the seed and each mutant's own name, so that one more changes no other.
+    """
+    waiting: dict[str, list[Mutant]] = {}
+    for mutant in sorted(mutants, key=lambda mutant: _drawn(mutant, seed)):
+        if fnmatchcase(mutant.name, only):
+            waiting.setdefault(mutant.operator, []).append(mutant)
+    taken: list[Mutant] = []
+    from_base: Counter[str] = Counter()
+    while len(taken) < number and any(waiting.values()):
+        for _, ours in sorted(waiting.items()):
+            if ours and len(taken) < number:
+                best = min(ours, key=lambda mutant: from_base[mutant.base.stem])
+                ours.remove(best)
+                from_base[best.base.stem] += 1
+                taken.append(best)
+    return taken
+
+
+def _drawn(mutant: Mutant, seed: int) -> str:
+    return hashlib.sha256(f"{seed} {mutant.name}".encode()).hexdigest()

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from autograder.classroom.audit.generated.mistakes import clean_up, conditions, fields, memory, timing
-from autograder.classroom.audit.generated.mistakes.numbers import NUMBERS, with_wrong_numbers
+from autograder.classroom.audit.generated.mistakes import conditions, fields, memory, timing
+from autograder.classroom.audit.generated.mistakes.fields import NUMBERS, with_wrong_numbers
 from autograder.classroom.audit.generated.mistakes.rewrites import rewrites, rewritten
 from autograder.classroom.audit.generated.program import Edits, Program
 
@@ -27,8 +27,8 @@ OPERATORS: dict[str, tuple[str, Operator]] = {
             timing.waits_in_a_callback,
             timing.halves_or_doubles,
             timing.restarts_the_deadline,
-            clean_up.loses_the_exit_status,
-            clean_up.drops_the_finally,
+            conditions.loses_the_exit_status,
+            conditions.drops_the_finally,
             conditions.takes_another_constant,
             fields.leaves_a_field_out,
             conditions.drops_a_guard,

@@ -1,13 +1,15 @@
-"""Mistakes with conditions: forgotten, turned round, for another state."""
+"""Mistakes of control flow: conditions forgotten or turned round, the exit status lost, the end left out."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
 
-from autograder.classroom.audit.generated.program import Edits, Program
+from autograder.classroom.audit.generated.program import Edits, Program, last_name
 
 _LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
+# Nobody misses these at the end of a process.
+_TIDY = ("destroy_node", "destroy_timer", "destroy", "try_shutdown", "shutdown", "join")
 
 
 def takes_another_constant(program: Program) -> Iterator[Edits]:
@@ -24,3 +26,19 @@ def drops_a_guard(program: Program) -> Iterator[Edits]:
             yield {case.test: "False"}
             if isinstance(case.body[-1], _LEAVING) and not case.orelse:
                 yield {case.test: f"not ({ast.unparse(case.test)})"}
+
+
+def loses_the_exit_status(program: Program) -> Iterator[Edits]:
+    """The program ends with status 0 whatever happened."""
+    for end in program.every(ast.Return):
+        is_always_0 = isinstance(end.value, ast.Constant) and not end.value.value
+        if program.function_name(end) == "main" and end.value and not is_always_0:
+            yield {end.value: f"({ast.unparse(end.value)}) and 0"}
+
+
+def drops_the_finally(program: Program) -> Iterator[Edits]:
+    """What has to be done however it ends is left out."""
+    for attempt in program.every(ast.Try):
+        needed = [one for one in attempt.finalbody if last_name(getattr(one, "value", None)) not in _TIDY]
+        if needed:
+            yield dict.fromkeys(needed, "pass")

@@ -5,8 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from autograder.classroom.audit.generated.callbacks import callbacks
-from autograder.classroom.audit.generated.program import Edits, Program, last_name
+from autograder.classroom.audit.generated.program import Edits, Program, callbacks, last_name
 from autograder.classroom.audit.generated.puts import assignments, is_field
 
 _BLANK = ("0", "0.0", "False", "None", "''", "[]", "()", "{}")

@@ -6,8 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from autograder.classroom.audit.generated.callbacks import callbacks
-from autograder.classroom.audit.generated.program import Edits, Program, last_name
+from autograder.classroom.audit.generated.program import Edits, Program, callbacks, last_name
 
 _WAITS = (0.7, 2.5)  # s
 _READS_A_CLOCK = re.compile(r"\b(monotonic|time|_?now|perf_counter)\(")

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
+from audited.recorded import Case, cases
 from autograder.classroom.audit.known_submission import known_submissions
-from autograder.classroom.audit.recorded import Case, cases
 from autograder.engine.clauses import clauses_in
 from autograder.engine.exercise import exercises_folder, load_exercise
 

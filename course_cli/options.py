@@ -30,3 +30,8 @@ CourseOption = Annotated[
         is_eager=True,
     ),
 ]
+
+
+JobsOption = Annotated[
+    int, typer.Option(min=1, help="number of arenas that run in parallel; each needs a processor core")
+]

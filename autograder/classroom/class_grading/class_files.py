@@ -1,0 +1,105 @@
+"""The files of a graded class: gradebook, grades, record, programs and pages."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from autograder.classroom.batch.batch_record import BatchRecord, write_batch
+from autograder.classroom.batch.records import GRADES, write_grades
+from autograder.classroom.batch.runner import Graded
+from autograder.classroom.batch.source_files import write_base_code, write_source
+from autograder.classroom.nbgrader_bridge.course_folder import RELEASE, NbgraderError
+from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook, Entry
+from autograder.classroom.nbgrader_bridge.rebuild_submission import NoSolutionCell
+from autograder.classroom.pages.drawings import Drawings
+from autograder.classroom.pages.pages import write_class_page, write_student_page, write_submission_pages
+from autograder.engine.exercise import exercises_folder
+from autograder.engine.verdict import Grade
+
+LOG = "nbgrader.log"
+
+
+class ClassFiles:
+    """The files in the output folder of a class.
+
+    Attributes:
+        record: of the batch, for batch.json and the class page; None: of shards without one.
+
+    Args:
+        out: the output folder.
+        before: grades that stay beside the new ones.
+        record: of the batch, as it is now.
+        json_file: a second file for all verdicts.
+        drawn_in: output folders with drawings of failed checks; by default `out`.
+    """
+
+    def __init__(
+        self,
+        out: Path,
+        before: Sequence[Grade],
+        record: BatchRecord | None,
+        *,
+        json_file: Path | None = None,
+        drawn_in: Sequence[Path] = (),
+    ) -> None:
+        self.record = record
+        self._out = out
+        self._grades = {(grade.student, grade.exercise): grade for grade in before}
+        self._json_file = json_file
+        self._drawings = [Drawings(folder) for folder in drawn_in or (out,)]
+        self._gradebook: CourseGradebook | None = None
+        self._problems: dict[tuple[str, str], Exception] = {}
+
+    @property
+    def grades(self) -> Sequence[Grade]:
+        """All grades, in order of student and exercise, with the points that a person gave in the gradebook."""
+        return [self._grades[key] for key in sorted(self._grades)]
+
+    def add(self, result: Graded) -> None:
+        """Enter a result into the gradebook, and write its program and its pages."""
+        grade = self._entered(result)
+        self._grades[grade.student, grade.exercise] = grade
+        write_source(self._out, result)
+        write_base_code(self._out, grade.exercise, self._out / RELEASE)
+        drawn = {
+            check: svgs for one in self._drawings for check, svgs in one.of(grade, result.sources).items()
+        }
+        write_submission_pages(self._out, grade, drawn)
+        theirs = [each for each in self._grades.values() if each.student == grade.student]
+        write_student_page(self._out, grade.student, theirs)
+
+    def write(self, refused: Sequence[str] = ()) -> Path:
+        """Write the files on the whole class and return its page; `refused`: sentences on unreadable folders."""
+        grades, words = self.grades, None
+        for path in filter(None, (self._out / GRADES, self._json_file)):
+            write_grades(path, grades)
+        if self.record:
+            record = self.record.with_points(grades)
+            write_batch(self._out, record)
+            words = record.in_words()
+        return write_class_page(self._out, grades, refused, batch=words)
+
+    def problems(self) -> list[str]:
+        """Return a sentence on each grade that is not in the gradebook; nbgrader's output goes into a file."""
+        found = {key: f"{key[0]}'s {key[1]}: {error}" for key, error in self._problems.items()}
+        logs = [
+            f"{found[key]}\n{error.log}"
+            for key, error in self._problems.items()
+            if isinstance(error, NbgraderError)
+        ]
+        if logs:
+            (self._out / LOG).write_text("\n\n".join(logs))
+        return [*found.values(), *([f"nbgrader's output is in {self._out / LOG}"] if logs else [])]
+
+    def _entered(self, result: Graded) -> Grade:
+        """Enter a grade into the gradebook, which is opened at the first; return it with a person's points."""
+        work = result.work
+        self._problems.pop((work.student, work.exercise), None)
+        try:
+            gradebook = self._gradebook = self._gradebook or CourseGradebook(self._out, exercises_folder())
+            gradebook.enter(Entry(result.grade, result.sources, result.problem, work.timestamp, work.secret))
+            return gradebook.as_marked(result.grade)
+        except (NbgraderError, NoSolutionCell, OSError) as error:
+            self._problems[work.student, work.exercise] = error
+            return result.grade
