@@ -8,7 +8,7 @@ from functools import partial
 from autograder.authoring import check_of, standard
 
 from . import model
-from .sequences import AFTERWARDS, Part, cancel, drop, fetch, levels, scenario
+from .sequences import AFTERWARDS, Part, cancel, drop, fetch, levels, preempt, scenario
 
 DEADLOCK = "11_capstone#blocked-why"
 ORPHANS = "11_capstone#patient-why"
@@ -41,6 +41,8 @@ FAILING = scenario(
     fetch("a walk is rejected", children=[{"accepted": False}]),
 )
 SILENT = scenario(fetch("fetch", children=[{"silent_after": 0.6, "takes": 60.0}]))
+LATE = scenario(fetch("late", children=[{"answered_after": 6.5, "takes": 60.0}]), Part([["wait", 2.0]]))
+PREEMPTED = scenario(preempt("old", "new", 1, stops=(True, 1.5)))
 
 on_good = partial(check_of, on=GOOD, see=DEADLOCK)
 
@@ -85,11 +87,27 @@ cancels_a_silent_child = once_it_sets_out(
     on=SILENT,
     see=SILENCE_LESSON,
 )
+cancels_a_late_child = check_of(
+    [model.cancels_the_late, model.gives_up_the_unanswered],
+    title="A child that is accepted after its 5 s are over is canceled at once: nobody waits for it any more",
+    points=2,
+    on=LATE,
+    needs=cancels_a_silent_child,
+    see="03b_clients_in_bad_company#late-why",
+)
 cancel_goes_down = once_it_sets_out(
     model.obeys_a_cancel,
     title="A cancel goes down to the child at work, and fetch is CANCELED when the child has ended",
     points=3,
     on=CANCELED_WALK,
+)
+new_goal_preempts_the_old = check_of(
+    [*model.gives_way, model.ends_well],
+    title="A new goal preempts the old one: its child is canceled and ends, then the old is ABORTED and the new begins",
+    points=2,
+    on=PREEMPTED,
+    needs=[cancel_goes_down, fetches],
+    see="11_capstone#newest-why",
 )
 gives_up_before_the_grasp = once_it_sets_out(
     model.stops_in_time,

@@ -61,16 +61,13 @@ def _cancels(random: Random) -> list[Part]:
         cancel("putting it down", 4, random.choice(HOLDING)),
         cancel("refused", 1, stops=REFUSES),
         fetch("early", ["send", 1], ["wait", 0.5], ["cancel", "early"], children=[EARLY]),
-        preempt("old", "new", 1, cup=_cup(random), stops=(True, 1.5)),
     ]
 
 
 def _failures(random: Random) -> list[Part]:
     deaf = {"stages": {"approaching": 60.0}, "silent_after": 0.6, "stops": (None, 0.0)}
-    late = fetch("late", children=[{"answered_after": 6.5, "takes": 60.0}])
     return [
         fetch("no answer", children=[{"accepted": None}]),
-        Part([*late.steps, ["wait", 2.0]], late.walks),
         fetch("deaf", children=[{}, deaf]),
         fetch("canceled by another", children=[{}, {}, {"ends": "CANCELED"}]),
     ]
@@ -227,13 +224,6 @@ remembers_a_cancel = in_cancels(
 gives_up_without_an_answer = in_failures(
     model.of(("no answer",), model.gives_up_the_unanswered), needs=checks.says_why_a_child_failed
 )
-cancels_a_late_child = in_failures(
-    model.of(("late",), model.cancels_the_late, model.gives_up_the_unanswered),
-    title="A child that is accepted after its 5 s are over is canceled at once: nobody waits for it any more",
-    points=2,
-    needs=[checks.cancels_a_silent_child, gives_up_without_an_answer],
-    see="03b_clients_in_bad_company#late-why",
-)
 survives_a_dying_server = of_servers(
     model.gives_up_the_silent,
     title="When a child's server dies, fetch ends ABORTED naming the action, and the node lives",
@@ -260,13 +250,6 @@ serves_the_next_goal = check_of(
     on=REJECTED,
     needs=[checks.fetches, checks.says_why_a_child_failed],
     see=checks.ORPHANS,
-)
-new_goal_preempts_the_old = in_cancels(
-    model.of(("old", "new"), *model.gives_way, model.ends_well),
-    title="A new goal preempts the old one: its child is canceled and ends, then the old is ABORTED and the new begins",
-    points=2,
-    needs=[checks.cancel_goes_down, checks.fetches],
-    see="11_capstone#newest-why",
 )
 works_in_any_namespace = standard_hidden.works_in_any_namespace(
     "fetches", model.ends_well, on=OTHER_NAMESPACE, needs=checks.fetches, clauses=[31]
