@@ -15,7 +15,6 @@ from robot_sim.walking.dcm_plan import Point
 from robot_sim.walking.planar import Frame, clamp
 from robot_sim.walking.sensing import Sensing
 
-
 NO_WRENCH = (0.0,) * 6
 
 
