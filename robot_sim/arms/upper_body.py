@@ -34,10 +34,8 @@ class UpperBody:
     Until the first command the servos hold the posture of the stance by themselves.
     """
 
-    def __init__(
-        self, model: mujoco.MjModel, data: mujoco.MjData, parameters: UpperBodyParameters | None = None
-    ) -> None:
-        self._parameters = parameters or UpperBodyParameters()
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        self._parameters = UpperBodyParameters()
         self._model, self._data = model, data
         self._servos = Servos(model, data, MOVABLE)
         self._index = {name: index for index, name in enumerate(MOVABLE)}
