@@ -37,8 +37,8 @@ class Battery:
         energy_used: since it was made, J.
     """
 
-    def __init__(self, parameters: BatteryParameters | None = None) -> None:
-        self.parameters = parameters or BatteryParameters()
+    def __init__(self) -> None:
+        self.parameters = BatteryParameters()
         self.percentage = 1.0
         self.pack = 1
         self.energy_used = 0.0

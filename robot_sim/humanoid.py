@@ -15,7 +15,6 @@ from robot_sim.arms.joint_trajectory import HOLD, JointTrajectory
 from robot_sim.arms.reach import HandTarget, Reach
 from robot_sim.arms.upper_body import UpperBody
 from robot_sim.battery import Battery
-from robot_sim.falling import FallThresholds, has_fallen
 from robot_sim.model.build import build_model
 from robot_sim.model.dimensions import dimensions_of
 from robot_sim.model.floor import Floor
@@ -39,6 +38,10 @@ from robot_sim.walking.walker import Walker
 from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.walking_limits import WalkingLimits, walkable_velocity
 from ros_runtime.angles import yaw_of
+
+# Below either of them it has fallen.
+FALLEN_HEIGHT = 0.38  # m, of the pelvis above the origin
+FALLEN_UP = 0.6  # z component of the torso's up-vector: 1 upright, 0 lying
 
 
 class Humanoid:
@@ -86,7 +89,6 @@ class Humanoid:
         self._parameters = WalkerParameters(dimensions_of(self.model))
         self._trunk = trunk_of(self.model)
         self._limits = WalkingLimits()
-        self._fall_thresholds = FallThresholds()
         joints = [self.model.joint(name) for name in ACTUATED_JOINTS]
         self._joint_positions = np.array([joint.qposadr[0] for joint in joints])
         self._joint_velocities = np.array([joint.dofadr[0] for joint in joints])
@@ -447,7 +449,7 @@ class Humanoid:
 
     @property
     def _is_down(self) -> bool:
-        return has_fallen(self.data.qpos[2], self._torso_rotation[8], self._fall_thresholds)
+        return self.data.qpos[2] < FALLEN_HEIGHT or self._torso_rotation[8] < FALLEN_UP
 
     def _set_actuation(self, on: bool) -> None:
         self._rest.wake()

@@ -15,6 +15,7 @@ class Pusher:
         self._force = data.xfrc_applied[model.body(body).id, :3]
         self._timestep = model.opt.timestep
         self._pushes: list[tuple[np.ndarray, int]] = []
+        self._acts = False  # in the latest step
 
     def push(self, impulse: Sequence[float], duration: float) -> None:
         """Give `impulse` (3,) N·s in the world frame, evenly over `duration` (s, at least one step).
@@ -33,11 +34,12 @@ class Pusher:
     @property
     def is_idle(self) -> bool:
         """Whether no push acts or is about to."""
-        return not self._pushes and not self._force.any()
+        return not self._pushes and not self._acts
 
     def apply(self) -> None:
         """Set the force of the next step."""
         if self.is_idle:
             return
+        self._acts = bool(self._pushes)
         self._force[:] = sum(force for force, _ in self._pushes) if self._pushes else 0.0
         self._pushes = [(force, steps - 1) for force, steps in self._pushes if steps > 1]

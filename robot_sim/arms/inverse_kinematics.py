@@ -72,8 +72,8 @@ class ArmInverseKinematics:
     solution.
     """
 
-    def __init__(self, model: mujoco.MjModel, parameters: SolverParameters | None = None) -> None:
-        self._parameters = parameters or SolverParameters()
+    def __init__(self, model: mujoco.MjModel) -> None:
+        self._parameters = SolverParameters()
         self._model = model
         self._data = mujoco.MjData(model)
         self._chains = {

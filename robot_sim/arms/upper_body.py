@@ -34,10 +34,8 @@ class UpperBody:
     Until the first command the servos hold the posture of the stance by themselves.
     """
 
-    def __init__(
-        self, model: mujoco.MjModel, data: mujoco.MjData, parameters: UpperBodyParameters | None = None
-    ) -> None:
-        self._parameters = parameters or UpperBodyParameters()
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        self._parameters = UpperBodyParameters()
         self._model, self._data = model, data
         self._servos = Servos(model, data, MOVABLE)
         self._index = {name: index for index, name in enumerate(MOVABLE)}
@@ -92,8 +90,8 @@ class UpperBody:
             self._goal[joints] = self._position[joints] + reach.joint_velocities(self._position[joints]) * dt
         step = self._speed_limit * dt
         before = self._position.copy()
-        within_range = np.clip(self._goal, self._servos.low, self._servos.high)
-        self._position += np.clip(within_range - before, -step, step)
+        within_range = self._servos.within_range(self._goal)
+        self._position += np.minimum(np.maximum(within_range - before, -step), step)
         for reach in self._reaches.values():
             self._stay_near_the_measured(reach)
         self._velocity = (self._position - before) / dt
@@ -108,7 +106,7 @@ class UpperBody:
         """Take over from the servos' own hold, at the place they hold."""
         if not self._commanded:
             self._commanded = True
-            self._position[:] = np.clip(self._servos.position, self._servos.low, self._servos.high)
+            self._position[:] = self._servos.within_range(self._servos.position)
             self._goal[:] = self._position
 
     def _stay_near_the_measured(self, reach: Reach) -> None:

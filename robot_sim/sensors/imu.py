@@ -31,16 +31,10 @@ class Imu:
         accelerometer_bias: (3,) m/s².
     """
 
-    def __init__(
-        self,
-        model: mujoco.MjModel,
-        data: mujoco.MjData,
-        seed: int,
-        parameters: ImuParameters | None = None,
-    ) -> None:
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, seed: int) -> None:
         self._data = data
         self._seed = seed
-        self._parameters = parameters or ImuParameters()
+        self._parameters = ImuParameters()
         self._timestep = model.opt.timestep
         self._orientation = data.sensor("imu_orientation").data
         self._gyro = data.sensor("imu_gyro").data

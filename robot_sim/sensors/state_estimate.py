@@ -43,16 +43,10 @@ class StateEstimate:
         data: the estimated state.
     """
 
-    def __init__(
-        self,
-        model: mujoco.MjModel,
-        data: mujoco.MjData,
-        imu: Imu,
-        parameters: EstimateParameters | None = None,
-    ) -> None:
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, imu: Imu) -> None:
         self.data = mujoco.MjData(model)
         self._model, self._measured, self._imu = model, data, imu
-        self._parameters = parameters or EstimateParameters()
+        self._parameters = EstimateParameters()
         self._pelvis = model.body("pelvis").id
         self._soles = [model.site(f"{side.letter}_sole").id for side in SIDES]
         self._touches = [model.sensor(f"{side.letter}_foot_touch").adr[0] for side in SIDES]

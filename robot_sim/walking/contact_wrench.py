@@ -15,6 +15,8 @@ from robot_sim.walking.dcm_plan import Point
 from robot_sim.walking.planar import Frame, clamp
 from robot_sim.walking.sensing import Sensing
 
+NO_WRENCH = (0.0,) * 6
+
 
 class ContactWrench(NamedTuple):
     """The floor's force (N) on the robot, acting at the CoP (m) with a yaw moment (N·m)."""
@@ -68,15 +70,15 @@ class LoadSplit:
 
     def foot_wrench(
         self, side: Side, wrench: ContactWrench, left_share: float, sensed: Sensing, shift: Point
-    ) -> tuple[float, ...] | None:
-        """Return the force (N) and moment (N·m) about the sole's centre, world frame; None for a foot without load.
+    ) -> tuple[float, ...]:
+        """Return the force (N) and moment (N·m) about the sole's centre, world frame; zeros for a foot without load.
 
         Both CoPs have the same offset from their soles' centres: the one of the total CoP from the load-
         weighted mean of the centres, and `shift` (m) of this foot.
         """
         share = left_share if side is Side.LEFT else 1 - left_share
         if share < 1e-3:
-            return None
+            return NO_WRENCH
         left, right = sensed.soles
         middle_x = left_share * left[0] + (1 - left_share) * right[0]
         middle_y = left_share * left[1] + (1 - left_share) * right[1]

@@ -23,8 +23,8 @@ class FloorSlope:
     steepest slope.
     """
 
-    def __init__(self, timestep: float, parameters: SlopeParameters | None = None) -> None:
-        self._parameters = parameters or SlopeParameters()
+    def __init__(self, timestep: float) -> None:
+        self._parameters = SlopeParameters()
         self._fresh = timestep / self._parameters.filter_time
         self._x = self._y = 0.0
 

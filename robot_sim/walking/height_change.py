@@ -60,20 +60,14 @@ class HeightChange:
         height: that the pelvis should have now, m.
     """
 
-    def __init__(
-        self,
-        walker: Walker,
-        target: float,
-        speed: float,
-        parameters: HeightChangeParameters | None = None,
-    ) -> None:
+    def __init__(self, walker: Walker, target: float, speed: float) -> None:
         self.phase = HeightPhase.SHIFTING
         self.problem = ""
         self.height = walker.height
         self._walker, self._sensed = walker, walker.sensed
         self._target = target
         self._speed = speed
-        self._parameters = parameters or HeightChangeParameters()
+        self._parameters = HeightChangeParameters()
         self._first_height = self._measured_height()
         self._start, self._progress, self._duration = self.height, 0.0, 0.0
         self._time = self._fulfilled = 0.0

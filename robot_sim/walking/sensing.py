@@ -41,13 +41,13 @@ class Sensing:
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, measured: mujoco.MjData) -> None:
         pelvis = model.body("pelvis").id
-        soles = [model.site(f"{side.letter}_sole").id for side in SIDES]
+        soles = _row_for_each_side([model.site(f"{side.letter}_sole").id for side in SIDES])
+        loads = _row_for_each_side([model.sensor(f"{side.letter}_foot_touch").adr[0] for side in SIDES])
         root = model.joint("root").dofadr[0]
         self._com = data.subtree_com[pelvis]
         self._com_velocity = data.subtree_linvel[pelvis]
-        self._loads = [_sensor(model, measured, f"{side.letter}_foot_touch") for side in SIDES]
-        self._soles = [data.site_xpos[sole] for sole in soles]
-        self._sole_rotations = [data.site_xmat[sole] for sole in soles]
+        self._loads = measured.sensordata[loads]
+        self._soles, self._sole_rotations = data.site_xpos[soles], data.site_xmat[soles]
         self._pelvis = data.xpos[pelvis]
         self._pelvis_rotation = data.xmat[pelvis]
         self._base_velocity = data.qvel[root : root + 6]
@@ -58,9 +58,9 @@ class Sensing:
         """Take in the present state; `swing_side` is the foot in the air, if any."""
         self.com = self._com.tolist()
         self.com_velocity = self._com_velocity.tolist()
-        self.soles = [sole.tolist() for sole in self._soles]
-        self.sole_rotations = [rotation.tolist() for rotation in self._sole_rotations]
-        self.foot_loads = [load.item() for load in self._loads]
+        self.soles = self._soles.tolist()
+        self.sole_rotations = self._sole_rotations.tolist()
+        self.foot_loads = self._loads.tolist()
         self.foot_yaws = [math.atan2(rotation[3], rotation[0]) for rotation in self.sole_rotations]
         self.pelvis = self._pelvis.tolist()
         self.pelvis_rotation = self._pelvis_rotation.tolist()
@@ -86,6 +86,7 @@ class Sensing:
         )
 
 
-def _sensor(model: mujoco.MjModel, data: mujoco.MjData, name: str):
-    sensor = model.sensor(name)
-    return data.sensordata[sensor.adr[0] : sensor.adr[0] + sensor.dim[0]]
+def _row_for_each_side(indices: list[int]) -> slice:
+    """Return the indices of left and right as a slice: of an array it makes a view, a list would make a copy."""
+    left, right = indices
+    return slice(left, right + 1, right - left)

@@ -16,7 +16,7 @@ import mujoco
 import numpy as np
 
 from robot_sim.model.gravity import GRAVITY
-from robot_sim.model.joint_names import leg_joints
+from robot_sim.model.joint_names import LEG_JOINTS
 from robot_sim.model.side import SIDES
 from robot_sim.walking.attitude import to_body, upright_error
 from robot_sim.walking.balance_gains import Trunk, default_gains
@@ -32,7 +32,7 @@ from robot_sim.walking.walker_parameters import WalkerParameters
 from ros_runtime.angles import wrap
 
 UPWARD_GRAVITY = np.array([0.0, 0.0, GRAVITY])
-REGULARIZATION = 1e-4  # keeps a leg's Jacobian invertible when the knee is straight
+REGULARIZATION = 1e-4 * np.eye(6)  # keeps a leg's Jacobian invertible when the knee is straight
 
 
 class WholeBody:
@@ -63,84 +63,76 @@ class WholeBody:
         self._mass = float(model.body_subtreemass[model.body("pelvis").id])
         self._yaw: float | None = None
 
-        root = model.joint("root").dofadr[0]
-        self._base = slice(root, root + 6)
-        self._base_force = slice(root, root + 3)
         self._soles = [model.site(f"{side.letter}_sole").id for side in SIDES]
-        legs = [leg_joints(side) for side in SIDES]
-        self._legs = [_consecutive([model.joint(name).dofadr[0] for name in leg]) for leg in legs]
-        self._motors = [_consecutive([model.actuator(name).id for name in leg]) for leg in legs]
-        self._torque_limits = [model.actuator_ctrlrange[motors].T.copy() for motors in self._motors]
-        self._friction = [model.dof_damping[leg].copy() for leg in self._legs]
+        root = model.joint("root").dofadr[0]
+        base = slice(root, root + 6)
+        linear = slice(root, root + 3)
+        legs = _consecutive([model.joint(name).dofadr[0] for name in LEG_JOINTS])
+        motors = _consecutive([model.actuator(name).id for name in LEG_JOINTS])
+        self._least_torque, self._most_torque = model.actuator_ctrlrange[motors].T.reshape(2, 2, 6)
+        self._friction = model.dof_damping[legs].reshape(2, 6)
 
-        self._velocity, self._bias, self._ctrl = data.qvel, data.qfrc_bias, ctrl
+        # Views of the arrays that are filled in each tick; what belongs to the legs has a row for each side.
+        self._ctrl = ctrl[motors].reshape(2, 6)
+        self._velocity, self._leg_velocity = data.qvel, data.qvel[legs].reshape(2, 6)
+        self._bias = data.qfrc_bias
         self._jacobian = np.zeros((2, 6, model.nv))
-        self._rows = self._jacobian.reshape(12, model.nv)
-        self._base_jacobian = self._rows[:, self._base]
         self._halves = [(sole[:3], sole[3:]) for sole in self._jacobian]
-        self._leg_jacobian = np.zeros((2, 6, 6))
-        self._leg_columns = [self._jacobian[side, :, leg] for side, leg in enumerate(self._legs)]
+        self._rows = self._jacobian.reshape(12, model.nv)
+        self._base_jacobian = self._rows[:, base]
+        # Of each sole only the columns of its own leg, (2, 6, 6).
+        self._leg_jacobian = np.einsum("sisj->sij", self._jacobian[:, :, legs].reshape(2, 6, 2, 6))
         self._acceleration = np.zeros(model.nv)
-        self._base_acceleration_view = self._acceleration[self._base]
-        self._base_linear = self._acceleration[self._base_force]
-        self._leg_acceleration = [self._acceleration[leg] for leg in self._legs]
+        self._base_acceleration, self._base_linear = self._acceleration[base], self._acceleration[linear]
+        self._leg_acceleration = self._acceleration[legs].reshape(2, 6)
         self._forces = np.zeros(model.nv)
-        self._base_forces = self._forces[self._base_force]
-        self._regularization = REGULARIZATION * np.eye(6)
+        self._base_forces, self._base_force = self._forces[base], self._forces[linear]
+        self._leg_forces = self._forces[legs].reshape(2, 6)
 
     def command(self, task: BalanceTask, sensed: Sensing, dt: float) -> None:
         """Write the leg torques (N·m) of the next `dt` (s) into the motors."""
-        forces = self._inverse_dynamics(task, sensed, dt)
-        wrench = contact_wrench(forces[self._base].tolist(), sensed, self._mass, self._balance)
+        self._compute_forces(task, sensed, dt)
+        wrench = contact_wrench(self._base_forces.tolist(), sensed, self._mass, self._balance)
         self._filter_cop_shift(wrench.cop, task.cop, dt)
         left_share = task.left_share
         if left_share is None:
             left_share = left_share_of(wrench.cop, sensed)
-        for side, leg in zip(SIDES, self._legs, strict=True):
-            torque = forces[leg] + self._friction[side] * self._velocity[leg]
+        foot_wrenches = []
+        for side in SIDES:
             shift = cop_against_tipping(
                 sensed.sole_rotations[side], sensed.slope, self._sole_spin[side], self._tipping
             )
-            foot = self._split.foot_wrench(side, wrench, left_share, sensed, shift)
-            if foot is not None:
-                torque -= np.array(foot) @ self._leg_jacobian[side]
-            low, high = self._torque_limits[side]
-            self._ctrl[self._motors[side]] = np.minimum(np.maximum(torque, low), high)
+            foot_wrenches.append(self._split.foot_wrench(side, wrench, left_share, sensed, shift))
+        torque = self._leg_forces + self._friction * self._leg_velocity
+        torque -= (np.array(foot_wrenches)[:, np.newaxis] @ self._leg_jacobian)[:, 0]
+        self._ctrl[:] = np.minimum(np.maximum(torque, self._least_torque), self._most_torque)
 
-    def _inverse_dynamics(self, task: BalanceTask, sensed: Sensing, dt: float) -> np.ndarray:
-        """Return the generalized forces (nv,) of the motion that the task asks for, contact forces left out."""
-        model, data = self._model, self._data
-        for side, sole in enumerate(self._soles):
-            mujoco.mj_jacSite(model, data, *self._halves[side], sole)
-            self._leg_jacobian[side] = self._leg_columns[side]
-        base = self._base_acceleration(task, sensed, dt)
-        self._base_acceleration_view[:] = base
+    def _compute_forces(self, task: BalanceTask, sensed: Sensing, dt: float) -> None:
+        """Compute the generalized forces of the motion that the task asks for, contact forces left out."""
+        for halves, sole in zip(self._halves, self._soles, strict=True):
+            mujoco.mj_jacSite(self._model, self._data, *halves, sole)
+        self._base_acceleration[:] = self._wanted_base_acceleration(task, sensed, dt)
+        wanted = self._mass * (self._base_linear + UPWARD_GRAVITY)
 
         foot_acceleration = self._foot_acceleration(task, sensed)
-        foot_acceleration -= (self._base_jacobian @ self._base_acceleration_view).reshape(2, 6)
-        to_joints = np.linalg.inv(self._leg_jacobian + self._regularization)
-        left_leg, right_leg = self._leg_acceleration
-        left_leg[:] = to_joints[0] @ foot_acceleration[0]
-        right_leg[:] = to_joints[1] @ foot_acceleration[1]
-        forces = self._forces_of_acceleration()
+        foot_acceleration -= (self._base_jacobian @ self._base_acceleration).reshape(2, 6)
+        to_joints = np.linalg.inv(self._leg_jacobian + REGULARIZATION)
+        self._leg_acceleration[:] = (to_joints @ foot_acceleration[:, :, np.newaxis])[:, :, 0]
+        self._compute_forces_of_acceleration()
 
-        wanted = self._mass * (np.array(base[:3]) + UPWARD_GRAVITY)
-        to_left, to_right = to_joints[0, :, :3], to_joints[1, :, :3]
+        linear_to_joints = to_joints[:, :, :3]
         for _ in range(self._balance.momentum_iterations):
-            correction = (wanted - self._base_forces) / self._mass
+            correction = (wanted - self._base_force) / self._mass
             self._base_linear += correction
-            left_leg -= to_left @ correction
-            right_leg -= to_right @ correction
-            forces = self._forces_of_acceleration()
-        return forces
+            self._leg_acceleration -= linear_to_joints @ correction
+            self._compute_forces_of_acceleration()
 
-    def _forces_of_acceleration(self) -> np.ndarray:
-        """M q̈ + h (nv,) of the accelerations noted so far; MuJoCo's product knows which elements of M are 0."""
+    def _compute_forces_of_acceleration(self) -> None:
+        """M q̈ + h of the accelerations noted so far; MuJoCo's product knows which elements of M are 0."""
         mujoco.mj_mulM(self._model, self._data, self._forces, self._acceleration)
         self._forces += self._bias
-        return self._forces
 
-    def _base_acceleration(self, task: BalanceTask, sensed: Sensing, dt: float) -> list[float]:
+    def _wanted_base_acceleration(self, task: BalanceTask, sensed: Sensing, dt: float) -> list[float]:
         """Return the linear (m/s², world) and angular (rad/s², base_link) acceleration wanted of the base.
 
         Horizontally the linear inverted pendulum: c̈ = ω² (c - p). Height and attitude are held by PD; the trunk
