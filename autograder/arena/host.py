@@ -27,10 +27,9 @@ from contextlib import suppress
 from itertools import count
 
 from autograder.arena.agent import carry_out, import_everything
-from autograder.arena.orders import DONE, receive_order
 from autograder.arena.phases import Phase
 from autograder.arena.robots import Robots
-from autograder.arena.scenario_spec import ScenarioSpec
+from autograder.arena.scenario_spec import DONE, ScenarioSpec, receive_order
 from autograder.isolation.process_tree import descendants
 from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.workarounds.warm_start.preload import preload

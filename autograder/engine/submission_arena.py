@@ -15,8 +15,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from autograder.arena.orders import DONE, send_order
-from autograder.arena.scenario_spec import ScenarioSpec
+from autograder.arena.scenario_spec import DONE, ScenarioSpec, send_order
 from autograder.engine.stop import Stop
 from autograder.isolation.arena_process import ArenaReport, ArenaSpec, Kind, start_arena
 from autograder.isolation.limits import ArenaLimits
