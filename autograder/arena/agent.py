@@ -68,9 +68,8 @@ def carry_out(
     phases = Phases(log, spec.measured, earlier_phases)
     try:
         with tempfile.TemporaryDirectory(prefix="scenario-") as folder:
-            os.chmod(
-                folder, 0o711
-            )  # the student's program reads the clock file here, in some arenas as another user
+            # the student's program reads the clock file here, in some arenas as another user
+            os.chmod(folder, 0o711)
             clock = ScaledClock.create(Path(folder, "clock"))
             if library_path():
                 follow(clock.path)

@@ -88,12 +88,10 @@ class Host:
 
 def main() -> None:
     """Serve orders until the controller closes the socket."""
-    signal.signal(
-        signal.SIGINT, signal.default_int_handler
-    )  # students' nodes inherit it; a script's background process would ignore SIGINT
-    signal.signal(
-        signal.SIGCHLD, signal.SIG_DFL
-    )  # inherited, too: with SIG_IGN the kernel would not count the time of their children
+    # students' nodes inherit both: a script's background process would ignore SIGINT, and where SIGCHLD is ignored the
+    # kernel does not count the time of their children
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     orders = socket.socket(fileno=int(sys.argv[1]))
     preload()
     host = Host()
