@@ -5,23 +5,25 @@ It starts the robot and the student's node. `autograder.arena.host` forks it for
 
 from __future__ import annotations
 
-import importlib
+import importlib.util
 import os
+import sys
 import tempfile
 import threading
 import traceback
 from collections.abc import Sequence
 from contextlib import nullcontext, suppress
+from functools import cache
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.phases import Phase, Phases
 from autograder.arena.robots import Robots
-from autograder.arena.scenario_file import scenarios_in
 from autograder.arena.scenario_spec import ScenarioSpec
-from autograder.arena.scheduling_monitor import SchedulingMonitor
+from autograder.arena.scheduling_monitor import watch_scheduling
 from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
 from autograder.isolation.warm_interpreter import WarmInterpreter
@@ -30,12 +32,26 @@ from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, follow, libr
 if TYPE_CHECKING:
     from rclpy.node import Node
 
+SCENARIOS = "scenarios_of_the_exercise"  # the name of their module
+
 
 def import_everything(spec: ScenarioSpec) -> None:
     """Import what the scenario needs, so that a fork has it."""
     for module in ("autograder.arena.stage", "autograder.arena.client_stage"):
         importlib.import_module(module)
     scenarios_in(spec.scenario_file)
+
+
+@cache
+def scenarios_in(path: str) -> ModuleType:
+    """Import the file, once in this process and its forks, and return the module."""
+    spec = importlib.util.spec_from_file_location(SCENARIOS, path)
+    assert spec
+    assert spec.loader
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[SCENARIOS] = module  # dataclasses look up their module in sys.modules
+    spec.loader.exec_module(module)
+    return module
 
 
 def carry_out(
@@ -52,9 +68,8 @@ def carry_out(
     phases = Phases(log, spec.measured, earlier_phases)
     try:
         with tempfile.TemporaryDirectory(prefix="scenario-") as folder:
-            os.chmod(
-                folder, 0o711
-            )  # the student's program reads the clock file here, in some arenas as another user
+            # the student's program reads the clock file here, in some arenas as another user
+            os.chmod(folder, 0o711)
             clock = ScaledClock.create(Path(folder, "clock"))
             if library_path():
                 follow(clock.path)
@@ -109,8 +124,6 @@ def _perform(
     from autograder.arena.spinning import keep_spinning
     from autograder.arena.stage import NodeMissing, Stage
 
-    monitor = SchedulingMonitor(log, student)
-
     def speed_up() -> None:
         clock.run_at(spec.scale)
         student.count_from_now()
@@ -130,7 +143,7 @@ def _perform(
         stage = Stage(node, stranger, log, simulator, student, phases, speed_up)
     threading.Thread(target=keep_spinning, args=(executor, log), daemon=True).start()
     # with a robot, the simulator reports how late it is
-    watch = monitor.watch() if spec.timed and not simulator else nullcontext()
+    watch = watch_scheduling(log, student) if spec.timed and not simulator else nullcontext()
     with suppress(NodeMissing), watch:  # the stage has recorded the missing endpoints
         scenario(stage, **spec.params)
     stage.close()

@@ -12,9 +12,9 @@ import time
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from autograder.arena import events as ev
-from autograder.arena.long_texts import cut_long_texts
 from ros_runtime.record.event import Event, as_line, to_json
 from ros_runtime.record.event_log import EventLog
 from ros_runtime.recorded_client.conversation import NOBODYS
@@ -27,6 +27,7 @@ MOST_OF: Mapping[str, int] = {
     ev.CancelReceived.kind: 500,
     ev.ResultRequested.kind: 500,  # of one goal
 }
+MAX_LENGTH = 10_000  # characters of a text, elements of a list
 LARGEST_EVENT = 2**20  # bytes of JSON
 LARGEST_RECORD = 32 * 2**20  # bytes of events that students cause; the controller reads up to twice as many
 MOST_OF_NOBODYS = 500  # events of one kind that match no goal, call or service of the scenario
@@ -56,16 +57,16 @@ class ArenaLog(EventLog):
 
     def append(self, event: Event) -> None:
         """Write an event, and wake up the threads that wait for it."""
-        fields, longest = cut_long_texts(to_json(event))
-        line = as_line(event.kind, fields)
+        cut: list[int] = []
+        line = as_line(event.kind, {name: _cut(value, cut) for name, value in to_json(event).items()})
         if len(line) > LARGEST_EVENT:
             self.too_large(event.kind, "", len(line), LARGEST_EVENT)
             return
         with self._counting:
             self._bytes += len(line)
         self.append_written(event, line)
-        if longest.was_cut:
-            self.too_large(event.kind, "", longest.length, longest.limit)
+        if cut:
+            self.too_large(event.kind, "", max(cut), MAX_LENGTH)
 
     def append_written(self, event: Event, line: bytes) -> None:
         """Append an event that another trusted process has already written as a line."""
@@ -120,3 +121,18 @@ class ArenaLog(EventLog):
             dropped, self._dropped = self._dropped, {}
         for what, each in dropped.items():
             self.append(ev.RecordDropped(what=what, count=each.count, seconds=each.until - each.since))
+
+
+def _cut(value: Any, cut: list[int]) -> Any:
+    """Return a value with its texts and lists cut to MAX_LENGTH; `cut` gets the length of each that was longer."""
+    if isinstance(value, dict):
+        return {name: _cut(each, cut) for name, each in value.items()}
+    if isinstance(value, str | list | tuple) and len(value) > MAX_LENGTH:
+        cut.append(len(value))
+        # a list becomes empty, because a marker of another type would not fit the field
+        value = f"{value[:MAX_LENGTH]}…[cut: {len(value):,} characters]" if isinstance(value, str) else []
+    if isinstance(value, list | tuple):
+        return [_cut(each, cut) for each in value]
+    if isinstance(value, str) and not value.isascii():
+        return value.encode(errors="replace").decode()  # JSON parsers refuse an unpaired surrogate
+    return value

@@ -6,15 +6,10 @@ Nothing is judged here, and all durations are seconds on the arena's clock, as i
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
-
-from rclpy.node import Node
+from collections.abc import Sequence
 
 from autograder.arena import events as ev
-from autograder.arena.arena_log import ArenaLog
 from autograder.arena.offering import Offering
-from autograder.arena.phases import Phases
-from autograder.arena.student import Student
 
 # s, on a clock that still runs at scale 1:
 APPEARING_TIMEOUT = 20.0  # for the student's node to appear
@@ -28,23 +23,7 @@ END_TIMEOUT = 25.0
 class ClientStage(Offering):
     """The scripted services, actions and topics of a scenario, and the student's program."""
 
-    def __init__(
-        self,
-        node: Node,
-        log: ArenaLog,
-        student: Student,
-        phases: Phases,
-        speed_up: Callable[[], None],
-    ) -> None:
-        super().__init__(node, log, student)
-        self._phases = phases
-        self._speed_up = speed_up
-
     # -- the student's program ----------------------------------------------------------------------------------------
-
-    def has_printed(self, text: str) -> bool:
-        """Return whether the program has printed a line that contains this text, on stdout or stderr."""
-        return any(text in line.text for line in self._log.all(ev.NodeOutput))
 
     def has_ended(self) -> bool:
         """Return whether the program has ended."""

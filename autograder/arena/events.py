@@ -9,56 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from autograder.arena.scripted_events import (
-    ActionOffered,
-    ActionWithdrawn,
-    CancelReceived,
-    CancelReplySent,
-    FeedbackSent,
-    GoalFinished,
-    GoalReceived,
-    GoalReplySent,
-    MessagePublished,
-    ReplySent,
-    RequestReceived,
-    ResultForgotten,
-    ResultRequested,
-    ResultSent,
-    ServiceOffered,
-    ServiceWithdrawn,
-)
-from ros_runtime.record.client_events import (
-    CancelAnswered,
-    CancelSent,
-    FeedbackReceived,
-    GoalAnswered,
-    GoalSent,
-    ResultReceived,
-    ServiceAnswered,
-    ServiceCalled,
-    StatusSeen,
-    TooLarge,
-    Unanswered,
-)
+from autograder.arena.scripted_events import *  # noqa: F403
+from ros_runtime.record.client_events import *  # noqa: F403
 from ros_runtime.record.event import Event
-from ros_runtime.record.ground_truth import (
-    ArmReported,
-    BatteryPublished,
-    BodyDescribed,
-    FeetTruth,
-    HandTruth,
-    ImuPublished,
-    JointsPublished,
-    JointsTruth,
-    MotorPowerReceived,
-    ObjectTruth,
-    PostureTruth,
-    RobotCommanded,
-    RobotPeers,
-    RobotReady,
-    RobotRefused,
-    RobotTruth,
-)
+from ros_runtime.record.ground_truth import *  # noqa: F403
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -251,39 +205,6 @@ class CommandSent(Event):
     command: dict[str, Any]
 
 
-_EVENTS: list[type[Event]] = [
-    *(ServiceCalled, ServiceAnswered, Unanswered, TooLarge),
-    *(GoalSent, GoalAnswered, FeedbackReceived, StatusSeen, CancelSent, CancelAnswered, ResultReceived),
-    *(
-        RobotReady,
-        RobotTruth,
-        BatteryPublished,
-        JointsPublished,
-        JointsTruth,
-        FeetTruth,
-        HandTruth,
-        ObjectTruth,
-        ImuPublished,
-        ArmReported,
-        BodyDescribed,
-        PostureTruth,
-    ),
-    *(RobotPeers, RobotCommanded, RobotRefused, MotorPowerReceived),
-    *(NodeStarted, NodeReady, NodeNotReady, NodeOutput, NodeTyped),
-    *(NodeSignalled, NodeExited, NodeKilled, ArenaOverfull, NodeUsage, NodeTopics, NodeStack),
-    *(ServiceOffered, ServiceWithdrawn, RequestReceived, ReplySent, MessagePublished, MessageReceived),
-    *(
-        ActionOffered,
-        ActionWithdrawn,
-        GoalReceived,
-        GoalReplySent,
-        FeedbackSent,
-        CancelReceived,
-        CancelReplySent,
-    ),
-    *(GoalFinished, ResultRequested, ResultSent, ResultForgotten),
-    *(WokenLate, Starved, Mark, PhaseEnded, ScenarioEnded, ScenarioFailed),
-    *(RecordDropped, GraphFlooded, CommandSent),
-]
-KINDS = {each.kind: each for each in _EVENTS}
+_EVENTS = [each for each in vars().values() if isinstance(each, type) and each in Event.__subclasses__()]
+KINDS: dict[str, type[Event]] = {each.kind: each for each in _EVENTS}
 """Every type of event by its kind."""

@@ -27,10 +27,9 @@ from contextlib import suppress
 from itertools import count
 
 from autograder.arena.agent import carry_out, import_everything
-from autograder.arena.orders import DONE, receive_order
 from autograder.arena.phases import Phase
 from autograder.arena.robots import Robots
-from autograder.arena.scenario_spec import ScenarioSpec
+from autograder.arena.scenario_spec import DONE, ScenarioSpec, receive_order
 from autograder.isolation.process_tree import descendants
 from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.workarounds.warm_start.preload import preload
@@ -89,12 +88,10 @@ class Host:
 
 def main() -> None:
     """Serve orders until the controller closes the socket."""
-    signal.signal(
-        signal.SIGINT, signal.default_int_handler
-    )  # students' nodes inherit it; a script's background process would ignore SIGINT
-    signal.signal(
-        signal.SIGCHLD, signal.SIG_DFL
-    )  # inherited, too: with SIG_IGN the kernel would not count the time of their children
+    # students' nodes inherit both: a script's background process would ignore SIGINT, and where SIGCHLD is ignored the
+    # kernel does not count the time of their children
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     orders = socket.socket(fileno=int(sys.argv[1]))
     preload()
     host = Host()

@@ -1,33 +1,93 @@
-"""What every stage can offer to the student's node: scripted services, actions and topics."""
+"""What every stage can do: wait on the arena's clock, and offer scripted services, actions and topics."""
 
 from __future__ import annotations
 
+import time
 from collections import defaultdict
+from collections.abc import Callable
 from itertools import count
 from typing import Any
 
 from rclpy.node import Node
 
+from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.graph import Graph
+from autograder.arena.phases import Phases
 from autograder.arena.scripted_action import GoalScript, ScriptedAction
 from autograder.arena.scripted_service import Reply, ScriptedService
-from autograder.arena.scripted_topic import ScriptedTopic
 from autograder.arena.student import Student
-from autograder.arena.waiting import Waiting
+from autograder.arena.topics import ScriptedTopic
+
+FLOOD = 50  # messages within QUIET; no correct node sends as many
+QUIET = 0.25  # s on the arena's clock
+FLOODED = 15.0  # s on the arena's clock to wait for the end of a flood
+POLLING = 0.005  # s between two polls of a state without notification, such as the graph
 
 
-class Offering(Waiting):
-    """Offers the scripted servers and publishers that the student's node needs; times are s on the arena's clock."""
+class Offering:
+    """Waits for time or events, and offers what the student's node needs; times are s on the arena's clock."""
 
-    def __init__(self, node: Node, log: ArenaLog, student: Student) -> None:
-        super().__init__(Graph(node, log), log)
+    def __init__(
+        self, node: Node, log: ArenaLog, student: Student, phases: Phases, speed_up: Callable[[], None]
+    ) -> None:
         self._node = node
+        self._log = log
+        self._graph = Graph(node, log)
         self._student = student
+        self._phases = phases
+        self._speed_up = speed_up
         self._offered_services: list[ScriptedService] = []
         self._offered_actions: list[ScriptedAction] = []
         self._offered_topics: list[ScriptedTopic] = []
         self._numbers: defaultdict[str, count[int]] = defaultdict(lambda: count(1))
+
+    # -- waiting ------------------------------------------------------------------------------------------------------
+
+    def wait(self, duration: float) -> None:
+        """Let time pass."""
+        deadline = time.monotonic() + duration
+        while (left := deadline - time.monotonic()) > 0:
+            time.sleep(left)
+
+    def wait_until(self, condition: Callable[[], Any], timeout: float) -> bool:
+        """Wait for a condition on the log; return False if the time is over first."""
+        return self._log.wait_until(condition, timeout)
+
+    def poll_until(self, condition: Callable[[], Any], timeout: float) -> bool:
+        """Poll a condition that is not about the log; return False if the time is over first."""
+        deadline = time.monotonic() + timeout
+        while not condition():
+            if time.monotonic() > deadline:
+                return False
+            time.sleep(POLLING)
+        return True
+
+    def close(self) -> None:
+        """End the scenario: record the messages still in transit, and which limits were exceeded."""
+        self._drain_messages()
+        self._graph.inspect()
+        self._log.finish()
+
+    def _drain_messages(self) -> None:
+        """Wait until a flood of messages is processed: evidence against the node may be queued behind it."""
+        deadline = time.monotonic() + FLOODED
+        before = self._log.received
+        while True:
+            self.wait(QUIET)
+            now = self._log.received
+            if now - before < FLOOD:
+                return
+            if time.monotonic() > deadline:
+                self._log.drop("unread")
+                return
+            before = now
+
+    def mark(self, name: str) -> None:
+        """Name this moment for the checks."""
+        self._log.append(ev.Mark(name=name))
+
+    # -- offering -----------------------------------------------------------------------------------------------------
 
     def offer_service(self, name: str, service_type: Any, *replies: Reply | None) -> ScriptedService:
         """Offer a service that answers request n with `replies[n]`, later requests with the last one."""

@@ -160,32 +160,17 @@ class Robot:
 
     def wait_for_joint(self, joint: str, condition: Callable[[float], Any], timeout: float = TIMEOUT) -> bool:
         """Wait for a condition on the position (rad) of a joint; needs `report_joints`."""
-
-        def is_met() -> bool:
-            latest = self._log.last(ev.JointsTruth)
-            return latest is not None and bool(condition(latest.positions[joint]))
-
-        return self._wait_until(is_met, timeout)
+        return self._wait_for_latest(lambda each: condition(each.positions[joint]), timeout, ev.JointsTruth)
 
     def wait_for_feet(self, condition: Callable[[float, float], Any], timeout: float = TIMEOUT) -> bool:
         """Wait for a condition on the loads of the left and right foot (N); needs `report_feet`."""
-
-        def is_met() -> bool:
-            latest = self._log.last(ev.FeetTruth)
-            return latest is not None and bool(condition(latest.left, latest.right))
-
-        return self._wait_until(is_met, timeout)
+        return self._wait_for_latest(lambda feet: condition(feet.left, feet.right), timeout, ev.FeetTruth)
 
     def wait_for_hand(
         self, condition: Callable[[ev.HandTruth, ev.ObjectTruth], Any], timeout: float = TIMEOUT
     ) -> bool:
         """Wait for a condition on hand and object; needs `report_hand` and `report_object`."""
-
-        def is_met() -> bool:
-            hand, thing = self._log.last(ev.HandTruth), self._log.last(ev.ObjectTruth)
-            return hand is not None and thing is not None and bool(condition(hand, thing))
-
-        return self._wait_until(is_met, timeout)
+        return self._wait_for_latest(condition, timeout, ev.HandTruth, ev.ObjectTruth)
 
     def wait(self, duration: float) -> bool:
         """Wait until every command has taken effect, then for `duration` s of the robot's own time."""
@@ -205,6 +190,15 @@ class Robot:
 
     def _commands_took_effect(self) -> bool:
         return self._log.count(ev.RobotCommanded) >= self._log.count(ev.CommandSent)
+
+    def _wait_for_latest(self, condition: Callable[..., Any], timeout: float, *kinds: type[ev.Event]) -> bool:
+        """Wait for a condition on the latest event of each kind."""
+
+        def is_met() -> bool:
+            latest = [self._log.last(kind) for kind in kinds]
+            return None not in latest and bool(condition(*latest))
+
+        return self._wait_until(is_met, timeout)
 
     def _wait_until(self, condition: Callable[[], Any], timeout: float) -> bool:
         return self._log.wait_until(lambda: condition() or not self._simulator.is_running(), timeout)

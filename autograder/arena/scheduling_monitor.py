@@ -14,30 +14,25 @@ from autograder.arena.student import Student
 PERIOD = 0.1  # s on the arena's clock
 
 
-class SchedulingMonitor:
-    """Records how late the arena's own process is woken, and how long the student's gets no processor."""
+@contextmanager
+def watch_scheduling(log: ArenaLog, student: Student) -> Iterator[None]:
+    """Record how late this process is woken, and how long the student's gets no processor, while the scenario runs."""
+    over = threading.Event()
+    threading.Thread(target=_sleep, args=(log, over), name="scheduling monitor", daemon=True).start()
+    try:
+        yield
+    finally:
+        over.set()
+        student.record_waiting()
 
-    def __init__(self, log: ArenaLog, student: Student) -> None:
-        self._log = log
-        self._student = student
 
-    @contextmanager
-    def watch(self) -> Iterator[None]:
-        """Measure while the scenario runs: sleep again and again, and record each new longest delay."""
-        over = threading.Event()
-        threading.Thread(target=self._sleep, args=(over,), name="scheduling monitor", daemon=True).start()
-        try:
-            yield
-        finally:
-            over.set()
-            self._student.record_waiting()
-
-    def _sleep(self, over: threading.Event) -> None:
-        worst = 0.0
-        while not over.is_set():
-            before = time.monotonic()
-            time.sleep(PERIOD)
-            late = time.monotonic() - before - PERIOD
-            if late > worst:
-                worst = late
-                self._log.append(ev.WokenLate(late=late))
+def _sleep(log: ArenaLog, over: threading.Event) -> None:
+    """Sleep again and again, and record each new longest delay."""
+    worst = 0.0
+    while not over.is_set():
+        before = time.monotonic()
+        time.sleep(PERIOD)
+        late = time.monotonic() - before - PERIOD
+        if late > worst:
+            worst = late
+            log.append(ev.WokenLate(late=late))

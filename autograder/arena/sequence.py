@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from autograder.arena.waiting import Waiting
+from autograder.arena.offering import Offering
 
 Steps = Sequence[Sequence[Any]]  # each is [verb, *arguments]
 
 
-def carry_out(stage: Waiting, steps: Steps, vocabulary: Mapping[str, Callable[..., object]]) -> None:
+def carry_out(stage: Offering, steps: Steps, vocabulary: Mapping[str, Callable[..., object]]) -> None:
     """Carry out the steps in order and mark the end of each; stop at a step that returns False (no answer)."""
     for number, (verb, *arguments) in enumerate(steps, start=1):
         if vocabulary[verb](*arguments) is False:

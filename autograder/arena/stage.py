@@ -17,13 +17,12 @@ from rclpy.node import Node
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.bounded_reading import BoundedReading
-from autograder.arena.heard_topic import HeardTopic
-from autograder.arena.offering import Offering
+from autograder.arena.offering import POLLING, Offering
 from autograder.arena.phases import Phases
 from autograder.arena.robot import Robot, RobotTrouble
 from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
-from autograder.arena.waiting import POLLING
+from autograder.arena.topics import HeardTopic
 from ros_runtime.reachability import wait_until_all_reachable
 from ros_runtime.recorded_client.action_client import ActionClient
 from ros_runtime.recorded_client.conversation import Conversation
@@ -75,11 +74,9 @@ class Stage(Offering):
         phases: Phases,
         speed_up: Callable[[], None],
     ) -> None:
-        super().__init__(node, log, student)
+        super().__init__(node, log, student, phases, speed_up)
         self._stranger = stranger
         self._robot = Robot(simulator, log) if simulator else None
-        self._phases = phases
-        self._speed_up = speed_up
         self._conversation = Conversation(log, BoundedReading(log), student.has_exited)
         self._services: list[ServiceClient] = []
         self._actions: list[ActionClient] = []

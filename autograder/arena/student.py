@@ -10,8 +10,8 @@ from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.arena.student_limits_monitor import StudentLimitsMonitor
-from autograder.isolation.limits import StudentLimits
-from autograder.isolation.student_process import StudentProcess, start_student
+from autograder.isolation.student_process import StudentProcess
+from autograder.isolation.student_sandbox import Program
 from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.environment import ros_environment
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock
@@ -109,18 +109,17 @@ class Student:
     ) -> None:
         files = {name: content for name, content in self._spec.files.items() if name in names}
         self._log.append(ev.NodeStarted())
-        self._process = start_student(
+        program = Program(
             arguments,
-            workdir_files=files,
+            files,
             env={**ros_environment(), **self._clock.environment(), "PYTHONFAULTHANDLER": "1"},
             read_only_paths=[*self._spec.student_paths, self._clock.path],
             interpreter=interpreter,
             builds=builds,
-            on_line=self._on_line,
-            on_exit=self._on_exit,
         )
+        self._process = StudentProcess(program, self._on_line, self._on_exit)
         self._watch = StudentLimitsMonitor(
-            self._process, self._log, self._clock, StudentLimits(), self._spec.private_network
+            self._process, self._log, self._clock, program.limits, self._spec.private_network
         )
 
     def _record_stack(self, process: StudentProcess) -> None:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import threading
 import time
+from collections import deque
 
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
-from autograder.arena.fastest_growth import FastestGrowth
-from autograder.arena.lost_time import LostTime
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.open_sockets import too_many_sockets
 from autograder.isolation.process_tree import cpu_seconds, resident_mib, seconds_without_a_processor
@@ -113,3 +112,38 @@ class StudentLimitsMonitor:
         if (files := self._student.files()) > limits.files:
             return f"it made {files:,} files; {limits.files:,} are allowed"
         return too_many_sockets(processes, limits, self._private_network)
+
+
+class LostTime:
+    """Adds up how much less than one processor a program got while its processes were waiting for one.
+
+    A program that already gets one processor's worth of time, over all its processes, loses nothing: a correct one
+    needs no more, and its processes then wait for each other.
+    """
+
+    def __init__(self) -> None:
+        self.total = 0.0  # s
+        self._last: tuple[float, float, float] | None = None
+
+    def look(self, now: float, used: float, waited: float) -> None:
+        """Add a sample at time `now` (s): the totals (s) of used and of awaited processor time over all processes."""
+        then, used_then, waited_then = self._last or (now, used, waited)
+        lacking = (now - then) - (used - used_then)
+        self.total += max(0.0, min(waited - waited_then, lacking))
+        self._last = now, used, waited
+
+
+class FastestGrowth:
+    """The highest growth rate (1/s) of a total, averaged over intervals of at least a given length."""
+
+    def __init__(self) -> None:
+        self._looks: deque[tuple[float, float]] = deque()  # s, total
+        self.rate = 0.0
+
+    def look(self, now: float, total: float, stretch: float) -> None:
+        """Add a sample of the total at time `now` (s); intervals shorter than `stretch` (s) count as `stretch`."""
+        self._looks.append((now, total))
+        while len(self._looks) > 1 and now - self._looks[1][0] >= stretch:
+            self._looks.popleft()
+        then, before = self._looks[0]
+        self.rate = max(self.rate, (total - before) / max(stretch, now - then))

@@ -25,9 +25,8 @@ WALK_START_TIMEOUT = 5.0  # s in which a robot begins to walk
 COMING_NEAR = 15.0  # s
 NEAR = 0.12  # m
 
-MakeGoal = Callable[
-    [PoseStamped, float], Any
-]  # from a pose and the action's limit: max_velocity (m/s) or tolerance (m)
+# from a pose and the action's limit: max_velocity (m/s) or tolerance (m)
+MakeGoal = Callable[[PoseStamped, float], Any]
 
 
 def walk_in_order(

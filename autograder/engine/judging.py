@@ -5,6 +5,7 @@ from __future__ import annotations
 import traceback
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 from autograder.authoring import lesson
 from autograder.authoring.checks import Check, Scenario
@@ -81,32 +82,14 @@ def _with_lesson(help: str, see: str) -> str:
     return f"{help} Read {lesson.in_words(see)}." if see else help
 
 
-def verdict_on(
-    check: Check,
-    status: CheckStatus,
-    *,
-    points: int = 0,
-    expected: str = "",
-    observed: str = "",
-    help: str = "",
-    robot_time: float | None = None,
-    log: str = "",
-) -> CheckVerdict:
-    """Return the record of what a check found."""
-    return CheckVerdict(
-        check.id,
-        check.title,
-        status,
-        points,
-        check.points,
-        expected,
-        observed,
-        help,
-        robot_time,
-        log,
-        check.hidden,
-        check.promise,
-    )
+def verdict_on(check: Check, status: CheckStatus, *, points: float = 0, **found: Any) -> CheckVerdict:
+    """Return the record of what a check found: `found` are the other fields of a `CheckVerdict`."""
+    of_the_check: dict[str, Any] = {
+        "max_points": check.points,
+        "hidden": check.hidden,
+        "promise": check.promise,
+    }
+    return CheckVerdict(check.id, check.title, status, points, **of_the_check, **found)
 
 
 def _require_evidence(check: Check, transcripts: Sequence[Transcript]) -> None:

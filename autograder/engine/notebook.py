@@ -82,10 +82,8 @@ def written_by(cells: Sequence[str]) -> Written:
     from IPython.core.magics.osm import OSMagics
 
     written = Written()
-    aliases = {
-        "writefile": "",
-        "file": "",
-    }  # names of the magic, each with the arguments that an %alias_magic adds in front
+    # names of the magic, each with the arguments that an %alias_magic adds in front
+    aliases = {"writefile": "", "file": ""}
     variables: dict[str, str] = {}
     has_variables = any(_VARIABLE.search(cell[:LONGEST_LINE].partition("\n")[0]) for cell in cells)
     for cell in cells:

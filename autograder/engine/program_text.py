@@ -11,9 +11,8 @@ LONGEST_QUOTE = 100  # characters of Python's error message
 _ASCII = "".join(map(chr, range(32, 127))) + "\n"
 _UTF_8 = "save it as UTF-8, which editors offer in “Save with encoding”, and hand it in again"
 _BINARY = "hand in the text file that you wrote"
-_WHAT_BYTES_ARE: tuple[
-    tuple[bytes, str], ...
-] = (  # first bytes of a file; the end of the error message: what it is, what to do
+# first bytes of a file; the end of the error message: what it is, what to do
+_WHAT_BYTES_ARE: tuple[tuple[bytes, str], ...] = (
     (codecs.BOM_UTF32_LE, f"is UTF-32 text, and Python reads UTF-8: {_UTF_8}"),
     *(
         (
@@ -34,9 +33,8 @@ _WHAT_BYTES_ARE: tuple[
 )
 _MERGE = ("\n<<<<<<< ", "\n=======\n", "\n>>>>>>> ")  # git's conflict markers
 _THE_NOTEBOOK = "hand in the notebook itself, the .ipynb file, or the file that its %%writefile cell writes"
-_WHAT_TEXT_IS: tuple[
-    tuple[str, str], ...
-] = (  # a pattern that no Python program matches; the end of the error message
+# a pattern that no Python program matches; the end of the error message
+_WHAT_TEXT_IS: tuple[tuple[str, str], ...] = (
     (
         r"\A\s*\{(?=[\s\S]*\"cells\")(?=[\s\S]*\"nbformat\")",
         "is a notebook: give it a name that ends in .ipynb",

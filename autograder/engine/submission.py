@@ -17,18 +17,16 @@ MAX_NOTEBOOK_BYTES = 50_000_000  # a notebook also holds pictures of the robot
 CLEAR_OUTPUTS = (
     "clear its outputs (in JupyterLab Edit > Clear Outputs of All Cells), save it and hand it in again"
 )
-_HALF_A_CHARACTER = re.compile(
-    "[\ud800-\udfff]"
-)  # an unpaired surrogate, such as half of an emoji after a faulty edit
+# an unpaired surrogate, such as half of an emoji after a faulty edit
+_HALF_A_CHARACTER = re.compile("[\ud800-\udfff]")
 
 
 class UnusableSubmission(CourseError):
     """The submission cannot be read; the message says what was found and what is expected."""
 
     def __init__(self, message: str) -> None:
-        super().__init__(
-            message.encode(errors="backslashreplace").decode()
-        )  # the message may quote an unpaired surrogate
+        # the message may quote an unpaired surrogate
+        super().__init__(message.encode(errors="backslashreplace").decode())
 
     def _render_traceback_(self) -> list[str]:
         """Jupyter shows this instead of a traceback."""
@@ -79,18 +77,9 @@ def read_submission(path: Path, exercise: str, student: str = "you") -> Submissi
         )
     if not files:
         raise UnusableSubmission(f"{path} holds none of {', '.join(names)}")
-    return read_files(files, exercise, student)
-
-
-def read_files(files: Mapping[str, Path], exercise: str, student: str = "you") -> Submission:
-    """Read a notebook or the files, given by their names in the exercise.
-
-    Raises:
-        UnusableSubmission: one of them cannot be read.
-    """
     sources: dict[str, str] = {}
-    for name, path in files.items():
-        sources |= sources_of(name, read_bytes(path, most_bytes(name), path), exercise, path)
+    for name, file in files.items():
+        sources |= sources_of(name, read_bytes(file, most_bytes(name), file), exercise, file)
     return Submission(exercise, student, sources)
 
 
@@ -103,7 +92,7 @@ def sources_of(name: str, content: bytes, exercise: str, path: PurePath) -> dict
     text = _text(name, content, path)
     if not name.endswith(".ipynb"):
         return {name: text}
-    sources = sources_from_notebook(text, file_names(exercise), path)
+    sources = _written_by(text, file_names(exercise), path)
     for file, source in sources.items():
         _require_at_most(MAX_BYTES, len(source), file)
         if half := _HALF_A_CHARACTER.search(source):
@@ -128,7 +117,7 @@ def most_bytes(name: str) -> int:
     return MAX_NOTEBOOK_BYTES if name.endswith(".ipynb") else MAX_BYTES
 
 
-def sources_from_notebook(text: str, names: tuple[str, ...], path: PurePath) -> dict[str, str]:
+def _written_by(text: str, names: tuple[str, ...], path: PurePath) -> dict[str, str]:
     """Return the text of each of these files that the notebook's cells write, run from top to bottom; none is run."""
     try:
         written = written_by(code_cells(text))

@@ -15,10 +15,9 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from autograder.arena.orders import DONE, send_order
-from autograder.arena.scenario_spec import ScenarioSpec
+from autograder.arena.scenario_spec import DONE, ScenarioSpec, send_order
 from autograder.engine.stop import Stop
-from autograder.isolation.arena_process import ArenaReport, ArenaSpec, Kind, start_arena
+from autograder.isolation.arena_process import ArenaProcess, ArenaReport, ArenaSpec, Kind
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.python_paths import python_read_only_paths
 from autograder.isolation.student_sandbox import waiting_environment
@@ -70,7 +69,7 @@ class SubmissionArena:
                 limits=LIMITS,
             )
             try:
-                self._process = start_arena(spec, kind)
+                self._process = ArenaProcess(spec, kind)
             except BaseException:
                 self._orders.close()
                 raise

@@ -38,9 +38,8 @@ class CheckVerdict:
     def __post_init__(self) -> None:
         for name, most in LONGEST.items():
             text = getattr(self, name)
-            if (
-                len(text) > most + LENGTH_NOTE
-            ):  # a text that was cut before, read from a record, is not cut again
+            # a text that was cut before, read from a record, is not cut again
+            if len(text) > most + LENGTH_NOTE:
                 object.__setattr__(self, name, f"{text[:most]}…[cut: {len(text):,} characters]")
 
 

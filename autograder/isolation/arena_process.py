@@ -1,7 +1,7 @@
 """The controller's side of an arena: start it, watch memory and deadline, make sure that every process has ended.
 
     spec = ArenaSpec([sys.executable, "-m", "autograder.arena.host"], read_only_paths=[…], pass_fds=[orders])
-    arena = start_arena(spec, available_isolation().kind)
+    arena = ArenaProcess(spec, available_isolation().kind)
     report = arena.wait()
 
 The command is trusted; what it starts with `student_process` is not.
@@ -23,7 +23,7 @@ from autograder.isolation.captured_output import CapturedOutput, OutputPump
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.process_tree import cpu_seconds, descendants, resident_mib
 
-__all__ = ["ArenaProcess", "ArenaReport", "ArenaSpec", "Ended", "Kind", "start_arena"]
+__all__ = ["ArenaProcess", "ArenaReport", "ArenaSpec", "Ended", "Kind"]
 
 _POLL = 0.05  # s between two checks of the deadline and of `kill`
 _MEMORY_PERIOD = 0.2  # s between two measurements of memory, each of which reads a dozen files per process
@@ -69,16 +69,12 @@ class ArenaReport:
         return f"the arena's command ended with status {self.exit_code}"
 
 
-def start_arena(spec: ArenaSpec, kind: Kind) -> ArenaProcess:
-    """Start an arena of a kind and return once its command is about to run.
-
-    Raises `SandboxError` when it cannot start.
-    """
-    return ArenaProcess(spec, kind)
-
-
 class ArenaProcess:
-    """A started arena. A thread of its own starts, watches and ends it, so callers may come and go."""
+    """A started arena, whose command is about to run. A thread of its own starts, watches and ends it.
+
+    Raises:
+        SandboxError: it cannot start.
+    """
 
     def __init__(self, spec: ArenaSpec, kind: Kind) -> None:
         self.spec = spec

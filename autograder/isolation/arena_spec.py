@@ -16,9 +16,8 @@ class Kind(str, Enum):
     """What keeps an arena apart from the rest of the machine."""
 
     NAMESPACES = "namespaces"
-    ANOTHER_USER = (
-        "another-user"  # root in a container without namespaces runs only the student's program as a new user
-    )
+    # root in a container without namespaces runs only the student's program as a new user
+    ANOTHER_USER = "another-user"
     NONE = "none"
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from autograder.isolation.arena_process import Ended, start_arena
+from autograder.isolation.arena_process import ArenaProcess, Ended
 from autograder.isolation.arena_spec import ISOLATION_VARIABLE, ArenaSpec, Kind
 from autograder.isolation.bubblewrap import STUDENT_FILTER, SandboxError, bwrap_path
 from autograder.isolation.limits import ArenaLimits
@@ -77,7 +77,7 @@ def try_namespaces() -> Isolation:
         script = f"{nested} --seccomp 3 -- /bin/true 3<{STUDENT_FILTER}"
         limits = ArenaLimits(deadline_s=_PROBE_DEADLINE)
         spec = ArenaSpec(["/bin/sh", "-c", script], python_read_only_paths(), limits=limits)
-        report = start_arena(spec, Kind.NAMESPACES).wait()
+        report = ArenaProcess(spec, Kind.NAMESPACES).wait()
     except SandboxError as error:
         return _without(f"{error}{_advice()}")
     if report.ended is Ended.EXIT and report.exit_code == 0:

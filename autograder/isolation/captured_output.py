@@ -109,9 +109,8 @@ class OutputPump:
 
     def finish(self, timeout: float) -> None:
         """Read until the streams end, at most `timeout` s: an escaped process may keep them open."""
-        for fd in (
-            set(self._selector.get_map()) - self._open.keys()
-        ):  # always-ready descriptors would cause a busy loop
+        # descriptors that are always ready would cause a busy loop
+        for fd in set(self._selector.get_map()) - self._open.keys():
             self._selector.unregister(fd)
         deadline = time.monotonic() + timeout
         while self._open and (left := deadline - time.monotonic()) > 0:

@@ -10,9 +10,8 @@ class ArenaLimits:
     """What the controller grants to everything inside one arena together."""
 
     deadline_s: float = 120.0
-    memory_mib: int = (
-        1536  # resident memory of all processes, sampled; more is tolerated for the grace time only
-    )
+    # resident memory of all processes, sampled; more is tolerated for the grace time only
+    memory_mib: int = 1536
     memory_grace_s: float = 1.0  # above memory_mib, so that the agent can end the student's processes first
     output_kib: int = 256  # kept of stdout and of stderr each
     tmp_mib: int = 64

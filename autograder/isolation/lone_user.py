@@ -58,9 +58,8 @@ def _step_down(folder: str, processes: int, instructions: bytes) -> None:
     os.setgroups([])
     os.setresgid(user, user, user)
     os.setresuid(user, user, user)
-    resource.setrlimit(
-        resource.RLIMIT_NPROC, (processes, processes)
-    )  # counted per user; no other program has this one
+    # counted per user; no other program has this one
+    resource.setrlimit(resource.RLIMIT_NPROC, (processes, processes))
     _prctl(_PR_SET_NO_NEW_PRIVS, 1)
     program = _FilterProgram(len(instructions) // _INSTRUCTION, instructions)
     _prctl(_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(program))

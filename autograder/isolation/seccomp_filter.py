@@ -37,10 +37,8 @@ _DENIED = (
 )  # fmt: skip
 # Numbered alike on every architecture: cachestat, statmount, listmount, open_tree_attr and what is still to come.
 _NEWER_THAN_LIBRARIES_NEED = range(451, 512)
-_NETLINK, _NETLINK_ROUTE = (
-    16,
-    0,
-)  # allowed, because it lists the network interfaces, as unix, IPv4 and IPv6 are
+# allowed, because it lists the network interfaces, as unix, IPv4 and IPv6 are
+_NETLINK, _NETLINK_ROUTE = 16, 0
 _OLD_SOCKET_FAMILIES = (0, *range(3, 10), *range(11, 16))
 _CLONE_NEW_NAMESPACES = (0x00020000, 0x02000000, 0x04000000, 0x08000000, 0x10000000, 0x20000000, 0x40000000)
 _CLONE_PARENT = 0x00008000  # makes the child a sibling: it would leave the program's process tree

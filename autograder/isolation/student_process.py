@@ -1,6 +1,6 @@
 """The arena's side: runs a student's program in a sandbox of its own inside the arena.
 
-    student = start_student(["walk.py"], workdir_files={"walk.py": code}, read_only_paths=…)
+    student = StudentProcess(Program(["walk.py"], {"walk.py": code}))
     student.interrupt()
     student.wait(5.0)
 
@@ -13,70 +13,33 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import ExitStack, suppress
-from pathlib import Path, PurePosixPath
 
 from autograder.isolation.captured_output import CapturedOutput, OutputPump
-from autograder.isolation.limits import StudentLimits
 from autograder.isolation.running_program import RunningProgram
 from autograder.isolation.student_sandbox import Program, start_program
-from autograder.isolation.warm_interpreter import WarmInterpreter
 
 _POLL = 0.2  # s between two checks while nothing is printed
 _LAST_WORDS = 2.0  # s for output that is still in the pipes of an ended program
 
 
-def start_student(
-    arguments: Sequence[str],
-    *,
-    workdir_files: Mapping[str, bytes],
-    env: Mapping[str, str] | None = None,
-    read_only_paths: Sequence[str | Path] = (),
-    limits: StudentLimits | None = None,
-    interpreter: WarmInterpreter | None = None,
-    builds: bool = False,
-    on_line: Callable[[float, str, str], object] | None = None,
-    on_exit: Callable[[int], object] | None = None,
-) -> StudentProcess:
-    """Run Python with `arguments` in a fresh writable folder that holds `workdir_files` (relative name → content).
-
-    `interpreter`: the waiting interpreter whose fork becomes the program; None: a new one. `env`: the program's
-    environment, to which the arena's network settings are added. `read_only_paths`: files and folders of the arena, at
-    the same path inside. `builds`: the program is a module of the grader that runs CMake, which needs SIGCHLD handlers.
-    `on_line(time, "stdout" | "stderr", text)` is called for each kept line, `on_exit(returncode)` once after the last
-    line, both on a background thread. Raises `SandboxError` when the sandbox cannot be started, ValueError for a file
-    name that leaves the folder.
-    """
-    for name in workdir_files:
-        if PurePosixPath(name).is_absolute() or ".." in PurePosixPath(name).parts:
-            raise ValueError(
-                f"the file name {name!r} leads out of the working directory; give a relative one without '..'"
-            )
-    return StudentProcess(
-        Program(
-            arguments,
-            workdir_files,
-            env or {},
-            read_only_paths,
-            limits or StudentLimits(),
-            interpreter,
-            builds,
-        ),
-        on_line,
-        on_exit,
-    )
-
-
 class StudentProcess:
-    """A student's running program. `stdout` and `stderr` hold what it printed so far, within the limit."""
+    """A student's running program. `stdout` and `stderr` hold what it printed so far, within the limit.
+
+    `on_line(time, "stdout" | "stderr", text)` is called for each kept line, `on_exit(returncode)` once after the last
+    line, both on a background thread.
+
+    Raises:
+        SandboxError: the sandbox cannot be started.
+    """
 
     def __init__(
         self,
         program: Program,
-        on_line: Callable[[float, str, str], object] | None,
-        on_exit: Callable[[int], object] | None,
+        on_line: Callable[[float, str, str], object] | None = None,
+        on_exit: Callable[[int], object] | None = None,
     ) -> None:
         limit = program.limits.output_kib
         self.stdout = CapturedOutput(

@@ -11,8 +11,8 @@ import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack, suppress
-from dataclasses import dataclass
-from pathlib import Path
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
 
 from autograder.isolation.arena_spec import ISOLATION_VARIABLE, Kind
 from autograder.isolation.bubblewrap import BUILD_FILTER, STUDENT_FILTER, Sandbox, SandboxError, same_paths
@@ -29,15 +29,35 @@ _NETWORK_VARIABLES = ("ROS_DOMAIN_ID", "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDD
 
 @dataclass(frozen=True)
 class Program:
-    """What to run: a Python file or `-m MODULE`, and its arguments. See `start_student`."""
+    """What to run.
+
+    Attributes:
+        arguments: of Python: a file or `-m MODULE`, and its own arguments.
+        workdir_files: content of the files in its fresh, writable working folder, by relative name.
+        env: its environment, to which the arena's network settings are added.
+        read_only_paths: files and folders of the arena that it may read, at the same path.
+        limits: what it and everything it starts may use.
+        interpreter: the waiting interpreter whose fork becomes the program; None: a new one.
+        builds: it is a module of the grader that runs CMake, which needs SIGCHLD handlers.
+
+    Raises:
+        ValueError: a file name leads out of the working folder.
+    """
 
     arguments: Sequence[str]
     workdir_files: Mapping[str, bytes]
-    env: Mapping[str, str]
-    read_only_paths: Sequence[str | Path]
-    limits: StudentLimits
-    interpreter: WarmInterpreter | None = None  # its fork becomes the program; None: a new interpreter
-    builds: bool = False  # the program is a module of the grader that runs CMake
+    env: Mapping[str, str] = field(default_factory=dict)
+    read_only_paths: Sequence[str | Path] = ()
+    limits: StudentLimits = field(default_factory=StudentLimits)
+    interpreter: WarmInterpreter | None = None
+    builds: bool = False
+
+    def __post_init__(self) -> None:
+        for name in self.workdir_files:
+            if PurePosixPath(name).is_absolute() or ".." in PurePosixPath(name).parts:
+                raise ValueError(
+                    f"the file name {name!r} leads out of the working directory; give a relative one without '..'"
+                )
 
 
 def start_program(program: Program, stack: ExitStack) -> RunningProgram:
@@ -72,16 +92,11 @@ def _start_in_sandbox(program: Program, stack: ExitStack) -> ChildProgram:
     with Sandbox() as sandbox:
         _describe(sandbox, program)
         sandbox.add_environment(program_environment(program.env))
-        nproc = (
-            f"--nproc={program.limits.processes}"  # counted in this sandbox alone, as it has its own users
-        )
+        # counted in this sandbox alone, as it has its own users
+        nproc = f"--nproc={program.limits.processes}"
         limited = [*_limited(program.limits), nproc, "--", sys.executable, *program.arguments]
-        command = [
-            "/usr/bin/setsid",
-            "--",
-            *limited,
-        ]  # the command is no group leader, so setsid need not fork
-        started = sandbox.start(command, prepare=stand_back)
+        # the command is no group leader, so setsid need not fork
+        started = sandbox.start(["/usr/bin/setsid", "--", *limited], prepare=stand_back)
     stack.callback(os.close, started.init_pidfd)
     return ChildProgram(started.process, started.command_pid, started.init_pid)
 

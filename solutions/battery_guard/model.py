@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 from autograder.authoring import Failure, Obligation, ev, expect, how_to_give_up, obligation, shown, whole_run
+from autograder.authoring.walking import client_ends
 from autograder.authoring.walking import client_obligations as owed
 from autograder.authoring.walking.client_life import CANCELED, SUCCEEDED, Cause, End
 
@@ -132,7 +133,7 @@ def compares_exactly(life: GuardLife) -> str | None:
         return None
     _require_cancels(life)
     if not life.goal.cancels:
-        owed.require_patience(life, life.ends())  # a goal that it left does not show that it goes on
+        client_ends.require_patience(life, life.ends())  # a goal that it left does not show that it goes on
     levels = [event.message.percentage for event in life.levels if event.t < life.exited]
     high, low = [level for level in levels if level >= LIMIT], [level for level in levels if level < LIMIT]
     said = [f"goes on at {min(high):.4g}"] if high else []
@@ -147,7 +148,7 @@ def ignores_what_is_none(life: GuardLife) -> str | None:
         return None
     if life.goal:
         _require_cancels(life)
-    owed.require_patience(life, life.ends())
+    client_ends.require_patience(life, life.ends())
     lines = [line for line in life.run.output("stderr").splitlines() if re.search(r"warn|ignor", line, re.I)]
     known = life.ignored[0].t < min(life.exited, life.result) - KNOWN
     exited = life.run.first(ev.NodeExited)
@@ -204,12 +205,12 @@ def _which(life: GuardLife, end: End) -> tuple[int, str]:
 
 def _require_ending(life: GuardLife) -> tuple[list[End], ev.NodeExited]:
     """Require a right end, and with status 0 and 4 the line on stdout that says which it is."""
-    right, exited = owed.require_ending(life)
+    right, exited = client_ends.require_ending(life)
     if exited.returncode not in (SUCCEEDED, CANCELED):
         return right, exited
     name = right[0].name if len({end.name for end in right}) == 1 else ""
     if name in ("SUCCEEDED", "CANCELED"):
-        owed.require_ending_line(life.run, name, exited.t)
+        client_ends.require_ending_line(life.run, name, exited.t)
         return right, exited
     word = "battery" if name == "low before" else ""
     expect(
@@ -242,7 +243,7 @@ def says_why(life: GuardLife) -> str | None:
     right, exited = _require_ending(life)
     if exited.returncode in (SUCCEEDED, CANCELED):
         return None
-    owed.require_reason(life, right, exited)
+    client_ends.require_reason(life, right, exited)
     return right[0].because
 
 

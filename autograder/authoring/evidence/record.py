@@ -64,6 +64,13 @@ class Record:
         """Return the first event of one type, or None."""
         return next(iter(self.all(kind)), None)
 
+    def by_name(self, kind: type[E], key: str) -> dict[str, E]:
+        """Return the first event of one type for each value of its field `key`, in order."""
+        firsts: dict[str, E] = {}
+        for event in self.all(kind):
+            firsts.setdefault(getattr(event, key), event)
+        return firsts
+
     @cached_property
     def _by_kind(self) -> Mapping[type, list[Any]]:
         sorted_out: dict[type, list[Any]] = {}
@@ -75,8 +82,7 @@ class Record:
 
     def given_up(self, what: str, name: str) -> ev.Unanswered | None:
         """Return when the scenario stopped waiting for the answer to a call, goal, cancel or result, if it did."""
-        given_up = (event for event in self.all(ev.Unanswered) if (event.what, event.id) == (what, name))
-        return next(given_up, None)
+        return next((each for each in self.all(ev.Unanswered) if (each.what, each.id) == (what, name)), None)
 
     def in_time(self, kind: type[A], key: str, value: str, *, of: str) -> A | None:
         """Return the answer to something, unless the scenario had stopped waiting for it."""

@@ -55,10 +55,9 @@ class Transcript(RobotRecord):
     @cached_property
     def cancels(self) -> list[Cancel]:
         """Every cancel request, in order."""
-        sent = {event.cancel: event for event in reversed(self.all(ev.CancelSent))}
         return [
             Cancel(event, self.in_time(ev.CancelAnswered, "cancel", name, of="cancel"), self)
-            for name, event in reversed(sent.items())
+            for name, event in self.by_name(ev.CancelSent, "cancel").items()
         ]
 
     # -- services -----------------------------------------------------------------------------------------------------
@@ -66,10 +65,9 @@ class Transcript(RobotRecord):
     @cached_property
     def calls(self) -> list[Call]:
         """Every service call, in order."""
-        sent = {event.call: event for event in reversed(self.all(ev.ServiceCalled))}
         return [
             Call(name, event, self.in_time(ev.ServiceAnswered, "call", name, of="call"), self)
-            for name, event in reversed(sent.items())
+            for name, event in self.by_name(ev.ServiceCalled, "call").items()
         ]
 
     def call(self, name: str) -> Call:
@@ -87,17 +85,16 @@ class Transcript(RobotRecord):
 
     def requests(self, service: str) -> list[Request]:
         """Return the requests to a scripted service, on any of its servers, in order."""
-        received = {event.request: event for event in reversed(self.all(ev.RequestReceived))}
         return [
             Request(event, self.one(ev.ReplySent, "request", name))
-            for name, event in reversed(received.items())
+            for name, event in self.by_name(ev.RequestReceived, "request").items()
             if event.service == service
         ]
 
     def scripted_goals(self, action: str) -> list[ScriptedGoal]:
         """Return the goals that the student's client sent to a scripted action, on any of its servers, in order."""
-        received = {event.goal: event for event in reversed(self.all(ev.GoalReceived))}
-        return [scripted_goal(self, event) for event in reversed(received.values()) if event.action == action]
+        received = self.by_name(ev.GoalReceived, "goal").values()
+        return [scripted_goal(self, event) for event in received if event.action == action]
 
     # -- topics -------------------------------------------------------------------------------------------------------
 

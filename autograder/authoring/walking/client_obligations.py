@@ -14,33 +14,20 @@ from collections.abc import Callable
 from itertools import pairwise
 from typing import TypeVar
 
-from action_msgs.msg import GoalStatus
-
-from autograder.authoring.diagnosis.missing import Missing
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.fields import expect_field
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure, expect
 from autograder.authoring.obligation import Obligation, obligation, whole_run
-from autograder.authoring.requirements import client_checks
 from autograder.authoring.requirements.client_checks import (
     NUMBER,
     has_number,
     how_to_give_up,
+    require_end,
     why_not_this_status,
 )
-from autograder.authoring.walking.client_life import (
-    ABORTED,
-    CANCELED,
-    ORDER_MARGIN,
-    SILENCE_LIMIT,
-    SUCCEEDED,
-    SURELY_WAITED,
-    Cause,
-    ClientLife,
-    End,
-    clients,
-)
+from autograder.authoring.walking.client_ends import TRACEBACK, printed, require_ending, require_its_line
+from autograder.authoring.walking.client_life import SILENCE_LIMIT, Cause, ClientLife, clients
 
 L = TypeVar("L", bound=ClientLife)
 PROMPT = 0.5  # s from a feedback message to its line
@@ -48,23 +35,10 @@ PROMPT_SLACK = 0.5  # s on the arena's clock: 0.1 s of real time at scale 5, on 
 ON_ITS_WAY = 0.3  # s that feedback may be overtaken by the result
 ENDS_AT_ONCE = 10.0  # s
 USAGE = 2  # the exit status of argparse
-PRINT_TIME = 1.0  # s in which a line about the answer to a cancel is printed
-BEYOND_ANY_SCENARIO = 100.0  # s; no scenario lasts so long
-TRACEBACK = "Traceback (most recent call last)"
 REFUSED = re.compile(
     r"refus|reject|declin|den(?:y|ied)|(?:not|n't|cannot) (?:be )?cancel|fail|terminated|already|too late",
     re.IGNORECASE,
 )
-# What became of a goal, in words and in the last line after Ctrl-C, by its final status; None: it has not ended.
-BECAME = {
-    GoalStatus.STATUS_SUCCEEDED: ("it SUCCEEDED all the same", r"succe|arriv|reached|\bstatus\W+4\b"),
-    GoalStatus.STATUS_CANCELED: ("it was CANCELED", r"cancel|\bstatus\W+5\b"),
-    GoalStatus.STATUS_ABORTED: ("it was ABORTED all the same", r"abort|\bstatus\W+6\b"),
-    None: (
-        "it has not ended yet",
-        r"\b(not|never|still|yet|without|unknown|unfinished|goes on|going on|gave up|no (end|result))\b|n't",
-    ),
-}
 ROTATION = 0.0005  # rad, and of a quaternion's length, by which a goal may differ from the arguments
 ON_CTRL_C = (
     "rclpy shuts down at Ctrl-C, and then nothing can be sent: rclpy.init(signal_handler_options="
@@ -192,180 +166,14 @@ def asks_for_its_result(life: ClientLife) -> str | None:
     return f"kept for {kept_for:g} s"
 
 
-# -- how it ends ------------------------------------------------------------------------------------------------------
-
-
-def require_ending(life: ClientLife) -> tuple[list[End], ev.NodeExited]:
-    """Require that it ended by itself, in time and with the status of a right end; return these ends."""
-    run, ends = life.run, life.ends()
-    exited = client_checks.require_end(run, BEYOND_ANY_SCENARIO)
-    if TRACEBACK in run.output("stderr"):
-        if exited.t < min(end.earliest for end in ends):
-            expected = "a client that follows the goal to its end"
-            raise Missing(run, expected=expected, never=f"at {exited.t:.1f} s it was gone already")
-        raise Failure(
-            expected="one line that says how it ended",
-            observed=f"a traceback: {run.last_words}",
-            help="An expected end is no crash: catch the exception, print one line, return the status.",
-            at=exited.t,
-        )
-    told = [end for end in ends if end.status == exited.returncode]
-    require_patience(life, told or ends)
-    if not told:
-        observed, help = why_not_this_status(run, exited, ends[-1].help)
-        expected = f"exit status {ends[-1].status}: {ends[-1].because}"
-        raise Failure(expected=expected, observed=observed, help=help, at=exited.t)
-    latest = max(end.latest for end in told)
-    expect(
-        exited.t <= latest,
-        expected=f"the end soon after this: {told[-1].because}; at {latest:.1f} s at the latest",
-        observed=f"it ended at {exited.t:.1f} s",
-        help=life.end_in_time,
-        at=exited.t,
-    )
-    return told, exited
-
-
-def require_patience(life: ClientLife, ends: list[End]) -> None:
-    """Require that it did not end by itself before it could know that it may end in one of these ways."""
-    exited = life.run.first(ev.NodeExited)
-    if exited and exited.returncode >= 0 and exited.t < min(end.earliest for end in ends):
-        raise life.left_early(ends[0], exited)
-
-
-def _require_its_line(life: ClientLife, told: list[End], exited: ev.NodeExited) -> None:
-    """Require one line that says how it ended: with status 0 and 4 on stdout, else on stderr."""
-    finished = life.goal.finished if life.goal else None
-    if any(end.name == "Ctrl-C" for end in told):
-        _require_what_became(life, exited)
-    elif exited.returncode == SUCCEEDED and finished:
-        _require_final_pose(finished, require_ending_line(life.run, "SUCCEEDED", exited.t), exited.t)
-    elif exited.returncode == CANCELED and finished:
-        require_ending_line(life.run, "CANCELED", exited.t, since=_said_of_the_end(life, finished))
-    else:
-        require_reason(life, told, exited)
-    _require_no_other_ending(life, exited)
-
-
-def _printed(run: Transcript, stream: str, since: float = 0.0) -> list[ev.NodeOutput]:
-    """Return the lines on a stream from a time (s) on that are not blank."""
-    said = run.all(ev.NodeOutput)
-    return [line for line in said if line.stream == stream and line.t >= since and line.text.strip()]
-
-
-def require_ending_line(run: Transcript, word: str, at: float, since: float = 0.0) -> str:
-    """Require exactly one line on stdout from a time (s) on that holds this status, and return it."""
-    lines = [
-        line.text
-        for line in _printed(run, "stdout", since)
-        if re.search(rf"\b{word}\b", line.text, re.IGNORECASE)
-    ]
-    expect(
-        len(lines) == 1,
-        expected=f"one line on stdout with the word {word}",
-        observed=f"{len(lines)}" + (": " + " | ".join(lines[:3]) if lines else ""),
-        help=f"print({word!r}, …) once, when the result has come.",
-        at=at,
-    )
-    return lines[0]
-
-
-def _said_of_the_end(life: ClientLife, finished: ev.GoalFinished) -> float:
-    """Return from when (s) CANCELED is said of the goal's end: of a request to cancel it may be said, too."""
-    assert life.goal is not None
-    if not life.asked:
-        return 0.0
-    agreed = [cancel.reply.t for cancel in life.goal.cancels if cancel.reply and cancel.reply.canceling]
-    said = [event for event in life.run.all(ev.NodeOutput) if "CANCELED" in event.text.upper()]
-    if said and any(t > finished.t - PRINT_TIME for t in agreed):
-        return said[-1].t  # both came together
-    return finished.t - 0.1
-
-
-def _require_no_other_ending(life: ClientLife, exited: ev.NodeExited) -> None:
-    """Require that no line on stdout names the end that was not the goal's, unless somebody asked for it."""
-    other = {SUCCEEDED: "CANCELED", CANCELED: "SUCCEEDED"}.get(exited.returncode)
-    if other is None or life.asked or life.interrupted < math.inf:
-        return
-    lines = [
-        line for line in life.run.output("stdout").splitlines() if re.search(rf"\b{other}\b", line, re.I)
-    ]
-    expect(
-        not lines,
-        expected="no line on stdout that names another end",
-        observed=f"“{lines[0]}”" if lines else "",
-        help="Print how the goal ended when response.status has told you, and only that.",
-        at=exited.t,
-    )
-
-
-def _require_final_pose(finished: ev.GoalFinished, line: str, at: float) -> None:
-    position = finished.result.final_pose.pose.position
-    for name, value in (("x", position.x), ("y", position.y)):
-        expect(
-            has_number(line, value),
-            expected=f"the final {name}, {value:.2f} m, in the line that says how it ended",
-            observed=f"“{line}”",
-            help="Print response.result.final_pose.pose.position, not what you asked for: the robot says where it is.",
-            at=at,
-        )
-
-
-def require_reason(life: ClientLife, told: list[End], exited: ev.NodeExited) -> None:
-    """Require a line on stderr that says why it ended, and exactly one with the server's reason after ABORTED."""
-    run, since = life.run, min(end.earliest for end in told) - ORDER_MARGIN
-    expect(
-        bool(_printed(run, "stderr", since)),
-        expected="one line on stderr that says why it ended",
-        observed=f"the last before the end: {run.last_words or 'none'}",
-        help="print(..., file=sys.stderr) before the program ends.",
-        at=exited.t,
-    )
-    finished = life.goal.finished if life.goal else None
-    if exited.returncode != ABORTED or finished is None or not finished.result.error_msg:
-        return
-    reason = finished.result.error_msg
-    expect(
-        reason in run.output("stderr"),
-        expected=f"the server's reason on stderr: {reason}",
-        observed=f"“{run.last_words}”",
-        help="Print response.result.error_msg with file=sys.stderr.",
-        at=finished.t,
-    )
-    lines = [line for line in run.output().splitlines() if reason in line]
-    expect(
-        len(lines) == 1,
-        expected="one line, on stderr, with the server's reason",
-        observed=f"{len(lines)}: " + " | ".join(lines[:3]),
-        help="Say once how it ended: print error_msg in one place, or log it, not both.",
-        at=finished.t,
-    )
-
-
-def _require_what_became(life: ClientLife, exited: ev.NodeExited) -> None:
-    """Require a line on stdout, after the goal's end or the last one, that says what became of it after Ctrl-C."""
-    finished = life.goal.finished if life.goal else None
-    status = finished.status if finished and life.result <= exited.t else None
-    since = life.result - 0.1 if status else life.interrupted
-    lines = _printed(life.run, "stdout", life.interrupted - 0.1)
-    said = [line.text for line in lines if line.t >= since or line is lines[-1]]
-    is_late = status and life.result > life.interrupted + SURELY_WAITED
-    ways = [BECAME[each][1] for each in ((status, None) if is_late else (status,))]
-    expect(
-        any(re.search(way, line, re.IGNORECASE) for way in ways for line in said),
-        expected=f"a line on stdout at the end that says what became of the goal: {BECAME[status][0]}",
-        observed=f"the last line on stdout after Ctrl-C: {lines[-1].text if lines else 'none'}",
-        help="After Ctrl-C, too, print a line when the goal has ended, by its status, or when you have waited long "
-        "enough.",
-        at=exited.t,
-    )
+# -- how it follows its goal -------------------------------------------------------------------------------------------
 
 
 def follows_its_goal(life: ClientLife) -> str:
     """It cancels its goal when it must, and ends in time with the status and the line that say how it went."""
     causes = asks_to_cancel_in_time(life, _needless, _how_to_cancel) if life.goal else []
     told, exited = require_ending(life)
-    _require_its_line(life, told, exited)
+    require_its_line(life, told, exited)
     ended, canceled = told[0].name, " and ".join(cause.name for cause in causes)
     return ended if canceled in ("", ended) else f"{ended}, {canceled}"
 
@@ -386,7 +194,7 @@ def prints_each_feedback(life: ClientLife, within: float = math.inf) -> str | No
     due = min([finished, *(end.earliest for end in life.ends())])  # from when on the program may end
     over = min(life.exited, due - ON_ITS_WAY)
     sent = [each for each in life.goal.feedback if life.accepted <= each.t < over]
-    lines = _printed(life.run, "stdout")
+    lines = printed(life.run, "stdout")
     rest = iter(lines)
     forms: Counter[str] = Counter()
     for each in sent:
@@ -467,7 +275,7 @@ def says_what_was_refused(life: ClientLife) -> str | None:
 
 def refuses_what_is_no_pose(run: Transcript) -> str:
     """Wrong arguments end it with status 2 and the usage on stderr, before a node is started."""
-    exited = client_checks.require_end(run, ENDS_AT_ONCE)
+    exited = require_end(run, ENDS_AT_ONCE)
     arguments = " ".join(run.params["arguments"])
     help = (
         "Let argparse read rclpy.utilities.remove_ros_args(sys.argv)[1:] with type=float: it ends the program with "

@@ -24,6 +24,7 @@ NAME = "robot_controller"  # any client: its scenarios and its program are repla
 SCENARIOS = """
 from std_msgs.msg import String
 
+from autograder.arena import events as ev
 from autograder.arena.scripted_action import CancelScript, GoalScript
 from humanoid_interfaces.action import WalkTo
 
@@ -85,15 +86,19 @@ def dying(stage):
     stage.wait_for_end()
 
 
+def wait_for_line(stage, text):
+    stage.wait_until(lambda: any(text in line.text for line in stage._log.all(ev.NodeOutput)), 10.0)
+
+
 def typing(stage):
     topic = stage.offer_topic("words", String, latched=True)
     topic.publish(String(data="latched"))
     stage.start_program(["listen"])
-    stage.wait_until(lambda: stage.has_printed("latched"), 10.0)
+    wait_for_line(stage, "latched")
     stage.type_line("q")
-    stage.wait_until(lambda: stage.has_printed("q"), 10.0)
+    wait_for_line(stage, "q")
     stage.end_input()
-    stage.wait_until(lambda: stage.has_printed("end of input"), 10.0)
+    wait_for_line(stage, "end of input")
     stage.interrupt_program()
     stage.wait_for_end()
 """

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import autograder.isolation
-from autograder.isolation.arena_process import ArenaReport, ArenaSpec, Kind, start_arena
+from autograder.isolation.arena_process import ArenaProcess, ArenaReport, ArenaSpec, Kind
 from autograder.isolation.availability import available_isolation
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.python_paths import python_read_only_paths
@@ -75,7 +75,7 @@ class Student:
 def run_student(student: Student, kind: Kind | None = None, deadline_s: float = 30.0) -> StudentRun:
     """Run the program in an arena to its end; what the trusted process meets with is an AssertionError here."""
     spec = student.spec(ArenaLimits(deadline_s=deadline_s, output_kib=8192))
-    report = start_arena(spec, kind or available_isolation().kind).wait()
+    report = ArenaProcess(spec, kind or available_isolation().kind).wait()
     assert report.exit_code == 0, f"{report}\n{report.stdout.text}\n{report.stderr.text}"
     seen = json.loads(report.stdout.text.replace("\n", ""))
     return StudentRun(report=report, **seen)

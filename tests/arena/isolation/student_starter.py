@@ -9,7 +9,8 @@ import threading
 import time  # noqa: F401
 
 from autograder.isolation.limits import StudentLimits
-from autograder.isolation.student_process import StudentProcess, start_student
+from autograder.isolation.student_process import StudentProcess
+from autograder.isolation.student_sandbox import Program
 from autograder.isolation.warm_interpreter import WarmInterpreter
 
 task = json.load(sys.stdin)
@@ -33,7 +34,7 @@ def wait_for_line(text):
 
 def start() -> StudentProcess:
     """Start the program; a test may do it again."""
-    return start_student(
+    program = Program(
         ["node.py", *task["arguments"]],
         workdir_files={"node.py": task["code"].encode(), **{n: t.encode() for n, t in task["files"].items()}},
         env={"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1", **task["env"]},
@@ -41,9 +42,8 @@ def start() -> StudentProcess:
         limits=StudentLimits(**task["limits"]),
         interpreter=interpreter,
         builds=task["builds"],
-        on_line=on_line,
-        on_exit=codes.append,
     )
+    return StudentProcess(program, on_line, codes.append)
 
 
 student = start()

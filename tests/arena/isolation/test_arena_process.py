@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from arenas import ENVIRONMENT
 
-from autograder.isolation.arena_process import ArenaReport, ArenaSpec, Ended, Kind, start_arena
+from autograder.isolation.arena_process import ArenaProcess, ArenaReport, ArenaSpec, Ended, Kind
 from autograder.isolation.bubblewrap import SandboxError
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.memory_group import group_folders, make_memory_group
@@ -23,7 +23,7 @@ REPOSITORY = Path(__file__).parents[3]
 
 
 def run_shell(script: str, kind: Kind, limits: ArenaLimits | None = None, **spec) -> ArenaReport:
-    return start_arena(
+    return ArenaProcess(
         ArenaSpec(["/bin/sh", "-c", script], limits=limits or ArenaLimits(30), **spec), kind
     ).wait(60)
 
@@ -33,7 +33,7 @@ def run_python(code: str, kind: Kind, limits: ArenaLimits | None = None, **spec)
     spec = ArenaSpec(
         command, python_read_only_paths(), env=ENVIRONMENT, limits=limits or ArenaLimits(30), **spec
     )
-    return start_arena(spec, kind).wait(60)
+    return ArenaProcess(spec, kind).wait(60)
 
 
 def test_the_command_reads_its_input_and_its_output_and_status_come_back(kind: Kind) -> None:
@@ -46,7 +46,9 @@ def test_the_command_reads_its_input_and_its_output_and_status_come_back(kind: K
 def test_a_pipe_of_the_caller_reaches_into_the_arena(kind: Kind) -> None:
     read, write = os.pipe()
     command = [sys.executable, "-c", f"import os; os.write({write}, b'event')"]
-    arena = start_arena(ArenaSpec(command, python_read_only_paths(), env=ENVIRONMENT, pass_fds=[write]), kind)
+    arena = ArenaProcess(
+        ArenaSpec(command, python_read_only_paths(), env=ENVIRONMENT, pass_fds=[write]), kind
+    )
     os.close(write)
     with os.fdopen(read) as events:
         assert events.read() == "event"
@@ -101,7 +103,7 @@ def test_memory_that_no_process_has_resident_is_counted_by_the_kernel(namespaces
 
 
 def test_a_caller_can_end_an_arena(kind: Kind) -> None:
-    arena = start_arena(ArenaSpec(["/bin/sleep", "1000"], limits=ArenaLimits(60)), kind)
+    arena = ArenaProcess(ArenaSpec(["/bin/sleep", "1000"], limits=ArenaLimits(60)), kind)
     assert arena.poll() is None
     report = arena.kill()
     assert report.ended is Ended.KILLED
@@ -145,7 +147,7 @@ if {end == "kill"}: signal.pause()
         pass_fds=[write],
         limits=ArenaLimits(30),
     )
-    arena = start_arena(spec, kind)
+    arena = ArenaProcess(spec, kind)
     os.close(write)
     with os.fdopen(read, "rb", buffering=0) as pipe:
         assert pipe.read(6) == b"daemon"
@@ -158,8 +160,8 @@ def test_an_arena_ends_with_its_controller(kind: Kind, tmp_path: Path) -> None:
     """However hard the controller dies: only the end of the arena closes the pipe."""
     read, write = os.pipe()
     controller = f"""
-from autograder.isolation.arena_process import ArenaSpec, Kind, start_arena
-start_arena(ArenaSpec(["/bin/sh", "-c", "sleep 1000 & sleep 1000"], pass_fds=[{write}]), Kind({kind.value!r}))
+from autograder.isolation.arena_process import ArenaSpec, Kind, ArenaProcess
+ArenaProcess(ArenaSpec(["/bin/sh", "-c", "sleep 1000 & sleep 1000"], pass_fds=[{write}]), Kind({kind.value!r}))
 print("started", flush=True)
 import signal
 signal.pause()
@@ -177,12 +179,14 @@ signal.pause()
 
 def test_an_arena_lives_on_when_the_thread_that_started_it_ends(kind: Kind) -> None:
     with ThreadPoolExecutor(1) as pool:
-        arena = pool.submit(start_arena, ArenaSpec(["/bin/sh", "-c", "sleep 0.2; echo alive"]), kind).result()
+        arena = pool.submit(
+            ArenaProcess, ArenaSpec(["/bin/sh", "-c", "sleep 0.2; echo alive"]), kind
+        ).result()
     assert arena.wait(30).stdout.text == "alive\n"
 
 
 def test_arenas_side_by_side_do_not_mix(kind: Kind) -> None:
-    arenas = [start_arena(ArenaSpec(["/bin/echo", str(number)]), kind) for number in range(4)]
+    arenas = [ArenaProcess(ArenaSpec(["/bin/echo", str(number)]), kind) for number in range(4)]
     assert [arena.wait(30).stdout.text for arena in arenas] == ["0\n", "1\n", "2\n", "3\n"]
 
 
@@ -249,7 +253,7 @@ def test_a_mapped_file_is_shared_with_the_arena_while_it_runs(kind: Kind, tmp_pa
         pass_fds=[write, back],
         limits=ArenaLimits(30),
     )
-    arena = start_arena(spec, kind)
+    arena = ArenaProcess(spec, kind)
     os.close(write)
     assert os.read(read, 1) == b"."
     page.write_bytes(b"b")
@@ -276,10 +280,10 @@ def test_folders_that_only_their_owner_can_read_are_shown_all_the_same(
 
 def test_a_path_that_does_not_exist_is_refused(namespaces: Kind, tmp_path: Path) -> None:
     with pytest.raises(SandboxError, match="missing is to be shown in a sandbox, but it does not exist"):
-        start_arena(ArenaSpec(["/bin/true"], [tmp_path / "missing"]), namespaces)
+        ArenaProcess(ArenaSpec(["/bin/true"], [tmp_path / "missing"]), namespaces)
 
 
 def test_a_command_that_does_not_exist_ends_the_arena_with_a_reason(kind: Kind) -> None:
-    report = start_arena(ArenaSpec(["/usr/bin/no-such-program"], limits=ArenaLimits(30)), kind).wait(30)
+    report = ArenaProcess(ArenaSpec(["/usr/bin/no-such-program"], limits=ArenaLimits(30)), kind).wait(30)
     assert report.exit_code != 0
     assert "no-such-program" in report.stderr.text

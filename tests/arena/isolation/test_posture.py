@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import os
+from pathlib import Path
 
 import pytest
 from arenas import Student, run_student
 
+import student_posture
 from autograder.isolation.arena_process import Kind
-from autograder.isolation.posture import PROMISES
 from ros_runtime.environment import ros_environment
 
 # A program with threads, a child, and a child in a session of its own.
@@ -26,16 +27,18 @@ for child in children:
 """
 
 # The trusted process looks at every process of the sandbox, by the number it has in there.
-LOOK = """
+LOOK = f"""
+import sys
 from pathlib import Path
-from autograder.isolation.posture import posture
+sys.path.append({str(Path(student_posture.__file__).parent)!r})
+from student_posture import posture
 wait_for_line("]")
 ours = os.readlink("/proc/self/ns/pid")
 for pid in student.processes():
-    inside = Path(f"/proc/{pid}/status").read_text().partition("NSpid:")[2].splitlines()[0].split()[-1]
-    if os.readlink(f"/proc/{pid}/ns/pid") != ours:
+    inside = Path(f"/proc/{{pid}}/status").read_text().partition("NSpid:")[2].splitlines()[0].split()[-1]
+    if os.readlink(f"/proc/{{pid}}/ns/pid") != ours:
         lines.append((0.0, inside, json.dumps(posture(pid))))
-links = {kind: os.readlink(f"/proc/self/ns/{kind}") for kind in os.listdir("/proc/self/ns")}
+links = {{kind: os.readlink(f"/proc/self/ns/{{kind}}") for kind in os.listdir("/proc/self/ns")}}
 lines.append((0.0, "arena", json.dumps(links)))
 student.write_line("")
 """
@@ -53,11 +56,18 @@ OF_EVERY_PROCESS = (
 
 @pytest.mark.parametrize("warm", [False, True], ids=["cold", "warm"])
 def test_a_students_process_is_confined_as_promised(namespaces: Kind, warm: bool) -> None:
-    run = run_student(Student(CODE, LOOK, warm=warm, env=ros_environment() if warm else {}), namespaces)
+    student = Student(
+        CODE,
+        LOOK,
+        warm=warm,
+        env=ros_environment() if warm else {},
+        paths=[student_posture.__file__],
+    )
+    run = run_student(student, namespaces)
     assert run.returncode == 0, run.stderr
     printed = json.loads(next(text for _, stream, text in run.lines if stream == "stdout"))
     seen = {stream: json.loads(text) for _, stream, text in run.lines if stream.isdigit()}
-    promised = {what: value for what, (value, _) in PROMISES.items()}
+    promised = {what: value for what, (value, _) in student_posture.PROMISES.items()}
     assert {str(pid) for pid in (1, *printed)} <= set(seen)
     for pid in printed:
         assert seen[str(pid)] == promised

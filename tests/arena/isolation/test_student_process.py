@@ -9,7 +9,7 @@ import pytest
 from arenas import Student, run_student
 
 from autograder.isolation.arena_process import Kind
-from autograder.isolation.student_process import start_student
+from autograder.isolation.student_sandbox import Program
 
 
 def test_a_program_runs_among_its_files_and_is_heard_line_by_line(kind: Kind) -> None:
@@ -195,4 +195,4 @@ def test_several_can_run_one_after_another(kind: Kind) -> None:
 @pytest.mark.parametrize("name", ["/etc/passwd", "../escaped.py", "a/../../b"])
 def test_a_file_name_that_leaves_the_folder_is_refused(name: str) -> None:
     with pytest.raises(ValueError, match="leads out of the working directory"):
-        start_student(["node.py"], workdir_files={name: b""})
+        Program(["node.py"], {name: b""})

@@ -16,7 +16,7 @@ import pytest
 from arenas import PACKAGE, Student, run_student
 
 import ros_runtime
-from autograder.isolation.arena_process import Ended, Kind, start_arena
+from autograder.isolation.arena_process import ArenaProcess, Ended, Kind
 from autograder.isolation.limits import ArenaLimits
 
 REPOSITORY = Path(__file__).parents[3]
@@ -211,7 +211,7 @@ while True:
         pass
 """
     spec = Student(code).spec(ArenaLimits(deadline_s=1.0))
-    report = start_arena(spec, namespaces).wait(30)
+    report = ArenaProcess(spec, namespaces).wait(30)
     assert report.ended is Ended.DEADLINE
     assert report.nothing_survives
 
@@ -224,7 +224,7 @@ def test_one_process_cannot_ask_for_more_address_space_than_allowed(kind: Kind) 
 def test_a_memory_bomb_ends_the_arena_and_names_the_cause(namespaces: Kind) -> None:
     code = "import os\nos.fork()\nhog = []\nwhile True: hog.append(bytearray(b'x') * (4 << 20))"
     spec = Student(code).spec(ArenaLimits(deadline_s=30, memory_mib=300))
-    report = start_arena(spec, namespaces).wait(60)
+    report = ArenaProcess(spec, namespaces).wait(60)
     assert report.ended is Ended.MEMORY
     assert report.peak_memory_mib > 300
     assert report.nothing_survives
@@ -232,7 +232,7 @@ def test_a_memory_bomb_ends_the_arena_and_names_the_cause(namespaces: Kind) -> N
 
 def test_an_endless_loop_ends_at_the_deadline(kind: Kind) -> None:
     spec = Student("while True: pass").spec(ArenaLimits(deadline_s=0.6))
-    report = start_arena(spec, kind).wait(30)
+    report = ArenaProcess(spec, kind).wait(30)
     assert report.ended is Ended.DEADLINE
     assert report.nothing_survives
 

@@ -16,8 +16,7 @@ from sensor_msgs.msg import BatteryState, JointState
 from std_msgs.msg import String, UInt8MultiArray
 
 from autograder.arena import arena_log as arena_log_module
-from autograder.arena.arena_log import MOST_OF, MOST_OF_NOBODYS, ArenaLog
-from autograder.arena.long_texts import MAX_LENGTH
+from autograder.arena.arena_log import MAX_LENGTH, MOST_OF, MOST_OF_NOBODYS, ArenaLog
 from autograder.authoring.evidence import events as ev
 from ros_runtime.recorded_client.conversation import NOBODYS
 

@@ -10,8 +10,8 @@ import pytest
 
 pytest.importorskip("rclpy")
 
-from autograder.arena import waiting as waiting_module
-from autograder.arena.waiting import FLOODED, QUIET, Waiting
+from autograder.arena import offering as offering_module
+from autograder.arena.offering import FLOODED, QUIET, Offering
 
 
 class Kept:
@@ -36,6 +36,12 @@ class Kept:
         self.steps.append("finish")
 
 
+def stage_of(kept: Any) -> Offering:
+    stage = Offering(kept, kept, kept, kept, lambda: None)
+    stage._graph = kept
+    return stage
+
+
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> None:
     """Time passes only while somebody sleeps."""
@@ -44,14 +50,13 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> None:
     def sleep(duration: float) -> None:
         now[0] += duration
 
-    monkeypatch.setattr(waiting_module.time, "monotonic", lambda: now[0])
-    monkeypatch.setattr(waiting_module.time, "sleep", sleep)
+    monkeypatch.setattr(offering_module.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(offering_module.time, "sleep", sleep)
 
 
 def close(received: Iterator[int]) -> list[str]:
     kept = Kept(received)
-    stand_in: Any = kept
-    Waiting(stand_in, stand_in).close()
+    stage_of(kept).close()
     return kept.steps
 
 
@@ -74,8 +79,7 @@ def test_a_flood_without_end_is_recorded() -> None:
 
 @pytest.mark.usefixtures("clock")
 def test_a_condition_that_nobody_tells_of_is_looked_at_until_the_time_is_over() -> None:
-    kept: Any = Kept(iter([]))
-    waiting = Waiting(kept, kept)
+    stage = stage_of(Kept(iter([])))
     looks = iter([False, False, True])
-    assert waiting.poll_until(lambda: next(looks), 1.0)
-    assert not waiting.poll_until(lambda: False, 1.0)
+    assert stage.poll_until(lambda: next(looks), 1.0)
+    assert not stage.poll_until(lambda: False, 1.0)

@@ -16,7 +16,7 @@ from typing import Any
 
 import pytest
 
-from autograder.arena.scenario_file import scenarios_in
+from autograder.arena.agent import scenarios_in
 from autograder.authoring.checks import Scenario
 from autograder.engine.exercise import exercise_names, load_exercise
 from ros_runtime.recorded_client.conversation import Conversation

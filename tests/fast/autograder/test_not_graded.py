@@ -30,7 +30,7 @@ NO_OCCASION = (
 )
 # It takes what there is of memory, processors or time, or sends what nobody can read.
 FILLS = "arena/isolation/test_student_sandbox.py::test_a_memory_bomb_ends_the_arena_and_names_the_cause"
-STARVES = "fast/arena/test_lost_time.py::test_twelve_busy_processes_that_share_a_processor_lose_nothing"
+STARVES = "fast/arena/test_processor_time.py::test_twelve_busy_processes_that_share_a_processor_lose_nothing"
 UNREADABLE = (
     "fast/arena/test_spinning.py::test_messages_that_cannot_be_read_are_counted_and_the_next_one_is_taken"
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from autograder.arena.scenario_file import scenarios_in
+from autograder.arena.agent import scenarios_in
 
 DATACLASS = """
 from __future__ import annotations

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from autograder.isolation.posture import promise_table
 from ros_runtime.project import PROJECT
+from student_posture import promise_table
 
 
 def test_the_page_has_the_promises_as_they_are_tested() -> None:

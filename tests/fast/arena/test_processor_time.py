@@ -1,8 +1,8 @@
-"""The fastest growth of a total over a stretch of time, whenever it is looked at."""
+"""How fast a total grew at most, and what a program lost to other programs, whenever they are looked at."""
 
 import pytest
 
-from autograder.arena.fastest_growth import FastestGrowth
+from autograder.arena.student_limits_monitor import FastestGrowth, LostTime
 
 
 def fastest(looks, stretch):
@@ -32,3 +32,26 @@ def test_looks_that_come_seldom_give_the_mean_between_them():
 
 def test_nothing_is_known_at_the_first_look():
     assert fastest([(7.0, 3.0)], stretch=1.0) == 0.0
+
+
+def lost(*looks):
+    time = LostTime()
+    for look in looks:
+        time.look(*look)
+    return time.total
+
+
+def test_what_a_program_waits_for_while_others_run_is_lost():
+    assert lost((0.0, 0.0, 0.0), (1.0, 0.2, 0.7), (2.0, 0.9, 0.8)) == pytest.approx(0.8)
+
+
+def test_twelve_busy_processes_that_share_a_processor_lose_nothing():
+    assert lost((0.0, 0.0, 0.0), (1.0, 1.0, 11.0), (2.0, 2.9, 21.0)) == 0.0
+
+
+def test_no_more_is_lost_than_the_time_that_passed():
+    assert lost((0.0, 0.0, 0.0), (1.0, 0.1, 5.0)) == pytest.approx(0.9)
+
+
+def test_what_was_waited_for_before_the_first_look_does_not_count():
+    assert lost((5.0, 1.0, 3.0)) == 0.0

@@ -1,4 +1,4 @@
-"""A topic of the student's node that the grader subscribes to."""
+"""The topics of a scenario: those of the student's node, which the grader records, and those that it publishes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.bounded_reading import BoundedReading
 
-DEPTH = 100
+HEARD_DEPTH, SCRIPTED_DEPTH = 100, 10
 
 
 class HeardTopic:
@@ -30,7 +30,7 @@ class HeardTopic:
         self._reading = BoundedReading(log)
         self._latest: Any = None
         durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
-        profile = QoSProfile(depth=DEPTH, durability=durability)
+        profile = QoSProfile(depth=HEARD_DEPTH, durability=durability)
         self._subscription = node.create_subscription(message_type, name, self._on_message, profile, raw=True)
 
     @property
@@ -55,3 +55,26 @@ class HeardTopic:
         if message is not None:
             self._latest = message
             self._log.append(ev.MessageReceived(topic=self.name, message=message))
+
+
+class ScriptedTopic:
+    """Publishes one topic, reliably; `latched` keeps the last message for subscriptions that come later."""
+
+    def __init__(self, node: Node, message_type: Any, name: str, log: ArenaLog, *, latched: bool) -> None:
+        self.name = name
+        self._log = log
+        profile = (
+            QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL) if latched else SCRIPTED_DEPTH
+        )
+        self._publisher = node.create_publisher(message_type, name, profile)
+
+    @property
+    def subscriptions(self) -> int:
+        """The number of subscriptions that it is matched with."""
+        return self._publisher.get_subscription_count()
+
+    def publish(self, message: Any) -> None:
+        """Publish a message."""
+        event = ev.MessagePublished(topic=self.name, message=message, subscriptions=self.subscriptions)
+        self._log.append(event)
+        self._publisher.publish(message)
