@@ -17,9 +17,9 @@ from sensor_msgs.msg import BatteryState, JointState
 
 from humanoid_interfaces.msg import RobotState
 from lab.client.connection import NAMESPACE, connection
-from lab.client.events import ModeChanged
 from lab.client.formatting import fixed
 from lab.client.interaction_log import log
+from lab.client.messages import ModeChanged
 from lab.client.waiting import comes_true
 from lab.errors import NoRobotError
 from robot_sim.model.scenes import OBJECTS

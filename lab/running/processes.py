@@ -1,8 +1,9 @@
-"""Child processes that survive an interrupted cell and never survive the kernel."""
+"""Child processes that survive an interrupted cell and never survive the kernel; what they printed when."""
 
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -12,14 +13,17 @@ from collections import deque
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import IO
 
 import psutil
 
+from lab.pictures.labels import Mark
 from ros_runtime.workarounds import die_with_parent
 
 KEPT_LINES = 2000  # of each stream
 DRAIN_TIME = 1.0  # s to read what an ended process left in its pipe
+LOG_PREFIX = re.compile(r"^(\[\w+\]) \[[\d.]+\] \[[^\]]*\]: ")  # severity, time and logger of a ROS log line
 
 # The signal that `die_with_parent` asks for comes when the *thread* that started the child ends: this one never does.
 _spawner = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lab spawner")
@@ -132,6 +136,45 @@ class _LastLines:
         for line in self._pipe:
             self._lines.append((time.monotonic(), line))
         self._closed = time.monotonic()
+
+
+@dataclass(frozen=True)
+class Life:
+    """A process from `began` to `ended` (None: it still runs), s of `time.monotonic()`, with what it printed.
+
+    `end` says how it ended.
+    """
+
+    name: str
+    began: float
+    ended: float | None
+    end: str
+    lines: Sequence[Mark]
+
+    @classmethod
+    def of(cls, name: str, process: Process, *, was_stopped: bool) -> Life:
+        """The life of a process so far; `was_stopped`: the notebook ended it."""
+        return cls(
+            name,
+            process.began,
+            process.ended(),
+            _end(process.exit_status, was_stopped),
+            [Mark(at, _printable(line)) for at, line in process.lines() if line.strip()],
+        )
+
+
+def _end(exit_status: int | None, was_stopped: bool) -> str:
+    if exit_status is None:
+        return "still runs"
+    if exit_status == -signal.SIGKILL:
+        return "killed"
+    return "stopped" if was_stopped else f"exit status {exit_status}"
+
+
+def _printable(line: str) -> str:
+    """A line as a label: without the prefix of a log line and without unprintable characters."""
+    letters = "".join(letter if letter.isprintable() else " " for letter in line)
+    return LOG_PREFIX.sub(r"\1 ", " ".join(letters.split()))
 
 
 def _start(arguments: Sequence[str], own_stderr: bool) -> subprocess.Popen[str]:

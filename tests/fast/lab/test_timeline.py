@@ -8,11 +8,9 @@ import pytest
 from drawings import read
 
 from lab.errors import LabError
-from lab.pictures.annotations import Mark
-from lab.pictures.labels import rows_of, text_width
+from lab.pictures.labels import Mark, rows_of, text_width
 from lab.pictures.timeline import draw_timeline
-from lab.running.life import Life
-from lab.running.processes import Process
+from lab.running.processes import Life, Process
 
 
 @dataclass(frozen=True)

@@ -69,7 +69,9 @@ def test_the_lab_leaves_no_file_behind(tmp_path: Path, monkeypatch: pytest.Monke
         "print(lab_variables()[VARIABLE], flush=True); os.execvp('cat', ['cat'])"
     )
     command = [sys.executable, "-c", program]
-    with Popen(command, env=os.environ | {"TMPDIR": str(tmp_path)}, stdin=PIPE, stdout=PIPE, text=True) as lab:
+    with Popen(
+        command, env=os.environ | {"TMPDIR": str(tmp_path)}, stdin=PIPE, stdout=PIPE, text=True
+    ) as lab:
         assert lab.stdout
         monkeypatch.setenv(notebook_domains.VARIABLE, lab.stdout.readline().strip())
         with ReservedDomain() as domain_id:
