@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
-from random import randrange
+from random import Random, randrange
 from typing import Literal
+
+from lab.learning.question import Question
 
 FILE = Path(".progress.json")  # hidden, as the files of tools are
 Kind = Literal["predictions", "questions", "gaps"]
@@ -33,6 +36,23 @@ def own_number() -> int:
         number = randrange(10**9)
         _write({**everything, "number": number})
     return number
+
+
+def in_your_order(question: Question) -> Question:
+    """Shuffle the choices: the order differs between students and stays the same for one student."""
+    order = Random(f"{own_number()} {question.text}")
+    return replace(question, choices=tuple(order.sample(question.choices, len(question.choices))))
+
+
+def kept_letter(kind: Kind, question: Question) -> str | None:
+    """Return the letter chosen earlier; None without one, or if the text of that choice has changed since."""
+    text = kept(kind).get(question.text)
+    return next((letter for letter, choice in question.by_letter().items() if choice.text == text), None)
+
+
+def keep_letter(kind: Kind, question: Question, letter: str | None) -> None:
+    """Store the choice made for a question; None deletes it."""
+    keep(kind, question.text, None if letter is None else question.choice(letter).text)
 
 
 def _write(everything: dict) -> None:

@@ -90,9 +90,9 @@ def _draw_flag(panels: Sequence[Axes], mark: Mark, above: float, *, is_change: b
     colour, line = (VERMILION, ":") if is_change else (GREY, "-")
     for panel in panels:
         panel.axvline(mark.time, color=colour, linestyle=line, linewidth=1.1)
-    first, look = panels[0], {"color": colour, "linestyle": line, "linewidth": 1.1, "clip_on": False}
-    up = [1, 1 + (above - 0.03) / HEIGHT]
-    first.plot([mark.time] * 2, up, transform=first.get_xaxis_transform(), **look)
+    first, up = panels[0], [1, 1 + (above - 0.03) / HEIGHT]
+    onto = first.get_xaxis_transform()
+    first.plot([mark.time] * 2, up, color=colour, linestyle=line, lw=1.1, transform=onto, clip_on=False)
     place = {"xycoords": ("data", "axes fraction"), "va": "top"}
     text_colour = "#803300" if is_change else "black"
     annotate(first, mark.label, (mark.time, 1), (3, 72 * above - 2), color=text_colour, **place)
