@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 from ros_cli.command_node import SPIN_TIME
@@ -29,10 +29,21 @@ def add_graph_verb(verbs: Verbs, name: str, run: Run, summary: str) -> ArgumentP
         default=SPIN_TIME,
         help="Spin time in seconds: discovery ends when nothing new has appeared for this long",
     )
-    parser.add_argument(
-        "--no-daemon", action="store_true", help="Accepted for scripts; there is no daemon here"
-    )
+    add_flag(parser, "--no-daemon", help="Accepted for scripts; there is no daemon here")
     return parser
+
+
+def add_list_verb(verbs: Verbs, run: Run, kind: str) -> ArgumentParser:
+    """Add the verb that lists everything of a kind, such as "topic"; `print_list` prints it."""
+    listing = add_graph_verb(verbs, "list", run, f"Output a list of available {kind}s")
+    words = f"Only display the number of {kind}s discovered"
+    listing.add_argument("-c", f"--count-{kind}s", dest="count", action="store_true", help=words)
+    return listing
+
+
+def add_flag(parser: ArgumentParser, *names: str, help: str) -> None:
+    """Add an option without a value."""
+    parser.add_argument(*names, action="store_true", help=help)
 
 
 def add_values(parser: ArgumentParser, metavar: str, summary: str) -> None:
@@ -51,6 +62,20 @@ def add_values(parser: ArgumentParser, metavar: str, summary: str) -> None:
 def given_values(options: Namespace) -> str:
     """Return the YAML that was typed, or that comes from standard input."""
     return sys.stdin.read() if options.stdin else str(options.values)
+
+
+def print_list(options: Namespace, found: Collection[str]) -> None:
+    """Print names, a line each, with their types if it is asked for and `found` maps to them; or only their number."""
+    if options.count:
+        print(len(found))
+        return
+    for name in found:
+        print(with_types(name, found[name]) if isinstance(found, Mapping) and options.show_types else name)
+
+
+def with_types(name: str, types: Sequence[str]) -> str:
+    """Return a name with its types, as `--show-types` prints it."""
+    return f"{name} [{', '.join(types)}]"
 
 
 def positive_float(text: str) -> float:

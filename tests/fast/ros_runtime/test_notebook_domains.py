@@ -10,7 +10,7 @@ from subprocess import PIPE, Popen
 
 import pytest
 
-from ros_cli.domain import join_domain
+from ros_cli.app import join_domain
 from ros_runtime import notebook_domains
 from ros_runtime.ros_domain import ReservedDomain
 
