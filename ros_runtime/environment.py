@@ -56,11 +56,6 @@ def ros_environment(
     return variables | _library_variables()
 
 
-def python_for_ros() -> str:
-    """Return the interpreter that has rclpy and the interfaces: this one."""
-    return sys.executable
-
-
 def uses_wheels() -> bool:
     """Return whether rclpy comes from the wheels on PyPI rather than from a sourced ROS installation."""
     return _wheels_site_packages() is not None

@@ -9,6 +9,7 @@ from random import Random, randrange
 from typing import Literal
 
 from lab.learning.question import Question
+from ros_runtime.self_checks import entries_of, read_progress_file
 
 FILE = Path(".progress.json")  # hidden, as the files of tools are
 Kind = Literal["predictions", "questions", "gaps"]
@@ -16,8 +17,7 @@ Kind = Literal["predictions", "questions", "gaps"]
 
 def kept(kind: Kind, folder: Path = Path()) -> dict[str, str]:
     """Return the stored entries of one kind in a folder, such as the chosen answers or the times of filled gaps."""
-    entries = _read(folder / FILE).get(kind)
-    return entries if isinstance(entries, dict) else {}
+    return entries_of(folder / FILE, kind)
 
 
 def keep(kind: Kind, key: str, value: str | None) -> None:
@@ -26,12 +26,12 @@ def keep(kind: Kind, key: str, value: str | None) -> None:
     entries.pop(key, None)
     if value is not None:
         entries[key] = value
-    _write({**_read(FILE), kind: entries})
+    _write({**read_progress_file(FILE), kind: entries})
 
 
 def own_number() -> int:
     """Return a random number that was drawn once for this folder of notebooks, so it differs between students."""
-    everything = _read(FILE)
+    everything = read_progress_file(FILE)
     if not isinstance(number := everything.get("number"), int):
         number = randrange(10**9)
         _write({**everything, "number": number})
@@ -57,11 +57,3 @@ def keep_letter(kind: Kind, question: Question, letter: str | None) -> None:
 
 def _write(everything: dict) -> None:
     FILE.write_text(json.dumps(everything, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-
-
-def _read(file: Path) -> dict:
-    try:
-        progress = json.loads(file.read_text(encoding="utf-8"))
-    except (FileNotFoundError, ValueError):  # a damaged file only means that each question is asked again
-        return {}
-    return progress if isinstance(progress, dict) else {}

@@ -75,11 +75,6 @@ def annotate(
     )
 
 
-def shorten(label: str, most: int) -> str:
-    """Return a label of `most` characters at most; what is left out becomes "…"."""
-    return label if len(label) <= most else label[: most - 1] + "…"
-
-
 def as_html(page: Figure, words: str) -> HTML:
     """Embed a figure as SVG with an alternative text."""
     drawn = io.BytesIO()

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING
 from IPython.display import HTML
 
 from lab.errors import LabError
-from lab.pictures.figure import BLUE, GREY, VERMILION, annotate, as_html, panel, shorten
+from lab.pictures.figure import BLUE, GREY, VERMILION, annotate, as_html, panel
 from lab.pictures.labels import ROW, Mark, overhang, rows_of, text_width
 from lab.running.processes import Life
 from lab.running.programs import Program
 from lab.running.student_nodes import StudentNode
+from ros_runtime.drawing.xml_text import shorten
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -18,17 +18,16 @@ import struct
 import sys
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 PAGE_VARIABLE = "SCALED_CLOCK_PAGE"
 MAGIC = b"SCALEDCK"
 VERSION = 1
 MAX_SEGMENTS = 16
 
-_HEADER = struct.Struct(
-    "=8sIIIIq"
-)  # magic, version, segment count, is final, reserved, realtime offset in ns
+# magic, version, segment count, is final, reserved, realtime offset in ns
+_HEADER = struct.Struct("=8sIIIIq")
 _COUNT_OFFSET, _FINAL_OFFSET = 12, 16
 _SEGMENT = struct.Struct("=qqd")  # real start in ns, scaled start in ns, scale
 _SIZE = _HEADER.size + MAX_SEGMENTS * _SEGMENT.size
@@ -61,6 +60,14 @@ def library_path() -> Path | None:
     """Return the preloaded library of this environment; None if it could not be built, so all runs at scale 1."""
     path = Path(sys.prefix) / "lib" / "libscaled_clock.so"
     return path if path.exists() else None
+
+
+class Segment(NamedTuple):
+    """From `real_start_ns` of CLOCK_MONOTONIC on, the clock runs at `scale` arena seconds per real second."""
+
+    real_start_ns: int
+    scaled_start_ns: int
+    scale: float
 
 
 class ScaledClock:
@@ -183,16 +190,9 @@ class ScaledClock:
 
     def scaled_ns(self, real_ns: int) -> int:
         """Return the arena's CLOCK_MONOTONIC, in ns, at an instant of the real one."""
-        segment = next(
-            (s for s in reversed(self.segments()) if s.real_start_ns <= real_ns), self.segments()[0]
-        )
-        return segment.scaled_start_ns + int((real_ns - segment.real_start_ns) * segment.scale)
-
-    def real_ns(self, scaled_ns: int) -> int:
-        """Return the real CLOCK_MONOTONIC, in ns, at an instant of the arena's."""
         segments = self.segments()
-        segment = next((s for s in reversed(segments) if s.scaled_start_ns <= scaled_ns), segments[0])
-        return segment.real_start_ns + int((scaled_ns - segment.scaled_start_ns) / segment.scale)
+        segment = next((each for each in reversed(segments) if each.real_start_ns <= real_ns), segments[0])
+        return segment.scaled_start_ns + int((real_ns - segment.real_start_ns) * segment.scale)
 
     def now(self) -> float:
         """Return the arena's CLOCK_MONOTONIC, in s: what `time.monotonic()` gives a process that follows it."""
@@ -200,15 +200,6 @@ class ScaledClock:
 
     def _count(self) -> int:
         return struct.unpack_from("=I", self._page, _COUNT_OFFSET)[0]
-
-
-@dataclass(frozen=True)
-class Segment:
-    """From `real_start_ns` of CLOCK_MONOTONIC on, the clock runs at `scale` arena seconds per real second."""
-
-    real_start_ns: int
-    scaled_start_ns: int
-    scale: float
 
 
 def real_monotonic_ns() -> int:

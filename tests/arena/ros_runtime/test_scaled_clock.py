@@ -127,13 +127,12 @@ def test_processes_agree_on_the_time_before_across_and_after_the_switch(clock, s
         )
 
 
-def test_the_clock_is_continuous_and_can_be_translated_both_ways(clock):
+def test_the_clock_is_continuous_and_can_be_translated(clock):
     clock.run_at(5.0)
     switch = clock.segments()[1].real_start_ns
     assert clock.scaled_ns(switch) == switch  # it equalled the wall's until then
     assert clock.scaled_ns(switch - 10) == switch - 10
     assert clock.scaled_ns(switch + 1_000_000_000) == switch + 5_000_000_000
-    assert clock.real_ns(switch + 5_000_000_000) == switch + 1_000_000_000
     assert clock.now() == pytest.approx(clock.scaled_ns(real_monotonic_ns()) * 1e-9, abs=1.0)
 
 

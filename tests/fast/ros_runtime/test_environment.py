@@ -8,14 +8,14 @@ from pathlib import Path
 import pytest
 
 from ros_runtime import environment
-from ros_runtime.environment import python_for_ros, ros_environment, uses_wheels
+from ros_runtime.environment import ros_environment, uses_wheels
 
 wheels_only = pytest.mark.skipif(not uses_wheels(), reason="rclpy comes from a sourced ROS installation")
 
 
 def run(code, variables):
     return subprocess.run(
-        [python_for_ros(), "-c", code], env=variables, capture_output=True, text=True, check=True
+        [sys.executable, "-c", code], env=variables, capture_output=True, text=True, check=True
     ).stdout.strip()
 
 
