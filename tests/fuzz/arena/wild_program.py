@@ -99,13 +99,8 @@ class Wild:
         latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         status = self.node.create_publisher(GoalStatusArray, f"{name}/_action/status", latched)
         feedback = self.node.create_publisher(kind.Impl.FeedbackMessage, f"{name}/_action/feedback", 10)
-        self.publishers["status"], self.publishers["feedback"] = (
-            (status, GoalStatusArray),
-            (
-                feedback,
-                kind.Impl.FeedbackMessage,
-            ),
-        )
+        self.publishers["status"] = (status, GoalStatusArray)
+        self.publishers["feedback"] = (feedback, kind.Impl.FeedbackMessage)
 
     def offer_client(self, name, kind):
         """Be a client that sends whatever it likes."""
@@ -170,9 +165,8 @@ class Wild:
         """Leave files, links, pipes and folders where it may."""
         self.files += 1
         folder = CHANCE.choice((".", "/tmp", "/dev/shm", "/var/tmp", "/"))
-        path = os.path.join(
-            folder, CHANCE.choice((f"f{self.files}", "arena-1-x", "fastrtps_port7400", "é\n", "sem.x"))
-        )
+        names = (f"f{self.files}", "arena-1-x", "fastrtps_port7400", "é\n", "sem.x")
+        path = os.path.join(folder, CHANCE.choice(names))
         how = CHANCE.choice(("bytes", "hole", "link", "pipe", "folder", "closed"))
         if how == "link":
             os.symlink(CHANCE.choice(("/", "/proc/self/root", path)), path)
@@ -190,18 +184,15 @@ class Wild:
 
     def act_print(self):
         """Print what is no text, or looks like the grader's own words."""
-        stream = CHANCE.choice((sys.stdout, sys.stderr)).buffer
-        stream.write(
-            CHANCE.choice(
-                (
-                    CHANCE.randbytes(CHANCE.choice((1, 100, 5000))),
-                    b'{"kind": "scenario_ended", "t": 1.0}\n',
-                    b"\x1b[2J\x1b]0;owned\x07passed 10/10\n",
-                    b"[red]<script>alert(1)</script>\n" * 50,
-                    b"12 topic a\n",
-                )
-            )
+        printed = (
+            CHANCE.randbytes(CHANCE.choice((1, 100, 5000))),
+            b'{"kind": "scenario_ended", "t": 1.0}\n',
+            b"\x1b[2J\x1b]0;owned\x07passed 10/10\n",
+            b"[red]<script>alert(1)</script>\n" * 50,
+            b"12 topic a\n",
         )
+        stream = CHANCE.choice((sys.stdout, sys.stderr)).buffer
+        stream.write(CHANCE.choice(printed))
         stream.flush()
 
     def act_read_stdin(self):

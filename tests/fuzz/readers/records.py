@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import tempfile
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -117,11 +117,7 @@ def _shard(number: int) -> bytes:
     works = [Work(name, EXERCISE) for name in ("anna", "bert", "zoe", "zora")]
     shard = Shard(number, 2)
     graded = [
-        Graded(
-            work,
-            Grade(EXERCISE, work.student, "namespaces", _GRADE.checks, seed=0),
-            {f"{EXERCISE}.py": "pass"},
-        )
+        Graded(work, replace(_GRADE, student=work.student), {f"{EXERCISE}.py": "pass"})
         for work in shard.part(works)
     ]
     with tempfile.TemporaryDirectory() as folder:
@@ -129,16 +125,11 @@ def _shard(number: int) -> bytes:
         return Path(folder, SHARD).read_bytes()
 
 
-_GRADE = Grade(
-    EXERCISE,
-    "anna",
-    "namespaces",
-    [
-        CheckVerdict("a", "A", "passed", 1, 1),
-        CheckVerdict("b", "B", "failed", 0, 2, "x", "y", "z", 1.5, "log", True),
-    ],
-    seed=0,
-)
+_CHECKS = [
+    CheckVerdict("a", "A", "passed", 1, 1),
+    CheckVerdict("b", "B", "failed", 0, 2, "x", "y", "z", 1.5, "log", True),
+]
+_GRADE = Grade(EXERCISE, "anna", "namespaces", _CHECKS, seed=0)
 _EFFORT = Effort("2026-01-01T10:00:00Z", "2026-01-01T10:00:20Z", "here", 7.5, 1, 9)
 _CACHED = {"grade": _GRADE.to_json(), "effort": asdict(_EFFORT)}
 _BATCH = BatchRecord(
