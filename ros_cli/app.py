@@ -10,6 +10,7 @@ import signal
 import sys
 from argparse import ArgumentParser, RawDescriptionHelpFormatter
 from collections.abc import Sequence
+from typing import Any
 
 from ros_cli.errors import CommandError
 from ros_cli.real_ros2 import real_ros2
@@ -78,22 +79,13 @@ def join_domain() -> None:
 
 def command_line(program: str) -> ArgumentParser:
     """Return the parser of all groups and verbs; what it parses has `run`, to be called with it."""
-    parser = ArgumentParser(
-        prog=program,
-        description="The ros2 commands that the course uses, with the words and the output of ros2cli.",
-        epilog=HELP,
-        formatter_class=RawDescriptionHelpFormatter,
-    )
+    look: dict[str, Any] = {"epilog": HELP, "formatter_class": RawDescriptionHelpFormatter}
+    words = "The ros2 commands that the course uses, with the words and the output of ros2cli."
+    parser = ArgumentParser(prog=program, description=words, **look)
     _show_help_without_verb(parser)
     groups = parser.add_subparsers(title="Commands", metavar="COMMAND")
     for name, (module, summary) in GROUPS.items():
-        group = groups.add_parser(
-            name,
-            help=summary,
-            description=summary,
-            epilog=HELP,
-            formatter_class=RawDescriptionHelpFormatter,
-        )
+        group = groups.add_parser(name, help=summary, description=summary, **look)
         _show_help_without_verb(group)
         module.add_verbs(group.add_subparsers(title="Verbs", metavar="VERB"))
     return parser

@@ -92,13 +92,14 @@ def latest(topic: str, timeout: float = 5.0) -> Any:
 
 
 def has_published() -> bool:
-    """Whether a message was received on every topic of the robot since `forget()`."""
+    """Whether a message was received on every topic of the robot since `enter()`."""
     return _memory().messages.keys() >= TOPICS.keys()
 
 
 def enter(scene: str) -> None:
-    """Also subscribe to the objects of this scene and to the wrench of the hand that takes them."""
+    """Forget an earlier robot; listen also to the objects of this scene and to the hand that takes them."""
     memory = _memory()
+    memory.messages.clear()
     memory.scene = scene
     if OBJECTS[scene]:
         memory.listen_to(GRIP, WrenchStamped, QUEUE)
@@ -124,11 +125,6 @@ def object_poses() -> dict[str, PoseStamped]:
 def topic_of(name: str) -> str:
     """The topic of an object's pose."""
     return f"objects/{name}/pose"
-
-
-def forget() -> None:
-    """Forget the messages of an earlier robot."""
-    _memory().messages.clear()
 
 
 @contextmanager

@@ -59,17 +59,15 @@ class Process:
 
     def output(self) -> str:
         """The last 2000 lines of stdout and stderr, in the order in which they were written."""
-        return self._output.text(complete=not self.is_running)
+        return self._text(self._output)
 
     def errors(self) -> str:
         """The last 2000 lines of stderr, if `own_stderr` is set."""
-        return self._errors.text(complete=not self.is_running) if self._errors else ""
+        return self._text(self._errors) if self._errors else ""
 
     def lines(self) -> list[tuple[float, str]]:
         """The lines of `output()` and `errors()`, each with the time (s, `time.monotonic()`) at which it arrived."""
-        return sorted(
-            line for stream in self._streams() for line in stream.lines(complete=not self.is_running)
-        )
+        return sorted(line for stream in self._streams() for line in self._lines(stream))
 
     def ended(self) -> float | None:
         """When its output was closed (s, `time.monotonic()`), which is its end; None while it runs."""
@@ -105,6 +103,12 @@ class Process:
     def _streams(self) -> list[_LastLines]:
         return [self._output, *([self._errors] if self._errors else [])]
 
+    def _lines(self, stream: _LastLines) -> list[tuple[float, str]]:
+        return stream.lines(complete=not self.is_running)
+
+    def _text(self, stream: _LastLines) -> str:
+        return "".join(line for _, line in self._lines(stream))
+
 
 class _LastLines:
     """Reads a pipe to its end, in a thread, and keeps the last lines."""
@@ -117,12 +121,11 @@ class _LastLines:
         self._reader = threading.Thread(target=self._read, name="lab reader", daemon=True)
         self._reader.start()
 
-    def text(self, *, complete: bool) -> str:
-        """The lines so far. `complete`: the process has ended, so first read what is left in the pipe."""
-        return "".join(line for _, line in self.lines(complete=complete))
-
     def lines(self, *, complete: bool) -> list[tuple[float, str]]:
-        """The same, each with the time at which it arrived."""
+        """The lines so far, each with the time at which it arrived.
+
+        `complete`: the process has ended, so first read what is left in the pipe.
+        """
         if complete:
             self._reader.join(DRAIN_TIME)
         return list(self._lines.copy())

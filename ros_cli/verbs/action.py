@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Callable
+from functools import partial
 
 from rclpy.action import (
     get_action_client_names_and_types_by_node,
     get_action_names_and_types,
     get_action_server_names_and_types_by_node,
 )
-from rclpy.node import Node, NodeNameNonExistentError
 
-from ros_cli.command_node import CommandNode, absolute, split_name
+from ros_cli.command_node import CommandNode, absolute
+from ros_cli.servers import nodes_with
 from ros_cli.verb import Verbs, add_flag, add_graph_verb, add_list_verb, print_list, with_types
 from ros_cli.verbs import action_send_goal
 
-ByNode = Callable[[Node, str, str], "list[tuple[str, list[str]]]"]
-_CLIENTS: ByNode = get_action_client_names_and_types_by_node
-_SERVERS: ByNode = get_action_server_names_and_types_by_node
+BY_NODE = (get_action_client_names_and_types_by_node, get_action_server_names_and_types_by_node)
 
 
 def add_verbs(verbs: Verbs) -> None:
@@ -46,7 +44,7 @@ def print_info(options: Namespace) -> None:
     with CommandNode(options.spin_time) as command:
 
         def clients_and_servers() -> list[list[tuple[str, list[str]]]]:
-            return [_nodes_with(command, action, by_node) for by_node in (_CLIENTS, _SERVERS)]
+            return [nodes_with(command, action, partial(by_node, command.node)) for by_node in BY_NODE]
 
         # The action's name is discovered before the names of its nodes.
         command.discover(lambda: any(clients_and_servers()))
@@ -56,15 +54,3 @@ def print_info(options: Namespace) -> None:
         print(f"Action {kind}: {len(nodes)}")
         for node, types in () if options.count else nodes:
             print(f"    {with_types(node, types) if options.show_types else node}")
-
-
-def _nodes_with(command: CommandNode, action: str, by_node: ByNode) -> list[tuple[str, list[str]]]:
-    found = []
-    for node in command.node_names(hidden=True):
-        try:
-            types = dict(by_node(command.node, *split_name(node))).get(action)
-        except NodeNameNonExistentError:  # the node has just ended
-            continue
-        if types is not None:
-            found.append((node, types))
-    return found

@@ -10,7 +10,7 @@ from rclpy.client import Client
 from ros_cli.command_node import CommandNode, absolute
 from ros_cli.errors import unknown
 from ros_cli.interface_types import full_type_name, interface_class
-from ros_cli.servers import wait_for_service_node, wait_for_type
+from ros_cli.servers import wait_for_node_of, wait_for_type
 from ros_cli.verb import (
     Verbs,
     add_flag,
@@ -89,4 +89,4 @@ def _wait_for_service(command: CommandNode, client: Client, name: str, wanted: s
     if not command.find(client.service_is_ready):
         print("waiting for service to become available...")
         wait_for_type(command, client.service_is_ready, lambda: command.services().get(name, []), wanted)
-    wait_for_service_node(command, name)
+    wait_for_node_of(command, name, command.node.get_service_names_and_types_by_node)

@@ -103,16 +103,18 @@ def test_a_goal_that_the_notebook_does_not_hold_is_kept_until_its_end_and_no_lon
 
 def test_a_listener_hears_of_feedback_and_of_the_end(notebook: Kernel) -> None:
     notebook.run("lab.run_node('riser.py', 'cancel')")
-    printed = notebook.run(
-        "import threading\n"
-        + SEND
-        + "heard, threads = [], set()\n"
-        + "def listen(goal):\n"
-        + "    heard.append((goal.status, len(goal.feedback), goal.is_over))\n"
-        + "    threads.add(threading.current_thread().name)\n"
-        + "goal.on_change(listen)\ngoal.result(show_feedback=False)\n"
-        + "lab.wait_until(lambda: heard[-1][2])\nprint(heard[-1], len(heard) > 5, threads)"
-    )
+    printed = notebook.run(f"""
+        import threading
+        {SEND}
+        heard, threads = [], set()
+        def listen(goal):
+            heard.append((goal.status, len(goal.feedback), goal.is_over))
+            threads.add(threading.current_thread().name)
+        goal.on_change(listen)
+        goal.result(show_feedback=False)
+        lab.wait_until(lambda: heard[-1][2])
+        print(heard[-1], len(heard) > 5, threads)
+    """)
     assert printed == "('SUCCEEDED', 10, True) True {'lab spin'}\n"
 
 
