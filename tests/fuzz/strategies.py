@@ -1,4 +1,4 @@
-"""What many fuzzers share: texts, names, bytes and JSON such as nobody sends on purpose, and an arena's log."""
+"""What many fuzzers share: texts, names, bytes and JSON at their limits or damaged, and an arena's log."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ blobs = st.one_of(
 
 
 def mutated(samples: Sequence[bytes]) -> st.SearchStrategy[bytes]:
-    """Return samples with a few places changed: bytes replaced, cut out, doubled, put in."""
+    """Return samples with a few places changed: bytes replaced, removed or inserted."""
     return st.tuples(st.sampled_from(list(samples)), st.lists(_changes, max_size=4)).map(_changed)
 
 
 def damaged_json(samples: Sequence[Any]) -> st.SearchStrategy[Any]:
-    """Return samples of JSON with a few of their values replaced, left out or put elsewhere."""
+    """Return samples of JSON with a few of their values replaced, removed or added."""
     return st.tuples(st.sampled_from(list(samples)), st.lists(_damages, min_size=1, max_size=3)).map(_damaged)
 
 

@@ -1,4 +1,4 @@
-"""ROS messages of any type with made-up values. The made-up program holds a copy of this text."""
+"""ROS messages of any type with random values. The generated program contains a copy of this text."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""A program that does what ROS allows and nobody wants, made up from SEED. It does not do its exercise's job.
+"""A program that does anything that ROS allows, chosen by SEED. It does not solve its exercise.
 
-It runs as a student's. `fuzz.arena.made_up` puts in SEED, OFFERS and the text of wild_messages.py.
+It runs as a student's. `fuzz.arena.generated_program` puts in SEED, OFFERS and the text of wild_messages.py.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from fuzz.arena.wild_messages import wild_message
 
 SEED = 0
-OFFERS: tuple = ()  # what the exercise asks for, as (service or action, name, type); made up otherwise
+OFFERS: tuple = ()  # what the exercise asks for, as (service or action, name, type); random ones otherwise
 
 CHANCE = random.Random(SEED)
 PERIODS = (0.001, 0.01, 0.1, 0.5)  # s between two acts
@@ -38,7 +38,7 @@ def find(kind):
 
 
 class Wild:
-    """A node, and the acts that somebody made up."""
+    """A node and the actions that were drawn for it."""
 
     def __init__(self):
         self.node = rclpy.create_node(CHANCE.choice(("wild", "observer", "battery_service", "x" * 100)))

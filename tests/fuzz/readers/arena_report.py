@@ -1,4 +1,4 @@
-"""What an arena says of a student's messages, written by the agent and read by the controller."""
+"""The events that the agent writes about a student's messages and the controller reads."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def _answered(drawn: tuple[Any, str]) -> Event:
 
 
 def _bytes_of(kinds: Sequence[Any]) -> st.SearchStrategy[Any]:
-    """Make a type, and bytes of a message that was damaged on its way."""
+    """Generate a type, and the bytes of a damaged message of it."""
 
     def of(drawn: tuple[Any, int]) -> st.SearchStrategy[Any]:
         kind, seed = drawn

@@ -1,4 +1,4 @@
-"""What students write in their own words or definitions: designs of essays, and interface files."""
+"""Texts that students write: designs of essays, and interface files."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def require_picture_or_none(text: str) -> None:
 
 
 def require_definitions_or_problems(drawn: tuple[str, bytes]) -> None:
-    """Require that an interface file is read, or that each of its problems is told."""
+    """Require that an interface file is read, or that each of its problems is reported."""
     name, data = drawn
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, name).write_bytes(data)

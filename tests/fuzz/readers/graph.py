@@ -1,4 +1,4 @@
-"""What stands in the ROS graph, where any participant writes: names, types and numbers of endpoints."""
+"""The ROS graph, to which any participant can write: names, types and numbers of endpoints."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MANY = 3000
 
 
 class Endpoint(NamedTuple):
-    """What the middleware says of one."""
+    """An endpoint as the middleware describes it."""
 
     node_name: Any
     node_namespace: Any
@@ -24,7 +24,7 @@ class Endpoint(NamedTuple):
 
 
 class WildNode:
-    """Answers each question about the graph with what was drawn for it; an exception is raised."""
+    """Answers each query of the graph with the value drawn for it; raises it if it is an exception."""
 
     def __init__(self, answers: dict[str, Any]) -> None:
         self._answers = answers

@@ -1,4 +1,4 @@
-"""What a student hands in: notebooks, programs, folders with whatever an archive can unpack into them."""
+"""What a student hands in: notebooks, programs, and folders with anything that an archive can contain."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def require_rebuilt(source: str) -> None:
 
 
 def _make(home: Path, entry: Entry, secret: Path) -> None:
-    """Put an entry there, if the file system takes it; what is in its way stays."""
+    """Create an entry if the file system allows it; replaces nothing."""
     path = home / entry.place
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

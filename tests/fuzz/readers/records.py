@@ -1,4 +1,4 @@
-"""What batches leave on disk and read again: grades, shards, caches, drawings. They travel, and break on the way."""
+"""Files that batches write and read again, damaged: grades, shards, caches, drawings."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def require_merged_or_reason(data: bytes) -> None:
 
 
 def require_cached_or_none(data: bytes) -> None:
-    """Require that a damaged cache holds nothing: neither a grade that was never given, nor the batch up."""
+    """Require that a damaged cache returns no grade that was never given, and raises nothing."""
     exercise = load_exercise(EXERCISE, hidden=False)
     submission = Submission(EXERCISE, "anna", {f"{EXERCISE}.py": "pass"})
     with tempfile.TemporaryDirectory() as folder:
@@ -95,7 +95,7 @@ def require_batch_or_none(data: bytes) -> None:
 
 
 def require_drawings_or_none(data: bytes) -> None:
-    """Require that damaged drawings are none."""
+    """Require that damaged drawings are read as none."""
     failed = CheckVerdict("id", "title", "failed", 0, 1)
     with tempfile.TemporaryDirectory() as folder:
         drawings = Drawings(Path(folder))
@@ -107,7 +107,7 @@ def require_drawings_or_none(data: bytes) -> None:
 
 
 def _require_no_more_than_full(grade: Grade) -> None:
-    """Require a score that a grade can have."""
+    """Require a score between 0 and the maximum."""
     assert grade.status in ("graded", "not graded", "to mark")
     if grade.score is not None:
         assert 0 <= grade.score <= grade.max_score

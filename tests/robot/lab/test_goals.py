@@ -35,7 +35,7 @@ def test_a_cancel_is_accepted_and_the_goal_ends_canceled(notebook: Kernel) -> No
     assert notebook.run("print(goal.cancel())") == "not accepted, return_code 3\n"
 
 
-def test_a_refused_cancel_is_told_from_an_accepted_one(notebook: Kernel) -> None:
+def test_a_refused_cancel_differs_from_an_accepted_one(notebook: Kernel) -> None:
     notebook.run("lab.run_node('riser.py', 'no-cancel')")
     printed = notebook.run(SEND + "print(goal.cancel())\nprint(goal.result(show_feedback=False).status)")
     assert printed == "not accepted, return_code 0\nSUCCEEDED\n"
@@ -55,7 +55,7 @@ def test_a_goal_that_takes_longer_can_be_waited_for_again(notebook: Kernel) -> N
     assert notebook.run("print(goal.result(show_feedback=False).status)") == "SUCCEEDED\n"
 
 
-def test_no_server_is_told(notebook: Kernel) -> None:
+def test_no_server_is_reported(notebook: Kernel) -> None:
     with pytest.raises(CellError, match=r"nobody offers /robot/stand_up \(StandUp\)"):
         notebook.run("lab.send_goal('stand_up', StandUp, StandUp.Goal(), timeout=0.5)")
 

@@ -35,7 +35,7 @@ print(old.is_running, [lab.call("add", AddTwoInts).sum for _ in range(5)])""")
 
 
 @pytest.mark.parametrize(
-    ("cell", "told"),
+    ("cell", "expected"),
     [
         ("lab.call('ad', AddTwoInts)", r"nobody offers /robot/ad \(AddTwoInts\).*there are: /robot/add\."),
         ("lab.call('add', AddTwoInts, Trigger.Request())", r"add takes a AddTwoInts\.Request"),
@@ -51,13 +51,13 @@ print(old.is_running, [lab.call("add", AddTwoInts).sum for _ in range(5)])""")
         ("lab.run_node('gone.py')", r"no file gone\.py .*%%writefile gone\.py"),
     ],
 )
-def test_an_error_says_what_was_seen(notebook: Kernel, cell: str, told: str) -> None:
+def test_an_error_says_what_was_seen(notebook: Kernel, cell: str, expected: str) -> None:
     notebook.run(ADDER)
-    with pytest.raises(CellError, match=told):
+    with pytest.raises(CellError, match=expected):
         notebook.run(cell)
 
 
-def test_a_wrong_type_is_told_and_forgiven(notebook: Kernel) -> None:
+def test_a_wrong_type_is_reported_and_the_right_one_still_works(notebook: Kernel) -> None:
     notebook.run(ADDER)
     with pytest.raises(CellError, match="but of type humanoid_interfaces/srv/AddTwoInts"):
         notebook.run("lab.call('add', Trigger, timeout=0.5)")
@@ -86,7 +86,7 @@ def test_a_killed_server_still_looks_ready(notebook: Kernel) -> None:
     assert printed == "True False\n"
 
 
-def test_a_node_that_ignores_ctrl_c_is_killed_and_that_is_said(notebook: Kernel) -> None:
+def test_a_node_that_ignores_ctrl_c_is_killed_and_that_is_printed(notebook: Kernel) -> None:
     notebook.run("lab.running.student_nodes.START_TIMEOUT = 1.0\nnode = lab.run_node('stubborn.py')")
     notebook.run("lab.wait_until(lambda: 'up' in node.log())")
     assert "stubborn.py did not end within 3 s of Ctrl-C and was killed" in notebook.run("node.stop()")
