@@ -28,7 +28,7 @@ SCALE = 1.0
 
 
 def require_kept_within_bounds(chunks: list[bytes]) -> None:
-    """Require that output is kept up to its limit, that what is dropped is counted, and that the controller reads it."""
+    """Require that output is kept up to its limit, that the rest is counted, and that the controller reads it."""
     lines: list[OutputLine] = []
     captured = CapturedOutput(KEPT_KIB, lines.append)
     for chunk in chunks:
