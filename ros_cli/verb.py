@@ -7,7 +7,7 @@ from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
-from ros_cli.command_node import SPIN_TIME
+from ros_cli.command_node import SPIN_TIME, CommandNode
 
 Verbs = Any  # what ArgumentParser.add_subparsers() returns; argparse keeps its class private
 Run = Callable[[Namespace], "int | None"]
@@ -33,9 +33,26 @@ def add_graph_verb(verbs: Verbs, name: str, run: Run, summary: str) -> ArgumentP
     return parser
 
 
-def add_list_verb(verbs: Verbs, run: Run, kind: str) -> ArgumentParser:
-    """Add the verb that lists everything of a kind, such as "topic"; `print_list` prints it."""
-    listing = add_graph_verb(verbs, "list", run, f"Output a list of available {kind}s")
+def add_list_verb(
+    verbs: Verbs, kind: str, names: Callable[[CommandNode, Namespace], Collection[str]]
+) -> ArgumentParser:
+    """Add the verb that prints everything of a kind, such as "topic", a line each, or the number of them.
+
+    `names` is called when the graph is known; if it returns a mapping to types, --show-types prints them.
+    """
+
+    def print_list(options: Namespace) -> None:
+        with CommandNode(options.spin_time) as command:
+            command.discover()
+            found = names(command, options)
+        if options.count:
+            print(len(found))
+            return
+        types = found if isinstance(found, Mapping) and options.show_types else {}
+        for name in found:
+            print(typed(name, types[name]) if types else name)
+
+    listing = add_graph_verb(verbs, "list", print_list, f"Output a list of available {kind}s")
     words = f"Only display the number of {kind}s discovered"
     listing.add_argument("-c", f"--count-{kind}s", dest="count", action="store_true", help=words)
     return listing
@@ -64,17 +81,8 @@ def given_values(options: Namespace) -> str:
     return sys.stdin.read() if options.stdin else str(options.values)
 
 
-def print_list(options: Namespace, found: Collection[str]) -> None:
-    """Print names, a line each, with their types if it is asked for and `found` maps to them; or only their number."""
-    if options.count:
-        print(len(found))
-        return
-    for name in found:
-        print(with_types(name, found[name]) if isinstance(found, Mapping) and options.show_types else name)
-
-
-def with_types(name: str, types: Sequence[str]) -> str:
-    """Return a name with its types, as `--show-types` prints it."""
+def typed(name: str, types: Sequence[str]) -> str:
+    """Return a name with its types, as --show-types prints it."""
     return f"{name} [{', '.join(types)}]"
 
 

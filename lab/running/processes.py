@@ -22,6 +22,7 @@ from lab.pictures.labels import Mark
 from ros_runtime.workarounds import die_with_parent
 
 KEPT_LINES = 2000  # of each stream
+GRACE = 3.0  # s from SIGINT to SIGKILL
 DRAIN_TIME = 1.0  # s to read what an ended process left in its pipe
 LOG_PREFIX = re.compile(r"^(\[\w+\]) \[[\d.]+\] \[[^\]]*\]: ")  # severity, time and logger of a ROS log line
 
@@ -81,10 +82,10 @@ class Process:
             return False
         return True
 
-    def stop(self, grace: float = 3.0) -> bool:
-        """Send SIGINT, then SIGKILL after `grace` s. Returns whether SIGINT was enough."""
+    def stop(self) -> bool:
+        """Send SIGINT, then SIGKILL after 3 s. Returns whether SIGINT was enough."""
         self.send(signal.SIGINT)
-        if self.wait(grace):
+        if self.wait(GRACE):
             return True
         self.kill()
         return False

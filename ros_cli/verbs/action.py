@@ -13,7 +13,7 @@ from rclpy.action import (
 
 from ros_cli.command_node import CommandNode, absolute
 from ros_cli.servers import nodes_with
-from ros_cli.verb import Verbs, add_flag, add_graph_verb, add_list_verb, print_list, with_types
+from ros_cli.verb import Verbs, add_flag, add_graph_verb, add_list_verb, typed
 from ros_cli.verbs import action_send_goal
 
 BY_NODE = (get_action_client_names_and_types_by_node, get_action_server_names_and_types_by_node)
@@ -25,17 +25,11 @@ def add_verbs(verbs: Verbs) -> None:
     info.add_argument("action_name", help="Name of the ROS action to get info (e.g. '/fibonacci')")
     add_flag(info, "-t", "--show-types", help="Additionally show the action type")
     add_flag(info, "-c", "--count", help="Only display the number of action clients and servers")
-    listing = add_list_verb(verbs, list_actions, "action")
+    listing = add_list_verb(
+        verbs, "action", lambda command, _: dict(sorted(get_action_names_and_types(command.node)))
+    )
     add_flag(listing, "-t", "--show-types", help="Additionally show the action type")
     action_send_goal.add_to(verbs)
-
-
-def list_actions(options: Namespace) -> None:
-    """Print the actions, a line each."""
-    with CommandNode(options.spin_time) as command:
-        command.discover()
-        actions = dict(sorted(get_action_names_and_types(command.node)))
-    print_list(options, actions)
 
 
 def print_info(options: Namespace) -> None:
@@ -53,4 +47,4 @@ def print_info(options: Namespace) -> None:
     for kind, nodes in (("clients", clients), ("servers", servers)):
         print(f"Action {kind}: {len(nodes)}")
         for node, types in () if options.count else nodes:
-            print(f"    {with_types(node, types) if options.show_types else node}")
+            print(f"    {typed(node, types) if options.show_types else node}")

@@ -13,7 +13,7 @@ from rclpy.node import NodeNameNonExistentError
 
 from ros_cli.command_node import CommandNode, absolute, shown, split_name
 from ros_cli.errors import unknown
-from ros_cli.verb import Verbs, add_flag, add_graph_verb, add_list_verb, print_list
+from ros_cli.verb import Verbs, add_flag, add_graph_verb, add_list_verb
 
 
 def add_verbs(verbs: Verbs) -> None:
@@ -21,22 +21,8 @@ def add_verbs(verbs: Verbs) -> None:
     info = add_graph_verb(verbs, "info", print_info, "Output information about a node")
     info.add_argument("node_name", help="Node name to request information")
     add_flag(info, "--include-hidden", help="Display hidden topics, services, and actions as well")
-    listing = add_list_verb(verbs, list_nodes, "node")
+    listing = add_list_verb(verbs, "node", _names)
     add_flag(listing, "-a", "--all", help="Display all nodes even hidden ones")
-
-
-def list_nodes(options: Namespace) -> None:
-    """Print the full names of the nodes, a line each."""
-    with CommandNode(options.spin_time) as command:
-        command.discover()
-        names = command.node_names(hidden=options.all)
-    if len(set(names)) < len(names) and not options.count:
-        print(
-            "WARNING: Be aware that there are nodes in the graph that share an exact name, "
-            "which can have unintended side effects.",
-            file=sys.stderr,
-        )
-    print_list(options, names)
 
 
 def print_info(options: Namespace) -> None:
@@ -63,6 +49,18 @@ def print_info(options: Namespace) -> None:
     for title, names_and_types in endpoints.items():
         print(f"  {title}:")
         print(*[f"    {each}: {', '.join(types)}" for each, types in names_and_types.items()], sep="\n")
+
+
+def _names(command: CommandNode, options: Namespace) -> list[str]:
+    """Return the full names of the nodes; print a warning if two nodes have the same name."""
+    names = command.node_names(hidden=options.all)
+    if len(set(names)) < len(names) and not options.count:
+        print(
+            "WARNING: Be aware that there are nodes in the graph that share an exact name, "
+            "which can have unintended side effects.",
+            file=sys.stderr,
+        )
+    return names
 
 
 def _endpoints(command: CommandNode, node: str, hidden: bool) -> dict[str, dict[str, list[str]]]:

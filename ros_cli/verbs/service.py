@@ -19,7 +19,6 @@ from ros_cli.verb import (
     add_values,
     given_values,
     positive_float,
-    print_list,
 )
 from ros_cli.yaml_values import message_from_yaml
 
@@ -33,20 +32,15 @@ def add_verbs(verbs: Verbs) -> None:
     call.add_argument(
         "-r", "--rate", metavar="N", type=positive_float, help="Repeat the call at a specific rate in Hz"
     )
-    listing = add_list_verb(verbs, list_services, "service")
+    listing = add_list_verb(
+        verbs, "service", lambda command, options: command.services(hidden=options.include_hidden_services)
+    )
     add_flag(listing, "-t", "--show-types", help="Additionally show the service type")
     add_flag(listing, "--include-hidden-services", help="Consider hidden services as well")
     type_of = add_graph_verb(verbs, "type", print_type, "Output a service's type")
     type_of.add_argument(
         "service_name", help="Name of the ROS service to get type (e.g. '/talker/list_parameters')"
     )
-
-
-def list_services(options: Namespace) -> None:
-    """Print the services, a line each."""
-    with CommandNode(options.spin_time) as command:
-        command.discover()
-        print_list(options, command.services(hidden=options.include_hidden_services))
 
 
 def print_type(options: Namespace) -> None:

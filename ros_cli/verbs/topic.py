@@ -6,7 +6,7 @@ from argparse import Namespace
 
 from ros_cli.command_node import CommandNode, absolute
 from ros_cli.errors import unknown
-from ros_cli.verb import Verbs, add_flag, add_graph_verb, add_list_verb, print_list
+from ros_cli.verb import Verbs, add_flag, add_graph_verb, add_list_verb
 from ros_cli.verbs import topic_echo, topic_hz, topic_pub
 
 
@@ -17,19 +17,14 @@ def add_verbs(verbs: Verbs) -> None:
     info = add_graph_verb(verbs, "info", print_info, "Print information about a topic")
     info.add_argument("topic_name", help="Name of the ROS topic to get info (e.g. '/chatter')")
     add_flag(info, "-v", "--verbose", help="Print nodes, types, GUIDs and QoS too")
-    listing = add_list_verb(verbs, list_topics, "topic")
+    listing = add_list_verb(
+        verbs, "topic", lambda command, options: command.topics(hidden=options.include_hidden_topics)
+    )
     add_flag(listing, "-t", "--show-types", help="Additionally show the topic type")
     add_flag(listing, "--include-hidden-topics", help="Consider hidden topics as well")
     topic_pub.add_to(verbs)
     type_of = add_graph_verb(verbs, "type", print_type, "Print a topic's type")
     type_of.add_argument("topic_name", help="Name of the ROS topic to get type (e.g. '/chatter')")
-
-
-def list_topics(options: Namespace) -> None:
-    """Print the topics, a line each."""
-    with CommandNode(options.spin_time) as command:
-        command.discover()
-        print_list(options, command.topics(hidden=options.include_hidden_topics))
 
 
 def print_type(options: Namespace) -> None:

@@ -53,7 +53,7 @@ COURSE = Path(sys.executable).with_name("course")
 )
 def test_the_words_and_flags_of_ros2cli_are_understood(words: str) -> None:
     options = app.command_line("ros2").parse_args(words.split())
-    assert options.run.__module__.startswith("ros_cli.verbs.")
+    assert options.run.__module__.startswith("ros_cli.verb")
 
 
 # Of ros2cli 0.32.2 (Jazzy) and of what later releases for Jazzy added; `-h` and what stands for a word apart.
