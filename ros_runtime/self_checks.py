@@ -1,4 +1,4 @@
-"""Stores the last self-check of each exercise for the student's progress page; nothing else reads it."""
+"""Stores the last self-check of each exercise for the student's progress page, and reads files of progress."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A design as a picture: on the left the node that publishes or asks, then the link, then the node at its other end."""
+"""A design as SVG: on the left the node that publishes or sends requests, then the link, then the receiving node."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Texts in a drawing: students write some of them, and XML takes neither control characters nor half a character."""
+"""Texts in a drawing: students write some of them, and XML allows neither control characters nor lone surrogates."""
 
 from __future__ import annotations
 
