@@ -8,6 +8,7 @@
 Every function that waits has a timeout, and its error says what was seen. Import `lab` before any ROS message: it
 switches on rclpy's checks of field types, which rclpy reads at the first import.
 """
+# ruff: noqa: F401
 
 import os
 
@@ -22,27 +23,19 @@ from lab.client.outcomes import CancelAnswer, Outcome
 from lab.client.services import call, service_is_ready
 from lab.client.topics import Pose, battery, mode, odometry, pose, robot_state
 from lab.client.waiting import wait_until
-from lab.errors import (
-    LabError,
-    NoAnswerError,
-    NodeEndedError,
-    NoRobotError,
-    NoServerError,
-    NotInTimeError,
-)
+from lab.errors import LabError, NoAnswerError, NodeEndedError, NoRobotError, NoServerError, NotInTimeError
 from lab.learning.design import check_design, draw_design
 from lab.learning.gap import GapError
 from lab.learning.pattern_choice import PatternChoice, choose_pattern
 from lab.learning.prediction import Prediction, predict
 from lab.learning.progress_table import show_progress
 from lab.learning.quiz import Quiz, quiz
-from lab.pictures.curves_plot import plot_curves
 from lab.pictures.diagram import draw_sequence
 from lab.pictures.film import film_robot
 from lab.pictures.graph_drawing import draw_graph
 from lab.pictures.live_view import stop_watching, watch_robot
-from lab.pictures.means_plot import plot_means
 from lab.pictures.picture import show_robot
+from lab.pictures.plots import plot_curves, plot_means
 from lab.pictures.recording import Recording, record_robot
 from lab.pictures.thread_plot import draw_threads
 from lab.pictures.timeline import draw_timeline
@@ -53,65 +46,4 @@ from lab.running.robot import restart_robot, start_robot, stop_robot
 from lab.running.session import stop_everything
 from lab.running.student_nodes import StudentNode, run_node, stop_nodes
 
-__all__ = [
-    "CancelAnswer",
-    "GapError",
-    "Goal",
-    "LabError",
-    "NoAnswerError",
-    "NoRobotError",
-    "NoServerError",
-    "NodeEndedError",
-    "NotInTimeError",
-    "Outcome",
-    "PatternChoice",
-    "Pose",
-    "Prediction",
-    "Program",
-    "Quiz",
-    "Recording",
-    "StudentNode",
-    "battery",
-    "build_interfaces",
-    "call",
-    "check_design",
-    "choose_pattern",
-    "describe",
-    "draw_design",
-    "draw_graph",
-    "draw_sequence",
-    "draw_threads",
-    "draw_timeline",
-    "export_package",
-    "film_robot",
-    "keep_programs_in",
-    "list_graph",
-    "mode",
-    "node",
-    "nodes_in_graph",
-    "odometry",
-    "plot_curves",
-    "plot_means",
-    "pose",
-    "predict",
-    "publish",
-    "quiz",
-    "record_robot",
-    "restart_robot",
-    "robot_state",
-    "run_node",
-    "run_program",
-    "send_goal",
-    "service_is_ready",
-    "show_progress",
-    "show_robot",
-    "start_program",
-    "start_robot",
-    "stop_everything",
-    "stop_nodes",
-    "stop_robot",
-    "stop_watching",
-    "wait_until",
-    "walking",
-    "watch_robot",
-]
+__all__ = [name for name, each in globals().items() if getattr(each, "__module__", "").startswith("lab.")]

@@ -1,4 +1,4 @@
-"""What the lab's terminals and cells call `ros2`."""
+"""The program behind `ros2` in the lab's terminals and cells (`bin/ros2`)."""
 
 from __future__ import annotations
 

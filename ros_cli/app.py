@@ -10,11 +10,13 @@ import signal
 import sys
 from argparse import ArgumentParser, RawDescriptionHelpFormatter
 from collections.abc import Sequence
+from typing import Any
 
-from ros_cli import domain
 from ros_cli.errors import CommandError
 from ros_cli.real_ros2 import real_ros2
 from ros_cli.verbs import action, interface, node, param, service, topic
+from ros_runtime import notebook_domains
+from ros_runtime.ros_domain import require_usable_domain
 
 GROUPS = {
     "action": (action, "Various action related sub-commands"),
@@ -25,12 +27,17 @@ GROUPS = {
     "topic": (topic, "Various topic related sub-commands"),
 }
 
+HELP = """\
+Names are full names, such as /robot/odom. A command uses the ROS domain ROS_DOMAIN_ID of the shell, or 0 if it
+is not set. In the lab, a cell uses the domain of its own notebook; a terminal uses that of the notebook whose
+robot or node was started last, unless ROS_DOMAIN_ID is set there."""
+
 
 def main(arguments: Sequence[str] | None = None, *, program: str = "ros2") -> int:
     """Run a command, by the real ros2 where that is on the PATH, and return the exit status."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        domain.join_domain()
+        join_domain()
     except CommandError as error:
         print(error, file=sys.stderr)
         return 1
@@ -56,24 +63,29 @@ def run(arguments: Sequence[str], program: str = "ros2") -> int:
         return 1
 
 
+def join_domain() -> None:
+    """In the lab, set ROS_DOMAIN_ID of this process to a notebook's domain, unless it is set already.
+
+    Raises CommandError if ROS_DOMAIN_ID is not a usable domain.
+    """
+    domain_id = notebook_domains.latest()
+    if domain_id is not None:
+        os.environ.setdefault("ROS_DOMAIN_ID", str(domain_id))
+    try:
+        require_usable_domain()
+    except ValueError as error:
+        raise CommandError(str(error)) from error
+
+
 def command_line(program: str) -> ArgumentParser:
     """Return the parser of all groups and verbs; what it parses has `run`, to be called with it."""
-    parser = ArgumentParser(
-        prog=program,
-        description="The ros2 commands that the course uses, with the words and the output of ros2cli.",
-        epilog=domain.HELP,
-        formatter_class=RawDescriptionHelpFormatter,
-    )
+    look: dict[str, Any] = {"epilog": HELP, "formatter_class": RawDescriptionHelpFormatter}
+    words = "The ros2 commands that the course uses, with the words and the output of ros2cli."
+    parser = ArgumentParser(prog=program, description=words, **look)
     _show_help_without_verb(parser)
     groups = parser.add_subparsers(title="Commands", metavar="COMMAND")
     for name, (module, summary) in GROUPS.items():
-        group = groups.add_parser(
-            name,
-            help=summary,
-            description=summary,
-            epilog=domain.HELP,
-            formatter_class=RawDescriptionHelpFormatter,
-        )
+        group = groups.add_parser(name, help=summary, description=summary, **look)
         _show_help_without_verb(group)
         module.add_verbs(group.add_subparsers(title="Verbs", metavar="VERB"))
     return parser

@@ -57,9 +57,7 @@ class CommandNode:
 
     def __enter__(self) -> CommandNode:
         self._thread.start()
-        expected = Counter(
-            expected_nodes()
-        )  # the running nodes of the notebook whose cell called the command
+        expected = Counter(expected_nodes())  # those of the notebook whose cell called the command
         self.find(lambda: expected <= Counter(self.node_names(hidden=True)))
         return self
 

@@ -18,13 +18,16 @@ def unknown(kind: str, name: str, known: Iterable[str]) -> CommandError:
         name: what was asked for.
         known: the names there are.
     """
-    alike = similar_names(name, known)
-    advice = f"did you mean {' or '.join(alike)}?" if alike else f"`{kind} list` shows those there are"
+    advice = suggestion(name, known, f"`{kind} list` shows those there are")
     return CommandError(f"Unknown {kind} '{name}': {advice}")
 
 
-def similar_names(name: str, known: Iterable[str]) -> list[str]:
-    """Return the known names with the same ending (/robot/odom for /odom); else those that differ by few letters."""
+def suggestion(name: str, known: Iterable[str], otherwise: str) -> str:
+    """Ask whether a known name was meant: one with the same ending (/robot/odom for /odom), or with few other letters.
+
+    `otherwise` is returned where no name looks alike.
+    """
     names = sorted(known)
     end = "/" + name.rpartition("/")[2]
-    return [each for each in names if each.endswith(end)] or get_close_matches(name, names, n=2)
+    alike = [each for each in names if each.endswith(end)] or get_close_matches(name, names, n=2)
+    return f"did you mean {' or '.join(alike)}?" if alike else otherwise

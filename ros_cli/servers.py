@@ -7,15 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from rclpy.action import get_action_server_names_and_types_by_node
 from rclpy.node import NodeNameNonExistentError
 
-from ros_cli.command_node import CommandNode, full_name
+from ros_cli.command_node import CommandNode, split_name
 from ros_cli.errors import CommandError
 
 SERVER_TIMEOUT = 2.0  # s; after that the request is sent anyway, since the node may only be busy
 
-NamesAndTypes = list[tuple[str, list[str]]]
+ByNode = Callable[[str, str], "list[tuple[str, list[str]]]"]  # from a node's name and namespace
 
 
 def wait_for_type(
@@ -42,26 +41,24 @@ def wait_for_type(
     command.wait_until(is_ready_or_never)
 
 
-def wait_for_service_node(command: CommandNode, service: str) -> None:
-    """Wait until the node that has a service answers."""
-    _wait(command, service, command.node.get_service_names_and_types_by_node)
+def nodes_with(command: CommandNode, name: str, by_node: ByNode) -> list[tuple[str, list[str]]]:
+    """Return the nodes that have a service, or an action's client or server, of this name, with its types.
 
-
-def wait_for_action_node(command: CommandNode, action: str) -> None:
-    """Wait until the node that has an action's server answers."""
-    _wait(
-        command,
-        action,
-        lambda name, namespace: get_action_server_names_and_types_by_node(command.node, name, namespace),
-    )
-
-
-def _wait(command: CommandNode, server: str, servers_of: Callable[[str, str], NamesAndTypes]) -> None:
-    for name, namespace in command.node.get_node_names_and_namespaces():
+    `by_node` returns the names and types of what one node has.
+    """
+    found = []
+    for node in command.node_names(hidden=True):
         try:
-            names = [each for each, _ in servers_of(name, namespace)]
-        except NodeNameNonExistentError:
+            types = dict(by_node(*split_name(node))).get(name)
+        except NodeNameNonExistentError:  # the node has just ended
             continue
-        node = full_name(name, namespace)
-        if server in names and f"{node}/list_parameters" in command.services():
+        if types is not None:
+            found.append((node, types))
+    return found
+
+
+def wait_for_node_of(command: CommandNode, server: str, by_node: ByNode) -> None:
+    """Wait until the node that has a service or an action's server answers."""
+    for node, _ in nodes_with(command, server, by_node):
+        if f"{node}/list_parameters" in command.services():
             command.wait_until_answering(node, SERVER_TIMEOUT)

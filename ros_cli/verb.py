@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import sys
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
-from ros_cli.command_node import SPIN_TIME
+from ros_cli.command_node import SPIN_TIME, CommandNode
 
 Verbs = Any  # what ArgumentParser.add_subparsers() returns; argparse keeps its class private
 Run = Callable[[Namespace], "int | None"]
@@ -29,10 +29,38 @@ def add_graph_verb(verbs: Verbs, name: str, run: Run, summary: str) -> ArgumentP
         default=SPIN_TIME,
         help="Spin time in seconds: discovery ends when nothing new has appeared for this long",
     )
-    parser.add_argument(
-        "--no-daemon", action="store_true", help="Accepted for scripts; there is no daemon here"
-    )
+    add_flag(parser, "--no-daemon", help="Accepted for scripts; there is no daemon here")
     return parser
+
+
+def add_list_verb(
+    verbs: Verbs, kind: str, names: Callable[[CommandNode, Namespace], Collection[str]]
+) -> ArgumentParser:
+    """Add the verb that prints everything of a kind, such as "topic", a line each, or the number of them.
+
+    `names` is called when the graph is known; if it returns a mapping to types, --show-types prints them.
+    """
+
+    def print_list(options: Namespace) -> None:
+        with CommandNode(options.spin_time) as command:
+            command.discover()
+            found = names(command, options)
+        if options.count:
+            print(len(found))
+            return
+        types = found if isinstance(found, Mapping) and options.show_types else {}
+        for name in found:
+            print(typed(name, types[name]) if types else name)
+
+    listing = add_graph_verb(verbs, "list", print_list, f"Output a list of available {kind}s")
+    words = f"Only display the number of {kind}s discovered"
+    listing.add_argument("-c", f"--count-{kind}s", dest="count", action="store_true", help=words)
+    return listing
+
+
+def add_flag(parser: ArgumentParser, *names: str, help: str) -> None:
+    """Add an option without a value."""
+    parser.add_argument(*names, action="store_true", help=help)
 
 
 def add_values(parser: ArgumentParser, metavar: str, summary: str) -> None:
@@ -51,6 +79,11 @@ def add_values(parser: ArgumentParser, metavar: str, summary: str) -> None:
 def given_values(options: Namespace) -> str:
     """Return the YAML that was typed, or that comes from standard input."""
     return sys.stdin.read() if options.stdin else str(options.values)
+
+
+def typed(name: str, types: Sequence[str]) -> str:
+    """Return a name with its types, as --show-types prints it."""
+    return f"{name} [{', '.join(types)}]"
 
 
 def positive_float(text: str) -> float:

@@ -17,11 +17,8 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-KINDS: Mapping[str, str] = {
-    "topic": "msg",
-    "service": "srv",
-    "action": "action",
-}  # the middle of their types' names
+# The middle of the names of their types.
+KINDS: Mapping[str, str] = {"topic": "msg", "service": "srv", "action": "action"}
 WIRE = "wire"  # no ROS: a cable, a fieldbus
 PATTERNS = (*KINDS, WIRE)
 FACTS = ("qos", "rate", "failure", "safety")  # in addition to pattern and type, which are in the first line

@@ -20,16 +20,8 @@ _SETUP_FILE_VARIABLES = (
 )
 
 
-def ros_environment(
-    *, domain_id: int | None = None, localhost_only: bool = False, log_directory: Path | None = None
-) -> dict[str, str]:
-    """Return the variables to add to a process's environment, which may be empty or a copy of this process's.
-
-    Args:
-        domain_id: 0 to 101; separates systems on one network.
-        localhost_only: keeps discovery on this machine.
-        log_directory: takes the log files, by default ~/.ros/log; needed if there is no home.
-    """
+def ros_environment() -> dict[str, str]:
+    """Return the variables to add to a process's environment, which may be empty or a copy of this process's."""
     variables = {
         "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
         # Shared memory does not work across sandboxes and leaves files behind when a process is killed.
@@ -43,22 +35,7 @@ def ros_environment(
         # numpy would start a thread per core for matrices of at most a few dozen rows.
         "OPENBLAS_NUM_THREADS": "1",
     }
-    if domain_id is not None:
-        if not 0 <= domain_id <= 101:
-            raise ValueError(
-                f"domain id {domain_id}: expected 0 to 101, whose ports are free on every system"
-            )
-        variables["ROS_DOMAIN_ID"] = str(domain_id)
-    if localhost_only:
-        variables["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-    if log_directory is not None:
-        variables["ROS_LOG_DIR"] = str(log_directory)
     return variables | _library_variables()
-
-
-def python_for_ros() -> str:
-    """Return the interpreter that has rclpy and the interfaces: this one."""
-    return sys.executable
 
 
 def uses_wheels() -> bool:

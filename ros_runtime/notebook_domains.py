@@ -1,42 +1,52 @@
 """The ROS domains of the lab's notebooks, which the terminals beside them join.
 
 Each notebook has a domain of its own. `course lab` names a file in the environment of all its kernels and terminals;
-a notebook adds its domain there when it joins one.
+a notebook adds its domain there when it joins one. The file is in memory: it is gone when the lab's process ends.
 """
 
 from __future__ import annotations
 
 import os
-import tempfile
+from contextlib import suppress
 from pathlib import Path
 
 from ros_runtime.ros_domain import is_reserved
 
 VARIABLE = "COURSE_NOTEBOOK_DOMAINS"
 EXPECTED = "COURSE_NOTEBOOK_NODES"  # in the environment of a notebook's cells: full names of nodes that run
+_FILE = "course-lab-domains"
 
 
 def lab_variables() -> dict[str, str]:
-    """Create the file in which a new lab's notebooks write their domains; return the variable that names it."""
-    descriptor, path = tempfile.mkstemp(prefix="course-lab-", suffix=".domains")
-    os.close(descriptor)
-    return {VARIABLE: path}
+    """Create the file in which a new lab's notebooks write their domains; return the variable that names it.
+
+    It lasts as long as this process, also if this process becomes another program (`exec`).
+    """
+    descriptor = os.memfd_create(_FILE, flags=0)  # without MFD_CLOEXEC
+    return {VARIABLE: f"/proc/{os.getpid()}/fd/{descriptor}"}
 
 
 def announce(domain_id: int) -> None:
     """Add this notebook's domain to the lab's file, if it runs in a lab."""
-    if VARIABLE in os.environ:
-        with Path(os.environ[VARIABLE]).open("a", encoding="utf-8") as domains:
+    if file := _file_of_the_lab():
+        with file.open("a", encoding="utf-8") as domains:
             domains.write(f"{domain_id}\n")
 
 
 def latest() -> int | None:
     """Return the domain of the notebook that joined last, of those that still run; None if there is none."""
-    try:
-        announced = Path(os.environ[VARIABLE]).read_text(encoding="utf-8").split()
-    except (KeyError, FileNotFoundError):
-        return None
+    file = _file_of_the_lab()
+    announced = file.read_text(encoding="utf-8").split() if file else []
     return next((int(domain) for domain in reversed(announced) if is_reserved(int(domain))), None)
+
+
+def _file_of_the_lab() -> Path | None:
+    """Return the lab's file; None outside a lab, and when the lab has ended: its process id may be another's."""
+    file = Path(os.environ.get(VARIABLE, ""))
+    with suppress(OSError):
+        if _FILE in os.readlink(file):
+            return file
+    return None
 
 
 def expect_node(name: str) -> None:

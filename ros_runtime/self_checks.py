@@ -1,4 +1,4 @@
-"""Stores the last self-check of each exercise for the student's progress page; nothing else reads it."""
+"""Stores the last self-check of each exercise for the student's progress page, and reads files of progress."""
 
 from __future__ import annotations
 
@@ -7,12 +7,11 @@ import json
 from dataclasses import asdict, dataclass
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 from ros_runtime.project import WORK
 
-FILE = (
-    WORK / "exercises" / ".progress.json"
-)  # not in an exercise's folder, so that it is not handed in with it
+FILE = WORK / "exercises" / ".progress.json"  # not in an exercise's folder, which is handed in
 KIND = "checks"
 
 
@@ -28,7 +27,7 @@ class LastCheck:
 def last_checks(file: Path = FILE) -> dict[str, LastCheck]:
     """Return the last self-check of each exercise that was checked; damaged entries are left out."""
     checks = {}
-    for exercise, entry in _entries(file).items():
+    for exercise, entry in entries_of(file, KIND).items():
         with contextlib.suppress(TypeError):
             checks[exercise] = LastCheck(**entry)
     return checks
@@ -39,15 +38,21 @@ def keep_check(exercise: str, passed: int, total: int, file: Path = FILE) -> Non
     if not (file.parent / exercise).is_dir():  # an exercise of another course
         return
     check = LastCheck(passed, total, datetime.now().isoformat(timespec="seconds"))
-    entries = {**_entries(file), exercise: asdict(check)}
+    entries = {**entries_of(file, KIND), exercise: asdict(check)}
     with contextlib.suppress(OSError):
         file.write_text(json.dumps({KIND: entries}, indent=1) + "\n", encoding="utf-8")
 
 
-def _entries(file: Path) -> dict[str, dict]:
+def entries_of(file: Path, kind: str) -> dict[str, Any]:
+    """Return the entries of one kind in a file of progress; {} if there are none, or the file is damaged."""
+    entries = read_progress_file(file).get(kind)
+    return entries if isinstance(entries, dict) else {}
+
+
+def read_progress_file(file: Path) -> dict[str, Any]:
+    """Return all that a file of progress holds; {} if there is no such file, or it is damaged."""
     try:
         kept = json.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
-    entries = kept.get(KIND) if isinstance(kept, dict) else None
-    return entries if isinstance(entries, dict) else {}
+    return kept if isinstance(kept, dict) else {}

@@ -1,11 +1,13 @@
-"""The notebook's own node, spun by a background thread."""
+"""The notebook's own node, in a ROS domain of its own, spun by a background thread."""
 
 from __future__ import annotations
 
+import os
 import threading
 import traceback
 import weakref
 from collections.abc import Callable, Hashable
+from functools import cache
 from typing import Any, TypeVar
 
 import rclpy
@@ -15,10 +17,12 @@ from rclpy.node import Node, NodeNameNonExistentError
 from rclpy.signals import SignalHandlerOptions
 
 from lab.client.interaction_log import conversation
-from lab.client.network import join_ros_domain
 from lab.client.waiting import comes_true
-from ros_runtime.notebook_domains import expect_node, forget_node
+from lab.errors import LabError
+from ros_runtime.environment import ros_environment
+from ros_runtime.notebook_domains import announce, expect_node, forget_node
 from ros_runtime.recorded_client.service_client import ServiceClient
+from ros_runtime.ros_domain import NoDomainLeft, ReservedDomain, loopback_variables
 
 NAMESPACE = "/robot"
 OF_EVERY_NODE = (
@@ -30,10 +34,7 @@ OF_EVERY_NODE = (
     "set_parameters",
     "set_parameters_atomically",
 )
-OF_EVERY_ACTION = (
-    "cancel_goal",
-    "get_result",
-)  # an action's other services; its send_goal service is the one that is listed
+OF_EVERY_ACTION = ("cancel_goal", "get_result")  # its send_goal service is the one that is listed
 
 T = TypeVar("T")
 
@@ -59,6 +60,25 @@ def disconnect() -> None:
     if _connection is not None:
         _connection.close()
         _connection = None
+
+
+@cache
+def join_ros_domain() -> ReservedDomain:
+    """Reserve a domain until this process ends and put the network's settings into its environment.
+
+    The terminals of the same lab can join it.
+
+    Raises LabError when every domain is taken.
+    """
+    try:
+        domain = ReservedDomain()
+    except NoDomainLeft as error:
+        raise LabError(f"{error}: shut down idle kernels") from error
+    os.environ.update(ros_environment() | loopback_variables())
+    os.environ["ROS_DOMAIN_ID"] = str(domain.domain_id)
+    os.environ.pop("ROS_AUTOMATIC_DISCOVERY_RANGE", None)  # it would override the profile
+    announce(domain.domain_id)
+    return domain
 
 
 class Connection:

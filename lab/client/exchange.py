@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import Any
 
 from lab.client.connection import connection
-from lab.client.events import GaveUp
 from lab.client.interaction_log import log
+from lab.client.messages import GaveUp
 from lab.client.waiting import comes_true
 from lab.errors import NoAnswerError, NoServerError
 from lab.running.student_nodes import output_of_failed_nodes

@@ -9,6 +9,7 @@ from builtin_interfaces.msg import Duration, Time
 from geometry_msgs.msg import Pose, PoseStamped
 
 from ros_runtime.angles import yaw_of
+from ros_runtime.messages import is_message
 
 
 def describe(message: Any) -> str:
@@ -37,13 +38,13 @@ def _fields(message: Any) -> list[tuple[str, Any]]:
 
 
 def _is_informative(value: Any) -> bool:
-    if _is_message(value):
+    if is_message(value):
         return any(_is_informative(part) for _, part in _fields(value))
     return len(value) > 0 if hasattr(value, "__len__") else bool(value)
 
 
 def _value(value: Any) -> str:
-    if _is_message(value):
+    if is_message(value):
         return _nested(value)
     if isinstance(value, bool):
         return str(value)
@@ -65,10 +66,6 @@ def _nested(message: Any) -> str:
     if isinstance(message, Duration | Time):
         return f"{message.sec + message.nanosec * 1e-9:.1f} s"
     return f"({describe(message)})"
-
-
-def _is_message(value: Any) -> bool:
-    return hasattr(value, "get_fields_and_field_types")
 
 
 def _is_pose(value: Any) -> bool:

@@ -8,14 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from rclpy.node import Node
-from rclpy.qos import (
-    DurabilityPolicy,
-    QoSCompatibility,
-    QoSProfile,
-    ReliabilityPolicy,
-    qos_check_compatible,
-)
+from rclpy.qos import DurabilityPolicy, QoSCompatibility, QoSProfile, ReliabilityPolicy, qos_check_compatible
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from lab.client.connection import connection
@@ -102,11 +95,10 @@ def list_graph(*names: str) -> None:
 
 def nodes_in_graph() -> list[str]:
     """The full names of all nodes but hidden ones, sorted."""
-    node: Node = connection().node
     return sorted(
         _full_name(namespace, name)
-        for name, namespace in node.get_node_names_and_namespaces()
-        if _is_shown(name)
+        for name, namespace in connection().node.get_node_names_and_namespaces()
+        if name != NOT_YET_KNOWN and not name.startswith(HIDDEN)
     )
 
 
@@ -117,10 +109,6 @@ def _endpoints(infos: Iterable[TopicEndpointInfo]) -> tuple[Endpoint, ...]:
         if not info.node_name.startswith(HIDDEN)
     )
     return tuple(sorted(ends, key=lambda end: end.node))
-
-
-def _is_shown(name: str) -> bool:
-    return name != NOT_YET_KNOWN and not name.startswith(HIDDEN)
 
 
 def _full_name(namespace: str, name: str) -> str:

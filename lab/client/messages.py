@@ -1,11 +1,10 @@
-"""Events as the arrows of a sequence diagram."""
+"""Events of a notebook as the arrows of a sequence diagram, and as labels on a time axis."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from lab.client.events import GaveUp, ModeChanged
 from lab.client.formatting import describe_briefly
 from lab.client.outcomes import read_cancel_answer
 from ros_runtime.drawing.sequence_diagram import Arrow
@@ -24,6 +23,20 @@ from ros_runtime.record.client_events import (
 from ros_runtime.record.event import Event
 
 NOTEBOOK, ROBOT = "notebook", "robot"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModeChanged(Event):
+    """The robot published another mode, a constant of humanoid_interfaces/RobotState."""
+
+    mode: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class GaveUp(Event):
+    """The notebook gave up on a request; the caller had allowed `timeout` s."""
+
+    timeout: float
 
 
 @dataclass(frozen=True)
@@ -81,18 +94,40 @@ class Messages:
         return status != before
 
 
+def label_of(event: Event) -> str | None:
+    """Return a short label for a request or an answer of the notebook's client; None for all other events."""
+    match event:
+        case ServiceCalled(service=service):
+            return f"{service} called"
+        case ServiceAnswered(call=call):
+            return f"{_called(call)} answered"
+        case GoalSent():
+            return "goal sent"
+        case GoalAnswered(accepted=accepted):
+            return "goal accepted" if accepted else "goal rejected"
+        case CancelSent():
+            return "cancel requested"
+        case CancelAnswered(canceling=canceling):
+            return "cancel accepted" if canceling else "cancel not accepted"
+        case ResultReceived(status=status):
+            return f"result: {name_of(GoalStatus, status)}"
+        case GaveUp(timeout=timeout):
+            return f"no answer after {timeout:g} s"
+    return None
+
+
 def _request(t: float, id: str, label: str) -> Message:
-    return Message(t, NOTEBOOK, _server(id), label, "request")
+    return Message(t, NOTEBOOK, f"{_called(id)} server", label, "request")
 
 
 def _answer(t: float, id: str, label: str) -> Message:
-    return Message(t, _server(id), NOTEBOOK, label, "answer")
+    return Message(t, f"{_called(id)} server", NOTEBOOK, label, "answer")
 
 
 def _published(t: float, id: str, label: str, *, repeats: bool = False) -> Message:
-    return Message(t, _server(id), NOTEBOOK, label, "message", repeats)
+    return Message(t, f"{_called(id)} server", NOTEBOOK, label, "message", repeats)
 
 
-def _server(id: str) -> str:
+def _called(id: str) -> str:
     """The service or action of a call or goal, whose name is that name and a number."""
-    return f"{id.rpartition(' ')[0]} server"
+    return id.rpartition(" ")[0]

@@ -17,9 +17,9 @@ from sensor_msgs.msg import BatteryState, JointState
 
 from humanoid_interfaces.msg import RobotState
 from lab.client.connection import NAMESPACE, connection
-from lab.client.events import ModeChanged
 from lab.client.formatting import fixed
 from lab.client.interaction_log import log
+from lab.client.messages import ModeChanged
 from lab.client.waiting import comes_true
 from lab.errors import NoRobotError
 from robot_sim.model.scenes import OBJECTS
@@ -92,13 +92,14 @@ def latest(topic: str, timeout: float = 5.0) -> Any:
 
 
 def has_published() -> bool:
-    """Whether a message was received on every topic of the robot since `forget()`."""
+    """Whether a message was received on every topic of the robot since `enter()`."""
     return _memory().messages.keys() >= TOPICS.keys()
 
 
 def enter(scene: str) -> None:
-    """Also subscribe to the objects of this scene and to the wrench of the hand that takes them."""
+    """Forget an earlier robot; listen also to the objects of this scene and to the hand that takes them."""
     memory = _memory()
+    memory.messages.clear()
     memory.scene = scene
     if OBJECTS[scene]:
         memory.listen_to(GRIP, WrenchStamped, QUEUE)
@@ -124,11 +125,6 @@ def object_poses() -> dict[str, PoseStamped]:
 def topic_of(name: str) -> str:
     """The topic of an object's pose."""
     return f"objects/{name}/pose"
-
-
-def forget() -> None:
-    """Forget the messages of an earlier robot."""
-    _memory().messages.clear()
 
 
 @contextmanager

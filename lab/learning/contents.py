@@ -43,9 +43,9 @@ class Chapter:
         return self.notebook.stem.partition("_")[2]
 
 
-def read_contents(page: Path = CHAPTERS / "README.md") -> list[Chapter]:
-    """Return the chapters in the order of the page's table."""
-    rows = map(_ROW.match, page.read_text(encoding="utf-8").splitlines())
+def read_contents() -> list[Chapter]:
+    """Return the chapters in the order of the table in chapters/README.md."""
+    rows = map(_ROW.match, (CHAPTERS / "README.md").read_text(encoding="utf-8").splitlines())
     return [
         Chapter(
             title=re.sub(r"[\[\]]", "", row["title"]),

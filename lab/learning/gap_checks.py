@@ -16,9 +16,7 @@ from lab.learning.gap import not_yet
 from lab.running.student_nodes import StudentNode
 
 TO_END = 1.0  # s; long enough for a node to exit after an exception
-HINTS = {
-    "TypeError": "end each path of the callback with `return response`"
-}  # rclpy's error message gives no more information
+HINTS = {"TypeError": "end each path of the callback with `return response`"}  # rclpy's message says no more
 NO_HINTS: Mapping[str, str] = {}
 
 

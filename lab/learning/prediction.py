@@ -9,7 +9,7 @@ import ipywidgets
 from IPython.display import display
 
 from lab.errors import LabError
-from lab.learning.kept_choices import in_your_order, keep_letter, kept_letter
+from lab.learning.progress_file import in_your_order, keep_letter, kept_letter
 from lab.learning.question import Question, read_question
 
 WIDTH = 80  # characters; Jupyter breaks longer lines in the middle of a word

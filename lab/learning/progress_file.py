@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
-from random import randrange
+from random import Random, randrange
 from typing import Literal
+
+from lab.learning.question import Question
+from ros_runtime.self_checks import entries_of, read_progress_file
 
 FILE = Path(".progress.json")  # hidden, as the files of tools are
 Kind = Literal["predictions", "questions", "gaps"]
@@ -13,8 +17,7 @@ Kind = Literal["predictions", "questions", "gaps"]
 
 def kept(kind: Kind, folder: Path = Path()) -> dict[str, str]:
     """Return the stored entries of one kind in a folder, such as the chosen answers or the times of filled gaps."""
-    entries = _read(folder / FILE).get(kind)
-    return entries if isinstance(entries, dict) else {}
+    return entries_of(folder / FILE, kind)
 
 
 def keep(kind: Kind, key: str, value: str | None) -> None:
@@ -23,25 +26,34 @@ def keep(kind: Kind, key: str, value: str | None) -> None:
     entries.pop(key, None)
     if value is not None:
         entries[key] = value
-    _write({**_read(FILE), kind: entries})
+    _write({**read_progress_file(FILE), kind: entries})
 
 
 def own_number() -> int:
     """Return a random number that was drawn once for this folder of notebooks, so it differs between students."""
-    everything = _read(FILE)
+    everything = read_progress_file(FILE)
     if not isinstance(number := everything.get("number"), int):
         number = randrange(10**9)
         _write({**everything, "number": number})
     return number
 
 
+def in_your_order(question: Question) -> Question:
+    """Shuffle the choices: the order differs between students and stays the same for one student."""
+    order = Random(f"{own_number()} {question.text}")
+    return replace(question, choices=tuple(order.sample(question.choices, len(question.choices))))
+
+
+def kept_letter(kind: Kind, question: Question) -> str | None:
+    """Return the letter chosen earlier; None without one, or if the text of that choice has changed since."""
+    text = kept(kind).get(question.text)
+    return next((letter for letter, choice in question.by_letter().items() if choice.text == text), None)
+
+
+def keep_letter(kind: Kind, question: Question, letter: str | None) -> None:
+    """Store the choice made for a question; None deletes it."""
+    keep(kind, question.text, None if letter is None else question.choice(letter).text)
+
+
 def _write(everything: dict) -> None:
     FILE.write_text(json.dumps(everything, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-
-
-def _read(file: Path) -> dict:
-    try:
-        progress = json.loads(file.read_text(encoding="utf-8"))
-    except (FileNotFoundError, ValueError):  # a damaged file only means that each question is asked again
-        return {}
-    return progress if isinstance(progress, dict) else {}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ipywidgets
 from IPython.display import display
 
-from lab.learning.kept_choices import in_your_order, keep_letter, kept_letter
+from lab.learning.progress_file import in_your_order, keep_letter, kept_letter
 from lab.learning.question import Question, in_html, read_question
 
 

@@ -12,6 +12,7 @@ from lab.client.interaction_log import log
 from lab.client.messages import Message
 from lab.errors import LabError
 from ros_runtime.drawing.sequence_diagram import sequence_svg
+from ros_runtime.drawing.xml_text import shorten
 
 LABEL_LENGTH = 38  # characters that fit between two lifelines
 
@@ -28,7 +29,7 @@ def draw_sequence(title: str = "What just happened") -> HTML:
         raise LabError("there is nothing to draw yet: use lab.call() or lab.send_goal() first")
     start = messages[0].time
     arrows = [
-        replace(message, time=message.time - start, label=_shorten(message.label))
+        replace(message, time=message.time - start, label=shorten(message.label, LABEL_LENGTH))
         for message in _without_repetition(messages)
     ]
     return HTML(sequence_svg(arrows, title=title))
@@ -44,7 +45,3 @@ def _without_repetition(messages: Sequence[Message]) -> list[Message]:
             stream = [stream[0], middle, stream[-1]]
         kept += stream
     return kept
-
-
-def _shorten(label: str) -> str:
-    return label if len(label) <= LABEL_LENGTH else label[: LABEL_LENGTH - 1] + "…"

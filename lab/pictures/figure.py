@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from IPython.display import HTML
 
@@ -13,6 +13,7 @@ from lab.pictures.labels import FONT_SIZE
 from lab.pictures.picture import figure
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 PIXELS_PER_INCH = 96
@@ -42,6 +43,36 @@ def sheet(width: float, height: float, title: str) -> Iterator[Figure]:
         page = Figure((width, height), facecolor="white")
         page.text(0.12 / width, 1 - 0.1 / height, title, va="top", fontsize=FONT_SIZE + 2, fontweight="bold")
         yield page
+
+
+@contextmanager
+def panel(
+    width: float, height: float, title: str, *, left: float = LEFT, right: float = 0.25, above: float = 0.0
+) -> Iterator[tuple[Figure, Axes]]:
+    """A figure with one panel of so many inches; `left`, `right`, `above`: inches around it, for texts."""
+    whole_width, whole_height = left + width + right, TOP + above + height + BOTTOM
+    with sheet(whole_width, whole_height, title) as page:
+        yield (
+            page,
+            page.add_axes(
+                (left / whole_width, BOTTOM / whole_height, width / whole_width, height / whole_height)
+            ),
+        )
+
+
+def annotate(
+    axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], **more: Any
+) -> None:
+    """Write a text `offset` points beside a place, also outside of the panel; in it, $ and _ are no mathematics."""
+    axes.annotate(
+        text,
+        at,
+        xytext=offset,
+        textcoords="offset points",
+        annotation_clip=False,
+        parse_math=False,
+        **more,
+    )
 
 
 def as_html(page: Figure, words: str) -> HTML:

@@ -1,16 +1,22 @@
-"""Places labels on a time axis in rows, so that no label overlaps another or another's line."""
+"""Labels on a time axis, in rows, so that no label overlaps another or another's line."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
 from functools import cache
-
-from lab.pictures.annotations import Mark
+from typing import NamedTuple
 
 FONT_SIZE = 9.0  # points
 ROW = 0.19  # inches
 GAP = 0.12  # inches, between a label and the next line on its right
+
+
+class Mark(NamedTuple):
+    """A label at `time` (s, on the axis of its picture)."""
+
+    time: float
+    label: str
 
 
 def rows_of(marks: Sequence[Mark], inches_per_second: float) -> list[int]:

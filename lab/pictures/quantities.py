@@ -62,7 +62,8 @@ def quantity_named(name: str) -> Quantity:
     Raises LabError, which lists the names, when there is none.
     """
     if name in ACTUATED_JOINTS:
-        return _position_of(name)
+        unit = "m" if name.endswith(FINGERS) else "rad"
+        return Quantity("joint_states", unit, 0.2, lambda states: states.position[states.name.index(name)])
     if name not in QUANTITIES:
         there_are = ", ".join(f'"{known}" ({quantity.unit})' for known, quantity in QUANTITIES.items())
         raise LabError(
@@ -70,8 +71,3 @@ def quantity_named(name: str) -> Quantity:
             'such as "l_elbow" (rad)'
         )
     return QUANTITIES[name]
-
-
-def _position_of(joint: str) -> Quantity:
-    unit = "m" if joint.endswith(FINGERS) else "rad"
-    return Quantity("joint_states", unit, 0.2, lambda states: states.position[states.name.index(joint)])

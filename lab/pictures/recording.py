@@ -15,10 +15,11 @@ from IPython.display import HTML
 
 from lab.client import topics
 from lab.client.interaction_log import log
+from lab.client.messages import label_of
 from lab.client.waiting import comes_true
 from lab.errors import LabError
-from lab.pictures.annotations import Mark, label_of
 from lab.pictures.film import film_of_messages
+from lab.pictures.labels import Mark
 from lab.pictures.quantities import quantity_named
 from lab.pictures.time_plot import Curve, draw_panels
 from ros_runtime.message_constants import RobotMode, name_of

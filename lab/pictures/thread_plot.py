@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from IPython.display import HTML
 
 from lab.errors import LabError
-from lab.pictures.figure import BLUE, BOTTOM, GREY, TOP, VERMILION, as_html, sheet
+from lab.pictures.figure import BLUE, GREY, VERMILION, as_html, panel
 from lab.pictures.labels import text_width
 from lab.running.student_nodes import StudentNode
 
@@ -75,10 +75,7 @@ def draw_threads(node: StudentNode, *, title: str = "Which callback ran on which
     lanes = _lanes(spans)
     colours = dict(zip(dict.fromkeys(span.callback for span in spans), COLOURS * 9, strict=False))
     left = 0.3 + max(text_width(lane) for lane in lanes)
-    width, height = left + WIDTH + 0.25, TOP + LEGEND + LANE * len(lanes) + BOTTOM
-    with sheet(width, height, title) as page:
-        size = (left / width, BOTTOM / height, WIDTH / width, LANE * len(lanes) / height)
-        axis = page.add_axes(size)
+    with panel(WIDTH, LANE * len(lanes), title, left=left, above=LEGEND) as (page, axis):
         axis.set_xlim(0, max(last - zero, 0.1))
         axis.set_ylim(len(lanes), 0)
         axis.set_yticks([row + 0.5 for row in range(len(lanes))], lanes)

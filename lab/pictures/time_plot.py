@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from IPython.display import HTML
 
-from lab.pictures.annotations import Mark
-from lab.pictures.figure import BLUE, BOTTOM, GREY, LEFT, TOP, VERMILION, as_html, sheet
-from lab.pictures.labels import ROW, overhang, rows_of
+from lab.pictures.figure import BLUE, BOTTOM, GREY, LEFT, TOP, VERMILION, annotate, as_html, sheet
+from lab.pictures.labels import ROW, Mark, overhang, rows_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -91,27 +90,12 @@ def _draw_flag(panels: Sequence[Axes], mark: Mark, above: float, *, is_change: b
     colour, line = (VERMILION, ":") if is_change else (GREY, "-")
     for panel in panels:
         panel.axvline(mark.time, color=colour, linestyle=line, linewidth=1.1)
-    first = panels[0]
-    first.plot(
-        [mark.time, mark.time],
-        [1, 1 + (above - 0.03) / HEIGHT],
-        transform=first.get_xaxis_transform(),
-        color=colour,
-        linestyle=line,
-        linewidth=1.1,
-        clip_on=False,
-    )
-    first.annotate(
-        mark.label,
-        (mark.time, 1),
-        xycoords=("data", "axes fraction"),
-        xytext=(3, 72 * above - 2),
-        textcoords="offset points",
-        va="top",
-        color="#803300" if is_change else "black",
-        annotation_clip=False,
-        parse_math=False,
-    )
+    first, up = panels[0], [1, 1 + (above - 0.03) / HEIGHT]
+    onto = first.get_xaxis_transform()
+    first.plot([mark.time] * 2, up, color=colour, linestyle=line, lw=1.1, transform=onto, clip_on=False)
+    place = {"xycoords": ("data", "axes fraction"), "va": "top"}
+    text_colour = "#803300" if is_change else "black"
+    annotate(first, mark.label, (mark.time, 1), (3, 72 * above - 2), color=text_colour, **place)
 
 
 def _in_words(

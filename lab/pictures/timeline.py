@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 from IPython.display import HTML
 
 from lab.errors import LabError
-from lab.pictures.annotations import Mark
-from lab.pictures.figure import BLUE, BOTTOM, GREY, TOP, VERMILION, as_html, sheet
-from lab.pictures.labels import ROW, overhang, rows_of, text_width
-from lab.running.life import Life
+from lab.pictures.figure import BLUE, GREY, VERMILION, annotate, as_html, panel
+from lab.pictures.labels import ROW, Mark, overhang, rows_of, text_width
+from lab.running.processes import Life
 from lab.running.programs import Program
 from lab.running.student_nodes import StudentNode
+from ros_runtime.drawing.xml_text import shorten
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -43,14 +43,12 @@ def draw_timeline(*processes: StudentNode | Program, title: str = "Who did what 
     end = max(life.ended or now for life in lives) - zero
     scale = WIDTH / end
     moments = [_flags(life, zero) for life in lives]
-    lanes = [[Mark(mark.time, _shorten(mark.label)) for mark in lane] for lane in moments]
+    lanes = [[Mark(mark.time, shorten(mark.label, LABEL_LENGTH)) for mark in lane] for lane in moments]
     rows = [rows_of(flags, scale) for flags in lanes]
     left = 0.3 + max(text_width(life.name) for life in lives)
-    width = left + WIDTH + max(0.25, *(overhang(flags, end, scale) for flags in lanes))
+    right = max(0.25, *(overhang(flags, end, scale) for flags in lanes))
     depths = [ROW * (max(rows_of_lane, default=-1) + 1) + BAR + SPACE for rows_of_lane in rows]
-    height = TOP + sum(depths) + BOTTOM
-    with sheet(width, height, title) as page:
-        axis = page.add_axes((left / width, BOTTOM / height, WIDTH / width, sum(depths) / height))
+    with panel(WIDTH, sum(depths), title, left=left, right=right) as (page, axis):
         axis.set_xlim(0, end)
         axis.set_ylim(sum(depths), 0)  # inches, downwards
         axis.grid(axis="y", visible=False)
@@ -101,35 +99,15 @@ def _draw_life(axis: Axes, life: Life, zero: float, now: float, bar: float) -> N
     axis.broken_barh(
         [(life.began - zero, until - life.began + zero)], (bar, BAR), facecolor="#cfe3f1", edgecolor=BLUE
     )
-    axis.annotate(
-        life.name,
-        (0, bar + BAR / 2),
-        xycoords=("axes fraction", "data"),
-        xytext=(-6, 0),
-        textcoords="offset points",
-        ha="right",
-        va="center",
-        annotation_clip=False,
-    )
+    beside = {"xycoords": ("axes fraction", "data"), "ha": "right", "va": "center"}
+    annotate(axis, life.name, (0, bar + BAR / 2), (-6, 0), **beside)
 
 
 def _draw_line(axis: Axes, mark: Mark, label_top: float, bar: float, *, is_end: bool) -> None:
-    colour = VERMILION if is_end else GREY
-    axis.plot([mark.time] * 2, [label_top + 0.02, bar + BAR], color=colour, linewidth=1.1, clip_on=False)
-    axis.annotate(
-        mark.label,
-        (mark.time, label_top),
-        xytext=(3, -2),
-        textcoords="offset points",
-        va="top",
-        color="#803300" if is_end else "black",
-        annotation_clip=False,
-        parse_math=False,
-    )
-
-
-def _shorten(label: str) -> str:
-    return label if len(label) <= LABEL_LENGTH else label[: LABEL_LENGTH - 1] + "…"
+    line = [label_top + 0.02, bar + BAR]
+    axis.plot([mark.time] * 2, line, color=VERMILION if is_end else GREY, linewidth=1.1, clip_on=False)
+    colour = "#803300" if is_end else "black"
+    annotate(axis, mark.label, (mark.time, label_top), (3, -2), va="top", color=colour)
 
 
 def _in_words(title: str, lives: Sequence[Life], lanes: Sequence[Sequence[Mark]], zero: float) -> str:

@@ -7,8 +7,12 @@ from pathlib import Path
 
 from lab.errors import LabError
 from ros_runtime.interface_build.definitions import InvalidDefinitions
-from ros_runtime.interface_build.stock_package import write_package
-from ros_runtime.interface_build.student_package import BuiltPackage, build_package, checked_definitions
+from ros_runtime.interface_build.student_package import (
+    BuiltPackage,
+    build_package,
+    checked_definitions,
+    write_package,
+)
 
 BUILDS = Path(".interfaces")  # hidden, as for the files of any tool
 

@@ -1,8 +1,9 @@
-"""Child processes that survive an interrupted cell and never survive the kernel."""
+"""Child processes that survive an interrupted cell and never survive the kernel; what they printed when."""
 
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -12,14 +13,18 @@ from collections import deque
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import IO
 
 import psutil
 
+from lab.pictures.labels import Mark
 from ros_runtime.workarounds import die_with_parent
 
 KEPT_LINES = 2000  # of each stream
+GRACE = 3.0  # s from SIGINT to SIGKILL
 DRAIN_TIME = 1.0  # s to read what an ended process left in its pipe
+LOG_PREFIX = re.compile(r"^(\[\w+\]) \[[\d.]+\] \[[^\]]*\]: ")  # severity, time and logger of a ROS log line
 
 # The signal that `die_with_parent` asks for comes when the *thread* that started the child ends: this one never does.
 _spawner = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lab spawner")
@@ -55,17 +60,15 @@ class Process:
 
     def output(self) -> str:
         """The last 2000 lines of stdout and stderr, in the order in which they were written."""
-        return self._output.text(complete=not self.is_running)
+        return self._text(self._output)
 
     def errors(self) -> str:
         """The last 2000 lines of stderr, if `own_stderr` is set."""
-        return self._errors.text(complete=not self.is_running) if self._errors else ""
+        return self._text(self._errors) if self._errors else ""
 
     def lines(self) -> list[tuple[float, str]]:
         """The lines of `output()` and `errors()`, each with the time (s, `time.monotonic()`) at which it arrived."""
-        return sorted(
-            line for stream in self._streams() for line in stream.lines(complete=not self.is_running)
-        )
+        return sorted(line for stream in self._streams() for line in self._lines(stream))
 
     def ended(self) -> float | None:
         """When its output was closed (s, `time.monotonic()`), which is its end; None while it runs."""
@@ -79,10 +82,10 @@ class Process:
             return False
         return True
 
-    def stop(self, grace: float = 3.0) -> bool:
-        """Send SIGINT, then SIGKILL after `grace` s. Returns whether SIGINT was enough."""
+    def stop(self) -> bool:
+        """Send SIGINT, then SIGKILL after 3 s. Returns whether SIGINT was enough."""
         self.send(signal.SIGINT)
-        if self.wait(grace):
+        if self.wait(GRACE):
             return True
         self.kill()
         return False
@@ -101,6 +104,12 @@ class Process:
     def _streams(self) -> list[_LastLines]:
         return [self._output, *([self._errors] if self._errors else [])]
 
+    def _lines(self, stream: _LastLines) -> list[tuple[float, str]]:
+        return stream.lines(complete=not self.is_running)
+
+    def _text(self, stream: _LastLines) -> str:
+        return "".join(line for _, line in self._lines(stream))
+
 
 class _LastLines:
     """Reads a pipe to its end, in a thread, and keeps the last lines."""
@@ -113,12 +122,11 @@ class _LastLines:
         self._reader = threading.Thread(target=self._read, name="lab reader", daemon=True)
         self._reader.start()
 
-    def text(self, *, complete: bool) -> str:
-        """The lines so far. `complete`: the process has ended, so first read what is left in the pipe."""
-        return "".join(line for _, line in self.lines(complete=complete))
-
     def lines(self, *, complete: bool) -> list[tuple[float, str]]:
-        """The same, each with the time at which it arrived."""
+        """The lines so far, each with the time at which it arrived.
+
+        `complete`: the process has ended, so first read what is left in the pipe.
+        """
         if complete:
             self._reader.join(DRAIN_TIME)
         return list(self._lines.copy())
@@ -132,6 +140,45 @@ class _LastLines:
         for line in self._pipe:
             self._lines.append((time.monotonic(), line))
         self._closed = time.monotonic()
+
+
+@dataclass(frozen=True)
+class Life:
+    """A process from `began` to `ended` (None: it still runs), s of `time.monotonic()`, with what it printed.
+
+    `end` says how it ended.
+    """
+
+    name: str
+    began: float
+    ended: float | None
+    end: str
+    lines: Sequence[Mark]
+
+    @classmethod
+    def of(cls, name: str, process: Process, *, was_stopped: bool) -> Life:
+        """The life of a process so far; `was_stopped`: the notebook ended it."""
+        return cls(
+            name,
+            process.began,
+            process.ended(),
+            _end(process.exit_status, was_stopped),
+            [Mark(at, _printable(line)) for at, line in process.lines() if line.strip()],
+        )
+
+
+def _end(exit_status: int | None, was_stopped: bool) -> str:
+    if exit_status is None:
+        return "still runs"
+    if exit_status == -signal.SIGKILL:
+        return "killed"
+    return "stopped" if was_stopped else f"exit status {exit_status}"
+
+
+def _printable(line: str) -> str:
+    """A line as a label: without the prefix of a log line and without unprintable characters."""
+    letters = "".join(letter if letter.isprintable() else " " for letter in line)
+    return LOG_PREFIX.sub(r"\1 ", " ".join(letters.split()))
 
 
 def _start(arguments: Sequence[str], own_stderr: bool) -> subprocess.Popen[str]:

@@ -6,8 +6,7 @@ import time
 from pathlib import Path
 
 from lab.client.connection import connection
-from lab.running.life import Life
-from lab.running.processes import Process
+from lab.running.processes import Life, Process
 from lab.running.student_nodes import existing_file, in_namespace
 
 _running: dict[Path, Program] = {}

@@ -25,7 +25,6 @@ def start_robot(scene: str = "flat") -> None:
     global _robot
     domain_id = connection().domain_id  # also sets the environment that the child inherits
     if _robot is None or not _robot.is_running:
-        topics.forget()
         topics.enter(scene)
         _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1", "--scene", scene])
     robot = _robot

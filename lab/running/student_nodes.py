@@ -11,8 +11,7 @@ from lab.client.connection import NAMESPACE, connection
 from lab.client.interaction_log import log
 from lab.client.waiting import comes_true
 from lab.errors import LabError, NodeEndedError
-from lab.running.life import Life
-from lab.running.processes import Process
+from lab.running.processes import Life, Process
 from ros_runtime.notebook_domains import expect_node, forget_node
 from ros_runtime.reachability import wait_until_reachable
 

@@ -3,50 +3,33 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Callable
+from functools import partial
 
 from rclpy.action import (
     get_action_client_names_and_types_by_node,
     get_action_names_and_types,
     get_action_server_names_and_types_by_node,
 )
-from rclpy.node import Node, NodeNameNonExistentError
 
-from ros_cli.command_node import CommandNode, absolute, split_name
-from ros_cli.verb import Verbs, add_graph_verb
+from ros_cli.command_node import CommandNode, absolute
+from ros_cli.servers import nodes_with
+from ros_cli.verb import Verbs, add_flag, add_graph_verb, add_list_verb, typed
 from ros_cli.verbs import action_send_goal
 
-ByNode = Callable[[Node, str, str], "list[tuple[str, list[str]]]"]
-_CLIENTS: ByNode = get_action_client_names_and_types_by_node
-_SERVERS: ByNode = get_action_server_names_and_types_by_node
+BY_NODE = (get_action_client_names_and_types_by_node, get_action_server_names_and_types_by_node)
 
 
 def add_verbs(verbs: Verbs) -> None:
     """Add the verbs of this group."""
     info = add_graph_verb(verbs, "info", print_info, "Print information about an action")
     info.add_argument("action_name", help="Name of the ROS action to get info (e.g. '/fibonacci')")
-    info.add_argument("-t", "--show-types", action="store_true", help="Additionally show the action type")
-    info.add_argument(
-        "-c", "--count", action="store_true", help="Only display the number of action clients and servers"
+    add_flag(info, "-t", "--show-types", help="Additionally show the action type")
+    add_flag(info, "-c", "--count", help="Only display the number of action clients and servers")
+    listing = add_list_verb(
+        verbs, "action", lambda command, _: dict(sorted(get_action_names_and_types(command.node)))
     )
-    listing = add_graph_verb(verbs, "list", print_list, "Output a list of action names")
-    listing.add_argument("-t", "--show-types", action="store_true", help="Additionally show the action type")
-    listing.add_argument(
-        "-c", "--count-actions", action="store_true", help="Only display the number of actions discovered"
-    )
+    add_flag(listing, "-t", "--show-types", help="Additionally show the action type")
     action_send_goal.add_to(verbs)
-
-
-def print_list(options: Namespace) -> None:
-    """Print the actions, a line each."""
-    with CommandNode(options.spin_time) as command:
-        command.discover()
-        actions = sorted(get_action_names_and_types(command.node))
-    if options.count_actions:
-        print(len(actions))
-        return
-    for name, types in actions:
-        print(f"{name} [{', '.join(types)}]" if options.show_types else name)
 
 
 def print_info(options: Namespace) -> None:
@@ -55,26 +38,13 @@ def print_info(options: Namespace) -> None:
     with CommandNode(options.spin_time) as command:
 
         def clients_and_servers() -> list[list[tuple[str, list[str]]]]:
-            return [_nodes_with(command, action, by_node) for by_node in (_CLIENTS, _SERVERS)]
+            return [nodes_with(command, action, partial(by_node, command.node)) for by_node in BY_NODE]
 
-        command.discover(
-            lambda: any(clients_and_servers())
-        )  # the action's name is discovered before the names of its nodes
+        # The action's name is discovered before the names of its nodes.
+        command.discover(lambda: any(clients_and_servers()))
         clients, servers = clients_and_servers()
     print(f"Action: {options.action_name}")
     for kind, nodes in (("clients", clients), ("servers", servers)):
         print(f"Action {kind}: {len(nodes)}")
         for node, types in () if options.count else nodes:
-            print(f"    {node} [{', '.join(types)}]" if options.show_types else f"    {node}")
-
-
-def _nodes_with(command: CommandNode, action: str, by_node: ByNode) -> list[tuple[str, list[str]]]:
-    found = []
-    for node in command.node_names(hidden=True):
-        try:
-            types = dict(by_node(command.node, *split_name(node))).get(action)
-        except NodeNameNonExistentError:  # the node has just ended
-            continue
-        if types is not None:
-            found.append((node, types))
-    return found
+            print(f"    {typed(node, types) if options.show_types else node}")

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from functools import partial
 from queue import SimpleQueue
 from typing import Any
 
-from rclpy.action import ActionClient, get_action_names_and_types
+from rclpy.action import (
+    ActionClient,
+    get_action_names_and_types,
+    get_action_server_names_and_types_by_node,
+)
 from rclpy.task import Future
 
 from ros_cli.command_node import CommandNode, absolute
 from ros_cli.errors import CommandError
 from ros_cli.interface_types import full_type_name, interface_class
-from ros_cli.servers import wait_for_action_node, wait_for_type
-from ros_cli.verb import Verbs, add_graph_verb, add_values, given_values
+from ros_cli.servers import wait_for_node_of, wait_for_type
+from ros_cli.verb import Verbs, add_flag, add_graph_verb, add_values, given_values
 from ros_cli.yaml_values import message_from_yaml, message_to_yaml
 from ros_runtime.message_constants import GoalStatus, name_of
 
@@ -26,9 +31,7 @@ def add_to(verbs: Verbs) -> None:
         "action_type", help="Type of the ROS action (e.g. 'example_interfaces/action/Fibonacci')"
     )
     add_values(send_goal, "goal", "Goal request values in YAML format (e.g. '{order: 10}')")
-    send_goal.add_argument(
-        "-f", "--feedback", action="store_true", help="Echo feedback messages for the goal"
-    )
+    add_flag(send_goal, "-f", "--feedback", help="Echo feedback messages for the goal")
 
 
 def send(options: Namespace) -> None:
@@ -62,7 +65,7 @@ def _wait_for_server(command: CommandNode, client: ActionClient, options: Namesp
         lambda: dict(get_action_names_and_types(command.node)).get(name, []),
         wanted,
     )
-    wait_for_action_node(command, name)
+    wait_for_node_of(command, name, partial(get_action_server_names_and_types_by_node, command.node))
 
 
 class _SentGoal:

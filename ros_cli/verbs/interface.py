@@ -11,7 +11,7 @@ from pathlib import Path
 from rosidl_adapter.parser import Type
 
 from ros_cli.errors import CommandError
-from ros_cli.verb import Verbs, add_verb
+from ros_cli.verb import Verbs, add_flag, add_verb
 
 TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 SEPARATOR = "---"
@@ -20,11 +20,9 @@ SEPARATOR = "---"
 def add_verbs(verbs: Verbs) -> None:
     """Add the verbs of this group."""
     listing = add_verb(verbs, "list", print_list, "List all interface types available")
-    listing.add_argument(*("-m", "--only-msgs"), action="store_true", help="Print out only the message types")
-    listing.add_argument(*("-s", "--only-srvs"), action="store_true", help="Print out only the service types")
-    listing.add_argument(
-        *("-a", "--only-actions"), action="store_true", help="Print out only the action types"
-    )
+    add_flag(listing, "-m", "--only-msgs", help="Print out only the message types")
+    add_flag(listing, "-s", "--only-srvs", help="Print out only the service types")
+    add_flag(listing, "-a", "--only-actions", help="Print out only the action types")
     show = add_verb(verbs, "show", print_definition, "Output the interface definition")
     comments = show.add_mutually_exclusive_group()
     comments.add_argument(

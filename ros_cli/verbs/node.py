@@ -13,39 +13,16 @@ from rclpy.node import NodeNameNonExistentError
 
 from ros_cli.command_node import CommandNode, absolute, shown, split_name
 from ros_cli.errors import unknown
-from ros_cli.verb import Verbs, add_graph_verb
+from ros_cli.verb import Verbs, add_flag, add_graph_verb, add_list_verb
 
 
 def add_verbs(verbs: Verbs) -> None:
     """Add the verbs of this group."""
     info = add_graph_verb(verbs, "info", print_info, "Output information about a node")
     info.add_argument("node_name", help="Node name to request information")
-    info.add_argument(
-        "--include-hidden", action="store_true", help="Display hidden topics, services, and actions as well"
-    )
-    listing = add_graph_verb(verbs, "list", print_list, "Output a list of available nodes")
-    listing.add_argument("-a", "--all", action="store_true", help="Display all nodes even hidden ones")
-    listing.add_argument(
-        "-c", "--count-nodes", action="store_true", help="Only display the number of nodes discovered"
-    )
-
-
-def print_list(options: Namespace) -> None:
-    """Print the full names of the nodes, a line each."""
-    with CommandNode(options.spin_time) as command:
-        command.discover()
-        names = command.node_names(hidden=options.all)
-    if options.count_nodes:
-        print(len(names))
-        return
-    if len(set(names)) < len(names):
-        print(
-            "WARNING: Be aware that there are nodes in the graph that share an exact name, "
-            "which can have unintended side effects.",
-            file=sys.stderr,
-        )
-    for name in names:
-        print(name)
+    add_flag(info, "--include-hidden", help="Display hidden topics, services, and actions as well")
+    listing = add_list_verb(verbs, "node", _names)
+    add_flag(listing, "-a", "--all", help="Display all nodes even hidden ones")
 
 
 def print_info(options: Namespace) -> None:
@@ -72,6 +49,18 @@ def print_info(options: Namespace) -> None:
     for title, names_and_types in endpoints.items():
         print(f"  {title}:")
         print(*[f"    {each}: {', '.join(types)}" for each, types in names_and_types.items()], sep="\n")
+
+
+def _names(command: CommandNode, options: Namespace) -> list[str]:
+    """Return the full names of the nodes; print a warning if two nodes have the same name."""
+    names = command.node_names(hidden=options.all)
+    if len(set(names)) < len(names) and not options.count:
+        print(
+            "WARNING: Be aware that there are nodes in the graph that share an exact name, "
+            "which can have unintended side effects.",
+            file=sys.stderr,
+        )
+    return names
 
 
 def _endpoints(command: CommandNode, node: str, hidden: bool) -> dict[str, dict[str, list[str]]]:

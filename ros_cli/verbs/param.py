@@ -15,53 +15,30 @@ from rclpy.parameter_client import AsyncParameterClient
 
 from ros_cli.command_node import CommandNode, absolute
 from ros_cli.errors import CommandError, unknown
-from ros_cli.verb import Verbs, add_graph_verb, positive_float
+from ros_cli.verb import Run, Verbs, add_flag, add_graph_verb, positive_float
 
 ANSWER_TIMEOUT = 5.0  # s
-LABELS = {
-    ParameterType.PARAMETER_BOOL: "Boolean value is:",
-    ParameterType.PARAMETER_INTEGER: "Integer value is:",
-    ParameterType.PARAMETER_DOUBLE: "Double value is:",
-    ParameterType.PARAMETER_STRING: "String value is:",
-    ParameterType.PARAMETER_BYTE_ARRAY: "Byte values are:",
-    ParameterType.PARAMETER_BOOL_ARRAY: "Boolean values are:",
-    ParameterType.PARAMETER_INTEGER_ARRAY: "Integer values are:",
-    ParameterType.PARAMETER_DOUBLE_ARRAY: "Double values are:",
-    ParameterType.PARAMETER_STRING_ARRAY: "String values are:",
-}
-TYPES = {
-    ParameterType.PARAMETER_NOT_SET: "not set",
-    ParameterType.PARAMETER_BOOL: "boolean",
-    ParameterType.PARAMETER_INTEGER: "integer",
-    ParameterType.PARAMETER_DOUBLE: "double",
-    ParameterType.PARAMETER_STRING: "string",
-    ParameterType.PARAMETER_BYTE_ARRAY: "byte array",
-    ParameterType.PARAMETER_BOOL_ARRAY: "boolean array",
-    ParameterType.PARAMETER_INTEGER_ARRAY: "integer array",
-    ParameterType.PARAMETER_DOUBLE_ARRAY: "double array",
-    ParameterType.PARAMETER_STRING_ARRAY: "string array",
-}
+# By the constants of rcl_interfaces/ParameterType, from 0 on.
+TYPES = (
+    *("not set", "boolean", "integer", "double", "string"),
+    *("byte array", "boolean array", "integer array", "double array", "string array"),
+)
 
 
 def add_verbs(verbs: Verbs) -> None:
     """Add the verbs of this group."""
-    describe = _of_one_node(
-        add_graph_verb(
-            verbs, "describe", print_descriptions, "Show descriptive information about declared parameters"
-        )
-    )
+    words = "Show descriptive information about declared parameters"
+    describe = _of_one_node(verbs, "describe", print_descriptions, words)
     describe.add_argument("parameter_names", nargs="+", help="Names of the parameters")
-    _of_one_node(
-        add_graph_verb(verbs, "dump", dump, "Show all of the parameters of a node in a YAML file format")
-    )
-    get = _of_one_node(add_graph_verb(verbs, "get", print_value, "Get parameter"))
+    _of_one_node(verbs, "dump", dump, "Show all of the parameters of a node in a YAML file format")
+    get = _of_one_node(verbs, "get", print_value, "Get parameter")
     get.add_argument("parameter_name", help="Name of the parameter")
-    get.add_argument("--hide-type", action="store_true", help="Hide the type information")
+    add_flag(get, "--hide-type", help="Hide the type information")
     listing = add_graph_verb(verbs, "list", print_list, "Output a list of available parameters")
     listing.add_argument("node_name", nargs="?", help="Name of the ROS node")
-    load = _of_one_node(add_graph_verb(verbs, "load", load_file, "Load parameter file for a node"))
+    load = _of_one_node(verbs, "load", load_file, "Load parameter file for a node")
     load.add_argument("parameter_file", help="Parameter file")
-    set_value = _of_one_node(add_graph_verb(verbs, "set", set_parameter, "Set parameter"))
+    set_value = _of_one_node(verbs, "set", set_parameter, "Set parameter")
     set_value.add_argument("parameter_name", help="Name of the parameter")
     set_value.add_argument("value", help="Value of the parameter")
 
@@ -157,7 +134,8 @@ def worded(value: ParameterValue, *, with_label: bool = True) -> str:
     if value.type == ParameterType.PARAMETER_NOT_SET:
         return "Parameter not set." if with_label else "None"
     text = str(parameter_value_to_python(value))
-    return f"{LABELS[value.type]} {text}" if with_label else text
+    kind, _, many = TYPES[value.type].partition(" ")
+    return f"{kind.capitalize()} {'values are' if many else 'value is'}: {text}" if with_label else text
 
 
 def described(descriptor: ParameterDescriptor) -> str:
@@ -189,7 +167,8 @@ def as_file(node: str, parameters: dict[str, Any]) -> str:
     return yaml.dump({node: {"ros__parameters": tree}}, default_flow_style=False)
 
 
-def _of_one_node(verb: ArgumentParser) -> ArgumentParser:
+def _of_one_node(verbs: Verbs, name: str, run: Run, summary: str) -> ArgumentParser:
+    verb = add_graph_verb(verbs, name, run, summary)
     verb.add_argument("node_name", help="Name of the ROS node")
     verb.add_argument(
         "--timeout",

@@ -10,8 +10,16 @@ from rclpy.client import Client
 from ros_cli.command_node import CommandNode, absolute
 from ros_cli.errors import unknown
 from ros_cli.interface_types import full_type_name, interface_class
-from ros_cli.servers import wait_for_service_node, wait_for_type
-from ros_cli.verb import Verbs, add_graph_verb, add_values, given_values, positive_float
+from ros_cli.servers import wait_for_node_of, wait_for_type
+from ros_cli.verb import (
+    Verbs,
+    add_flag,
+    add_graph_verb,
+    add_list_verb,
+    add_values,
+    given_values,
+    positive_float,
+)
 from ros_cli.yaml_values import message_from_yaml
 
 
@@ -24,30 +32,15 @@ def add_verbs(verbs: Verbs) -> None:
     call.add_argument(
         "-r", "--rate", metavar="N", type=positive_float, help="Repeat the call at a specific rate in Hz"
     )
-    listing = add_graph_verb(verbs, "list", print_list, "Output a list of available services")
-    listing.add_argument("-t", "--show-types", action="store_true", help="Additionally show the service type")
-    listing.add_argument(
-        "-c", "--count-services", action="store_true", help="Only display the number of services discovered"
+    listing = add_list_verb(
+        verbs, "service", lambda command, options: command.services(hidden=options.include_hidden_services)
     )
-    listing.add_argument(
-        "--include-hidden-services", action="store_true", help="Consider hidden services as well"
-    )
+    add_flag(listing, "-t", "--show-types", help="Additionally show the service type")
+    add_flag(listing, "--include-hidden-services", help="Consider hidden services as well")
     type_of = add_graph_verb(verbs, "type", print_type, "Output a service's type")
     type_of.add_argument(
         "service_name", help="Name of the ROS service to get type (e.g. '/talker/list_parameters')"
     )
-
-
-def print_list(options: Namespace) -> None:
-    """Print the services, a line each."""
-    with CommandNode(options.spin_time) as command:
-        command.discover()
-        services = command.services(hidden=options.include_hidden_services)
-    if options.count_services:
-        print(len(services))
-        return
-    for name, types in services.items():
-        print(f"{name} [{', '.join(types)}]" if options.show_types else name)
 
 
 def print_type(options: Namespace) -> None:
@@ -90,4 +83,4 @@ def _wait_for_service(command: CommandNode, client: Client, name: str, wanted: s
     if not command.find(client.service_is_ready):
         print("waiting for service to become available...")
         wait_for_type(command, client.service_is_ready, lambda: command.services().get(name, []), wanted)
-    wait_for_service_node(command, name)
+    wait_for_node_of(command, name, command.node.get_service_names_and_types_by_node)

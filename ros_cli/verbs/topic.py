@@ -6,7 +6,7 @@ from argparse import Namespace
 
 from ros_cli.command_node import CommandNode, absolute
 from ros_cli.errors import unknown
-from ros_cli.verb import Verbs, add_graph_verb
+from ros_cli.verb import Verbs, add_flag, add_graph_verb, add_list_verb
 from ros_cli.verbs import topic_echo, topic_hz, topic_pub
 
 
@@ -16,30 +16,15 @@ def add_verbs(verbs: Verbs) -> None:
     topic_hz.add_to(verbs)
     info = add_graph_verb(verbs, "info", print_info, "Print information about a topic")
     info.add_argument("topic_name", help="Name of the ROS topic to get info (e.g. '/chatter')")
-    info.add_argument("-v", "--verbose", action="store_true", help="Print nodes, types, GUIDs and QoS too")
-    listing = add_graph_verb(verbs, "list", print_list, "Output a list of available topics")
-    listing.add_argument("-t", "--show-types", action="store_true", help="Additionally show the topic type")
-    listing.add_argument(
-        "-c", "--count-topics", action="store_true", help="Only display the number of topics discovered"
+    add_flag(info, "-v", "--verbose", help="Print nodes, types, GUIDs and QoS too")
+    listing = add_list_verb(
+        verbs, "topic", lambda command, options: command.topics(hidden=options.include_hidden_topics)
     )
-    listing.add_argument(
-        "--include-hidden-topics", action="store_true", help="Consider hidden topics as well"
-    )
+    add_flag(listing, "-t", "--show-types", help="Additionally show the topic type")
+    add_flag(listing, "--include-hidden-topics", help="Consider hidden topics as well")
     topic_pub.add_to(verbs)
     type_of = add_graph_verb(verbs, "type", print_type, "Print a topic's type")
     type_of.add_argument("topic_name", help="Name of the ROS topic to get type (e.g. '/chatter')")
-
-
-def print_list(options: Namespace) -> None:
-    """Print the topics, a line each."""
-    with CommandNode(options.spin_time) as command:
-        command.discover()
-        topics = command.topics(hidden=options.include_hidden_topics)
-    if options.count_topics:
-        print(len(topics))
-        return
-    for name, types in topics.items():
-        print(f"{name} [{', '.join(types)}]" if options.show_types else name)
 
 
 def print_type(options: Namespace) -> None:

@@ -7,22 +7,18 @@ from argparse import Namespace
 from queue import Empty
 from typing import Any
 
-from rclpy.qos import (
-    DurabilityPolicy,
-    QoSPresetProfiles,
-    QoSProfile,
-    ReliabilityPolicy,
-)
+from rclpy.qos import DurabilityPolicy, QoSPresetProfiles, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from ros_cli.command_node import CommandNode, absolute
-from ros_cli.errors import CommandError, similar_names
+from ros_cli.errors import CommandError, suggestion
 from ros_cli.interface_types import interface_class
-from ros_cli.verb import Verbs, add_graph_verb, natural_number, positive_float
+from ros_cli.verb import Verbs, add_flag, add_graph_verb, natural_number, positive_float
 from ros_cli.yaml_values import message_to_yaml
 from ros_runtime.messages import is_message
 
 TRUNCATE_LENGTH = 128
+POLICIES = (ReliabilityPolicy, DurabilityPolicy)
 
 
 def add_to(verbs: Verbs) -> None:
@@ -30,28 +26,25 @@ def add_to(verbs: Verbs) -> None:
     echo = add_graph_verb(verbs, "echo", print_messages, "Output messages from a topic")
     echo.add_argument("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')")
     echo.add_argument("message_type", nargs="?", help="Type of the ROS message (e.g. 'std_msgs/msg/String')")
-    echo.add_argument("--once", action="store_true", help="Print the first message received and then exit")
+    add_flag(echo, "--once", help="Print the first message received and then exit")
     echo.add_argument(
         "--timeout", metavar="N", type=positive_float, help="Set a timeout in seconds for waiting"
     )
     echo.add_argument(
         "--field", help="Echo a selected field of a message; '.' selects sub-fields (pose.pose.position)"
     )
-    echo.add_argument(
-        "-f", "--full-length", action="store_true", help="Output all elements of arrays and strings"
-    )
+    add_flag(echo, "-f", "--full-length", help="Output all elements of arrays and strings")
     echo.add_argument(
         *("-l", "--truncate-length"),
         type=natural_number,
         default=TRUNCATE_LENGTH,
         help="The length to truncate arrays and strings to (default: %(default)s)",
     )
-    for policy in (ReliabilityPolicy, DurabilityPolicy):
-        kind = policy.__name__.removeprefix("QoS").removesuffix("Policy").lower()
+    for policy in POLICIES:
         echo.add_argument(
-            f"--qos-{kind}",
+            f"--qos-{_kind(policy)}",
             choices=policy.short_keys(),
-            help=f"Quality of service {kind} setting to subscribe with (default: what fits the publishers)",
+            help=f"Quality of service {_kind(policy)} setting to subscribe with (default: what fits the publishers)",
         )
 
 
@@ -68,7 +61,9 @@ def print_messages(options: Namespace) -> None:
         message_type = _message_type(command, topic, options.message_type)
         select(message_type(), options.field)
         qos = fitting_qos(command.node.get_publishers_info_by_topic(topic))
-        _override(qos, options.qos_reliability, options.qos_durability)
+        for policy in POLICIES:
+            if (key := getattr(options, f"qos_{_kind(policy)}")) is not None:
+                setattr(qos, _kind(policy), policy.get_from_short_key(key))
         arrived = command.messages(message_type, topic, qos)
         deadline = time.monotonic() + (options.timeout or float("inf"))
         while True:
@@ -131,18 +126,11 @@ def _message_type(command: CommandNode, topic: str, given: str | None) -> Any:
         )
     if not types:
         print(f"WARNING: topic [{topic}] does not appear to be published yet")
-        alike = similar_names(topic, command.topics())
-        advice = (
-            f"did you mean {' or '.join(alike)}?"
-            if alike
-            else "start its node, or name the type after the topic"
-        )
+        advice = suggestion(topic, command.topics(), "start its node, or name the type after the topic")
         raise CommandError(f"Could not determine the type for the passed topic: {advice}")
     return interface_class(types[0], "msg")
 
 
-def _override(qos: QoSProfile, reliability: str | None, durability: str | None) -> None:
-    if reliability is not None:
-        qos.reliability = ReliabilityPolicy.get_from_short_key(reliability)
-    if durability is not None:
-        qos.durability = DurabilityPolicy.get_from_short_key(durability)
+def _kind(policy: Any) -> str:
+    """Return "reliability" for ReliabilityPolicy: the name of the setting in a profile."""
+    return str(policy.__name__.removeprefix("QoS").removesuffix("Policy").lower())

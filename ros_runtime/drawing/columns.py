@@ -1,4 +1,4 @@
-"""Nodes on the left and on the right, and between them what goes from one to the other, a row each, as SVG."""
+"""A drawing in three columns, as SVG: nodes, in the middle what connects them, one in each row, and nodes."""
 
 from __future__ import annotations
 

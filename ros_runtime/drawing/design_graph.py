@@ -1,9 +1,10 @@
-"""A design as a picture: on the left the node that publishes or asks, then the link, then the node at its other end."""
+"""A design as SVG: on the left the node that publishes or sends requests, then the link, then the receiving node."""
 
 from __future__ import annotations
 
 from ros_runtime.design import Design, Link
 from ros_runtime.drawing.columns import SAND, End, Row, columns_svg
+from ros_runtime.drawing.xml_text import shorten
 
 HEADINGS = ("publishes or asks", "pattern, type", "receives or answers")
 FILLS = {"topic": SAND, "service": "#e8f4ea", "action": "#e6eefb", "wire": "#eeeeee"}
@@ -27,13 +28,9 @@ def design_svg(design: Design, *, title: str) -> str:
 def _row(link: Link) -> Row:
     broken = bool(link.missing())
     return Row(
-        _shorten(link.pattern, LONGEST_NODE),
-        _shorten(link.type, LONGEST_TYPE),
-        left=[End(_shorten(link.sender, LONGEST_NODE), broken)],
-        right=[End(_shorten(link.receiver, LONGEST_NODE), broken)],
+        shorten(link.pattern, LONGEST_NODE),
+        shorten(link.type, LONGEST_TYPE),
+        left=[End(shorten(link.sender, LONGEST_NODE), broken)],
+        right=[End(shorten(link.receiver, LONGEST_NODE), broken)],
         fill=FILLS.get(link.pattern, SAND),
     )
-
-
-def _shorten(text: str, most: int) -> str:
-    return text if len(text) <= most else f"{text[: most - 1]}…"

@@ -1,4 +1,4 @@
-"""Texts in a drawing: students write some of them, and XML takes neither control characters nor half a character."""
+"""Texts in a drawing: students write some of them, and XML allows neither control characters nor lone surrogates."""
 
 from __future__ import annotations
 
@@ -11,3 +11,8 @@ _NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")  
 def escape(text: str) -> str:
     """Return a text as it stands in XML; a character that cannot stand there becomes U+FFFD."""
     return html.escape(_NO_XML.sub("\ufffd", text))
+
+
+def shorten(text: str, most: int) -> str:
+    """Return a text of `most` characters at most; what is left out becomes "…"."""
+    return text if len(text) <= most else f"{text[: most - 1]}…"

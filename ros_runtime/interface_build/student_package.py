@@ -1,9 +1,10 @@
-"""Builds a folder of a student's definitions into a package, and lets processes import it."""
+"""Makes a stock interface package of a folder of a student's definitions, builds it, and lets processes import it."""
 
 from __future__ import annotations
 
 import importlib
 import os
+import shutil
 import sys
 import tempfile
 import time
@@ -17,8 +18,45 @@ from ros_runtime.interface_build import cmake_package
 from ros_runtime.interface_build.build_environment import PYTHON_LIB, ros_build
 from ros_runtime.interface_build.definitions import Definition, InvalidDefinitions, Problem, read_definitions
 from ros_runtime.interface_build.known_types import KnownTypes
-from ros_runtime.interface_build.stock_package import write_package
 from ros_runtime.workarounds.late_libraries import load_on_import
+
+PACKAGE_XML = """\
+<?xml version="1.0"?>
+<package format="3">
+  <name>{name}</name>
+  <version>0.0.0</version>
+  <description>Interfaces that a student of the course wrote.</description>
+  <maintainer email="student@humanoid-course.org">A student of the course</maintainer>
+  <license>Apache-2.0</license>
+
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <buildtool_depend>rosidl_default_generators</buildtool_depend>
+{depends}
+  <exec_depend>rosidl_default_runtime</exec_depend>
+
+  <member_of_group>rosidl_interface_packages</member_of_group>
+
+  <export>
+    <build_type>ament_cmake</build_type>
+  </export>
+</package>
+"""
+
+CMAKE_LISTS = """\
+cmake_minimum_required(VERSION 3.10)
+project({name})
+
+find_package(ament_cmake REQUIRED)
+find_package(rosidl_default_generators REQUIRED)
+{finds}
+rosidl_generate_interfaces(${{PROJECT_NAME}}
+{files}
+  DEPENDENCIES {uses}
+)
+
+ament_export_dependencies(rosidl_default_runtime)
+ament_package()
+"""
 
 
 @dataclass(frozen=True)
@@ -101,6 +139,25 @@ def checked_definitions(source: Path, name: str, environ: Mapping[str, str]) -> 
     prefixes = [Path(entry) for entry in ros.environment["AMENT_PREFIX_PATH"].split(os.pathsep) if entry]
     _require_free_name(name, prefixes)
     return read_definitions(source, name, KnownTypes.installed(prefixes))
+
+
+def write_package(folder: Path, name: str, definitions: Sequence[Definition]) -> None:
+    """Write package.xml, CMakeLists.txt and the definitions into `folder`, as colcon would build them, too."""
+    files = {f"{each.kind}/{each.file.name}": each.file for each in definitions}
+    uses = sorted({"action_msgs", *(package for each in definitions for package in each.uses)} - {name})
+    for place, file in files.items():
+        target = folder / place
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(file, target)
+    depends = "\n".join(f"  <depend>{package}</depend>" for package in uses)
+    (folder / "package.xml").write_text(PACKAGE_XML.format(name=name, depends=depends), encoding="utf-8")
+    lists = CMAKE_LISTS.format(
+        name=name,
+        finds="\n".join(f"find_package({package} REQUIRED)" for package in uses),
+        files="\n".join(f'  "{place}"' for place in files),
+        uses=" ".join(uses),
+    )
+    (folder / "CMakeLists.txt").write_text(lists, encoding="utf-8")
 
 
 def without_packages_in(builds: Path, environ: Mapping[str, str]) -> dict[str, str]:

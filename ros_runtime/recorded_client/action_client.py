@@ -27,9 +27,8 @@ from ros_runtime.record.client_events import (
     StatusSeen,
 )
 from ros_runtime.record.event import Event
-from ros_runtime.recorded_client.conversation import NOBODYS, Conversation
+from ros_runtime.recorded_client.conversation import NOBODYS, Conversation, Request
 from ros_runtime.recorded_client.goal import Cancel, Goal
-from ros_runtime.recorded_client.request import Request
 
 DEEP = QoSProfile(depth=1000)
 LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)

@@ -1,4 +1,4 @@
-"""State that the handles of a client share: the log, the reader of messages, and the condition to stop waiting."""
+"""What all handles of a client share: the log, the reader of messages, the condition to stop waiting, and a request."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from rclpy.client import Client
 from rclpy.serialization import deserialize_message
+from rclpy.task import Future
 
 from ros_runtime.record.client_events import TooLarge, Unanswered
 from ros_runtime.record.event_log import EventLog
@@ -76,3 +78,21 @@ class Conversation:
     def was_too_large(self, what: str, id: str) -> bool:
         """Return whether an answer was received that exceeded the size limit."""
         return self.log.first(TooLarge, what=what, id=id) is not None
+
+
+class Request:
+    """A request that was sent; `on_answer` gets the answer, on the thread that spins the node."""
+
+    def __init__(self, client: Client, message: Any, on_answer: Callable[[Any], None]) -> None:
+        self._client = client
+        self._on_answer = on_answer
+        self._future = client.call_async(message)
+        self._future.add_done_callback(self._take)
+
+    def give_up(self) -> None:
+        """Ignore a later answer, and remove the request, which rclpy would keep until the client is destroyed."""
+        self._client.remove_pending_request(self._future)
+
+    def _take(self, future: Future) -> None:
+        if not future.cancelled():
+            self._on_answer(future.result())

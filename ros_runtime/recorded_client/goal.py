@@ -16,8 +16,7 @@ from ros_runtime.record.client_events import (
     TooLarge,
 )
 from ros_runtime.record.event import Event
-from ros_runtime.recorded_client.conversation import Conversation
-from ros_runtime.recorded_client.request import Request
+from ros_runtime.recorded_client.conversation import Conversation, Request
 
 ANSWER_TIMEOUT = 5.0  # s
 RESULT_TIMEOUT = 40.0  # s
@@ -45,9 +44,7 @@ class Cancel:
         return self.answer is not None or self._conversation.was_too_large("cancel answer", self.name)
 
 
-AskToCancel = Callable[
-    [str, bytes, str], Cancel
-]  # from a goal's name and id, and the name of the asking client
+AskToCancel = Callable[[str, bytes, str], Cancel]  # a goal's name and id, and the name of the asking client
 
 
 class Goal:
@@ -87,10 +84,8 @@ class Goal:
         match event:
             case GoalAnswered(accepted=accepted):
                 self.accepted = accepted
-                if accepted:
-                    self.status = max(
-                        self.status, GoalStatus.ACCEPTED
-                    )  # the status topic may have arrived first
+                if accepted:  # the status topic may have been faster
+                    self.status = max(self.status, GoalStatus.ACCEPTED)
             case FeedbackReceived(feedback=feedback):
                 self.feedback.append(feedback)
             case StatusSeen(status=status):

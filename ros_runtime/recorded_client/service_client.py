@@ -8,8 +8,7 @@ from typing import Any
 from rclpy.node import Node
 
 from ros_runtime.record.client_events import ServiceAnswered, ServiceCalled
-from ros_runtime.recorded_client.conversation import Conversation
-from ros_runtime.recorded_client.request import Request
+from ros_runtime.recorded_client.conversation import Conversation, Request
 
 ANSWER_TIMEOUT = 5.0  # s
 

@@ -45,7 +45,7 @@ def open_context(width: int, height: int) -> Any:
     reasons = []
     for backend in [asked] if asked in BACKENDS else BACKENDS:
         try:
-            context = _context_class(backend)(width, height)
+            context = importlib.import_module(f"mujoco.{backend}").GLContext(width, height)
         except Exception as error:  # each backend fails in its own way, with any kind of exception
             reasons.append(f"{backend}: {error or type(error).__name__}")
             _forget_pyopengl()
@@ -53,10 +53,6 @@ def open_context(width: int, height: int) -> Any:
             os.environ[VARIABLE] = backend
             return context
     raise NoOpenGLError(f"no OpenGL without a screen ({'; '.join(reasons)}): {HELP}")
-
-
-def _context_class(backend: str) -> Any:
-    return importlib.import_module(f"mujoco.{backend}").GLContext
 
 
 def _forget_pyopengl() -> None:

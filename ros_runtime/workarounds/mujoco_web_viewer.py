@@ -41,7 +41,7 @@ def launch_web_viewer(
 
     # Its banner names addresses that it is not bound to, and its other output, printed from its own thread, would mix
     # with other lines.
-    web_viewer.print = _discard
+    web_viewer.print = lambda *_arguments, **_options: None
 
     config = viewer_protocol.ViewerConfig(title="robot", gfx="web", http_port=port)
     started: Future[int] = Future()
@@ -57,10 +57,6 @@ def launch_web_viewer(
         viewer_protocol.run_viewer_loop(viewer)
 
     return launch_thread.launch_thread(serve), started.result(STARTED_WITHIN)
-
-
-def _discard(*_arguments: object, **_options: object) -> None:
-    """Replaces `print`."""
 
 
 @contextmanager

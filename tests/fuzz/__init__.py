@@ -1,4 +1,4 @@
-"""Fuzzers: what a student can send, made up, and what must hold whatever it is.
+"""Fuzzers: generated input that a student could send, and the properties that must hold for it.
 
-`readers/` looks at one reader of the controller at a time, in this process; `arena/` runs made-up programs in arenas.
+`readers/` tests one reader of the controller at a time, in this process; `arena/` runs generated programs in arenas.
 """

@@ -1,4 +1,4 @@
-"""A fuzzer of one reader: what Hypothesis makes up, and what must hold for it."""
+"""A fuzzer of one reader: what Hypothesis generates, and the properties that must hold for it."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ LONG = settings(_USUAL, max_examples=20_000, print_blob=True)
 
 @dataclass(frozen=True)
 class Fuzzer:
-    """What is made up, and what must hold for it.
+    """A property-based test.
 
     Attributes:
         name: of the test.
-        channel: what of a student's it stands for.
-        inputs: makes them.
-        require: takes an input and raises whatever it likes if something does not hold.
-        weight: its examples are so many times the usual number, because they are quick.
+        channel: by which a student's input reaches the reader, such as "files".
+        inputs: generates them.
+        require: takes an input and raises any exception if a property does not hold.
+        weight: factor on the number of examples, above 1 for quick ones.
     """
 
     name: str
@@ -32,8 +32,8 @@ class Fuzzer:
     require: Callable[[Any], None]
     weight: float = 1.0
 
-    def look(self, chosen: settings = SUITE) -> None:
-        """Try inputs; raise what the smallest raises for which something does not hold."""
+    def run(self, chosen: settings = SUITE) -> None:
+        """Try inputs; raise what `require` raises for the smallest one that fails."""
 
         @settings(chosen, max_examples=max(1, round(chosen.max_examples * self.weight)))
         @given(self.inputs)

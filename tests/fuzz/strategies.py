@@ -1,27 +1,23 @@
-"""What many fuzzers make their inputs of: texts, names, bytes and JSON such as nobody sends on purpose."""
+"""What many fuzzers share: texts, names, bytes and JSON at their limits or damaged, and an arena's log."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 from hypothesis import strategies as st
+
+from autograder.arena.arena_log import ArenaLog
 
 MARKUP = "<script>alert('owned')</script>"
 ODD_TEXTS = (
     *("", " ", "\0", "\n", "\r\n", "\x1b[2J\x1b[31m", "\ud800", "\udcff", "\u202e", "\ufeff", "\U0010ffff"),
     *(MARKUP, "[/bold]", "[link=file:///etc/passwd]x[/link]", "{{ 7*7 }}", "%s%n", "../../etc/passwd", "NaN"),
-    *(
-        "1e999",
-        "9" * 5000,
-        "-0",
-        "None",
-        "True",
-        "x" * 11_000,
-        "\u0661\u0662",
-        '{"kind": "scenario_ended", "t": 1}',
-    ),
+    *("1e999", "9" * 5000, "-0", "None", "True", "x" * 11_000, "\u0661\u0662"),
+    '{"kind": "scenario_ended", "t": 1}',
 )
 ODD_NUMBERS: tuple[Any, ...] = (
     *(0, -1, 1, 255, 256, 2**31, -(2**31) - 1, 2**32, 2**53, 2**63, 2**64, -(2**63) - 1, 10**400),
@@ -48,12 +44,12 @@ blobs = st.one_of(
 
 
 def mutated(samples: Sequence[bytes]) -> st.SearchStrategy[bytes]:
-    """Return samples with a few places changed: bytes replaced, cut out, doubled, put in."""
+    """Return samples with a few places changed: bytes replaced, removed or inserted."""
     return st.tuples(st.sampled_from(list(samples)), st.lists(_changes, max_size=4)).map(_changed)
 
 
 def damaged_json(samples: Sequence[Any]) -> st.SearchStrategy[Any]:
-    """Return samples of JSON with a few of their values replaced, left out or put elsewhere."""
+    """Return samples of JSON with a few of their values replaced, removed or added."""
     return st.tuples(st.sampled_from(list(samples)), st.lists(_damages, min_size=1, max_size=3)).map(_damaged)
 
 
@@ -94,3 +90,15 @@ def _places(value: Any) -> Any:
     for key, inner in list(pairs):
         yield value, key
         yield from _places(inner)
+
+
+@contextmanager
+def recorded() -> Iterator[tuple[ArenaLog, Callable[[], bytes]]]:
+    """A log of an arena, and a function that returns what the log has written."""
+    with tempfile.TemporaryFile() as file:
+
+        def written() -> bytes:
+            file.seek(0)
+            return file.read()
+
+        yield ArenaLog(file.fileno()), written

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from textwrap import dedent
 
 import psutil
 from jupyter_client.manager import KernelManager, start_new_kernel
@@ -29,14 +30,14 @@ class Kernel:
         return psutil.Process(self.manager.provisioner.pid)  # type: ignore[union-attr]
 
     def run(self, code: str, timeout: float = 90.0) -> str:
-        """Run a cell and return what it printed. Raises CellError."""
+        """Run a cell, which may be indented, and return what it printed. Raises CellError."""
         printed: list[str] = []
 
         def keep(message: dict) -> None:
             if message["msg_type"] == "stream":
                 printed.append(message["content"]["text"])
 
-        reply = self.client.execute_interactive(code, timeout=timeout, output_hook=keep)["content"]
+        reply = self.client.execute_interactive(dedent(code), timeout=timeout, output_hook=keep)["content"]
         if reply["status"] == "error":
             raise CellError(reply["ename"], reply["evalue"])
         return "".join(printed)

@@ -17,23 +17,16 @@ import os
 import struct
 import sys
 import time
-from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 PAGE_VARIABLE = "SCALED_CLOCK_PAGE"
 MAGIC = b"SCALEDCK"
-VERSION = 1
-MAX_SEGMENTS = 16
+VERSION = 2
 
-_HEADER = struct.Struct(
-    "=8sIIIIq"
-)  # magic, version, segment count, is final, reserved, realtime offset in ns
-_COUNT_OFFSET, _FINAL_OFFSET = 12, 16
-_SEGMENT = struct.Struct("=qqd")  # real start in ns, scaled start in ns, scale
-_SIZE = _HEADER.size + MAX_SEGMENTS * _SEGMENT.size
+_PAGE = struct.Struct("=8sIIqqd")  # magic, version, is set, realtime offset in ns, switch in ns, scale
+_IS_SET_OFFSET, _SWITCH_OFFSET = 12, 24
 
-# A new pace starts this far in the future: nobody may have read a time beyond it when it is published.
+# The new pace starts this far in the future: nobody may have read a time beyond it when it is published.
 _NOTICE_NS = 10_000_000
 
 
@@ -64,76 +57,53 @@ def library_path() -> Path | None:
 
 
 class ScaledClock:
-    """One arena's clock. `create` makes it, `open` joins it from another process; either may write it."""
+    """One arena's clock: equal to the system's clocks until `run_at`.
+
+    Attributes:
+        path: of the page that processes read.
+        scale: arena seconds per real second, from the switch on.
+        switch_ns: when it changes its pace, on the real CLOCK_MONOTONIC; None before `run_at`.
+    """
 
     def __init__(self, path: Path, page: mmap.mmap, library: Path | None) -> None:
         self.path = path
+        self.scale = 1.0
+        self.switch_ns: int | None = None
         self._page = page
         self._library = library
 
     @classmethod
     def create(cls, path: str | os.PathLike[str], *, library: Path | None = None) -> ScaledClock:
-        """Create the page file `path`: scale 1, equal to the system's clocks until `run_at`.
-
-        `library` is the preloaded library, by default `library_path()`.
+        """Create the page file `path`; `library` is the preloaded library, by default `library_path()`.
 
         Raises:
             FileExistsError: `path` exists.
         """
-        now = real_monotonic_ns()
         offset = time.clock_gettime_ns(time.CLOCK_REALTIME) - time.clock_gettime_ns(time.CLOCK_MONOTONIC)
-        header = _HEADER.pack(MAGIC, VERSION, 1, 0, 0, offset)
-        content = (header + _SEGMENT.pack(now, now, 1.0)).ljust(_SIZE, b"\0")
-        descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o644)
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(content)
-        return cls.open(path, library=library)
+        descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o644)
+        with os.fdopen(descriptor, "r+b") as file:
+            file.write(_PAGE.pack(MAGIC, VERSION, 0, offset, 0, 1.0))
+            file.flush()
+            page = mmap.mmap(file.fileno(), _PAGE.size)
+        return cls(Path(path).resolve(), page, library or library_path())
 
-    @classmethod
-    def open(cls, path: str | os.PathLike[str], *, library: Path | None = None) -> ScaledClock:
-        """Open the clock at `path`; without write permission it can only be read.
-
-        Raises:
-            OSError: there is none.
-            ValueError: it is not a page of this version.
-        """
-        path = Path(path).resolve()
-        writable = os.access(path, os.W_OK)
-        with open(path, "r+b" if writable else "rb") as file:
-            size = os.fstat(file.fileno()).st_size
-            if size < _SIZE:
-                raise ValueError(f"{path} has {size} bytes; a clock page has {_SIZE}. Is it another file?")
-            access = mmap.ACCESS_WRITE if writable else mmap.ACCESS_READ
-            page = mmap.mmap(file.fileno(), _SIZE, access=access)
-        magic, version, *_ = _HEADER.unpack_from(page)
-        if (magic, version) != (MAGIC, VERSION):
-            raise ValueError(
-                f"{path} starts with {magic!r}, version {version}; expected {MAGIC!r}, version {VERSION}."
-                " Was it made by another release of this package?"
-            )
-        return cls(path, page, library or library_path())
-
-    def environment(self, base: Mapping[str, str] | None = None) -> dict[str, str]:
-        """Return the variables that make a process follow this clock; libraries that `base` preloads stay preloaded.
-
-        They are empty if the preloaded library could not be built.
-        """
+    def environment(self) -> dict[str, str]:
+        """Return the variables that make a process follow this clock; none if the library could not be built."""
         if self._library is None:
             return {}
-        already = (base or {}).get("LD_PRELOAD", "")
-        return {"LD_PRELOAD": f"{self._library} {already}".rstrip(), PAGE_VARIABLE: str(self.path)}
+        return {"LD_PRELOAD": str(self._library), PAGE_VARIABLE: str(self.path)}
 
-    def run_at(self, scale: float, *, final: bool = True) -> None:
-        """Let the clock run `scale` times as fast as real time, for all processes from the same instant on.
+    def run_at(self, scale: float) -> None:
+        """Let the clock run `scale` times as fast as real time, for all processes from the same instant on, for good.
 
-        Returns when that instant has come, about 10 ms later. `final` promises that the pace stays: processes then
-        sleep without interruption, instead of waking every 10 ms to read the page.
+        Returns when that instant has come, about 10 ms later. Processes then sleep without interruption; until now
+        they woke every 10 ms to read the page.
 
         ROS nodes discover each other in real time. Speed up only 0.2 s after a client has found its server: the server
         may not have discovered the client yet, and at scale 10 its timeout for that is ten times shorter.
 
         Raises:
-            RuntimeError: processes cannot follow, the clock is final, or it was changed 15 times.
+            RuntimeError: processes cannot follow, or the clock has changed its pace already.
         """
         if not 0.01 <= scale <= 100.0:
             raise ValueError(f"a clock cannot run {scale} times as fast as the wall; expected 0.01 to 100")
@@ -142,73 +112,21 @@ class ScaledClock:
                 "the library that lets processes follow a scaled clock was not built here; run at scale 1,"
                 " or install a C compiler and set up the environment again"
             )
-        if self.is_final:
-            raise RuntimeError(f"this clock was promised to stay at scale {self.scale}; create another one")
-        count = self._count()
-        if count == MAX_SEGMENTS:
-            raise RuntimeError(f"this clock has changed its pace {count - 1} times and has no room for more")
-        start = self._append(count, scale)
-        if final:
-            struct.pack_into("=I", self._page, _FINAL_OFFSET, 1)
-        while real_monotonic_ns() < start:
+        if self.switch_ns is not None:
+            raise RuntimeError(f"this clock stays at scale {self.scale}; create another one")
+        self.scale, self.switch_ns = scale, self._publish(scale)
+        while real_monotonic_ns() < self.switch_ns:
             time.sleep(0.001)
 
-    def _append(self, count: int, scale: float) -> int:
-        """Publish a segment that starts soon; return its real start in ns."""
+    def _publish(self, scale: float) -> int:
+        """Publish a switch that happens soon; return its instant, in ns of the real CLOCK_MONOTONIC."""
         while True:
-            start = real_monotonic_ns() + _NOTICE_NS
-            where = _HEADER.size + count * _SEGMENT.size
-            _SEGMENT.pack_into(self._page, where, start, self.scaled_ns(start), scale)
-            # Publishing late would let the clock jump for those who have read beyond the start; so try again.
-            if real_monotonic_ns() < start - _NOTICE_NS // 2:
-                struct.pack_into("=I", self._page, _COUNT_OFFSET, count + 1)
-                return start
-
-    @property
-    def scale(self) -> float:
-        """Arena seconds per real second, from the newest change on."""
-        return self.segments()[-1].scale
-
-    @property
-    def is_final(self) -> bool:
-        """Whether the pace was promised to stay."""
-        return bool(struct.unpack_from("=I", self._page, _FINAL_OFFSET)[0])
-
-    def segments(self) -> list[Segment]:
-        """Return the clock's paces so far, oldest first; the newest may begin a few ms from now."""
-        count = self._count()
-        return [
-            Segment(*_SEGMENT.unpack_from(self._page, _HEADER.size + i * _SEGMENT.size)) for i in range(count)
-        ]
-
-    def scaled_ns(self, real_ns: int) -> int:
-        """Return the arena's CLOCK_MONOTONIC, in ns, at an instant of the real one."""
-        segment = next(
-            (s for s in reversed(self.segments()) if s.real_start_ns <= real_ns), self.segments()[0]
-        )
-        return segment.scaled_start_ns + int((real_ns - segment.real_start_ns) * segment.scale)
-
-    def real_ns(self, scaled_ns: int) -> int:
-        """Return the real CLOCK_MONOTONIC, in ns, at an instant of the arena's."""
-        segments = self.segments()
-        segment = next((s for s in reversed(segments) if s.scaled_start_ns <= scaled_ns), segments[0])
-        return segment.real_start_ns + int((scaled_ns - segment.scaled_start_ns) / segment.scale)
-
-    def now(self) -> float:
-        """Return the arena's CLOCK_MONOTONIC, in s: what `time.monotonic()` gives a process that follows it."""
-        return self.scaled_ns(real_monotonic_ns()) * 1e-9
-
-    def _count(self) -> int:
-        return struct.unpack_from("=I", self._page, _COUNT_OFFSET)[0]
-
-
-@dataclass(frozen=True)
-class Segment:
-    """From `real_start_ns` of CLOCK_MONOTONIC on, the clock runs at `scale` arena seconds per real second."""
-
-    real_start_ns: int
-    scaled_start_ns: int
-    scale: float
+            switch = real_monotonic_ns() + _NOTICE_NS
+            struct.pack_into("=qd", self._page, _SWITCH_OFFSET, switch, scale)
+            # Publishing late would let the clock jump for those who have read beyond the switch; so try again.
+            if real_monotonic_ns() < switch - _NOTICE_NS // 2:
+                struct.pack_into("=I", self._page, _IS_SET_OFFSET, 1)
+                return switch
 
 
 def real_monotonic_ns() -> int:

@@ -7,7 +7,7 @@
  * by mapping the real CLOCK_MONOTONIC to it. Waits turn their timeout into a deadline on it, map the
  * deadline back to the real CLOCK_MONOTONIC, and wait for that with libc's own function.
  *
- * Before the switch. While the page is not final, somebody may speed the clock up during a wait. So waits
+ * Before the switch. While the switch is not set, somebody may speed the clock up during a wait. So waits
  * are cut into pieces of at most LONGEST_BLIND_WAIT_NS and the deadline is mapped again after each. Waits
  * for a state (a semaphore, a lock, a descriptor, mere time) simply go on. A condition variable must not:
  * between two pieces nobody listens, so a signal would be lost. There the end of a piece is reported as a
@@ -184,48 +184,27 @@ static int64_t real_now(void)
     return to_ns(&t);
 }
 
-static uint32_t segment_count(void)
+static bool is_set(void)
 {
-    uint32_t count = atomic_load_explicit(&((struct clock_page *)page)->segment_count, memory_order_acquire);
-    return count > CLOCK_PAGE_SEGMENTS ? CLOCK_PAGE_SEGMENTS : count;
-}
-
-static bool is_final(void)
-{
-    return atomic_load_explicit(&((struct clock_page *)page)->is_final, memory_order_acquire) != 0;
-}
-
-/* The newest segment that has begun; the first one also serves all time before it. */
-static const struct clock_segment *segment_at_real(int64_t real_ns)
-{
-    uint32_t i = segment_count();
-    while (i > 1 && page->segments[i - 1].real_start_ns > real_ns)
-        i--;
-    return &page->segments[i > 0 ? i - 1 : 0];
-}
-
-static const struct clock_segment *segment_at_scaled(int64_t scaled_ns)
-{
-    uint32_t i = segment_count();
-    while (i > 1 && page->segments[i - 1].scaled_start_ns > scaled_ns)
-        i--;
-    return &page->segments[i > 0 ? i - 1 : 0];
+    return atomic_load_explicit(&((struct clock_page *)page)->is_set, memory_order_acquire) != 0;
 }
 
 static int64_t scaled_from_real(int64_t real_ns)
 {
-    const struct clock_segment *s = segment_at_real(real_ns);
-    return s->scaled_start_ns + (int64_t)((double)(real_ns - s->real_start_ns) * s->scale);
+    if (!is_set() || real_ns <= page->switch_ns)
+        return real_ns;
+    return page->switch_ns + (int64_t)((double)(real_ns - page->switch_ns) * page->scale);
 }
 
 /* Rounded up by a nanosecond, so that who wakes at the result never finds the scaled time short of it. */
 static int64_t real_from_scaled(int64_t scaled_ns)
 {
-    const struct clock_segment *s = segment_at_scaled(scaled_ns);
-    double after = (double)(scaled_ns - s->scaled_start_ns) / s->scale;
+    if (!is_set() || scaled_ns <= page->switch_ns)
+        return scaled_ns + 1;
+    double after = (double)(scaled_ns - page->switch_ns) / page->scale;
     if (after >= (double)FAR_FUTURE_NS)
         return FAR_FUTURE_NS;
-    return s->real_start_ns + (int64_t)after + 1;
+    return page->switch_ns + (int64_t)after + 1;
 }
 
 static int64_t scaled_now(void)
@@ -321,10 +300,10 @@ struct piece {
 
 static struct piece next_piece(int64_t deadline_ns)
 {
-    bool final = is_final();
+    bool set = is_set();
     int64_t now = real_now();
     int64_t until = real_from_scaled(deadline_ns);
-    bool is_last = final || until <= now + LONGEST_BLIND_WAIT_NS;
+    bool is_last = set || until <= now + LONGEST_BLIND_WAIT_NS;
     if (!is_last)
         until = now + LONGEST_BLIND_WAIT_NS;
     return (struct piece){to_timespec(until), to_timespec(until - now), is_last};

@@ -1,11 +1,11 @@
-"""Made-up programs in arenas: each is graded, none has full marks, none changes the next grade or leaves anything."""
+"""Generated programs in arenas: each is graded, none gets full marks, changes the next grade or leaves anything."""
 
 from __future__ import annotations
 
 import pytest
 
 from autograder.isolation.availability import available_isolation
-from fuzz.arena.made_up import look, program
+from fuzz.arena.generated_program import find_problem, program
 from fuzz.arena.targets import TARGETS
 from fuzz.readers.all import READERS
 
@@ -13,11 +13,11 @@ from fuzz.readers.all import READERS
 @pytest.mark.skipif(not available_isolation().trusted, reason="hidden checks need isolated arenas")
 @pytest.mark.parametrize(("name", "seed"), [("arena-service", 1), ("arena-action", 1), ("arena-service", 2)])
 def test_nothing_is_found_in_an_arena(name: str, seed: int) -> None:
-    assert look(name, seed) == ""
+    assert find_problem(name, seed) == ""
 
 
 def test_nothing_is_found_in_recorded_runs_with_other_messages() -> None:
-    READERS["answers-judged"].look()
+    READERS["answers-judged"].run()
 
 
 @pytest.mark.parametrize("name", TARGETS)
@@ -25,7 +25,7 @@ def test_a_seed_makes_one_program(name: str) -> None:
     source = program(TARGETS[name], 7)
     assert source == program(TARGETS[name], 7)
     assert source != program(TARGETS[name], 8)
-    namespace: dict[str, object] = {"__name__": "made_up"}
-    exec(compile(source, "made_up.py", "exec"), namespace)
+    namespace: dict[str, object] = {"__name__": "generated"}
+    exec(compile(source, "generated.py", "exec"), namespace)
     assert callable(namespace["wild_message"])
     assert namespace["OFFERS"] == TARGETS[name].offers

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_runtime.workarounds.scaled_clock import ScaledClock
+from ros_runtime.workarounds.scaled_clock.clock import ScaledClock
 from ros_runtime.workarounds.scaled_clock.compile_library import compile_library
 
 

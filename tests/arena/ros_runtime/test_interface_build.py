@@ -63,7 +63,7 @@ print("" in sys.path, "libmy_interfaces" in Path("/proc/self/maps").read_text())
 
 def run(*arguments: object, **variables: str) -> subprocess.CompletedProcess[str]:
     """A Python process in a ROS domain of its own."""
-    environment = os.environ | ros_environment(domain_id=os.getpid() % 100 + 1) | variables
+    environment = os.environ | ros_environment() | {"ROS_DOMAIN_ID": str(os.getpid() % 100 + 1)} | variables
     return subprocess.run(
         [sys.executable, *map(str, arguments)], env=environment, capture_output=True, text=True, timeout=600
     )

@@ -38,7 +38,8 @@ def viewed_robot(*options):
     domain = ReservedDomain()
     environment = {
         **os.environ,
-        **ros_environment(localhost_only=True),
+        **ros_environment(),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         "ROS_DOMAIN_ID": str(domain.domain_id),
     }
     process = subprocess.Popen(

@@ -1,4 +1,4 @@
-"""Whatever a student sends, its reader makes a value of it or says why not; and what fuzzers found stays mended."""
+"""Readers return a value or say why not, whatever a student sends; and what fuzzers found stays mended."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ IN_ARENAS = ("answers-judged",)  # it reads all recorded runs, which takes secon
 
 @pytest.mark.parametrize("name", [name for name in READERS if name not in IN_ARENAS])
 def test_nothing_is_found(name: str, pytestconfig: pytest.Config) -> None:
-    READERS[name].look(LONG if pytestconfig.getoption("long_fuzz") else SUITE)
+    READERS[name].run(LONG if pytestconfig.getoption("long_fuzz") else SUITE)
 
 
 def test_every_channel_has_a_fuzzer() -> None:
@@ -43,7 +43,7 @@ def test_what_is_found_is_as_small_as_can_be() -> None:
         assert number < 1000
 
     with pytest.raises(AssertionError):
-        Fuzzer("some-numbers", "answers", st.integers(0, 10**9), refuse_large, weight=4).look()
+        Fuzzer("some-numbers", "answers", st.integers(0, 10**9), refuse_large, weight=4).run()
     assert tried[-1] == 1000
 
 
@@ -77,14 +77,14 @@ def test_the_folder_of_another_student_is_not_read_through_a_link(tmp_path: Path
 
 
 @pytest.mark.parametrize("name", ["battery_service.ipynb", "battery_service.py"])
-def test_a_folder_in_the_place_of_a_file_is_told(tmp_path: Path, name: str) -> None:
+def test_a_folder_in_the_place_of_a_file_is_reported(tmp_path: Path, name: str) -> None:
     (tmp_path / "anna" / name).mkdir(parents=True)
     (work,) = collect(tmp_path).works
     with pytest.raises(UnusableSubmission, match="is not an ordinary file"):
         work.read()
 
 
-def test_a_file_that_nobody_may_read_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_that_nobody_may_read_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "battery_service.py"
     path.write_text("pass")
 

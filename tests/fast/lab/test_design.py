@@ -59,7 +59,7 @@ def test_a_design_is_drawn(tmp_path: Path) -> None:
     assert "camera -&gt; finder: topic sensor_msgs/msg/Image." in html
 
 
-def test_a_file_that_is_not_there_yet_is_told_how_to_be_made(tmp_path: Path) -> None:
+def test_for_a_missing_file_the_error_says_how_to_write_it(tmp_path: Path) -> None:
     with pytest.raises(lab.LabError, match=r"run the cell that begins %%writefile arm\.txt"):
         lab.draw_design(tmp_path / "arm.txt")
 

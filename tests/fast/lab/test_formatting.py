@@ -12,7 +12,7 @@ from lab import describe
 from lab.client.formatting import describe_briefly
 
 
-def test_numbers_are_short_and_nan_is_said() -> None:
+def test_numbers_are_short_and_nan_is_named() -> None:
     words = describe(BatteryState(percentage=0.123456, voltage=float("nan")))
     assert "percentage 0.123," in words
     assert "voltage NaN," in words

@@ -43,7 +43,7 @@ def test_the_solution_goes_into_the_gap_at_its_indentation() -> None:
     assert filled == "def double(x):\n    return 2 * x\n\n\nprint(double(2))\n"
 
 
-def test_a_program_without_a_gap_and_a_cell_without_a_solution_are_told() -> None:
+def test_a_program_without_a_gap_and_a_cell_without_a_solution_are_reported() -> None:
     with pytest.raises(ValueError, match="expected one gap"):
         fill("print(1)\n", "x\n")
     with pytest.raises(ValueError, match="expected a folded solution"):
@@ -81,7 +81,7 @@ def test_right_lines_are_confirmed_and_kept(capsys: pytest.CaptureFixture[str]) 
     assert list(kept("gaps")) == ["double.py"]
 
 
-def test_a_file_without_a_gap_is_told() -> None:
+def test_a_file_without_a_gap_is_reported() -> None:
     with pytest.raises(
         lab.LabError, match=r"no chapter has a gap in a file of this name; there are double\.py"
     ):

@@ -6,8 +6,8 @@ import pytest
 from std_srvs.srv import SetBool
 
 from humanoid_interfaces.action import StandUp
-from lab.client.events import GaveUp, ModeChanged
 from lab.client.interaction_log import InteractionLog
+from lab.client.messages import GaveUp, ModeChanged
 from ros_runtime.message_constants import GoalStatus, RobotMode
 from ros_runtime.record.client_events import (
     CancelAnswered,

@@ -59,7 +59,7 @@ def test_the_buttons_do_the_same_and_rest_when_it_is_decided() -> None:
     assert (yes.disabled, no.disabled) == (False, False)
 
 
-def test_other_words_and_further_answers_are_told() -> None:
+def test_other_words_and_further_answers_are_refused() -> None:
     choice = lab.choose_pattern()
     with pytest.raises(lab.LabError, match="'maybe' is no answer"):
         choice.answer("maybe")

@@ -133,7 +133,7 @@ def test_an_unknown_letter_names_the_choices_and_changes_nothing() -> None:
     assert prediction.letter == "a"
 
 
-def test_a_missing_prediction_is_told() -> None:
+def test_a_missing_prediction_is_reported() -> None:
     with pytest.raises(lab.LabError, match="no question 99"):
         lab.predict(ALL[0][0], 99)
 

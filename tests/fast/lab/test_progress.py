@@ -51,7 +51,7 @@ def test_the_contents_are_every_chapter_and_every_exercise() -> None:
     assert sorted(exercises) == sorted((ROOT / "exercises").glob("*/*.ipynb"))
 
 
-def test_somebody_who_has_done_nothing_is_told_a_first_step(checks: dict[str, LastCheck]) -> None:
+def test_without_any_progress_a_first_step_is_shown(checks: dict[str, LastCheck]) -> None:
     sentence, notebook = progress.next_step(progress.read_progress())
     assert sentence.startswith("Nothing done yet. Your first step")
     assert notebook.name == "01_robot_and_graph.ipynb"

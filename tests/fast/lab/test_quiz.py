@@ -65,7 +65,7 @@ def test_a_question_has_one_right_choice() -> None:
         Question("?", (Choice("a", "why"), Choice("b", "why")))
 
 
-def test_a_missing_question_is_told() -> None:
+def test_a_missing_question_is_reported() -> None:
     with pytest.raises(lab.LabError, match="no question 99"):
         lab.quiz(CHAPTERS[0], 99)
 

@@ -14,8 +14,7 @@ from sensor_msgs.msg import BatteryState, JointState
 
 from humanoid_interfaces.msg import RobotState
 from lab.errors import LabError
-from lab.pictures.curves_plot import plot_curves
-from lab.pictures.means_plot import plot_means
+from lab.pictures.plots import plot_curves, plot_means
 from lab.pictures.recording import Recording
 from ros_runtime.record.client_events import CancelAnswered, CancelSent, FeedbackReceived, ResultReceived
 

@@ -46,7 +46,7 @@ def test_what_never_ends_lasts_until_the_end(verb: str, lane: str) -> None:
     assert spans_of(steps, 9.0) == [Span(lane, "look", 1.0, 9.0, is_over=False)]
 
 
-def test_the_picture_is_told_in_words() -> None:
+def test_the_picture_has_a_text_alternative() -> None:
     beats = "".join(
         f"{10 + n}.0 MainThread beat begins\n{10 + n}.001 MainThread beat ends\n" for n in (0, 1, 5)
     )
@@ -60,6 +60,6 @@ def test_the_picture_is_told_in_words() -> None:
         assert told in drawn
 
 
-def test_a_program_that_prints_no_such_line_is_told_what_to_do() -> None:
+def test_for_a_program_without_such_a_line_the_error_says_what_to_do() -> None:
     with pytest.raises(LabError, match=r"scout\.py has printed no line like .* call trace\(\)"):
         draw_threads(node("hello\n"))

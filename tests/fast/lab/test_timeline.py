@@ -8,11 +8,9 @@ import pytest
 from drawings import read
 
 from lab.errors import LabError
-from lab.pictures.annotations import Mark
-from lab.pictures.labels import rows_of, text_width
+from lab.pictures.labels import Mark, rows_of, text_width
 from lab.pictures.timeline import draw_timeline
-from lab.running.life import Life
-from lab.running.processes import Process
+from lab.running.processes import Life, Process
 
 
 @dataclass(frozen=True)
@@ -46,7 +44,7 @@ def test_each_process_has_a_lane_with_its_lines_and_its_end() -> None:
     )
 
 
-def test_two_processes_of_one_file_are_told_apart() -> None:
+def test_two_processes_of_one_file_have_numbers() -> None:
     drawing = read(draw_timeline(*(lived("server.py", at, at + 1.0, "stopped") for at in (0.0, 2.0))))
     assert {"server.py (1)", "server.py (2)"} <= set(drawing.texts)
 

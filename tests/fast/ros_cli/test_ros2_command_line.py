@@ -53,7 +53,7 @@ COURSE = Path(sys.executable).with_name("course")
 )
 def test_the_words_and_flags_of_ros2cli_are_understood(words: str) -> None:
     options = app.command_line("ros2").parse_args(words.split())
-    assert options.run.__module__.startswith("ros_cli.verbs.")
+    assert options.run.__module__.startswith("ros_cli.verb")
 
 
 # Of ros2cli 0.32.2 (Jazzy) and of what later releases for Jazzy added; `-h` and what stands for a word apart.
@@ -145,7 +145,7 @@ def test_without_a_verb_the_help_is_shown(capsys: pytest.CaptureFixture[str]) ->
     assert "ROS_DOMAIN_ID" in shown
 
 
-def test_unusable_arguments_are_told(capsys: pytest.CaptureFixture[str]) -> None:
+def test_unusable_arguments_are_reported(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         run(["topic", "dance"])
     assert ended.value.code == 2
@@ -154,7 +154,7 @@ def test_unusable_arguments_are_told(capsys: pytest.CaptureFixture[str]) -> None
     assert "argument VERB: invalid choice: 'dance'" in shown
 
 
-def test_an_error_is_told_on_stderr(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_error_is_reported_on_stderr(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["interface", "show", "no_msgs/msg/Nothing"]) == 1
     shown = capsys.readouterr()
     assert shown.out == ""
@@ -162,7 +162,7 @@ def test_an_error_is_told_on_stderr(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "error_text"),
     [
         (["service", "call", "/add", "std_srvs/srv/Nothing"], "The passed service type is invalid"),
         (["service", "call", "/add", "std_msgs/msg/String"], "std_msgs/msg/String is no service"),
@@ -170,11 +170,11 @@ def test_an_error_is_told_on_stderr(capsys: pytest.CaptureFixture[str]) -> None:
         (["action", "send_goal", "/walk", "std_srvs/srv/SetBool"], "The passed action type is invalid"),
     ],
 )
-def test_a_wrong_type_is_told_before_anything_is_waited_for(
-    words: list[str], told: str, capsys: pytest.CaptureFixture[str]
+def test_a_wrong_type_is_reported_before_anything_is_waited_for(
+    words: list[str], error_text: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run(words) == 1
-    assert told in capsys.readouterr().err
+    assert error_text in capsys.readouterr().err
 
 
 def test_the_launcher_has_the_same_commands() -> None:

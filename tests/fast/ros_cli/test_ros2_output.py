@@ -23,17 +23,21 @@ from ros_cli.verbs.topic_hz import ArrivalRate
 from ros_cli.verbs.topic_pub import ticks
 
 
-def test_a_rate_is_told_once_a_second() -> None:
+def test_a_rate_is_printed_once_a_second() -> None:
     rate = ArrivalRate()
-    told = [rate.arrived(number * 100_000_000) for number in range(22)]
-    assert [number for number, lines in enumerate(told) if lines] == [11, 21]
-    assert told[11] == "average rate: 10.000\n\tmin: 0.100s max: 0.100s std dev: 0.00000s window: 11"
+    printed = [rate.arrived(number * 100_000_000) for number in range(22)]
+    assert [number for number, lines in enumerate(printed) if lines] == [11, 21]
+    assert printed[11] == "average rate: 10.000\n\tmin: 0.100s max: 0.100s std dev: 0.00000s window: 11"
 
 
 def test_old_intervals_leave_the_window() -> None:
     rate = ArrivalRate(window=1)
-    told = [rate.arrived(now) for now in (0, 1_000_000_000, 3_000_000_000)]
-    assert told == [None, None, "average rate: 0.500\n\tmin: 2.000s max: 2.000s std dev: 0.00000s window: 1"]
+    printed = [rate.arrived(now) for now in (0, 1_000_000_000, 3_000_000_000)]
+    assert printed == [
+        None,
+        None,
+        "average rate: 0.500\n\tmin: 2.000s max: 2.000s std dev: 0.00000s window: 1",
+    ]
 
 
 def test_a_field_is_selected_by_its_path() -> None:
@@ -57,11 +61,11 @@ def test_a_field_is_selected_by_its_path() -> None:
         ("[left, right]", "String values are: ['left', 'right']"),
     ],
 )
-def test_a_parameter_is_told_with_its_type(typed: str, line: str) -> None:
+def test_a_parameter_is_printed_with_its_type(typed: str, line: str) -> None:
     assert worded(get_parameter_value(typed)) == line
 
 
-def test_a_parameter_without_a_value_is_told() -> None:
+def test_a_parameter_without_a_value_is_printed() -> None:
     assert worded(ParameterValue()) == "Parameter not set."
 
 
@@ -138,19 +142,19 @@ def test_an_action_of_the_course_is_shown_whole() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "told"),
+    ("name", "expected"),
     [
         ("SetBool", "Expected three parts separated by '/'"),
         ("no_msgs/msg/Nothing", "Unknown package 'no_msgs'"),
         ("std_srvs/srv/Nothing", "Could not find the interface 'std_srvs/srv/Nothing'"),
     ],
 )
-def test_an_unknown_interface_is_told(name: str, told: str) -> None:
-    with pytest.raises(CommandError, match=told):
+def test_an_unknown_interface_is_reported(name: str, expected: str) -> None:
+    with pytest.raises(CommandError, match=expected):
         list(definition(name))
 
 
-def test_an_unknown_name_is_told_with_those_that_look_alike() -> None:
+def test_an_unknown_name_is_reported_with_those_that_look_alike() -> None:
     names = ["/robot/odom", "/robot/imu"]
     assert str(unknown("topic", "/odom", names)) == "Unknown topic '/odom': did you mean /robot/odom?"
     assert "`topic list` shows" in str(unknown("topic", "/camera", names))

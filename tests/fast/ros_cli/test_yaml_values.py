@@ -60,7 +60,7 @@ def test_no_other_word_stands_for_a_time() -> None:
 
 
 @pytest.mark.parametrize(
-    ("message_type", "text", "told"),
+    ("message_type", "text", "error_text"),
     [
         (AddTwoInts.Request, "{c: 1}", "no field 'c'; it has a, b"),
         (AddTwoInts.Request, "{a:1}", "a space follows each colon"),
@@ -72,10 +72,10 @@ def test_no_other_word_stands_for_a_time() -> None:
         (JointState, "{name: knee}", "'name' field"),
     ],
 )
-def test_a_value_that_does_not_fit_is_told(message_type: Any, text: str, told: str) -> None:
+def test_a_value_that_does_not_fit_is_reported(message_type: Any, text: str, error_text: str) -> None:
     with pytest.raises(CommandError) as error:
         message_from_yaml(message_type, text)
-    assert told in str(error.value)
+    assert error_text in str(error.value)
 
 
 def test_a_message_is_printed_field_by_field() -> None:

@@ -93,7 +93,7 @@ def test_a_file_is_called_as_a_type(tmp_path: Path, name: str) -> None:
     assert problem.expected.startswith("a name such as ")
 
 
-def test_all_problems_of_all_files_are_told_at_once(tmp_path: Path) -> None:
+def test_all_problems_of_all_files_are_reported_at_once(tmp_path: Path) -> None:
     found = problems_of(tmp_path, Go__srv="int a\n---\nfloat b\n", Level__msg="int32 Level\n")
     assert [(problem.file, problem.line) for problem in found] == [
         ("Go.srv", 1),

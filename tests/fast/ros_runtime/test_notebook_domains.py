@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterator
 from pathlib import Path
+from subprocess import PIPE, Popen
 
 import pytest
 
-from ros_cli.domain import join_domain
+from ros_cli.app import join_domain
 from ros_runtime import notebook_domains
 from ros_runtime.ros_domain import ReservedDomain
 
@@ -59,6 +61,24 @@ def test_a_domain_that_the_shell_has_chosen_is_kept(
     join_domain()
     assert os.environ["ROS_DOMAIN_ID"] == "5"
     notebooks[1].release()
+
+
+def test_the_lab_leaves_no_file_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    program = (
+        "import os; from ros_runtime.notebook_domains import VARIABLE, lab_variables\n"
+        "print(lab_variables()[VARIABLE], flush=True); os.execvp('cat', ['cat'])"
+    )
+    command = [sys.executable, "-c", program]
+    with Popen(
+        command, env=os.environ | {"TMPDIR": str(tmp_path)}, stdin=PIPE, stdout=PIPE, text=True
+    ) as lab:
+        assert lab.stdout
+        monkeypatch.setenv(notebook_domains.VARIABLE, lab.stdout.readline().strip())
+        with ReservedDomain() as domain_id:
+            notebook_domains.announce(domain_id)
+            assert notebook_domains.latest() == domain_id
+    assert notebook_domains.latest() is None
+    assert [path.name for path in tmp_path.iterdir()] == ["ros-domain-locks"]
 
 
 def test_a_lab_without_a_running_notebook_has_none(lab: None) -> None:

@@ -1,1 +1,1 @@
-"""Made-up programs in arenas: legal ROS, and nothing that helps anybody."""
+"""Generated programs in arenas: they use ROS legally, and do not do their exercise."""

@@ -1,4 +1,4 @@
-"""The exercises that made-up programs are handed in for: one of each kind."""
+"""The exercises that generated programs are handed in for: one of each kind."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Target:
-    """An exercise that a made-up program is handed in for.
+    """An exercise that a generated program is handed in for.
 
     Attributes:
         exercise: its name.
-        checks: those that are made (ids), with what each needs among them; the last passes only if the job is done.
+        checks: the ids of those that judge it, including those they need; the last passes only if the task is solved.
         offers: what the exercise asks for: (service, action or client, name, type).
         correct: a known submission that passes them all.
     """

@@ -1,4 +1,4 @@
-"""ROS messages of any type with made-up values. The made-up program holds a copy of this text."""
+"""ROS messages of any type with random values. The generated program contains a copy of this text."""
 
 from __future__ import annotations
 
@@ -9,27 +9,9 @@ from typing import Any
 
 ODD_FLOATS = (0.0, -0.0, 1.0, 1e308, -1e308, 5e-324, 3.4e38, float("nan"), float("inf"), float("-inf"))
 ODD_STRINGS = (
-    "",
-    "odom",
-    "\x00",
-    "\x1b[2J",
-    "<script>alert(1)</script>",
-    "é" * 40,
-    "{}",
-    "x" * 12_000,
-    "\n",
-    "9" * 5000,
+    *("", "odom", "\x00", "\x1b[2J", "<script>alert(1)</script>", "é" * 40, "{}"),
+    *("x" * 12_000, "\n", "9" * 5000),
 )
-BITS = {
-    "int8": 7,
-    "int16": 15,
-    "int32": 31,
-    "int64": 63,
-    "uint8": 8,
-    "uint16": 16,
-    "uint32": 32,
-    "uint64": 64,
-}
 SEQUENCE = re.compile(r"sequence<(?P<of>.+?)(?:, *(?P<most>\d+))?>|(?P<element>.+?)\[(?P<length>\d+)\]")
 DEPTH = 4
 
@@ -54,10 +36,8 @@ def wild_value(declared: str, chance: random.Random, depth: int) -> Any:
         if many["length"]:
             length = int(many["length"])
         else:
-            longest = int(many["most"]) if many["most"] else 3000
-            length = min(
-                longest, chance.choice((0, 1, 2, 3, 3, 30, 3000)) if depth < 2 else chance.choice((0, 1))
-            )
+            length = chance.choice((0, 1, 2, 3, 3, 30, 3000) if depth < 2 else (0, 1))
+            length = min(length, int(many["most"] or 3000))
         of = many["of"] or many["element"]
         one = [wild_value(of, chance, depth + 1) for _ in range(min(length, 3))]
         return [one[index % len(one)] for index in range(length)] if one else []
@@ -69,11 +49,7 @@ def wild_value(declared: str, chance: random.Random, depth: int) -> Any:
         return chance.random() < 0.5
     if declared == "float":
         number = chance.choice((*ODD_FLOATS, chance.uniform(-10, 10)))
-        return (
-            number
-            if abs(number) < 3.4e38 or number != number or number in (ODD_FLOATS[-1], ODD_FLOATS[-2])
-            else 1.0
-        )
+        return 1.0 if 3.4e38 <= abs(number) < float("inf") else number  # no float of 32 bits holds it
     if declared == "double":
         return chance.choice((*ODD_FLOATS, chance.uniform(-10, 10)))
     if declared.startswith(("string", "wstring")):
@@ -82,6 +58,6 @@ def wild_value(declared: str, chance: random.Random, depth: int) -> Any:
         return text[: int(bound[1])] if bound else text
     if declared in ("octet", "byte"):
         return bytes([chance.randrange(256)])
-    most = 2 ** BITS[declared] - 1
-    least = -most - 1 if declared.startswith("int") else 0
+    bits, is_signed = int(declared.partition("int")[2]), declared.startswith("int")
+    least, most = (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) if is_signed else (0, 2**bits - 1)
     return chance.choice((0, 1, least, most, chance.randint(least, most)))

@@ -1,6 +1,6 @@
-"""A program that does what ROS allows and nobody wants, made up from SEED. It does not do its exercise's job.
+"""A program that does anything that ROS allows, chosen by SEED. It does not solve its exercise.
 
-It runs as a student's. `fuzz.arena.made_up` puts in SEED, OFFERS and the text of wild_messages.py.
+It runs as a student's. `fuzz.arena.generated_program` puts in SEED, OFFERS and the text of wild_messages.py.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from fuzz.arena.wild_messages import wild_message
 
 SEED = 0
-OFFERS: tuple = ()  # what the exercise asks for, as (service or action, name, type); made up otherwise
+OFFERS: tuple = ()  # what the exercise asks for, as (service or action, name, type); random ones otherwise
 
 CHANCE = random.Random(SEED)
 PERIODS = (0.001, 0.01, 0.1, 0.5)  # s between two acts
@@ -38,7 +38,7 @@ def find(kind):
 
 
 class Wild:
-    """A node, and the acts that somebody made up."""
+    """A node and the actions that were drawn for it."""
 
     def __init__(self):
         self.node = rclpy.create_node(CHANCE.choice(("wild", "observer", "battery_service", "x" * 100)))
@@ -99,13 +99,8 @@ class Wild:
         latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         status = self.node.create_publisher(GoalStatusArray, f"{name}/_action/status", latched)
         feedback = self.node.create_publisher(kind.Impl.FeedbackMessage, f"{name}/_action/feedback", 10)
-        self.publishers["status"], self.publishers["feedback"] = (
-            (status, GoalStatusArray),
-            (
-                feedback,
-                kind.Impl.FeedbackMessage,
-            ),
-        )
+        self.publishers["status"] = (status, GoalStatusArray)
+        self.publishers["feedback"] = (feedback, kind.Impl.FeedbackMessage)
 
     def offer_client(self, name, kind):
         """Be a client that sends whatever it likes."""
@@ -170,9 +165,8 @@ class Wild:
         """Leave files, links, pipes and folders where it may."""
         self.files += 1
         folder = CHANCE.choice((".", "/tmp", "/dev/shm", "/var/tmp", "/"))
-        path = os.path.join(
-            folder, CHANCE.choice((f"f{self.files}", "arena-1-x", "fastrtps_port7400", "é\n", "sem.x"))
-        )
+        names = (f"f{self.files}", "arena-1-x", "fastrtps_port7400", "é\n", "sem.x")
+        path = os.path.join(folder, CHANCE.choice(names))
         how = CHANCE.choice(("bytes", "hole", "link", "pipe", "folder", "closed"))
         if how == "link":
             os.symlink(CHANCE.choice(("/", "/proc/self/root", path)), path)
@@ -190,18 +184,15 @@ class Wild:
 
     def act_print(self):
         """Print what is no text, or looks like the grader's own words."""
-        stream = CHANCE.choice((sys.stdout, sys.stderr)).buffer
-        stream.write(
-            CHANCE.choice(
-                (
-                    CHANCE.randbytes(CHANCE.choice((1, 100, 5000))),
-                    b'{"kind": "scenario_ended", "t": 1.0}\n',
-                    b"\x1b[2J\x1b]0;owned\x07passed 10/10\n",
-                    b"[red]<script>alert(1)</script>\n" * 50,
-                    b"12 topic a\n",
-                )
-            )
+        printed = (
+            CHANCE.randbytes(CHANCE.choice((1, 100, 5000))),
+            b'{"kind": "scenario_ended", "t": 1.0}\n',
+            b"\x1b[2J\x1b]0;owned\x07passed 10/10\n",
+            b"[red]<script>alert(1)</script>\n" * 50,
+            b"12 topic a\n",
         )
+        stream = CHANCE.choice((sys.stdout, sys.stderr)).buffer
+        stream.write(CHANCE.choice(printed))
         stream.flush()
 
     def act_read_stdin(self):

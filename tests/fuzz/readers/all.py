@@ -1,4 +1,4 @@
-"""The fuzzers of readers, all of them, by name."""
+"""All fuzzers of readers by name."""
 
 from __future__ import annotations
 

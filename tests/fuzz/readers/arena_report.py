@@ -1,11 +1,9 @@
-"""What an arena says of a student's messages, written by the agent and read by the controller."""
+"""The events that the agent writes about a student's messages and the controller reads."""
 
 from __future__ import annotations
 
 import json
-import os
 import random
-import tempfile
 from collections.abc import Sequence
 from typing import Any
 
@@ -16,7 +14,7 @@ from sensor_msgs.msg import BatteryState, Imu, JointState
 from std_srvs.srv import Trigger
 from trajectory_msgs.msg import JointTrajectory
 
-from autograder.arena.arena_log import LARGEST_EVENT, ArenaLog
+from autograder.arena.arena_log import LARGEST_EVENT
 from autograder.arena.bounded_reading import BoundedReading
 from autograder.authoring.evidence import events as ev
 from autograder.engine.arena_run import NotGraded, read_events
@@ -35,13 +33,11 @@ FEEDBACK = tuple(action.Impl.FeedbackMessage for action in (WalkTo, NavigateToPo
 
 def written(events: Sequence[Event]) -> list[bytes]:
     """Return the lines that the arena's log writes of events."""
-    with tempfile.TemporaryFile() as file:
-        log = ArenaLog(file.fileno())
+    with odd.recorded() as (log, lines):
         for event in events:
             log.append(event)
         log.finish()
-        os.lseek(file.fileno(), 0, os.SEEK_SET)
-        return file.read().splitlines(keepends=True)
+        return lines().splitlines(keepends=True)
 
 
 def require_readable(events: Sequence[Event]) -> None:
@@ -63,18 +59,15 @@ def require_events_or_none(report: bytes) -> None:
 def require_bounded_message(drawn: tuple[Any, bytes]) -> None:
     """Require that bytes become a message of their type, or a record of why not."""
     kind, data = drawn
-    with tempfile.TemporaryFile() as file:
-        log = ArenaLog(file.fileno())
+    with odd.recorded() as (log, lines):
         message = BoundedReading(log).unpack("message", "topic", data, kind)
         assert message is None or isinstance(message, kind)
         if message is not None:
             content = getattr(message, "feedback", message)  # of an action's, that is what is recorded
             log.append(ev.MessageReceived(topic="topic", message=content))
         log.finish()
-        os.lseek(file.fileno(), 0, os.SEEK_SET)
-        lines = file.read()
-    assert lines, "nothing gets lost without a record"
-    read_events(lines)
+        assert lines(), "nothing gets lost without a record"
+        read_events(lines())
 
 
 def _wild(kinds: Sequence[Any]) -> st.SearchStrategy[Any]:
@@ -88,7 +81,7 @@ def _answered(drawn: tuple[Any, str]) -> Event:
 
 
 def _bytes_of(kinds: Sequence[Any]) -> st.SearchStrategy[Any]:
-    """Make a type, and bytes of a message that was damaged on its way."""
+    """Generate a type, and the bytes of a damaged message of it."""
 
     def of(drawn: tuple[Any, int]) -> st.SearchStrategy[Any]:
         kind, seed = drawn

@@ -1,4 +1,4 @@
-"""What students write in their own words or definitions: designs of essays, and interface files."""
+"""Texts that students write: designs of essays, and interface files."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def require_picture_or_none(text: str) -> None:
 
 
 def require_definitions_or_problems(drawn: tuple[str, bytes]) -> None:
-    """Require that an interface file is read, or that each of its problems is told."""
+    """Require that an interface file is read, or that each of its problems is reported."""
     name, data = drawn
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, name).write_bytes(data)
@@ -55,34 +55,26 @@ _words = st.one_of(
 _links = st.tuples(_words, _words, _words, _words).map(lambda w: f"{w[0]} -> {w[1]} : {w[2]} {w[3]}")
 _facts = st.tuples(st.sampled_from(("qos", "rate", "failure", "safety", "fields")), odd.texts).map(": ".join)
 _designs = st.lists(st.one_of(_links, _facts.map("    {}".format), odd.texts), max_size=80).map("\n".join)
+_types = [
+    "bool",
+    "float64",
+    "string<=5",
+    "uint8[3]",
+    "int32[<=4]",
+    "geometry_msgs/Pose",
+    "no_such/Type",
+    "char",
+]
+_field_names = ("x", "X=3", "y 1.5", "class", 'z "a', "_", "a b c", "s 'é'")
 _fields = st.tuples(
-    st.one_of(
-        st.sampled_from(
-            (
-                "bool",
-                "float64",
-                "string<=5",
-                "uint8[3]",
-                "int32[<=4]",
-                "geometry_msgs/Pose",
-                "no_such/Type",
-                "char",
-            )
-        ),
-        odd.texts,
-    ),
+    st.one_of(st.sampled_from(_types), odd.texts),
     st.sampled_from((" ", "  ", "\t", "=", "[")),
-    st.one_of(st.sampled_from(("x", "X=3", "y 1.5", "class", 'z "a', "_", "a b c", "s 'é'")), odd.texts),
+    st.one_of(st.sampled_from(_field_names), odd.texts),
 ).map("".join)
-_definitions = st.tuples(
-    st.sampled_from(("GetBatteryStatus.srv", "NavigateToPose.action", "State.msg", "a_b.msg", "1.srv")),
-    st.one_of(
-        st.lists(st.one_of(_fields, st.just("---"), odd.texts), max_size=30).map(
-            lambda lines: "\n".join(lines).encode(errors="surrogatepass")
-        ),
-        odd.blobs,
-    ),
-)
+_files = ("GetBatteryStatus.srv", "NavigateToPose.action", "State.msg", "a_b.msg", "1.srv")
+_texts = st.lists(st.one_of(_fields, st.just("---"), odd.texts), max_size=30).map("\n".join)
+_contents = st.one_of(_texts.map(lambda text: text.encode(errors="surrogatepass")), odd.blobs)
+_definitions = st.tuples(st.sampled_from(_files), _contents)
 
 FUZZERS = (
     Fuzzer("files-essay", "files", _designs, require_picture_or_none),

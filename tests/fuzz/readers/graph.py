@@ -1,15 +1,12 @@
-"""What stands in the ROS graph, where any participant writes: names, types and numbers of endpoints."""
+"""The ROS graph, to which any participant can write: names, types and numbers of endpoints."""
 
 from __future__ import annotations
 
-import os
-import tempfile
 from typing import Any, NamedTuple
 
 from hypothesis import strategies as st
 
 from autograder.arena import events as ev
-from autograder.arena.arena_log import ArenaLog
 from autograder.arena.graph import MOST_SERVICES, MOST_TOPICS, Graph
 from autograder.engine.arena_run import read_events
 from fuzz import strategies as odd
@@ -19,7 +16,7 @@ MANY = 3000
 
 
 class Endpoint(NamedTuple):
-    """What the middleware says of one."""
+    """An endpoint as the middleware describes it."""
 
     node_name: Any
     node_namespace: Any
@@ -27,7 +24,7 @@ class Endpoint(NamedTuple):
 
 
 class WildNode:
-    """Answers each question about the graph with what was drawn for it; an exception is raised."""
+    """Answers each query of the graph with the value drawn for it; raises it if it is an exception."""
 
     def __init__(self, answers: dict[str, Any]) -> None:
         self._answers = answers
@@ -52,8 +49,7 @@ class WildNode:
 
 def require_record_of_a_graph(answers: dict[str, Any]) -> None:
     """Require that each question has an answer, and that what is recorded is bounded and can be read."""
-    with tempfile.TemporaryFile() as file:
-        log = ArenaLog(file.fileno())
+    with odd.recorded() as (log, lines):
         graph = Graph(WildNode(answers), log)  # type: ignore[arg-type]
         graph.has_another_node()
         graph.count_matchable_subscribers("odom")
@@ -67,17 +63,11 @@ def require_record_of_a_graph(answers: dict[str, Any]) -> None:
         assert len(topics.subscribes) <= MOST_TOPICS
         for flooded in log.all(ev.GraphFlooded):
             assert 0 < len(flooded.reason) < 400
-        os.lseek(file.fileno(), 0, os.SEEK_SET)
-        read_events(file.read())
+        read_events(lines())
 
 
-_broken = st.sampled_from(
-    (
-        UnicodeDecodeError("utf-8", b"\xff", 0, 1, "invalid start byte"),
-        RuntimeError("x" * 10_000),
-        MemoryError(),
-    )
-)
+_no_text = UnicodeDecodeError("utf-8", b"\xff", 0, 1, "invalid start byte")
+_broken = st.sampled_from((_no_text, RuntimeError("x" * 10_000), MemoryError()))
 _names = st.one_of(
     odd.texts, st.sampled_from(("walk_server", "/robot", "/", "2nd", "no/name", "_NODE_NAME_UNKNOWN_"))
 )
@@ -96,10 +86,7 @@ _endpoints = _many(
 _graphs = st.fixed_dictionaries(
     {},
     optional={
-        "count_publishers": _counts,
-        "count_subscribers": _counts,
-        "count_services": _counts,
-        "count_clients": _counts,
+        **{f"count_{kind}": _counts for kind in ("publishers", "subscribers", "services", "clients")},
         "get_node_names_and_namespaces": _many(st.tuples(_names, _names)),
         "get_service_names_and_types": _many(st.tuples(_names, _types)),
         "get_topic_names_and_types": _many(st.tuples(_names, _types)),

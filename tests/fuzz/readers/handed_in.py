@@ -1,4 +1,4 @@
-"""What a student hands in: notebooks, programs, folders with whatever an archive can unpack into them."""
+"""What a student hands in: notebooks, programs, and folders with anything that an archive can contain."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def require_rebuilt(source: str) -> None:
 
 
 def _make(home: Path, entry: Entry, secret: Path) -> None:
-    """Put an entry there, if the file system takes it; what is in its way stays."""
+    """Create an entry if the file system allows it; replaces nothing."""
     path = home / entry.place
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -130,46 +130,21 @@ _MAKERS: dict[str, Callable[[Path, bytes, Path], Any]] = {
 }
 
 _RELEASE = nbformat.read(PROJECT / f"exercises/{EXERCISE}/{EXERCISE}.ipynb", as_version=4)
-_SMALL = json.loads(
-    nbformat.writes(
-        nbformat.v4.new_notebook(
-            cells=[
-                nbformat.v4.new_markdown_cell("read this"),
-                nbformat.v4.new_code_cell(f"%%writefile {EXERCISE}.py\nprint('work')\n"),
-                nbformat.v4.new_code_cell(
-                    "1 + 1", outputs=[nbformat.v4.new_output("stream", name="stdout", text="2")]
-                ),
-            ]
-        )
-    )
-)
+_CELLS = [
+    nbformat.v4.new_markdown_cell("read this"),
+    nbformat.v4.new_code_cell(f"%%writefile {EXERCISE}.py\nprint('work')\n"),
+    nbformat.v4.new_code_cell("1 + 1", outputs=[nbformat.v4.new_output("stream", name="stdout", text="2")]),
+]
+_SMALL = json.loads(nbformat.writes(nbformat.v4.new_notebook(cells=_CELLS)))
 _damaged_notebooks = odd.damaged_json([_SMALL]).map(lambda value: json.dumps(value).encode())
 _notebooks = st.one_of(_damaged_notebooks, odd.mutated([json.dumps(_SMALL).encode()]), odd.blobs)
 _places = st.sampled_from(
     (
-        *(
-            f"{EXERCISE}.py",
-            f"{EXERCISE}.ipynb",
-            EXERCISE,
-            f"{EXERCISE}/{EXERCISE}.py",
-            f"{EXERCISE}/{EXERCISE}.ipynb",
-        ),
-        *(
-            f"{EXERCISE}/timestamp.txt",
-            f"{EXERCISE}/submission_secret.txt",
-            "interfaces",
-            "interfaces/GetBatteryStatus.srv",
-            "interfaces/interfaces.ipynb",
-        ),
-        *(
-            "walk_to.py",
-            "arm_architecture/design.txt",
-            "a/" * 200 + "deep.py",
-            "x" * 255,
-            "\udcff.py",
-            "-rf",
-            "\n",
-        ),
+        *(f"{EXERCISE}.py", f"{EXERCISE}.ipynb", "walk_to.py", "arm_architecture/design.txt"),
+        EXERCISE,
+        *(f"{EXERCISE}/{name}" for name in (f"{EXERCISE}.py", f"{EXERCISE}.ipynb", "timestamp.txt")),
+        *(f"{EXERCISE}/submission_secret.txt", "interfaces", "interfaces/GetBatteryStatus.srv"),
+        *("interfaces/interfaces.ipynb", "a/" * 200 + "deep.py", "x" * 255, "\udcff.py", "-rf", "\n"),
     )
 )
 _entries = st.builds(Entry, _places, st.sampled_from(sorted(_MAKERS)), st.one_of(odd.blobs, _notebooks))

@@ -1,4 +1,4 @@
-"""What checks make of messages: recorded runs in which all that a program sent is replaced by made-up values."""
+"""The checks: recorded runs in which what the program sent is replaced by generated values."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ MESSAGES: Mapping[type, str] = {  # where a student's message is in an event, by
 
 
 def require_verdicts(drawn: tuple[str, int, bool]) -> None:
-    """Require a verdict of each check, and not full marks where nothing that was sent is what the program meant."""
+    """Require a verdict of each check, and not full marks where everything that was sent is replaced."""
     exercise, seed, all_of_it = drawn
     chance = random.Random(seed)
     submission = chance.choice(sorted({case.submission for case in _cases(exercise)}))
@@ -51,7 +51,7 @@ def require_verdicts(drawn: tuple[str, int, bool]) -> None:
         json.dumps(verdict.to_json() if hasattr(verdict, "to_json") else vars(verdict))
         assert verdict.points == (case.check.points if verdict.status == "passed" else 0)
         passed.append(verdict.status == "passed")
-    assert not (all_of_it and all(passed)), f"{exercise} {submission}: full marks for made-up messages"
+    assert not (all_of_it and all(passed)), f"{exercise} {submission}: full marks for generated messages"
     for run in list(wilder.values())[:1]:
         transcript_svg(run, "drawn")
 

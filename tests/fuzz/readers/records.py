@@ -1,11 +1,11 @@
-"""What batches leave on disk and read again: grades, shards, caches, drawings. They travel, and break on the way."""
+"""Files that batches write and read again, damaged: grades, shards, caches, drawings."""
 
 from __future__ import annotations
 
 import json
 import tempfile
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -68,7 +68,7 @@ def require_merged_or_reason(data: bytes) -> None:
 
 
 def require_cached_or_none(data: bytes) -> None:
-    """Require that a damaged cache holds nothing: neither a grade that was never given, nor the batch up."""
+    """Require that a damaged cache returns no grade that was never given, and raises nothing."""
     exercise = load_exercise(EXERCISE, hidden=False)
     submission = Submission(EXERCISE, "anna", {f"{EXERCISE}.py": "pass"})
     with tempfile.TemporaryDirectory() as folder:
@@ -95,7 +95,7 @@ def require_batch_or_none(data: bytes) -> None:
 
 
 def require_drawings_or_none(data: bytes) -> None:
-    """Require that damaged drawings are none."""
+    """Require that damaged drawings are read as none."""
     failed = CheckVerdict("id", "title", "failed", 0, 1)
     with tempfile.TemporaryDirectory() as folder:
         drawings = Drawings(Path(folder))
@@ -107,7 +107,7 @@ def require_drawings_or_none(data: bytes) -> None:
 
 
 def _require_no_more_than_full(grade: Grade) -> None:
-    """Require a score that a grade can have."""
+    """Require a score between 0 and the maximum."""
     assert grade.status in ("graded", "not graded", "to mark")
     if grade.score is not None:
         assert 0 <= grade.score <= grade.max_score
@@ -117,11 +117,7 @@ def _shard(number: int) -> bytes:
     works = [Work(name, EXERCISE) for name in ("anna", "bert", "zoe", "zora")]
     shard = Shard(number, 2)
     graded = [
-        Graded(
-            work,
-            Grade(EXERCISE, work.student, "namespaces", _GRADE.checks, seed=0),
-            {f"{EXERCISE}.py": "pass"},
-        )
+        Graded(work, replace(_GRADE, student=work.student), {f"{EXERCISE}.py": "pass"})
         for work in shard.part(works)
     ]
     with tempfile.TemporaryDirectory() as folder:
@@ -129,16 +125,11 @@ def _shard(number: int) -> bytes:
         return Path(folder, SHARD).read_bytes()
 
 
-_GRADE = Grade(
-    EXERCISE,
-    "anna",
-    "namespaces",
-    [
-        CheckVerdict("a", "A", "passed", 1, 1),
-        CheckVerdict("b", "B", "failed", 0, 2, "x", "y", "z", 1.5, "log", True),
-    ],
-    seed=0,
-)
+_CHECKS = [
+    CheckVerdict("a", "A", "passed", 1, 1),
+    CheckVerdict("b", "B", "failed", 0, 2, "x", "y", "z", 1.5, "log", True),
+]
+_GRADE = Grade(EXERCISE, "anna", "namespaces", _CHECKS, seed=0)
 _EFFORT = Effort("2026-01-01T10:00:00Z", "2026-01-01T10:00:20Z", "here", 7.5, 1, 9)
 _CACHED = {"grade": _GRADE.to_json(), "effort": asdict(_EFFORT)}
 _BATCH = BatchRecord(

@@ -35,7 +35,7 @@ def test_a_cancel_is_accepted_and_the_goal_ends_canceled(notebook: Kernel) -> No
     assert notebook.run("print(goal.cancel())") == "not accepted, return_code 3\n"
 
 
-def test_a_refused_cancel_is_told_from_an_accepted_one(notebook: Kernel) -> None:
+def test_a_refused_cancel_differs_from_an_accepted_one(notebook: Kernel) -> None:
     notebook.run("lab.run_node('riser.py', 'no-cancel')")
     printed = notebook.run(SEND + "print(goal.cancel())\nprint(goal.result(show_feedback=False).status)")
     assert printed == "not accepted, return_code 0\nSUCCEEDED\n"
@@ -55,7 +55,7 @@ def test_a_goal_that_takes_longer_can_be_waited_for_again(notebook: Kernel) -> N
     assert notebook.run("print(goal.result(show_feedback=False).status)") == "SUCCEEDED\n"
 
 
-def test_no_server_is_told(notebook: Kernel) -> None:
+def test_no_server_is_reported(notebook: Kernel) -> None:
     with pytest.raises(CellError, match=r"nobody offers /robot/stand_up \(StandUp\)"):
         notebook.run("lab.send_goal('stand_up', StandUp, StandUp.Goal(), timeout=0.5)")
 
@@ -103,16 +103,18 @@ def test_a_goal_that_the_notebook_does_not_hold_is_kept_until_its_end_and_no_lon
 
 def test_a_listener_hears_of_feedback_and_of_the_end(notebook: Kernel) -> None:
     notebook.run("lab.run_node('riser.py', 'cancel')")
-    printed = notebook.run(
-        "import threading\n"
-        + SEND
-        + "heard, threads = [], set()\n"
-        + "def listen(goal):\n"
-        + "    heard.append((goal.status, len(goal.feedback), goal.is_over))\n"
-        + "    threads.add(threading.current_thread().name)\n"
-        + "goal.on_change(listen)\ngoal.result(show_feedback=False)\n"
-        + "lab.wait_until(lambda: heard[-1][2])\nprint(heard[-1], len(heard) > 5, threads)"
-    )
+    printed = notebook.run(f"""
+        import threading
+        {SEND}
+        heard, threads = [], set()
+        def listen(goal):
+            heard.append((goal.status, len(goal.feedback), goal.is_over))
+            threads.add(threading.current_thread().name)
+        goal.on_change(listen)
+        goal.result(show_feedback=False)
+        lab.wait_until(lambda: heard[-1][2])
+        print(heard[-1], len(heard) > 5, threads)
+    """)
     assert printed == "('SUCCEEDED', 10, True) True {'lab spin'}\n"
 
 

@@ -34,7 +34,7 @@ def test_a_topic_is_listed_with_its_ends_and_their_qos(robot: Kernel) -> None:
     ]
 
 
-def test_a_subscription_that_requests_too_much_is_told_so(robot: Kernel) -> None:
+def test_a_subscription_that_requests_too_much_is_marked(robot: Kernel) -> None:
     assert robot.run("lab.list_graph('imu')").splitlines() == [
         "/robot/imu  sensor_msgs/msg/Imu",
         "    from /robot/humanoid: best effort",

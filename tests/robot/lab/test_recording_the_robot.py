@@ -9,8 +9,7 @@ from kernels import Kernel
 @pytest.fixture(scope="module")
 def recorded(kernel: Kernel) -> Kernel:
     """A kernel whose `recording` has a walk, in which a goal was cancelled, and after which the torque went."""
-    kernel.run(
-        """
+    kernel.run("""
         import time
         from humanoid_interfaces.action import StandUp
         from std_msgs.msg import Bool
@@ -25,8 +24,7 @@ def recorded(kernel: Kernel) -> Kernel:
                 recording.mark("motor power off")
                 lab.publish("motor_power", Bool(data=False))
                 lab.wait_until(lambda: lab.mode() == "FALLEN")
-    """.replace("\n        ", "\n")
-    )
+    """)
     return kernel
 
 
@@ -41,8 +39,7 @@ def test_its_plot_shows_the_robot_and_what_was_asked(recorded: Kernel) -> None:
 
 
 def test_it_reaches_from_the_beginning_to_the_end_of_the_block(recorded: Kernel) -> None:
-    recorded.run(
-        """
+    recorded.run("""
         times, speeds = recording.values("speed")
         assert (times[1:] > times[:-1]).all()
         assert times[0] < 0.5 and recording.seconds - times[-1] < 0.5, (times[0], times[-1], recording.seconds)
@@ -51,8 +48,7 @@ def test_it_reaches_from_the_beginning_to_the_end_of_the_block(recorded: Kernel)
         assert heights[0] > 0.5 and heights[-1] < 0.5
         assert recording.mean("power") > 0
         assert recording.time_of("goal sent") < recording.time_of("result: CANCELED")
-    """.replace("\n        ", "\n")
-    )
+    """)
 
 
 def test_its_film_is_drawn_afterwards(recorded: Kernel) -> None:
@@ -69,22 +65,19 @@ def test_a_time_line_shows_the_server_and_its_end(recorded: Kernel) -> None:
 
 
 def test_without_a_robot_it_says_so(kernel: Kernel) -> None:
-    kernel.run("lab.stop_robot(); lab.client.topics.forget()")
-    printed = kernel.run(
-        """
+    kernel.run("lab.stop_robot(); lab.client.topics.enter('flat')")
+    printed = kernel.run("""
         try:
             with lab.record_robot():
                 pass
         except lab.NoRobotError as error:
             print(error)
-    """.replace("\n        ", "\n")
-    )
+    """)
     assert "nothing arrived on /robot/robot_state" in printed
 
 
 def test_the_cup_and_the_grip_are_recorded_at_the_table(own_kernel: Kernel) -> None:
-    own_kernel.run(
-        """
+    own_kernel.run("""
         import time
         from std_msgs.msg import Float64
         lab.start_robot("table")
@@ -94,7 +87,6 @@ def test_the_cup_and_the_grip_are_recorded_at_the_table(own_kernel: Kernel) -> N
         assert abs(recording.values("cup height")[1][-1] - 0.755) < 0.005
         assert recording.values("grip")[1][-1] == 0.0
         assert abs(recording.values("r_finger_1")[1][-1] - 0.03) < 0.005
-    """.replace("\n        ", "\n")
-    )
+    """)
     assert "The robot and the cup for" in own_kernel.run("print(recording.film().data)")
     assert "STANDING" in own_kernel.run("print(lab.show_robot().data)")

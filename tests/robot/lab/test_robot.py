@@ -25,8 +25,7 @@ def test_starting_twice_keeps_the_robot(robot: Kernel) -> None:
 
 
 def test_it_walks_as_long_as_the_block_and_its_pose_is_read(robot: Kernel) -> None:
-    printed = robot.run(
-        """
+    printed = robot.run("""
         lab.restart_robot()
         print(lab.mode(), lab.robot_state().motors_enabled)
         with lab.walking(forward=0.3):
@@ -34,8 +33,7 @@ def test_it_walks_as_long_as_the_block_and_its_pose_is_read(robot: Kernel) -> No
             print(lab.mode())
         lab.wait_until(lambda: lab.mode() == "STANDING")
         print(lab.battery().percentage < 1.0, lab.battery().current < 0.0)
-    """.replace("\n        ", "\n")
-    )
+    """)
     assert printed.splitlines()[1:] == ["STANDING True", "WALKING", "True True"]
 
 
@@ -55,37 +53,29 @@ def test_it_is_watched_while_it_walks(robot: Kernel) -> None:
     kind = robot.run("view = lab.watch_robot(); print(type(view).__name__)").strip()
     if kind == "Label":
         pytest.skip(robot.run("print(view.value)"))
-    robot.run(
-        """
+    robot.run("""
         frames = set()
         view.observe(lambda change: frames.add(change["new"]), "value")
         with lab.walking(forward=0.3):
             lab.wait_until(lambda: len(frames) >= 5, timeout=20)
         lab.stop_watching()
         seen = len(frames)
-    """.replace("\n        ", "\n")
-    )
-    assert (
-        robot.run("print(len(frames) == seen, next(iter(frames))[:2] == bytes((0xff, 0xd8)))")
-        == "True True\n"
-    )
+    """)
+    seen = robot.run("print(len(frames) == seen, next(iter(frames))[:2] == bytes((0xff, 0xd8)))")
+    assert seen == "True True\n"
 
 
 def test_a_film_of_its_walk_is_shown_and_written(robot: Kernel) -> None:
-    printed = robot.run(
-        """
+    printed = robot.run("""
         from pathlib import Path
         from PIL import Image
         with lab.walking(forward=0.3):
             film = lab.film_robot(1.0, "walk.webp")
         print(Image.open("walk.webp").n_frames if Path("walk.webp").exists() else film.data)
-    """.replace("\n        ", "\n")
-    )
+    """)
     if "No film: no OpenGL" in printed:
         pytest.skip(printed)
-    assert (
-        2 < int(printed) <= 12
-    )  # frames that are the same are stored once: on a busy machine messages come late
+    assert 2 < int(printed) <= 12  # equal frames are stored once: on a busy machine messages come late
 
 
 def test_a_camera_that_does_not_exist_is_refused(robot: Kernel) -> None:

@@ -12,7 +12,6 @@ import pytest
 from kernels import Kernel
 
 from course_cli.commands.lab import lab_environment
-from ros_runtime import notebook_domains
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +23,6 @@ def lab() -> Iterator[dict[str, str]]:
         for name, value in environment.items():
             patch.setenv(name, value)
         yield dict(os.environ)
-    Path(environment[notebook_domains.VARIABLE]).unlink()
 
 
 @pytest.fixture(scope="module")

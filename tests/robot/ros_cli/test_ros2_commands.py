@@ -152,7 +152,7 @@ def test_the_details_of_a_topic_name_its_nodes_and_qos(ros2: Ros2) -> None:
     assert shown.endswith("\n\nSubscription count: 0\n\n")
 
 
-def test_a_node_is_told_with_all_it_has(ros2: Ros2) -> None:
+def test_a_node_is_printed_with_all_it_has(ros2: Ros2) -> None:
     lines = ros2("node", "info", "/demo/playground").stdout.splitlines()
     assert lines[0] == "/demo/playground"
     assert [line for line in lines if re.fullmatch(r"  \S.*:", line)] == [
@@ -188,7 +188,7 @@ def test_a_goal_is_sent_and_its_feedback_and_result_are_printed(ros2: Ros2) -> N
     assert lines[-1] == "Goal finished with status: SUCCEEDED"
 
 
-def test_a_rejected_goal_is_told(ros2: Ros2) -> None:
+def test_a_rejected_goal_is_printed(ros2: Ros2) -> None:
     finished = ros2("action", "send_goal", "/demo/walk_to", WALK, "{max_velocity: -1.0}")
     assert finished.returncode == 0
     assert finished.stdout.splitlines()[-1] == "Goal was rejected."
@@ -267,7 +267,7 @@ def test_a_parameter_is_set_refused_dumped_and_loaded(ros2: Ros2, tmp_path: Path
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "expected"),
     [
         ("topic info /chatter", "Unknown topic '/chatter': did you mean /demo/chatter?"),
         ("topic echo /demo/nothing", "Could not determine the type for the passed topic"),
@@ -284,7 +284,7 @@ def test_a_parameter_is_set_refused_dumped_and_loaded(ros2: Ros2, tmp_path: Path
         ("param load /demo/playground missing.yaml", "missing.yaml cannot be loaded"),
     ],
 )
-def test_what_cannot_be_done_is_told_with_exit_status_1(ros2: Ros2, words: str, told: str) -> None:
+def test_what_cannot_be_done_is_reported_with_exit_status_1(ros2: Ros2, words: str, expected: str) -> None:
     finished = ros2(*words.split())
     assert finished.returncode == 1
-    assert told in finished.stderr
+    assert expected in finished.stderr

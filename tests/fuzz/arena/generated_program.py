@@ -1,4 +1,4 @@
-"""Grades a made-up program, and after it a correct one, whose grade has to be what it always is."""
+"""Grades a generated program, and after it a correct one, which must still pass every check."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from fuzz.arena.targets import TARGETS, Target
 
 PROGRAM = Path(__file__).with_name("wild_program.py")
 MESSAGES = Path(__file__).with_name("wild_messages.py")
-TRIES = 2  # what a busy machine did to a grading does not happen twice
+TRIES = 2  # a busy machine may fail a grading once
 
 
 def program(target: Target, seed: int) -> str:
-    """Return the source of a made-up program."""
+    """Return the source of the program of a seed."""
     source = PROGRAM.read_text(encoding="utf-8")
     messages = MESSAGES.read_text(encoding="utf-8").partition("from __future__ import annotations\n")[2]
     return (
@@ -31,15 +31,15 @@ def program(target: Target, seed: int) -> str:
     )
 
 
-def look(name: str, seed: int) -> str:
-    """Grade the program of this seed and the correct one after it; return what was not as it has to be, or ""."""
+def find_problem(name: str, seed: int) -> str:
+    """Grade the program of this seed and a correct one after it; return what went wrong, or ""."""
     target = TARGETS[name]
     source = program(target, seed)
     problem = ""
     for _ in range(TRIES):
         try:
             problem = _problem(target, source, seed)
-        except Exception:  # whatever the grader raises is what is looked for
+        except Exception:  # anything that the grader raises is a finding
             problem = traceback.format_exc()
         if not problem:
             return ""
@@ -55,9 +55,9 @@ def _problem(target: Target, source: str, seed: int) -> str:
         submission = Submission(target.exercise, "wild", {file: source})
         wild = grade(submission, exercise, replace(options, at_first_look=target.checks))
     if wild.status != "graded":
-        return f"the made-up program was not graded:\n{_in_words(wild)}"
+        return f"the generated program was not graded:\n{_in_words(wild)}"
     if wild.all_passed:
-        return f"the made-up program has full marks:\n{_in_words(wild)}"
+        return f"the generated program has full marks:\n{_in_words(wild)}"
     if left:
         return f"it left behind: {', '.join(left)}"
     with leftovers() as left:

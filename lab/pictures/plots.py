@@ -1,0 +1,69 @@
+"""Plots of what a notebook has computed: curves in one panel, and the means of recordings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from IPython.display import HTML
+from numpy.typing import ArrayLike
+
+from lab.errors import LabError
+from lab.pictures.figure import BLUE, GREY, VERMILION, annotate, as_html, panel
+from lab.pictures.quantities import quantity_named
+from lab.pictures.recording import Recording
+
+STYLES = (("-", BLUE), ("--", VERMILION), (":", GREY))
+
+
+def plot_curves(
+    curves: Mapping[str, tuple[ArrayLike, ArrayLike]], x: str, y: str, *, title: str = "Curves"
+) -> HTML:
+    """Draw up to three curves, each from its values along the x and the y axis; `curves` maps names to both.
+
+        times, metres = recording.values("x")
+        lab.plot_curves({"straight ahead": (times, metres)}, "time, s", "x, m")
+
+    Raises LabError when there is no curve or more than three, or one has no points or lists of unequal length.
+    """
+    if not 1 <= len(curves) <= len(STYLES):
+        raise LabError(f"{len(curves)} curves; plot_curves draws one to {len(STYLES)} in a panel")
+    lines = {name: (np.asarray(xs, float), np.asarray(ys, float)) for name, (xs, ys) in curves.items()}
+    words = [f"{title}."]
+    with panel(6.6, 3.0, title) as (page, axes):
+        for (name, (xs, ys)), (line, colour) in zip(lines.items(), STYLES, strict=False):
+            if not len(xs) or xs.shape != ys.shape:
+                raise LabError(
+                    f"{name}: {len(xs)} values for {x} and {len(ys)} for {y}; both need the same, at least one"
+                )
+            axes.plot(xs, ys, line, color=colour, linewidth=1.6, label=name)
+            words += [
+                f"{name}: {y} from {ys[0]:.2f} at {x} {xs[0]:.2f} to {ys[-1]:.2f} at {xs[-1]:.2f},",
+                f"lowest {np.nanmin(ys):.2f}, highest {np.nanmax(ys):.2f}.",
+            ]
+        axes.set_xlabel(x)
+        axes.set_ylabel(y)
+        axes.legend(loc="best", frameon=False)
+        return as_html(page, " ".join(words))
+
+
+def plot_means(recordings: Mapping[str, Recording], x: str, y: str, *, title: str = "Means") -> HTML:
+    """Draw a point for each recording, at its means of two quantities; `recordings` maps names to recordings.
+
+        lab.plot_means({"standing": first, "0.3 m/s": second}, "speed", "power")
+
+    Raises LabError when there is no recording or no such quantity, or nothing of it was recorded.
+    """
+    if not recordings:
+        raise LabError("there is nothing to plot: make recordings with lab.record_robot() first")
+    points = {name: (recording.mean(x), recording.mean(y)) for name, recording in recordings.items()}
+    across, up = (f"mean {name}, {quantity_named(name).unit}" for name in (x, y))
+    with panel(4.8, 3.0, title, right=1.2) as (page, axes):  # on the right, the name of the last point
+        axes.plot(*zip(*points.values(), strict=True), "o", color=BLUE, markersize=6.5)
+        for name, point in points.items():
+            annotate(axes, name, point, (8, -3))
+        axes.set_xlabel(across)
+        axes.set_ylabel(up)
+        axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
+        told = [f"{name}: {across} {a:.2f}, {up} {b:.2f}." for name, (a, b) in points.items()]
+        return as_html(page, " ".join([f"{title}.", *told]))
