@@ -39,11 +39,16 @@ from lab.learning.quiz import Quiz, quiz
 from lab.pictures.curves_plot import plot_curves
 from lab.pictures.diagram import draw_sequence
 from lab.pictures.film import film_robot
+from lab.pictures.film_beside import film_beside
+from lab.pictures.film_from_above import film_from_above
+from lab.pictures.gates import draw_gates
+from lab.pictures.goal_states import draw_goal_states
 from lab.pictures.graph_drawing import draw_graph
 from lab.pictures.live_view import stop_watching, watch_robot
 from lab.pictures.means_plot import plot_means
 from lab.pictures.picture import show_robot
 from lab.pictures.recording import Recording, record_robot
+from lab.pictures.slider import slide
 from lab.pictures.thread_plot import draw_threads
 from lab.pictures.timeline import draw_timeline
 from lab.running.interfaces import build_interfaces, export_package
@@ -78,11 +83,15 @@ __all__ = [
     "choose_pattern",
     "describe",
     "draw_design",
+    "draw_gates",
+    "draw_goal_states",
     "draw_graph",
     "draw_sequence",
     "draw_threads",
     "draw_timeline",
     "export_package",
+    "film_beside",
+    "film_from_above",
     "film_robot",
     "keep_programs_in",
     "list_graph",
@@ -105,6 +114,7 @@ __all__ = [
     "service_is_ready",
     "show_progress",
     "show_robot",
+    "slide",
     "start_program",
     "start_robot",
     "stop_everything",

@@ -37,6 +37,20 @@ def test_a_view_follows_the_motion():
     assert (before != after).any(axis=2).mean() > 0.02
 
 
+def test_a_dot_lies_on_the_floor_where_it_is_put():
+    humanoid = Humanoid()
+    view = View(humanoid, 160, 120)
+    without = view.picture("side").astype(int)
+    ahead = view.picture("side", dots=[(0.5, 0.0, "#B34700")])
+    afterwards = view.picture("side")
+    view.close()
+    rows, columns = np.nonzero(abs(without - ahead).max(axis=2) > 20)
+    assert 10 < len(rows) < 400
+    assert columns.min() > 80  # on the right, where the robot looks
+    assert rows.min() > 60  # below the middle
+    assert abs(without - afterwards).max() <= 20  # an earlier dot is gone
+
+
 def test_an_unknown_camera_is_refused_with_the_known_ones():
     with pytest.raises(ValueError, match=r"'roof' is not known.*track.*head_camera"):
         snapshot(Humanoid(), 64, 48, camera="roof")
