@@ -28,8 +28,8 @@ def plot_curves(
         times, metres = recording.values("x")
         lab.plot_curves({"straight ahead": (times, metres)}, "time, s", "x, m")
 
-    With a `factor`, a band shows where the last curve is missed by no more than that factor, and the legend how much of
-    each other curve is inside; they need the same values along x.
+    With a `factor`, a band shows where the last curve is missed by no more than that factor; then all curves need the
+    same values along x.
 
     Raises LabError when there is no curve or more than three, or one has no points or lists of unequal length.
     """
@@ -45,10 +45,7 @@ def plot_curves(
     with sheet(width, height, title) as page:
         panel = page.add_axes((LEFT / width, BOTTOM / height, WIDTH / width, HEIGHT / height))
         if factor is not None:
-            *others, truth = lines.values()
-            shares = [_inside(ys, truth[1], factor) for _, ys in others]
-            names = [f"{name}: {share:.0%} inside" for name, share in zip(lines, shares, strict=False)]
-            lines = dict(zip([*names, *[*lines][-1:]], lines.values(), strict=True))
+            truth = [*lines.values()][-1]
             panel.fill_between(
                 truth[0],
                 truth[1] / factor,
@@ -61,14 +58,23 @@ def plot_curves(
         panel.set_xlabel(x)
         panel.set_ylabel(y)
         panel.legend(loc="best", frameon=False)
-        return as_html(
-            page, " ".join([f"{title}.", *(_in_words(name, *line, x, y) for name, line in lines.items())])
-        )
+        told = [f"{title}.", *(_in_words(name, *line, x, y) for name, line in lines.items())]
+        if factor is not None:
+            told += [
+                f"{name}: {_stay(xs, (ys >= truth[1] / factor) & (ys <= truth[1] * factor))}."
+                for name, (xs, ys) in [*lines.items()][:-1]
+            ]
+        return as_html(page, " ".join(told))
 
 
-def _inside(values: np.ndarray, truth: np.ndarray, factor: float) -> float:
-    """The share of the values that miss the truth by no more than a factor."""
-    return float(np.mean((values >= truth / factor) & (values <= truth * factor)))
+def _stay(xs: np.ndarray, is_inside: np.ndarray) -> str:
+    """From where to where values stay inside the band, the longest time that they do."""
+    ends = np.flatnonzero(np.diff([False, *is_inside, False]))
+    stays = [(xs[begin], xs[end - 1]) for begin, end in zip(ends[::2], ends[1::2], strict=True)]
+    if not stays:
+        return "never inside the band"
+    begin, end = max(stays, key=lambda stay: stay[1] - stay[0])
+    return f"inside the band from {begin:.2f} to {end:.2f}"
 
 
 def _in_words(name: str, xs: np.ndarray, ys: np.ndarray, x: str, y: str) -> str:

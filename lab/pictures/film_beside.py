@@ -27,7 +27,7 @@ from ros_runtime.message_constants import RobotMode, name_of
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 WIDTH, HEIGHT, ABOVE, BELOW = 330, 330, 30, 66  # px: of a picture, and of the texts above and below it
-LEGEND = 26  # px
+LEGEND, DOT = 26, 6  # px
 BEFORE = 0.4  # s before the goal is sent
 GRAVITY = 9.81  # m/s²
 ENDED = {"SUCCEEDED": "#007A5E", "ABORTED": VERMILION, "CANCELED": VERMILION}
@@ -98,12 +98,7 @@ class _Walk:
             postures = take_postures(
                 body, at, self.recording.messages("odom"), self.recording.messages("joint_states"), {}
             )
-            return [
-                self._with_texts(
-                    view.picture(camera, dots=[(*self.place, BLUE), (*self.capture_point(t), VERMILION)]), t
-                )
-                for t, _ in zip(at, postures, strict=True)
-            ]
+            return [self._frame(view, camera, t) for t, _ in zip(at, postures, strict=True)]
         finally:
             view.close()
 
@@ -138,9 +133,19 @@ class _Walk:
             f"{self.mode_at(at)}; in the end {_where(self.past_the_goal(then))}, {self.mode_at(then)}."
         )
 
-    def _with_texts(self, picture: np.ndarray, t: float) -> Image.Image:
+    def _frame(self, view: View, camera: str, t: float) -> Image.Image:
         image = Image.new("RGB", (WIDTH, ABOVE + HEIGHT + BELOW), "white")
-        image.paste(Image.fromarray(picture), (0, ABOVE))
+        seen = Image.fromarray(view.picture(camera))
+        draw = ImageDraw.Draw(seen)
+        for (x, y), colour, flat in ((self.place, BLUE, 0.45), (self.capture_point(t), VERMILION, 1.0)):
+            right, down = view.pixel_of((x, y, 0.0))
+            size = DOT / flat
+            draw.ellipse(
+                (right - size, down - DOT * flat, right + size, down + DOT * flat),
+                fill=colour,
+                outline="white",
+            )
+        image.paste(seen, (0, ABOVE))
         draw = ImageDraw.Draw(image)
         draw.text((8, 6), self.name, font=font(15, bold=True), fill="black")
         draw.text((WIDTH - 8, 8), f"{t - self.goal.sent:.1f} s", font=font(13), fill=GREY, anchor="ra")

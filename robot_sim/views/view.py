@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
 
 import mujoco
 import numpy as np
 
 from robot_sim.humanoid import Humanoid
 from ros_runtime.workarounds.gl_backend import open_context
-
-DOT_RADIUS, DOT_HEIGHT = 0.07, 0.025  # m
 
 
 def snapshot(humanoid: Humanoid, width: int = 640, height: int = 480, *, camera: str = "track") -> np.ndarray:
@@ -61,10 +58,8 @@ class View:
         self._renderer = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_100)
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._renderer)
 
-    def picture(self, camera: str = "track", dots: Sequence[tuple[float, float, str]] = ()) -> np.ndarray:
+    def picture(self, camera: str = "track") -> np.ndarray:
         """Draw the robot as it is now, RGB (height, width, 3), uint8, through one of the model's cameras.
-
-        `dots` are drawn on the floor: x and y (m), and a colour such as "#0072B2".
 
         Raises:
             ValueError: the model has no such camera; the message lists its cameras.
@@ -79,31 +74,27 @@ class View:
             mujoco.mjtCatBit.mjCAT_ALL,
             self._scene,
         )
-        for x, y, colour in dots:
-            self._add_dot(x, y, colour)
         mujoco.mjr_render(self._rectangle, self._scene, self._renderer)
         pixels = np.empty((self._rectangle.height, self._rectangle.width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(pixels, None, self._rectangle, self._renderer)
         return pixels[::-1].copy()  # OpenGL's first row is the lowest
+
+    def pixel_of(self, point: tuple[float, float, float]) -> tuple[float, float]:
+        """Where a point of the world (m) is in the last picture, px from its left and its upper edge."""
+        eyes = self._scene.camera  # the left and the right one
+        position, forward, up = (
+            np.mean([getattr(eye, name) for eye in eyes], axis=0) for name in ("pos", "forward", "up")
+        )
+        way = np.asarray(point) - position
+        scale = eyes[0].frustum_near / (way @ forward) * self._rectangle.height / 2 / eyes[0].frustum_top
+        right, height = way @ np.cross(forward, up), way @ up
+        return self._rectangle.width / 2 + right * scale, self._rectangle.height / 2 - height * scale
 
     def close(self) -> None:
         """Free the OpenGL context."""
         self._gl.make_current()
         self._renderer.free()
         self._gl.free()
-
-    def _add_dot(self, x: float, y: float, colour: str) -> None:
-        dot = self._scene.geoms[self._scene.ngeom]
-        red, green, blue = bytes.fromhex(colour.removeprefix("#"))
-        mujoco.mjv_initGeom(
-            dot,
-            mujoco.mjtGeom.mjGEOM_ELLIPSOID,
-            np.array([DOT_RADIUS, DOT_RADIUS, DOT_HEIGHT]),
-            np.array([x, y, 0.0]),
-            np.eye(3).flatten(),
-            np.array([red, green, blue, 255], dtype=np.float32) / 255,
-        )
-        self._scene.ngeom += 1
 
     def _camera(self, name: str) -> mujoco.MjvCamera:
         names = [self._model.camera(index).name for index in range(self._model.ncam)]
