@@ -32,11 +32,16 @@ from lab.learning.progress_table import show_progress
 from lab.learning.quiz import Quiz, quiz
 from lab.pictures.diagram import draw_sequence
 from lab.pictures.film import film_robot
+from lab.pictures.film_beside import film_beside
+from lab.pictures.film_from_above import film_from_above
+from lab.pictures.gates import draw_gates
+from lab.pictures.goal_states import draw_goal_states
 from lab.pictures.graph_drawing import draw_graph
 from lab.pictures.live_view import stop_watching, watch_robot
 from lab.pictures.picture import show_robot
 from lab.pictures.plots import plot_curves, plot_means
 from lab.pictures.recording import Recording, record_robot
+from lab.pictures.slider import slide
 from lab.pictures.thread_plot import draw_threads
 from lab.pictures.timeline import draw_timeline
 from lab.running.interfaces import build_interfaces, export_package

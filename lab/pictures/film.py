@@ -70,23 +70,33 @@ def film_of_messages(
         words += f", {slow_motion:g} times as slow as it was"
 
     def postures(body: Humanoid) -> Iterator[None]:
-        at = np.arange(count) / RATE / slow_motion
-        poses = _interpolated(at, [(t, as_mujoco(message.pose.pose)) for t, message in odometry])
-        angles = _interpolated(at, [(t, message.position) for t, message in joints])
-        places = [body.model.joint(name).qposadr[0] for name in joints[0][1].name]
-        moves = {
-            name: _interpolated(at, [(t, as_mujoco(message.pose)) for t, message in messages])
-            for name, messages in objects.items()
-            if messages
-        }
-        for frame, (pose, positions) in enumerate(zip(poses, angles, strict=True)):
-            body.data.qpos[:7], body.data.qpos[places] = pose, positions
-            for name, places_of_it in moves.items():
-                body.data.joint(name).qpos[:] = places_of_it[frame]
-            mujoco.mj_forward(body.model, body.data)  # which also makes the quaternion a unit again
-            yield
+        return take_postures(body, np.arange(count) / RATE / slow_motion, odometry, joints, objects)
 
     return _film(postures, words, lambda: words, camera, file, scene)
+
+
+def take_postures(
+    body: Humanoid,
+    at: np.ndarray,
+    odometry: Sequence[tuple[float, Odometry]],
+    joints: Sequence[tuple[float, JointState]],
+    objects: Mapping[str, Sequence[tuple[float, PoseStamped]]],
+) -> Iterator[None]:
+    """Put a humanoid and its objects where they were at each of these times (s), and yield after each."""
+    poses = _interpolated(at, [(t, as_mujoco(message.pose.pose)) for t, message in odometry])
+    angles = _interpolated(at, [(t, message.position) for t, message in joints])
+    places = [body.model.joint(name).qposadr[0] for name in joints[0][1].name]
+    moves = {
+        name: _interpolated(at, [(t, as_mujoco(message.pose)) for t, message in messages])
+        for name, messages in objects.items()
+        if messages
+    }
+    for frame, (pose, positions) in enumerate(zip(poses, angles, strict=True)):
+        body.data.qpos[:7], body.data.qpos[places] = pose, positions
+        for name, places_of_it in moves.items():
+            body.data.joint(name).qpos[:] = places_of_it[frame]
+        mujoco.mj_forward(body.model, body.data)  # which also makes the quaternion a unit again
+        yield
 
 
 def _frames(seconds: float) -> int:

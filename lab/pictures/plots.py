@@ -17,12 +17,20 @@ STYLES = (("-", BLUE), ("--", VERMILION), (":", GREY))
 
 
 def plot_curves(
-    curves: Mapping[str, tuple[ArrayLike, ArrayLike]], x: str, y: str, *, title: str = "Curves"
+    curves: Mapping[str, tuple[ArrayLike, ArrayLike]],
+    x: str,
+    y: str,
+    *,
+    title: str = "Curves",
+    factor: float | None = None,
 ) -> HTML:
     """Draw up to three curves, each from its values along the x and the y axis; `curves` maps names to both.
 
         times, metres = recording.values("x")
         lab.plot_curves({"straight ahead": (times, metres)}, "time, s", "x, m")
+
+    With a `factor`, a band shows where the last curve is missed by no more than that factor; then all curves need the
+    same values along x.
 
     Raises LabError when there is no curve or more than three, or one has no points or lists of unequal length.
     """
@@ -41,10 +49,25 @@ def plot_curves(
                 f"{name}: {y} from {ys[0]:.2f} at {x} {xs[0]:.2f} to {ys[-1]:.2f} at {xs[-1]:.2f},",
                 f"lowest {np.nanmin(ys):.2f}, highest {np.nanmax(ys):.2f}.",
             ]
+        if factor is not None:
+            *others, (_, (xs, truth)) = lines.items()
+            low, high = truth / factor, truth * factor
+            axes.fill_between(xs, low, high, color="#dddddd", label=f"within a factor of {factor:g}")
+            words += [f"{name}: {_stay(xs, (low <= ys) & (ys <= high))}." for name, (_, ys) in others]
         axes.set_xlabel(x)
         axes.set_ylabel(y)
         axes.legend(loc="best", frameon=False)
         return as_html(page, " ".join(words))
+
+
+def _stay(xs: np.ndarray, is_inside: np.ndarray) -> str:
+    """From where to where values stay inside the band, the longest time that they do."""
+    ends = np.flatnonzero(np.diff([False, *is_inside, False]))
+    stays = [(xs[begin], xs[end - 1]) for begin, end in zip(ends[::2], ends[1::2], strict=True)]
+    if not stays:
+        return "never inside the band"
+    begin, end = max(stays, key=lambda stay: stay[1] - stay[0])
+    return f"inside the band from {begin:.2f} to {end:.2f}"
 
 
 def plot_means(recordings: Mapping[str, Recording], x: str, y: str, *, title: str = "Means") -> HTML:

@@ -6,6 +6,7 @@ import time
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -21,7 +22,8 @@ from lab.errors import LabError
 from lab.pictures.film import film_of_messages
 from lab.pictures.labels import Mark
 from lab.pictures.quantities import quantity_named
-from lab.pictures.time_plot import Curve, draw_panels
+from lab.pictures.recorded_goal import RecordedGoal, last_goal
+from lab.pictures.time_plot import Area, Curve, draw_panels
 from ros_runtime.message_constants import RobotMode, name_of
 from ros_runtime.record.event import Event
 
@@ -64,6 +66,8 @@ class Recording:
         self._seconds: float | None = None
         self._messages: defaultdict[str, list[tuple[float, Any]]] = defaultdict(list)
         self._marks: list[Mark] = []
+        self._own_marks: list[Mark] = []
+        self._events: list[Event] = []
 
     @property
     def seconds(self) -> float:
@@ -72,7 +76,12 @@ class Recording:
 
     def mark(self, label: str) -> None:
         """Add a label at the present time; plots show it."""
-        self._marks.append(Mark(self.seconds, label))
+        self._own_marks.append(Mark(self.seconds, label))
+
+    @property
+    def marks(self) -> list[Mark]:
+        """The labels that `mark` has added."""
+        return list(self._own_marks)
 
     def time_of(self, label: str) -> float:
         """The time of the first event with this label, in s since the beginning.
@@ -83,7 +92,7 @@ class Recording:
 
         Raises LabError, which lists the labels, when there is no such label.
         """
-        moments = sorted([*self._marks, *self._mode_changes()])
+        moments = sorted([*self._marks, *self._own_marks, *self._mode_changes()])
         for mark in moments:
             if mark.label == label or mark.label.endswith(f"→ {label}"):
                 return mark.time
@@ -115,6 +124,10 @@ class Recording:
         times, values = np.array(pairs).T
         return times, np.unwrap(values) if wanted.is_angle else values
 
+    def messages(self, topic: str) -> list[tuple[float, Any]]:
+        """The messages of one of the robot's topics with their times, in s since the beginning."""
+        return list(self._messages[topic])
+
     def mean(self, quantity: str) -> float:
         """The mean of a quantity, in its unit; `values` says which there are.
 
@@ -127,6 +140,7 @@ class Recording:
         *quantities: str,
         title: str = "What the robot did",
         compare: Mapping[str, Callable[[float], float]] | None = None,
+        between: Mapping[str, tuple[str, str]] | None = None,
     ) -> HTML:
         """Draw quantities over time, each in a panel of its own, with what the notebook did and changes of the mode.
 
@@ -134,8 +148,9 @@ class Recording:
             quantities: which; `values` says which there are.
             title: of the picture.
             compare: curves to draw dashed in the first panel: name → function of the time in s.
+            between: times to colour: name → the labels of the moments at which each begins and ends.
 
-        Raises LabError when there is no such quantity, or nothing of it was recorded.
+        Raises LabError when there is no such quantity or moment, or nothing of it was recorded.
         """
         if not quantities:
             raise LabError('say what to plot, for example recording.plot("speed", "height")')
@@ -147,9 +162,13 @@ class Recording:
         return draw_panels(
             curves,
             seconds=self.seconds,
-            marks=self._marks,
+            marks=[*self._marks, *self._own_marks],
             changes=self._mode_changes(),
             compare=compare or {},
+            areas=[
+                Area(name, self.time_of(begin), self.time_of(end))
+                for name, (begin, end) in (between or {}).items()
+            ],
             title=title,
         )
 
@@ -183,7 +202,8 @@ class Recording:
         self._messages[topic].append((stamp.sec + stamp.nanosec * 1e-9 - self._start_of_stamps, message))
 
     def note(self, event: Event) -> None:
-        """Add a request or an answer of the notebook; other events are ignored."""
+        """Add an event of the notebook; requests and answers get a label in plots."""
+        self._events.append(event)
         label = label_of(event)
         if label is not None:
             self._marks.append(Mark(event.t - self._start, label))
@@ -195,6 +215,16 @@ class Recording:
     def has_all_messages(self) -> bool:
         """Whether a message stamped after the end has arrived, so that all earlier ones have arrived, too."""
         return any(at > self.seconds for at, _ in self._messages["odom"][-1:])
+
+    def goal(self) -> RecordedGoal:
+        """The goal that was sent last; its times are s since the recording began.
+
+        Raises LabError when none was sent.
+        """
+        goal = last_goal(replace(event, t=event.t - self._start) for event in self._events)
+        if goal is None:
+            raise LabError("no goal was sent while the robot was recorded; send it inside the `with` block")
+        return goal
 
     def _mode_changes(self) -> list[Mark]:
         states = [(at, state.mode) for at, state in self._messages["robot_state"] if at <= self.seconds]

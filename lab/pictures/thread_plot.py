@@ -69,9 +69,14 @@ def draw_threads(node: StudentNode, *, title: str = "Which callback ran on which
             f"{node.file.name} has printed no line like “1234.5678 MainThread beat begins”: call trace() or use "
             "traced() in its callbacks, and let it run for a moment"
         )
-    until = max(steps[-1].time, node.life().ended or time.monotonic())
-    spans = spans_of(steps, until)
-    zero, last = steps[0].time, max(span.end for span in spans)
+    return plot_spans(
+        spans_of(steps, max(steps[-1].time, node.life().ended or time.monotonic())), title=title
+    )
+
+
+def plot_spans(spans: Sequence[Span], *, title: str, cursor: float | None = None) -> HTML:
+    """Draw spans on the lanes of their threads, with a line at `cursor`, in s since the first of them began."""
+    zero, last = min(span.begin for span in spans), max(span.end for span in spans)
     lanes = _lanes(spans)
     colours = dict(zip(dict.fromkeys(span.callback for span in spans), COLOURS * 9, strict=False))
     left = 0.3 + max(text_width(lane) for lane in lanes)
@@ -87,6 +92,8 @@ def draw_threads(node: StudentNode, *, title: str = "Which callback ran on which
             _draw(axis, span, lanes.index(span.lane), zero, colours[span.callback])
         for row in range(1, len(lanes)):
             axis.axhline(row, color="#e6e6e6", linewidth=0.8)
+        if cursor is not None:
+            axis.axvline(cursor, color="black", linewidth=2)
         _draw_legend(axis, colours)
         return as_html(page, _in_words(title, spans, lanes, zero))
 

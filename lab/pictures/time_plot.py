@@ -29,6 +29,14 @@ class Curve(NamedTuple):
     values: np.ndarray
 
 
+class Area(NamedTuple):
+    """A time from `begin` to `end` (s) that is coloured in all panels."""
+
+    name: str
+    begin: float
+    end: float
+
+
 def draw_panels(
     curves: Sequence[Curve],
     *,
@@ -36,11 +44,12 @@ def draw_panels(
     marks: Sequence[Mark],
     changes: Sequence[Mark],
     compare: Mapping[str, Callable[[float], float]],
+    areas: Sequence[Area],
     title: str,
 ) -> HTML:
     """Draw curves below each other over the same `seconds`, with `marks` (solid) and `changes` of the mode (dotted).
 
-    `compare` has functions of the time to draw, dashed, in the first panel.
+    `compare` has functions of the time to draw, dashed, in the first panel; `areas` are coloured.
     """
     flags = sorted([*marks, *changes])
     scale = WIDTH / seconds
@@ -57,12 +66,14 @@ def draw_panels(
             _draw(panels[-1], curve, seconds)
         for name, function in compare.items():
             _draw_comparison(panels[0], name, function, seconds)
+        for area in areas:
+            _draw_area(panels, area)
         for mark, row in zip(flags, rows, strict=True):
             _draw_flag(panels, mark, band - row * ROW, is_change=mark in changes)
         for panel in panels[:-1]:
             panel.tick_params(labelbottom=False)
         panels[-1].set_xlabel(TIME)
-        return as_html(page, _in_words(title, curves, seconds, flags, compare))
+        return as_html(page, _in_words(title, curves, seconds, flags, compare, areas))
 
 
 def _draw(panel: Axes, curve: Curve, seconds: float) -> None:
@@ -85,6 +96,25 @@ def _draw_comparison(panel: Axes, name: str, function: Callable[[float], float],
     panel.legend(loc="best", frameon=False)
 
 
+def _draw_area(panels: Sequence[Axes], area: Area) -> None:
+    for panel in panels:
+        panel.axvspan(area.begin, area.end, color=VERMILION, alpha=0.25, linewidth=0)
+    panels[0].text(
+        (area.begin + area.end) / 2,
+        0.97,
+        _in_numbers(area),
+        transform=panels[0].get_xaxis_transform(),
+        ha="center",
+        va="top",
+        color="#803300",
+        fontweight="bold",
+    )
+
+
+def _in_numbers(area: Area) -> str:
+    return f"{area.name}: {area.end - area.begin:.2f} s"
+
+
 def _draw_flag(panels: Sequence[Axes], mark: Mark, above: float, *, is_change: bool) -> None:
     """Draw a line through all panels up to its label, whose top is `above` inches above the panels."""
     colour, line = (VERMILION, ":") if is_change else (GREY, "-")
@@ -99,7 +129,12 @@ def _draw_flag(panels: Sequence[Axes], mark: Mark, above: float, *, is_change: b
 
 
 def _in_words(
-    title: str, curves: Sequence[Curve], seconds: float, flags: Sequence[Mark], compare: Mapping[str, object]
+    title: str,
+    curves: Sequence[Curve],
+    seconds: float,
+    flags: Sequence[Mark],
+    compare: Mapping[str, object],
+    areas: Sequence[Area],
 ) -> str:
     def sentence(curve: Curve) -> str:
         lowest, highest = curve.values.argmin(), curve.values.argmax()
@@ -110,7 +145,8 @@ def _in_words(
         )
 
     compared = [f"Dashed beside {curves[0].name}: {', '.join(compare)}."] if compare else []
+    coloured = [f"Coloured, {_in_numbers(area)} from {area.begin:.2f} s on." for area in areas]
     moments = [f"{mark.time:.2f} s: {mark.label}." for mark in flags]
     return " ".join(
-        [f"{title}, {seconds:.1f} s.", *[sentence(curve) for curve in curves], *compared, *moments]
+        [f"{title}, {seconds:.1f} s.", *[sentence(curve) for curve in curves], *compared, *coloured, *moments]
     )

@@ -79,6 +79,17 @@ class View:
         mujoco.mjr_readPixels(pixels, None, self._rectangle, self._renderer)
         return pixels[::-1].copy()  # OpenGL's first row is the lowest
 
+    def pixel_of(self, point: tuple[float, float, float]) -> tuple[float, float]:
+        """Where a point of the world (m) is in the last picture, px from its left and its upper edge."""
+        eyes = self._scene.camera  # the left and the right one
+        position, forward, up = (
+            np.mean([getattr(eye, name) for eye in eyes], axis=0) for name in ("pos", "forward", "up")
+        )
+        way = np.asarray(point) - position
+        scale = eyes[0].frustum_near / (way @ forward) * self._rectangle.height / 2 / eyes[0].frustum_top
+        right, height = way @ np.cross(forward, up), way @ up
+        return self._rectangle.width / 2 + right * scale, self._rectangle.height / 2 - height * scale
+
     def close(self) -> None:
         """Free the OpenGL context."""
         self._gl.make_current()

@@ -38,6 +38,10 @@ def still(model_id: str, models: Models) -> str:
         return f"<span>{state['value']}</span>"
     if kind == "Button":
         return f"<button disabled>{escape(state['description'])}</button>"
+    if kind == "SelectionSlider":
+        chosen, last = (escape(state["_options_labels"][index]) for index in (state["index"], -1))
+        words = escape(state["description"])
+        return f"<p><em>{words}: {chosen}. In the lab, a slider goes up to {last}.</em></p>"
     if kind == "FloatProgress":
         of = state["max"] - state["min"]
         words = escape(state["description"])

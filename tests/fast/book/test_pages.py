@@ -112,12 +112,17 @@ def test_widgets_are_shown_as_they_were_last() -> None:
             "buffers": [{"path": ["value"], "data": "AAAA", "encoding": "base64"}],
         },
         "slider": {"model_name": "IntSliderModel", "state": {}},
+        "choice": {
+            "model_name": "SelectionSliderModel",
+            "state": {"description": "shortest, m", "_options_labels": ["0", "0.2", "1"], "index": 1},
+        },
     }
     box = still("box", models)
     assert '<progress value="30.0" max="120">' in box
     assert "<button disabled>&lt;Cancel&gt;</button>" in box
     assert f'<img src="data:image/jpeg;base64,AAAA" alt="{LIVE}">' in still("live", models)
     assert "a control stands here" in still("slider", models)
+    assert "shortest, m: 0.2. In the lab, a slider goes up to 1." in still("choice", models)
     assert "a control stands here" in still("unknown", models)
 
     notebook = chapter(new_code_cell("widget", id="one"))

@@ -2,57 +2,17 @@
 
 from __future__ import annotations
 
-import math
-import time
-from typing import Any
-
 import numpy as np
 import pytest
 from drawings import read
-from nav_msgs.msg import Odometry
 from sensor_msgs.msg import BatteryState, JointState
+from stage import Stage
 
 from humanoid_interfaces.msg import RobotState
 from lab.errors import LabError
 from lab.pictures.plots import plot_curves, plot_means
 from lab.pictures.recording import Recording
 from ros_runtime.record.client_events import CancelAnswered, CancelSent, FeedbackReceived, ResultReceived
-
-
-class Stage:
-    """Feeds a recording with what a robot would publish, at times since its beginning."""
-
-    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.now = 1000.0
-        monkeypatch.setattr(time, "monotonic", lambda: self.now)
-        monkeypatch.setattr(time, "time", lambda: self.now + 5e8)
-        self.recording = Recording()
-
-    def publish(self, topic: str, message: Any, at: float) -> None:
-        stamp = 5e8 + 1000.0 + at
-        message.header.stamp.sec = int(stamp)
-        message.header.stamp.nanosec = int((stamp - int(stamp)) * 1e9)
-        self.recording.keep(topic, message)
-
-    def walk(
-        self, at: float, *, speed: float = 0.3, height: float = 0.6, yaw: float = 0.0, pitch: float = 0.0
-    ) -> None:
-        message = Odometry()
-        message.twist.twist.linear.x = speed
-        message.pose.pose.position.z = height
-        q = message.pose.pose.orientation
-        half, lean = yaw / 2, pitch / 2
-        q.w, q.z = math.cos(half) * math.cos(lean), math.sin(half) * math.cos(lean)
-        q.x, q.y = -math.sin(half) * math.sin(lean), math.cos(half) * math.sin(lean)
-        self.publish("odom", message, at)
-
-    def be(self, mode: int, at: float) -> None:
-        self.publish("robot_state", RobotState(mode=mode), at)
-
-    def end(self, at: float) -> Recording:
-        self.now = 1000.0 + at
-        self.recording.end()
-        return self.recording
 
 
 @pytest.fixture
@@ -158,6 +118,19 @@ def test_a_curve_to_compare_with_is_named_and_does_not_stretch_the_panel(stage: 
     assert min(ticks) >= -0.1
 
 
+def test_the_time_between_two_moments_is_coloured_and_measured(stage: Stage) -> None:
+    stage.be(RobotState.WALKING, at=-0.1)
+    stage.walk(0.5)
+    stage.recording.note(ResultReceived(t=1000.6, goal="turn_to 1", status=5, result=None))
+    stage.be(RobotState.STANDING, at=1.35)
+    recording = stage.end(2.0)
+    drawing = read(recording.plot("speed", between={"keep away": ("result: CANCELED", "STANDING")}))
+    assert "keep away: 0.75 s" in drawing.texts
+    assert "Coloured, keep away: 0.75 s from 0.60 s on." in drawing.alt
+    with pytest.raises(LabError, match='"FALLEN" did not happen'):
+        recording.plot("speed", between={"never": ("STANDING", "FALLEN")})
+
+
 def test_marks_with_letters_that_mean_something_elsewhere_are_shown_as_they_are(stage: Stage) -> None:
     stage.walk(0.5)
     stage.recording.mark("$x$ < y & z_1")
@@ -216,6 +189,18 @@ def test_curves_are_named_and_described_in_words() -> None:
     for text in ("Ways", "truth", "a guess", "time, s", "way, m"):
         assert text in drawing.texts, text
     assert "truth: way, m from 2.00 at time, s 0.00 to 4.00 at 1.00" in drawing.alt
+
+
+def test_a_band_shows_where_a_guess_is_near_the_truth() -> None:
+    curves = {
+        "a guess": ([0, 1, 2, 3], [9, 5, 3, 1]),
+        "a promise": ([0, 1, 2, 3], [1, 1, 1, 8]),
+        "truth": ([0, 1, 2, 3], [4, 3, 2.5, 1]),
+    }
+    drawing = read(plot_curves(curves, "time, s", "left, s", factor=2))
+    assert "within a factor of 2" in drawing.texts
+    assert "a guess: inside the band from 1.00 to 3.00." in drawing.alt
+    assert "a promise: never inside the band." in drawing.alt
 
 
 @pytest.mark.parametrize(

@@ -37,6 +37,23 @@ def test_a_view_follows_the_motion():
     assert (before != after).any(axis=2).mean() > 0.02
 
 
+@pytest.mark.parametrize("camera", ["side", "track", "front"])
+def test_a_point_of_the_world_is_found_in_the_picture(camera):
+    def see(humanoid):
+        view = View(humanoid, 320, 240, shadows=False)
+        picture = view.picture(camera).astype(int)
+        place = view.pixel_of(humanoid.data.geom("head").xpos)
+        view.close()
+        return picture, place
+
+    humanoid = Humanoid()
+    white, place = see(humanoid)
+    humanoid.model.geom("head").rgba = (1, 0, 0, 1)
+    red, _ = see(humanoid)
+    rows, columns = np.nonzero(abs(white - red).max(axis=2) > 60)
+    assert place == pytest.approx((columns.mean(), rows.mean()), abs=6)
+
+
 def test_an_unknown_camera_is_refused_with_the_known_ones():
     with pytest.raises(ValueError, match=r"'roof' is not known.*track.*head_camera"):
         snapshot(Humanoid(), 64, 48, camera="roof")

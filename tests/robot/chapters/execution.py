@@ -7,8 +7,19 @@ from pathlib import Path
 
 from autograder.classroom.book.chapter_run import Executed, processes_in
 from autograder.classroom.book.chapter_run import execute as execute_file
+from autograder.classroom.book.still_widgets import VIEW, models_of, still
 
-__all__ = ["CHAPTERS", "Executed", "execute", "in_order", "number", "numbers", "processes_in"]
+__all__ = [
+    "CHAPTERS",
+    "Executed",
+    "execute",
+    "in_order",
+    "number",
+    "numbers",
+    "on_paper",
+    "processes_in",
+    "words_of",
+]
 
 CHAPTERS = Path(__file__).resolve().parents[3] / "chapters"
 
@@ -16,6 +27,20 @@ CHAPTERS = Path(__file__).resolve().parents[3] / "chapters"
 def execute(name: str, folder: Path) -> Executed:
     """Run all cells of a chapter; a cell that raises fails the test with its traceback."""
     return execute_file(CHAPTERS / f"{name}.ipynb", folder)
+
+
+def on_paper(chapter: Executed, cell_id: str) -> str:
+    """The HTML of the widgets that a cell showed, as the book has it."""
+    cell = next(cell for cell in chapter.notebook.cells if cell.id == cell_id)
+    views = [output.data[VIEW] for output in cell.outputs if VIEW in output.get("data", {})]
+    return "".join(still(view["model_id"], models_of(chapter.notebook)) for view in views)
+
+
+def words_of(html: str) -> str:
+    """The description of a picture, in words."""
+    found = re.search(r'alt="([^"]+)"', html)
+    assert found
+    return found[1]
 
 
 def in_order(text: str, *parts: str) -> bool:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 import pytest
-from execution import Executed, in_order
+from execution import Executed, in_order, on_paper
 from gap_trials import GapTrials
 
 CHAPTER = "05_executors"
@@ -46,18 +46,34 @@ def test_the_robot_stops_while_the_only_thread_sleeps_and_walks_on_with_two_grou
 
 
 def test_the_drawn_threads_are_those_of_the_run(chapter: Executed) -> None:
-    one = chapter.html("one-draw")
+    one = on_paper(chapter, "one-draw")
     assert re.search(r"MainThread: beat \d+ times; look_around from [\d.]+ s to [\d.]+ s\.", one)
     assert "ThreadPoolExecutor" not in one
     assert re.search(r"Longest time from one beat to the next: 3\.\d\d s", one)
-    assert re.search(r"Longest time from one beat to the next: 3\.\d\d s", chapter.html("threads-run"))
+    assert re.search(r"Longest time from one beat to the next: 3\.\d\d s", on_paper(chapter, "threads-run"))
     groups = chapter.html("groups-draw")
     assert re.search(r"ThreadPoolExecutor-\d_\d: (beat.*; )?look_around from", groups)
     assert re.search(r"Longest time from one beat to the next: 0\.\d\d s", groups)
-    awaited = chapter.html("await-run")
+    awaited = on_paper(chapter, "await-run")
     assert in_order(
         awaited, "MainThread: beat", "look_around from", "awaiting, on no thread: look_around from"
     )
+
+
+@pytest.mark.parametrize(
+    ("cell", "at_the_gates"),
+    [
+        ("one-draw", "waits: default group: look_around is in, 0 of 1 threads free."),
+        ("threads-run", "waits: default group: look_around is in, 3 of 4 threads free."),
+        ("await-run", "may run: its own group: free, 1 of 1 threads free."),
+    ],
+)
+def test_the_gates_say_where_the_heartbeat_is_while_the_robot_looks_around(
+    chapter: Executed, cell: str, at_the_gates: str
+) -> None:
+    drawn = on_paper(chapter, cell)
+    assert f"beat, if it is due, {at_the_gates}" in drawn
+    assert "moment, s: " in drawn
 
 
 def test_the_command_line_measures_the_same_gap(chapter: Executed) -> None:

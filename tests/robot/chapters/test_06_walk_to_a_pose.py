@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 import pytest
-from execution import Executed, in_order
+from execution import Executed, in_order, words_of
 from gap_trials import GapTrials
 
 CHAPTER = "06_walk_to_a_pose"
@@ -66,14 +66,33 @@ def test_a_success_in_mid_step_is_false_and_one_after_settling_is_true(chapter: 
 
 
 def test_the_sway_is_plotted_with_the_end_of_the_goal(chapter: Executed) -> None:
-    for cell in ("touch-plot", "settle-plot"):
-        words = _words(chapter.html(cell))
-        assert in_order(words, "x in m:", "y in m:", "speed in m/s:", "Dashed beside x: the goal.")
-        sway = re.search(r"y in m: .*?lowest ([-\d.]+) at [\d.]+ s, highest ([-\d.]+) at", words)
-        assert sway
-        assert float(sway[2]) - float(sway[1]) > 0.03
-    assert in_order(_words(chapter.html("touch-plot")), "result: SUCCEEDED", "WALKING → STANDING")
-    assert in_order(_words(chapter.html("settle-plot")), "WALKING → STANDING", "result: SUCCEEDED")
+    words = words_of(chapter.html("touch-plot"))
+    assert in_order(words, "x in m:", "y in m:", "speed in m/s:", "Dashed beside x: the goal.")
+    assert in_order(words, "result: SUCCEEDED", "WALKING → STANDING")
+    sway = re.search(r"y in m: .*?lowest ([-\d.]+) at [\d.]+ s, highest ([-\d.]+) at", words)
+    assert sway
+    assert float(sway[2]) - float(sway[1]) > 0.03
+
+
+def test_two_films_show_where_the_robot_is_when_the_status_comes_and_where_it_stands(
+    chapter: Executed,
+) -> None:
+    html = chapter.html("settle-plot")
+    assert "data:image/webp" in html
+    assert in_order(words_of(html), "succeed at the goal: SUCCEEDED", "settle, then succeed: SUCCEEDED")
+    at_once, settled = re.findall(
+        r"SUCCEEDED after ([\d.]+) s, ([\d.]+) m (past|before) the goal, (\w+); "
+        r"in the end ([\d.]+) m (past|before) the goal, (\w+)\.",
+        words_of(html),
+    )
+    assert (at_once[3], settled[3]) == ("WALKING", "STANDING")
+    assert (at_once[6], settled[6]) == ("STANDING", "STANDING")
+    assert _past(*at_once[4:6]) - _past(*at_once[1:3]) > 0.04
+    assert abs(_past(*settled[4:6]) - _past(*settled[1:3])) < 0.025
+
+
+def _past(metres: str, side: str) -> float:
+    return float(metres) if side == "past" else -float(metres)
 
 
 def test_the_button_walks_and_feedback_ends_before_the_arrival(chapter: Executed) -> None:
@@ -93,7 +112,7 @@ def test_a_fall_is_seen_by_nobody_until_the_loop_looks(chapter: Executed) -> Non
     left = [float(distance) for distance in told.groups()]
     assert max(left) - min(left) < 0.05  # the body may still be rolling
     assert "ABORTED (error_code 1, error_msg 'the robot fell on the way'" in chapter.text("whole-run")
-    assert in_order(chapter.html("whole-draw"), "get_result", "feedback", "ABORTED")
+    assert in_order(chapter.html("whole-draw"), "SENT at", "ACCEPTED at", "EXECUTING at", "ABORTED at")
 
 
 def test_the_client_without_a_status_takes_a_fall_for_an_arrival(chapter: Executed) -> None:
@@ -325,10 +344,3 @@ def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: st
 def test_the_goal_callback_may_be_a_coroutine(gaps: GapTrials) -> None:
     program = gaps.solved["rejecting_walk.py"].replace("def on_goal", "async def on_goal")
     assert "✓" in gaps.run("%%gap rejecting_walk.py\n" + program)
-
-
-def _words(html: str) -> str:
-    """The description of a picture, in words."""
-    found = re.search(r'alt="([^"]+)"', html)
-    assert found
-    return found[1]

@@ -51,10 +51,11 @@ def test_the_fixed_server_is_canceled_only_when_the_robot_stands(chapter: Execut
 
 
 def test_a_cancel_is_drawn_with_what_the_robot_did(chapter: Executed) -> None:
-    took = re.search(r"CANCELED: ([\d.]+) s", chapter.text("fix-plot"))
+    drawn = chapter.html("fix-plot")
+    assert "A cancel, and what the robot does" in drawn
+    took = re.search(r"Coloured, from the request to CANCELED: ([\d.]+) s", drawn)
     assert took
     assert 0.0 < float(took[1]) < 5.0
-    assert "A cancel, and what the robot does" in chapter.html("fix-plot")
 
 
 def test_a_late_cancel_changes_nothing(chapter: Executed) -> None:

@@ -1,0 +1,175 @@
+"""Recorded walks to a goal, filmed beside each other, with the goals' statuses and capture points."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from html import escape
+
+import numpy as np
+from IPython.display import HTML
+from PIL import Image, ImageDraw
+
+from lab.client import topics
+from lab.errors import LabError
+from lab.pictures.figure import BLUE, GREY, VERMILION
+from lab.pictures.film import MAX_DURATION, RATE, take_postures
+from lab.pictures.lettering import font
+from lab.pictures.picture import figure
+from lab.pictures.recorded_goal import RecordedGoal
+from lab.pictures.recording import Recording
+from robot_sim.humanoid import Humanoid
+from robot_sim.views.film import save_frames
+from robot_sim.views.view import View
+from ros_runtime.message_constants import RobotMode, name_of
+from ros_runtime.workarounds.gl_backend import NoOpenGLError
+
+WIDTH, HEIGHT, ABOVE, BELOW = 330, 330, 30, 66  # px: of a picture, and of the texts above and below it
+LEGEND, DOT = 26, 6  # px
+BEFORE = 0.4  # s before the goal is sent
+GRAVITY = 9.81  # m/s²
+ENDED = {"SUCCEEDED": "#007A5E", "ABORTED": VERMILION, "CANCELED": VERMILION}
+
+
+def film_beside(recordings: Mapping[str, Recording], *, camera: str = "side") -> HTML:
+    """Film recorded walks to a goal beside each other, from the moment when each goal was sent.
+
+        lab.film_beside({"at once": one, "after settling": other})
+
+    Each picture shows the goal's status and the robot's mode. Two dots on the floor show the goal and the *capture
+    point*, above which the pelvis could come to rest. Without OpenGL you get the words of the film and the reason.
+
+    Raises:
+        LabError: a recording has no goal with a pose.
+        ValueError: the film would last longer than 60 s, or there is no such camera.
+    """
+    walks = [_Walk.of(name, recording) for name, recording in recordings.items()]
+    seconds = max(walk.seconds for walk in walks)
+    if seconds > MAX_DURATION:
+        raise ValueError(f"the film would last {seconds:.0f} s; expected at most {MAX_DURATION:g}")
+    words = " ".join(walk.in_words() for walk in walks)
+    after = np.arange(max(1, round(seconds * RATE))) / RATE
+    try:
+        columns = [walk.frames(after, camera) for walk in walks]
+    except NoOpenGLError as error:
+        return HTML(f"<p>{escape(words)} No film: {escape(str(error))}</p>")
+    frames = [_beside(pictures) for pictures in zip(*columns, strict=True)]
+    webp = io.BytesIO()
+    save_frames(webp, frames, "WEBP", RATE, last=1.0)
+    return figure(webp.getvalue(), "webp", words, words, width=frames[0].width)
+
+
+@dataclass(frozen=True)
+class _Walk:
+    """A recorded walk to a place; times are in s of its recording."""
+
+    name: str
+    recording: Recording
+    goal: RecordedGoal
+    place: tuple[float, float]
+    start: tuple[float, float]
+
+    @classmethod
+    def of(cls, name: str, recording: Recording) -> _Walk:
+        goal = recording.goal()
+        odometry = recording.messages("odom")
+        base = min(odometry, key=lambda pair: abs(pair[0] - goal.sent))[1].pose.pose
+        place = goal.place(base)
+        if place is None:
+            raise LabError(f"{name}: the goal has no pose, so there is no place to film the way to")
+        return cls(name, recording, goal, place, (base.position.x, base.position.y))
+
+    @property
+    def begin(self) -> float:
+        return max(0.0, self.goal.sent - BEFORE)
+
+    @property
+    def seconds(self) -> float:
+        return self.recording.seconds - self.begin
+
+    def frames(self, after: np.ndarray, camera: str) -> list[Image.Image]:
+        """A picture for each time (s) after the beginning; the last one stays when the recording is over."""
+        at = np.minimum(self.begin + after, self.recording.seconds)
+        body = Humanoid(topics.scene())
+        view = View(body, WIDTH, HEIGHT, shadows=False)
+        try:
+            postures = take_postures(
+                body, at, self.recording.messages("odom"), self.recording.messages("joint_states"), {}
+            )
+            return [self._frame(view, camera, t) for t, _ in zip(at, postures, strict=True)]
+        finally:
+            view.close()
+
+    def capture_point(self, t: float) -> tuple[float, float]:
+        """Where on the floor the pelvis could come to rest, (x, y) in frame odom."""
+        x, y, height, forwards, heading = (
+            float(np.interp(t, *self.recording.values(quantity)))
+            for quantity in ("x", "y", "height", "speed", "heading")
+        )
+        ahead = forwards * math.sqrt(height / GRAVITY)
+        return x + ahead * math.cos(heading), y + ahead * math.sin(heading)
+
+    def past_the_goal(self, t: float) -> float:
+        """How far (m) the pelvis is past the goal, in the direction from the start to it; negative before it."""
+        x, y = (float(np.interp(t, *self.recording.values(quantity))) for quantity in ("x", "y"))
+        way = math.dist(self.start, self.place)
+        return (
+            (x - self.place[0]) * (self.place[0] - self.start[0])
+            + (y - self.place[1]) * (self.place[1] - self.start[1])
+        ) / way
+
+    def mode_at(self, t: float) -> str:
+        first, *others = self.recording.messages("robot_state")
+        mode = [first[1].mode, *(state.mode for at, state in others if at <= t)][-1]
+        return name_of(RobotMode, mode)
+
+    def in_words(self) -> str:
+        at, status = self.goal.statuses[-1] if self.goal.statuses else (self.recording.seconds, "SENT")
+        then = self.recording.seconds
+        return (
+            f"{self.name}: {status} after {at - self.goal.sent:.1f} s, {_where(self.past_the_goal(at))}, "
+            f"{self.mode_at(at)}; in the end {_where(self.past_the_goal(then))}, {self.mode_at(then)}."
+        )
+
+    def _frame(self, view: View, camera: str, t: float) -> Image.Image:
+        image = Image.new("RGB", (WIDTH, ABOVE + HEIGHT + BELOW), "white")
+        seen = Image.fromarray(view.picture(camera))
+        draw = ImageDraw.Draw(seen)
+        for (x, y), colour, flat in ((self.place, BLUE, 0.45), (self.capture_point(t), VERMILION, 1.0)):
+            right, down = view.pixel_of((x, y, 0.0))
+            size = DOT / flat
+            draw.ellipse(
+                (right - size, down - DOT * flat, right + size, down + DOT * flat),
+                fill=colour,
+                outline="white",
+            )
+        image.paste(seen, (0, ABOVE))
+        draw = ImageDraw.Draw(image)
+        draw.text((8, 6), self.name, font=font(15, bold=True), fill="black")
+        draw.text((WIDTH - 8, 8), f"{t - self.goal.sent:.1f} s", font=font(13), fill=GREY, anchor="ra")
+        status, below = self.goal.status_at(t), ABOVE + HEIGHT
+        draw.text((8, below + 6), status, font=font(19, bold=True), fill=ENDED.get(status, GREY))
+        draw.text(
+            (WIDTH - 8, below + 9), self.mode_at(t), font=font(15, bold=True), fill="black", anchor="ra"
+        )
+        draw.text((8, below + 38), f"pelvis {_where(self.past_the_goal(t))}", font=font(14), fill="black")
+        return image
+
+
+def _where(past: float) -> str:
+    return f"{abs(past):.2f} m {'past' if past > 0 else 'before'} the goal"
+
+
+def _beside(pictures: tuple[Image.Image, ...]) -> Image.Image:
+    width = sum(picture.width for picture in pictures) + 8 * (len(pictures) - 1)
+    image = Image.new("RGB", (width, pictures[0].height + LEGEND), "white")
+    for number, picture in enumerate(pictures):
+        image.paste(picture, (number * (WIDTH + 8), 0))
+    draw, x, y = ImageDraw.Draw(image), 8, pictures[0].height
+    for colour, text in ((BLUE, "goal"), (VERMILION, "capture point: there the pelvis could come to rest")):
+        draw.ellipse((x, y + 6, x + 10, y + 16), fill=colour)
+        draw.text((x + 16, y + 2), text, font=font(13), fill="black")
+        x += 36 + round(draw.textlength(text, font=font(13)))
+    return image

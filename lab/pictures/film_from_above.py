@@ -1,0 +1,217 @@
+"""A recorded trip to a point, seen from above: path, phases, bearing and what happened on the way."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from IPython.display import HTML
+from PIL import Image, ImageDraw
+
+from lab.errors import LabError
+from lab.pictures.annotations import Mark
+from lab.pictures.figure import BLUE, GREY, VERMILION
+from lab.pictures.film import MAX_DURATION, RATE
+from lab.pictures.lettering import font
+from lab.pictures.picture import figure
+from lab.pictures.recorded_goal import RecordedGoal
+from lab.pictures.recording import Recording
+from robot_sim.views.film import save_frames
+from ros_runtime.angles import wrap
+
+WIDTH = 600  # px
+LOWEST, HIGHEST = 150, 420  # px, of the floor
+ABOVE, BELOW = 62, 30  # px, of the texts
+FINER = 2  # times as fine is it drawn, for smooth lines
+MARGIN = 0.4  # m of floor around everything
+WEDGE = 0.45  # m, the radius of the bearing's wedge
+FLASH, NEWS = 0.8, 2.5  # s that a moment flashes, and that its label stays
+COLOURS = (BLUE, VERMILION, "#007A5E", "#8A4F7D", GREY)
+BODY = ((0.14, 0.0), (0.04, 0.16), (-0.08, 0.16), (-0.08, -0.16), (0.04, -0.16))  # m, its nose first
+
+
+def film_from_above(recording: Recording, *, reach: float = 0.0, title: str = "The trip from above") -> HTML:
+    """Film the way to the last goal of a recording, as seen from above.
+
+    The path has the colour of the goal's phase, which is the `status` of its feedback. The wedge at the robot is the
+    bearing, from where it looks to where the goal is; the circle around the goal has the radius `reach`, in m. What the
+    notebook did, marked with `recording.mark()`, flashes.
+
+    Raises:
+        LabError: there is no goal with a pose and feedback with a `status`.
+        ValueError: the film would last longer than 60 s.
+    """
+    if recording.seconds > MAX_DURATION:
+        raise ValueError(f"the film would last {recording.seconds:.0f} s; expected at most {MAX_DURATION:g}")
+    trip = _Trip.of(recording)
+    floor = _Floor.around(trip, reach)
+    webp = io.BytesIO()
+    save_frames(webp, [*floor.frames(trip)], "WEBP", RATE, last=3.0)
+    words = f"{title}, {recording.seconds:.1f} s. {trip.in_words()}"
+    return figure(webp.getvalue(), "webp", words, title, width=WIDTH)
+
+
+@dataclass(frozen=True)
+class _Trip:
+    """The recorded quantities at the times of the frames (s), and the goal's phases and events."""
+
+    at: np.ndarray
+    xs: np.ndarray
+    ys: np.ndarray
+    headings: np.ndarray
+    goal: RecordedGoal
+    place: tuple[float, float]
+    marks: Sequence[Mark]
+
+    @classmethod
+    def of(cls, recording: Recording) -> _Trip:
+        goal = recording.goal()
+        base = recording.messages("odom")[0][1].pose.pose
+        place = goal.place(base)
+        if place is None or not any(hasattr(told, "status") for _, told in goal.feedback):
+            raise LabError(
+                "the last goal has no pose, or no feedback with a `status`, so there is no trip to film"
+            )
+        at = np.arange(max(1, round(recording.seconds * RATE))) / RATE
+        xs, ys, headings = (np.interp(at, *recording.values(name)) for name in ("x", "y", "heading"))
+        return cls(at, xs, ys, headings, goal, place, recording.marks)
+
+    @property
+    def phases(self) -> list[tuple[float, str]]:
+        """When each phase began, and its name."""
+        told = [(t, feedback.status) for t, feedback in self.goal.feedback]
+        return [told[0], *(later for earlier, later in pairwise(told) if earlier[1] != later[1])]
+
+    @property
+    def colours(self) -> dict[str, str]:
+        return dict(zip(dict.fromkeys(phase for _, phase in self.phases), COLOURS * 9, strict=False))
+
+    def phase_at(self, t: float) -> str | None:
+        told = self.goal.feedback_at(t)
+        return None if told is None else told.status
+
+    def distance(self, frame: int) -> float:
+        return math.dist((self.xs[frame], self.ys[frame]), self.place)
+
+    def bearing(self, frame: int) -> float:
+        """From where the robot looks to where the goal is, rad; to the left is positive."""
+        direction = math.atan2(self.place[1] - self.ys[frame], self.place[0] - self.xs[frame])
+        return wrap(direction - self.headings[frame])
+
+    def in_words(self) -> str:
+        phases = ", ".join(f"{phase} from {t:.1f} s" for t, phase in self.phases)
+        moments = " ".join(f"{mark.time:.1f} s: {mark.label}." for mark in self.marks)
+        return (
+            f"Phases: {phases}. {moments} In the end {self.goal.status_at(self.at[-1])}, "
+            f"{self.distance(-1):.2f} m from the goal."
+        )
+
+
+@dataclass(frozen=True)
+class _Floor:
+    """The part of the floor that is seen: its left upper corner (m, frame odom) and its scale."""
+
+    left: float
+    upper: float
+    scale: float  # px of the drawing for a metre
+    height: int  # px of the drawing
+    reach: float  # m
+
+    @classmethod
+    def around(cls, trip: _Trip, reach: float) -> _Floor:
+        xs = [trip.xs.min(), trip.xs.max(), trip.place[0] - reach, trip.place[0] + reach]
+        ys = [trip.ys.min(), trip.ys.max(), trip.place[1] - reach, trip.place[1] + reach]
+        wide, deep = max(xs) - min(xs) + 2 * MARGIN, max(ys) - min(ys) + 2 * MARGIN
+        scale = min(WIDTH / wide, HIGHEST / deep) * FINER
+        height = max(LOWEST * FINER, round(deep * scale))
+        left = (min(xs) + max(xs)) / 2 - WIDTH * FINER / scale / 2
+        return cls(left, (min(ys) + max(ys)) / 2 + height / scale / 2, scale, height, reach)
+
+    def frames(self, trip: _Trip) -> list[Image.Image]:
+        paper = self._empty(trip)
+        path = ImageDraw.Draw(paper)
+        shown = []
+        for frame, t in enumerate(trip.at):
+            here = self._px(trip.xs[frame], trip.ys[frame])
+            phase = trip.phase_at(t)
+            colour = GREY if phase is None else trip.colours[phase]
+            if frame:
+                before = self._px(trip.xs[frame - 1], trip.ys[frame - 1])
+                path.line((*before, *here), fill=colour, width=3 * FINER)
+            shown.append(self._frame(paper.copy(), trip, frame, colour))
+        return shown
+
+    def _empty(self, trip: _Trip) -> Image.Image:
+        """The floor with a line each half metre, the goal and its circle."""
+        paper = Image.new("RGB", (WIDTH * FINER, self.height), "#f7f7f7")
+        draw = ImageDraw.Draw(paper)
+        for metre in np.arange(math.floor(self.left), self.left + paper.width / self.scale, 0.5):
+            draw.line(
+                (self._px(metre, 0)[0], 0, self._px(metre, 0)[0], self.height), fill="#e2e2e2", width=FINER
+            )
+        for metre in np.arange(math.floor(self.upper - self.height / self.scale), self.upper, 0.5):
+            draw.line(
+                (0, self._px(0, metre)[1], paper.width, self._px(0, metre)[1]), fill="#e2e2e2", width=FINER
+            )
+        self._circle(draw, self._px(*trip.place), self.reach * self.scale, outline=GREY, width=2 * FINER)
+        self._circle(draw, self._px(*trip.place), 5 * FINER, fill="black")
+        return paper
+
+    def _frame(self, paper: Image.Image, trip: _Trip, frame: int, colour: str) -> Image.Image:
+        t, heading, bearing = trip.at[frame], trip.headings[frame], trip.bearing(frame)
+        draw = ImageDraw.Draw(paper, "RGBA")
+        x, y = trip.xs[frame], trip.ys[frame]
+        arc = [heading + bearing * part / 24 for part in range(25)]
+        wedge = [self._px(x + WEDGE * math.cos(angle), y + WEDGE * math.sin(angle)) for angle in arc]
+        draw.polygon([self._px(x, y), *wedge], fill=(*bytes.fromhex(colour[1:]), 70))
+        turned = (
+            (
+                x + math.cos(heading) * a - math.sin(heading) * b,
+                y + math.sin(heading) * a + math.cos(heading) * b,
+            )
+            for a, b in BODY
+        )
+        draw.polygon([self._px(*corner) for corner in turned], fill=colour, outline="white")
+        last = next((mark for mark in reversed(trip.marks) if mark.time <= t < mark.time + NEWS), None)
+        if last is not None and t < last.time + FLASH:
+            size = (0.2 + 0.5 * (t - last.time) / FLASH) * self.scale
+            self._circle(draw, self._px(x, y), size, outline=VERMILION, width=4 * FINER)
+        return self._with_texts(paper.resize((WIDTH, self.height // FINER)), trip, frame, last)
+
+    def _with_texts(self, floor: Image.Image, trip: _Trip, frame: int, last: Mark | None) -> Image.Image:
+        image = Image.new("RGB", (WIDTH, ABOVE + floor.height + BELOW), "white")
+        image.paste(floor, (0, ABOVE))
+        draw, x, t = ImageDraw.Draw(image), 10, trip.at[frame]
+        for phase, colour in trip.colours.items():
+            is_now = phase == trip.phase_at(t)
+            draw.text((x, 8), phase, font=font(15, bold=is_now), fill=colour if is_now else "#8a8a8a")
+            x += 22 + round(draw.textlength(phase, font=font(15, bold=True)))
+        numbers = (
+            f"{trip.distance(frame):.2f} m to the goal, bearing {math.degrees(trip.bearing(frame)):+.0f}°"
+        )
+        draw.text((10, 34), numbers, font=font(14), fill="black")
+        draw.text((WIDTH - 10, 8), f"{t:.1f} s", font=font(14), fill=GREY, anchor="ra")
+        draw.text(
+            (WIDTH - 10, 34), trip.goal.status_at(t), font=font(14, bold=True), fill="black", anchor="ra"
+        )
+        below = ABOVE + floor.height
+        if last is not None:
+            draw.text((10, below + 6), last.label, font=font(14, bold=True), fill=VERMILION)
+        half = round(self.scale / FINER / 2)
+        draw.line((WIDTH - 10 - half, below + 8, WIDTH - 10, below + 8), fill="black", width=2)
+        draw.text((WIDTH - 10, below + 11), "0.5 m", font=font(12), fill="black", anchor="ra")
+        return image
+
+    def _px(self, x: float, y: float) -> tuple[float, float]:
+        return (x - self.left) * self.scale, (self.upper - y) * self.scale
+
+    @staticmethod
+    def _circle(
+        draw: ImageDraw.ImageDraw, middle: tuple[float, float], radius: float, **style: object
+    ) -> None:
+        x, y = middle
+        draw.ellipse((x - radius, y - radius, x + radius, y + radius), **style)  # type: ignore[arg-type]
