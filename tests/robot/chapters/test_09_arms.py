@@ -43,7 +43,7 @@ def test_one_trajectory_for_both_arms_lets_both_go_on(chapter: Executed) -> None
     assert in_order(words, "l_elbow in rad", "r_elbow in rad", "both elbows")
     left, right = numbers(r"(-[\d.]+) at last", words)
     assert -2.05 < left < -1.95
-    assert -1.55 < right < -1.45
+    assert -0.55 < right < -0.45
 
 
 def test_an_empty_trajectory_stops_the_motion(chapter: Executed) -> None:
