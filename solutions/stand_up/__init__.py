@@ -1,1 +1,1 @@
-"""Stand up from a crouch, in phases: an action server of chapter 9."""
+"""Stand up from a crouch, in phases: an action server of chapter 10."""

@@ -42,7 +42,7 @@ FALLEN = in_order(
 INTERRUPT = in_order(["interrupt"])
 
 LOOK = "07_cancel_and_preempt#conventions"
-PHASES = "09_arms#phases-why"
+PHASES = "10_parameters_and_balance#phases-why"
 
 server_appears = standard.server_appears(
     "the action stand_up", on=INTERRUPT, see="06_walk_to_a_pose#small-intro", clauses=[18]

@@ -133,7 +133,7 @@ waits_until_loads_stay_even = check_of(
     title="Loads that are even for a moment only, or 30 % apart, do not let it rise",
     on=SWAYS,
     needs=checks.waits_for_even_loads,
-    see="09_arms#steady-gap",
+    see="10_parameters_and_balance#steady-gap",
 )
 shifts_again_from_settling = check_of(
     [model.shifts_again, model.names_shifting, model.succeeds],
@@ -146,7 +146,7 @@ waits_until_calm_lasts = check_of(
     title="A robot that is calm for a moment only has not settled",
     on=FIDGETS,
     needs=[checks.settles_before_it_succeeds, checks.waits_until_it_is_still],
-    see="09_arms#steady-gap",
+    see="10_parameters_and_balance#steady-gap",
 )
 cancels_while_it_shifts = in_any_order(
     [model.cancels, model.stays_down_while_uneven, model.names_shifting, model.stays_where_it_ended],

@@ -107,7 +107,7 @@ takes_one_of_several = obligation(13, of=goals)(objections.one_of_several)
 # -- how goals end ----------------------------------------------------------------------------------------------------
 
 
-@obligation(5, 6, of=goals, see="09_arms#rise-why")
+@obligation(5, 6, of=goals, see="10_parameters_and_balance#rise-why")
 def succeeds(goal: Goal) -> str | None:
     """It SUCCEEDS, and base_link is then at 0.59 m or higher"""
     accepts.require(goal)
@@ -128,13 +128,13 @@ def succeeds(goal: Goal) -> str | None:
     return "pushed" if truth.was_pushed(goal) else "undisturbed"
 
 
-@obligation(5, 7, of=goals, see="09_arms#phases-why")
+@obligation(5, 7, of=goals, see="10_parameters_and_balance#phases-why")
 def rises_though_pushed(goal: Goal) -> str | None:
     """Pushed on its way, it rises all the same"""
     return succeeds.require(goal) if truth.was_pushed(goal) else None
 
 
-@obligation(6, of=goals, see="09_arms#still-why")
+@obligation(6, of=goals, see="10_parameters_and_balance#still-why")
 def settles(goal: Goal) -> str | None:
     """When it SUCCEEDS base_link has been high, still and upright for 0.5 s"""
     if goal.status != SUCCEEDED or not goal.result:
@@ -153,7 +153,7 @@ def settles(goal: Goal) -> str | None:
     return "simulated" if goal.run.ground_truth else "played"
 
 
-@obligation(2, of=goals, see="09_arms#phases-why")
+@obligation(2, of=goals, see="10_parameters_and_balance#phases-why")
 def says_that_it_stands(goal: Goal) -> str | None:
     """A goal for a robot that stands is ABORTED at once, with ALREADY_STANDING"""
     if not life.accepted(goal) or not truth.began_high(goal) or life.interrupted(goal):
@@ -267,7 +267,7 @@ def rises_in_place(run: Transcript) -> str | None:
     return "all the time"
 
 
-@obligation(4, of=goals, see="09_arms#still-why")
+@obligation(4, of=goals, see="10_parameters_and_balance#still-why")
 def stays_down_while_uneven(goal: Goal) -> str | None:
     """It stays down until the loads have been even for 0.3 s in a row"""
     if not truth.began_low(goal):
@@ -311,7 +311,7 @@ def _first_even(goal: Goal, end: float) -> float | None:
     return last
 
 
-@obligation(7, of=goals, see="09_arms#phases-why")
+@obligation(7, of=goals, see="10_parameters_and_balance#phases-why")
 def shifts_again(goal: Goal) -> str | None:
     """Uneven loads while it rises or settles stop it, and it does not succeed before they are even again"""
     if not truth.began_low(goal):
@@ -423,7 +423,7 @@ feedback_ends = obligation(8, of=goals, see="07_cancel_and_preempt#m13-why")(
 )
 
 
-@obligation(9, of=goals, see="09_arms#phases-why")
+@obligation(9, of=goals, see="10_parameters_and_balance#phases-why")
 def names_its_phase(goal: Goal) -> str | None:
     """The phase is shifting, rising or settling, each while the robot does it"""
     feedback = _before_the_end(goal)

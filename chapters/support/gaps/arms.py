@@ -2,12 +2,58 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import Any
+
+import numpy as np
 
 from humanoid_interfaces.action import PickAndPlace
 from lab.learning.gap import Gap, expect
 from lab.learning.gap_checks import asked, read_program
+
+
+def merges_two_plans() -> str:
+    """Merge plans at the start, on the way, and when nothing is left."""
+    merged = read_program("merged.py")["merged"]
+    left, right = {0.0: -0.5, 2.0: -1.5}, {0.5: -0.3, 1.5: -0.8, 3.0: -0.2}
+    situations: tuple[tuple[float, dict[float, list[float]], str], ...] = (
+        (
+            0.0,
+            {0.5: [-0.75, -0.3], 1.5: [-1.25, -0.8], 2.0: [-1.5, -0.6], 3.0: [-1.5, -0.2]},
+            "each moment of either plan after `now` is a point, and each point has both joints: place_at(plan, moment)",
+        ),
+        (
+            1.0,
+            {0.5: [-1.25, -0.8], 1.0: [-1.5, -0.6], 2.0: [-1.5, -0.2]},
+            "take the moments after `now`, and count their times from it: moment - now",
+        ),
+        (1.5, {0.5: [-1.5, -0.6], 1.5: [-1.5, -0.2]}, "a moment that is now is over: moment > now"),
+        (3.5, {}, "nothing is still to come, so there is no point: return the empty dict"),
+    )
+    for now, wanted, reason in situations:
+        got = asked(partial(merged, dict(left), dict(right), now), "merged.py")
+        expect(
+            isinstance(got, dict),
+            seen=f"{got!r} at {now} s",
+            expected=repr(wanted),
+            next="end with `return` and a dict",
+        )
+        expect(
+            _is_close(got, wanted),
+            seen=f"{got!r} at {now} s, for left {left} and right {right}",
+            expected=repr(wanted),
+            next="the times of a trajectory rise: take the moments in their order, sorted()"
+            if sorted(got) != list(got)
+            else reason,
+        )
+    return f"the right points at {len(situations)} moments, and none that is over"
+
+
+def _is_close(got: Mapping[float, Sequence[float]], wanted: Mapping[float, Sequence[float]]) -> bool:
+    """Whether both have the same points, in the same order."""
+    rows = [(at, *positions) for at, positions in got.items() if isinstance(positions, list | tuple)]
+    due = [(at, *positions) for at, positions in wanted.items()]
+    return list(map(len, rows)) == list(map(len, due)) and len(rows) == len(got) and np.allclose(rows, due)
 
 
 def judges_by_both_tolerances() -> str:
@@ -147,45 +193,8 @@ class _GoalHandle:
         self._did.append("abort()")
 
 
-def waits_until_it_lasts() -> str:
-    """Show two conditions at different times, one of them from time 0 on."""
-    make = read_program("steady.py")["Steady"]
-    one, other = (asked(partial(make, seconds), "steady.py") for seconds in (0.5, 0.2))
-    moments: tuple[tuple[Any, float, bool, bool, str], ...] = (
-        (one, 0.0, True, False, "it has only just begun"),
-        (one, 0.3, True, False, "it is so for 0.3 s, not for 0.5 s"),
-        (other, 0.35, False, False, "this is another condition, which is false"),
-        (one, 0.55, True, True, "it is so for 0.55 s, since 0.0: 0.0 is a time, so ask `self.since is None`"),
-        (one, 0.9, True, True, "it still is: keep the first moment"),
-        (one, 1.0, False, False, "it is no longer so"),
-        (one, 1.1, True, False, "it has just begun again: a break sets self.since back to None"),
-        (one, 1.4, False, False, "it is not so"),
-        (other, 1.45, False, False, "this is another condition, which is still false"),
-        (one, 1.5, True, False, "0.4 s ago it was so, but not without a break"),
-        (other, 1.5, True, False, "each object has a moment of its own: keep it in self"),
-        (one, 1.8, True, False, "since 1.5 it is so, for 0.3 s"),
-        (
-            other,
-            1.75,
-            True,
-            True,
-            "it is so for 0.25 s, and this one asks for 0.2 s: compare with self.seconds",
-        ),
-        (one, 2.05, True, True, "it is so for 0.55 s without a break"),
-    )
-    for steady, now, is_so, wanted, reason in moments:
-        got = asked(partial(steady.lasts, is_so, now), "steady.py")
-        expect(
-            got == wanted,
-            seen=f"{got!r} at {now} s from Steady({0.5 if steady is one else 0.2}), with is_so {is_so}",
-            expected=repr(wanted),
-            next="end each path with `return` and True or False" if got is None else reason,
-        )
-    return "it told what lasts from what only comes by"
-
-
 GAPS = (
+    Gap("merged.py", merges_two_plans),
     Gap("tolerances.py", judges_by_both_tolerances),
     Gap("put_down.py", puts_the_cup_down),
-    Gap("steady.py", waits_until_it_lasts),
 )

@@ -246,8 +246,46 @@ def _words(values: Mapping[str, Any]) -> str:
     return ", ".join(f"{name} {value}" for name, value in values.items())
 
 
+def waits_until_it_lasts() -> str:
+    """Show two conditions at different times, one of them from time 0 on."""
+    make = read_program("steady.py")["Steady"]
+    one, other = (asked(partial(make, seconds), "steady.py") for seconds in (0.5, 0.2))
+    moments: tuple[tuple[Any, float, bool, bool, str], ...] = (
+        (one, 0.0, True, False, "it has only just begun"),
+        (one, 0.3, True, False, "it is so for 0.3 s, not for 0.5 s"),
+        (other, 0.35, False, False, "this is another condition, which is false"),
+        (one, 0.55, True, True, "it is so for 0.55 s, since 0.0: 0.0 is a time, so ask `self.since is None`"),
+        (one, 0.9, True, True, "it still is: keep the first moment"),
+        (one, 1.0, False, False, "it is no longer so"),
+        (one, 1.1, True, False, "it has just begun again: a break sets self.since back to None"),
+        (one, 1.4, False, False, "it is not so"),
+        (other, 1.45, False, False, "this is another condition, which is still false"),
+        (one, 1.5, True, False, "0.4 s ago it was so, but not without a break"),
+        (other, 1.5, True, False, "each object has a moment of its own: keep it in self"),
+        (one, 1.8, True, False, "since 1.5 it is so, for 0.3 s"),
+        (
+            other,
+            1.75,
+            True,
+            True,
+            "it is so for 0.25 s, and this one asks for 0.2 s: compare with self.seconds",
+        ),
+        (one, 2.05, True, True, "it is so for 0.55 s without a break"),
+    )
+    for steady, now, is_so, wanted, reason in moments:
+        got = asked(partial(steady.lasts, is_so, now), "steady.py")
+        expect(
+            got == wanted,
+            seen=f"{got!r} at {now} s from Steady({0.5 if steady is one else 0.2}), with is_so {is_so}",
+            expected=repr(wanted),
+            next="end each path with `return` and True or False" if got is None else reason,
+        )
+    return "it told what lasts from what only comes by"
+
+
 GAPS = (
     Gap("decide.py", decides_about_what_is_asked_for),
     Gap("guarded.py", sees_every_set),
     Gap("start.yaml", starts_from_the_file),
+    Gap("steady.py", waits_until_it_lasts),
 )

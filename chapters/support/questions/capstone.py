@@ -94,42 +94,6 @@ QUESTIONS = (
             ),
         ),
     ),
-    Question(
-        "Which part does ROS have in a hard emergency stop?",
-        (
-            Choice(
-                "An action with feedback, so that the operator sees how far the stop is.",
-                "A goal can be rejected, and it needs a network, a process and a free thread. None of them is sure.",
-            ),
-            Choice(
-                "None at all: ROS must not know of it.",
-                "It stops nothing. But nodes have to know, or they send goals to a robot without power.",
-            ),
-            Choice(
-                "It's told afterwards: a latched topic says so, and servers reject goals meanwhile.",
-                "A wire, a relay and the drives do the stopping, whether a program runs or not.",
-                right=True,
-            ),
-        ),
-    ),
-    Question(
-        "A design says of a link: 'rate: when needed'. What does the marker miss?",
-        (
-            Choice(
-                "The QoS depth that goes with it.",
-                "That belongs to QoS. Here something else is missing.",
-            ),
-            Choice(
-                "A number, and where it comes from.",
-                "Only a number says what silence is: two seconds are long at 20 Hz, and nothing at once a day.",
-                right=True,
-            ),
-            Choice(
-                "Nothing: a service has no rate.",
-                "How often people call it decides a lot, also for services: 'by hand, some ten times a day' is enough.",
-            ),
-        ),
-    ),
 )
 
 PREDICTIONS = (
@@ -209,25 +173,6 @@ PREDICTIONS = (
                 "Nothing.",
                 "Feedback stops, and that's all. Only a limit on silence turns it into knowledge.",
                 right=True,
-            ),
-        ),
-    ),
-    Question(
-        "The errand's process is killed on the way. What do the legs do?",
-        (
-            Choice(
-                "They walk to the end of their goal.",
-                "The goal is the server's. Nobody is left who could cancel it, or read its result.",
-                right=True,
-            ),
-            Choice(
-                "They stop at once: their client is gone.",
-                "A sensible guess: it is what you would wish for. But an action server doesn't watch its clients. "
-                "If you want that, you have to write it.",
-            ),
-            Choice(
-                "They stop after 0.5 s, when the commands stop coming.",
-                "A sensible guess: cmd_vel does expire. But it's the legs who publish it, and they are alive.",
             ),
         ),
     ),

@@ -131,6 +131,24 @@ QUESTIONS = (
             ),
         ),
     ),
+    Question(
+        "Somebody asks a robot that stands already to stand up. How does your server tell the client?",
+        (
+            Choice(
+                "It rejects the goal.",
+                "The client learns only `accepted: false`. It cannot tell that from a server without data.",
+            ),
+            Choice(
+                "It publishes feedback with the phase 'stands already'.",
+                "A client must not need feedback: some of it may get lost. The end of the goal has to say it.",
+            ),
+            Choice(
+                "It accepts the goal and aborts it with ALREADY_STANDING.",
+                "A result has room for a code and a sentence. A rejection has none.",
+                right=True,
+            ),
+        ),
+    ),
 )
 
 PREDICTIONS = (
@@ -252,6 +270,25 @@ PREDICTIONS = (
             Choice(
                 "It falls at the first push: 60 is far too little.",
                 "A sensible guess: it is a fifth of the robot's own gain. But what counts is the sign of 60 - 51.",
+            ),
+        ),
+    ),
+    Question(
+        "The server commands 0.3 m/s for half a second, as 0.15 m need. How high is the pelvis after SUCCEEDED?",
+        (
+            Choice(
+                "0.60 m, as computed.",
+                "A sensible guess: 0.3 m/s times 0.5 s are 0.15 m. But the robot rises at 0.15 m/s at most, and the "
+                "clock does not know.",
+            ),
+            Choice(
+                "About half way, 0.53 m.",
+                "The robot rises by at most 0.15 m/s, and in half a second that is 0.075 m.",
+                right=True,
+            ),
+            Choice(
+                "Still 0.45 m: the robot refuses a speed over its limit.",
+                "A sensible guess: some robots do. But this one clamps the command, and says nothing.",
             ),
         ),
     ),

@@ -11,7 +11,6 @@ from stage import Stage
 from humanoid_interfaces.msg import RobotState
 from lab.errors import LabError
 from lab.pictures.plots import plot_curves, plot_means
-from lab.pictures.recording import Recording
 from ros_runtime.record.client_events import CancelAnswered, CancelSent, FeedbackReceived, ResultReceived
 
 

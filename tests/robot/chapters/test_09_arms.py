@@ -38,14 +38,18 @@ def test_a_trajectory_for_the_other_arm_stops_this_one(chapter: Executed) -> Non
     assert in_order(chapter.html("replace-run"), "l_elbow in rad", "r_elbow in rad", "the right elbow")
 
 
-def test_a_replaced_motion_turns_round_and_an_empty_trajectory_holds(chapter: Executed) -> None:
+def test_one_trajectory_for_both_arms_lets_both_go_on(chapter: Executed) -> None:
+    words = chapter.html("merge-run")
+    assert in_order(words, "l_elbow in rad", "r_elbow in rad", "both elbows")
+    left, right = numbers(r"(-[\d.]+) at last", words)
+    assert -2.05 < left < -1.95
+    assert -0.55 < right < -0.45
+
+
+def test_an_empty_trajectory_stops_the_motion(chapter: Executed) -> None:
     words = chapter.html("brake-run")
-    assert in_order(words, "replaced: back", "empty")
-    lowest = number(r"lowest (-[\d.]+) at", words)
-    at = number(r"lowest -[\d.]+ at ([\d.]+) s", words)
-    assert at > number(r"([\d.]+) s: replaced: back", words)
-    assert lowest < -1.25
-    assert -1.2 < number(r"(-[\d.]+) at last", words) < -0.6
+    assert "empty" in words
+    assert -1.4 < number(r"(-[\d.]+) at last", words) < -1.1
 
 
 def test_nobody_says_that_a_trajectory_was_ignored_or_bent(chapter: Executed) -> None:
@@ -81,7 +85,8 @@ def test_an_aborted_arm_jumps_when_it_is_let_go_unless_it_was_told_to_hold(chapt
         found = re.search(pattern, printed)
         assert found, printed
         assert least < float(found[1]) - float(found[2]) < most
-        assert in_order(chapter.html(cell), "result: ABORTED", "let go")
+        assert 39 < number(r"presses with ([\d.]+) N·m", printed) < 41
+    assert chapter.html("release-films").count("The robot for") == 2
 
 
 def test_the_cup_is_seen_and_what_is_too_far_is_refused(chapter: Executed) -> None:
@@ -104,16 +109,7 @@ def test_a_weak_grip_slips_and_a_firm_one_lifts(chapter: Executed) -> None:
     assert number(r"the cup is (-?[\d.]+) cm", weak) < 1.0
     assert 5.5 < number(r"pressed with ([\d.]+) N", firm) < 8.5
     assert number(r"the cup is (-?[\d.]+) cm", firm) > 8.0
-    for cell in ("slip-run", "firm-run"):
-        assert in_order(chapter.html(cell), "grip in N:", "cup height in m:", "squeeze", "lift")
-
-
-def test_a_grip_that_becomes_weaker_loses_the_cup_where_friction_ends(chapter: Executed) -> None:
-    held = number(r"held with ([\d.]+) N", chapter.text("loosen-run"))
-    asked = number(r"asked for ([\d.]+) N", chapter.text("loosen-run"))
-    assert asked < 1.2
-    assert 0.8 < held < 1.3
-    assert in_order(chapter.html("loosen-run"), "grip in N:", "0.00 at last", "cup height in m:")
+    assert chapter.html("grasp-films").count("The robot and the cup for") == 2
 
 
 def test_a_cancel_that_opens_the_hand_drops_the_cup(chapter: Executed) -> None:
@@ -137,26 +133,40 @@ def test_a_cancel_that_puts_the_cup_down_does_not(chapter: Executed) -> None:
     assert in_order(chapter.html("careful-draw"), "<title>A cancel while the hand holds a cup", "CANCELED")
 
 
-def test_the_clock_does_not_stand_up(chapter: Executed) -> None:
-    printed = chapter.text("rise-run")
-    assert "end: SUCCEEDED" in printed
-    assert 0.50 < number(r"height: ([\d.]+) m", printed) < 0.57
+POINTS = "points = {}\nfor moment in sorted({*left, *right}):\n"
+LATER = "    if moment > now:\n"
+BOTH = "[place_at(left, moment), place_at(right, moment)]\n"
 
 
-def test_the_pushed_robot_is_still_for_a_moment_before_it_is_at_rest(chapter: Executed) -> None:
-    spells = re.findall(r"(still|moves) for ([\d.]+) s", chapter.text("still-run"))
-    assert [name for name, _ in spells] == ["moves", "still", "moves", "still"]
-    assert float(spells[1][1]) < 0.3
-    assert float(spells[3][1]) > 1.0
-    left, right = numbers(r"([\d.]+)", chapter.text("feet"))
-    assert abs(left - right) < 0.1 * left
-
-
-def test_phases_end_by_measurement(chapter: Executed) -> None:
-    printed = chapter.text("phases-run")
-    assert "end: SUCCEEDED | phases: rising settling" in printed
-    assert number(r"height: ([\d.]+) m", printed) >= 0.59
-    assert in_order(chapter.html("phases-run"), "rising", "settling", "result: SUCCEEDED")
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (f"{POINTS}{LATER}        points[moment] = {BOTH}return points", "count their times from it"),
+        (f"{POINTS}    points[moment - now] = {BOTH}return points", "is a point"),
+        (f"{POINTS}    if moment >= now:\n        points[moment - now] = {BOTH}return points", "is a point"),
+        (
+            f"{POINTS.replace('sorted({*left, *right})', 'left')}{LATER}        points[moment - now] = {BOTH}"
+            "return points",
+            "is a point",
+        ),
+        (
+            f"{POINTS.replace('sorted({*left, *right})', '[*left, *right]')}{LATER}"
+            f"        points[moment - now] = {BOTH}return points",
+            "take the moments in their order",
+        ),
+        (f"{POINTS}{LATER}        points[moment - now] = {BOTH}", "end with `return` and a dict"),
+        (
+            f"{POINTS}{LATER}        points[moment - now] = [left[moment], right[moment]]\nreturn points",
+            "KeyError",
+        ),
+        (
+            f"{POINTS}{LATER}        points[moment - now] = [place_at(left, moment)]\nreturn points",
+            "each point has both joints",
+        ),
+    ],
+)
+def test_the_gap_of_the_two_plans_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("merged.py", lines)
 
 
 PATH = "if error > PATH_TOLERANCE:\n    return OFF_PATH\n"
@@ -216,30 +226,6 @@ def test_the_gap_of_the_cancel_says_what_is_wrong(gaps: GapTrials, lines: str, s
     assert said in gaps.reply("put_down.py", lines)
 
 
-FORGET = "if not is_so:\n    self.since = None\n    return False\n"
-BEGIN = "if self.since is None:\n    self.since = now\n"
-LASTS = "return now - self.since >= self.seconds"
-
-
-@pytest.mark.parametrize(
-    ("lines", "said"),
-    [
-        ("return is_so", "it has only just begun"),
-        (f"if not is_so:\n    return False\n{BEGIN}{LASTS}", "a break sets self.since back to None"),
-        (f"{FORGET}if not self.since:\n    self.since = now\n{LASTS}", "ask `self.since is None`"),
-        (f"{FORGET}self.since = now\n{LASTS}", "it is so for 0.55 s"),
-        (f"{FORGET}{BEGIN}return now - self.since >= 0.5", "compare with self.seconds"),
-        (f"{FORGET}{BEGIN}return now - Steady.since >= self.seconds", "AttributeError"),
-        (
-            f"{FORGET}{BEGIN}if now - self.since >= self.seconds:\n    return True",
-            "end each path with `return`",
-        ),
-    ],
-)
-def test_the_gap_of_the_lasting_condition_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
-    assert said in gaps.reply("steady.py", lines)
-
-
 @pytest.mark.parametrize(
     ("file", "lines"),
     [
@@ -259,9 +245,15 @@ def test_the_gap_of_the_lasting_condition_says_what_is_wrong(gaps: GapTrials, li
             "else:\n    result.error_msg = 'the hand keeps the cup'\ngoal_handle.canceled()\nreturn result",
         ),
         (
-            "steady.py",
-            "if not is_so or self.since is None:\n    self.since = now\n"
-            "return is_so and now - self.since >= self.seconds",
+            "merged.py",
+            "moments = [moment for moment in sorted(left | right) if moment > now]\n"
+            "return {at - now: (place_at(left, at), place_at(right, at)) for at in moments}",
+        ),
+        (
+            "merged.py",
+            "points = {}\nfor moment in sorted(list(left) + list(right)):\n    if not moment <= now:\n"
+            "        points[round(moment - now, 3)] = [place_at(plan, moment) for plan in (left, right)]\n"
+            "return points",
         ),
     ],
 )

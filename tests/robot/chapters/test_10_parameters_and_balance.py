@@ -100,14 +100,6 @@ def test_a_callback_registered_late_misses_the_values_from_the_start(chapter: Ex
     )
 
 
-def test_a_name_that_nobody_declared_is_ignored_at_the_start_and_refused_later(chapter: Executed) -> None:
-    printed = chapter.text("typo-run")
-    assert "  sped" not in printed
-    assert in_order(
-        printed, "  speed", "Double value is: 0.0", "Setting parameter failed: Invalid access to undeclared"
-    )
-
-
 def test_a_dumped_file_is_loaded_by_half_and_then_whole(chapter: Executed) -> None:
     assert in_order(
         chapter.text("dump-run"), "/robot/circle:", "ros__parameters:", "speed: 0.1", "turn: 0.2", "both: set"
@@ -131,6 +123,26 @@ def test_pushes_add_up_with_a_gain_that_is_just_above_gravity(chapter: Executed)
     assert float(weak[1]) > 0.1
     assert float(weak[2]) > 0.04
     assert in_order(chapter.html("push-run"), "kp 276:", "kp 60:")
+
+
+def test_the_clock_does_not_stand_up(chapter: Executed) -> None:
+    printed = chapter.text("rise-run")
+    assert "end: SUCCEEDED" in printed
+    assert 0.50 < number(r"height: ([\d.]+) m", printed) < 0.57
+
+
+def test_the_pushed_robot_is_still_for_a_moment_before_it_is_at_rest(chapter: Executed) -> None:
+    spells = re.findall(r"(still|moves) for ([\d.]+) s", chapter.text("still-run"))
+    assert [name for name, _ in spells] == ["moves", "still", "moves", "still"]
+    assert float(spells[1][1]) < 0.3
+    assert float(spells[3][1]) > 1.0
+
+
+def test_phases_end_by_measurement(chapter: Executed) -> None:
+    printed = chapter.text("phases-run")
+    assert "end: SUCCEEDED | phases: rising settling" in printed
+    assert number(r"height: ([\d.]+) m", printed) >= 0.59
+    assert in_order(chapter.html("phases-run"), "rising", "settling", "result: SUCCEEDED")
 
 
 # A trial leaves its lines behind, so the file that needs the others is tried first.
@@ -219,6 +231,30 @@ def test_the_gap_of_the_decision_says_what_is_wrong(gaps: GapTrials, lines: str,
     assert said in gaps.reply("decide.py", lines)
 
 
+FORGET = "if not is_so:\n    self.since = None\n    return False\n"
+BEGIN = "if self.since is None:\n    self.since = now\n"
+LASTS = "return now - self.since >= self.seconds"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ("return is_so", "it has only just begun"),
+        (f"if not is_so:\n    return False\n{BEGIN}{LASTS}", "a break sets self.since back to None"),
+        (f"{FORGET}if not self.since:\n    self.since = now\n{LASTS}", "ask `self.since is None`"),
+        (f"{FORGET}self.since = now\n{LASTS}", "it is so for 0.55 s"),
+        (f"{FORGET}{BEGIN}return now - self.since >= 0.5", "compare with self.seconds"),
+        (f"{FORGET}{BEGIN}return now - Steady.since >= self.seconds", "AttributeError"),
+        (
+            f"{FORGET}{BEGIN}if now - self.since >= self.seconds:\n    return True",
+            "end each path with `return`",
+        ),
+    ],
+)
+def test_the_gap_of_the_lasting_condition_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("steady.py", lines)
+
+
 @pytest.mark.parametrize(
     ("file", "lines"),
     [
@@ -237,6 +273,11 @@ def test_the_gap_of_the_decision_says_what_is_wrong(gaps: GapTrials, lines: str,
         (
             "guarded.py",
             f"{ON_SET}{DECLARE}{APPLY}\n{POST_SET}",
+        ),
+        (
+            "steady.py",
+            "if not is_so or self.since is None:\n    self.since = now\n"
+            "return is_so and now - self.since >= self.seconds",
         ),
         ("start.yaml", "/**:\n  ros__parameters: {speed: 0.2, turn: 0.25}"),
     ],

@@ -12,6 +12,7 @@ import pytest
 from execution import CHAPTERS, Executed, processes_in
 
 NAMES = sorted(path.stem for path in CHAPTERS.glob("*.ipynb"))
+SHORT = {"12_design"}  # no robot, two predictions, two questions
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -44,7 +45,7 @@ def test_each_prediction_gets_a_reply_after_its_experiment(
 ) -> None:
     chapter = executed(name)
     cells = [cell.id for cell in chapter.notebook.cells if cell.id.endswith("-reply")]
-    assert len(cells) >= 4
+    assert len(cells) >= (2 if name in SHORT else 4)
     for cell_id in cells:
         reply = r"You predicted a: .+\n(Right|It went differently)\. .{30,}\n"
         assert re.fullmatch(reply, chapter.text(cell_id), re.DOTALL), cell_id
@@ -54,7 +55,7 @@ def test_each_prediction_gets_a_reply_after_its_experiment(
 def test_its_quiz_marks_every_answer_with_a_reason(name: str, executed: Callable[[str], Executed]) -> None:
     chapter = executed(name)
     cells = [cell.id for cell in chapter.notebook.cells if re.fullmatch(r"quiz-\d+-a", cell.id)]
-    assert len(cells) >= 5
+    assert len(cells) >= (2 if name in SHORT else 5)
     for cell_id in cells:
         assert re.match(r"a: (Right|Not this one)\. .{30,}", chapter.text(cell_id)), cell_id
 
