@@ -13,7 +13,7 @@ from IPython.display import HTML
 from PIL import Image, ImageDraw
 
 from lab.errors import LabError
-from lab.pictures.annotations import Mark
+from lab.pictures.labels import Mark
 from lab.pictures.figure import BLUE, GREY, VERMILION
 from lab.pictures.film import MAX_DURATION, RATE
 from lab.pictures.lettering import font
