@@ -86,7 +86,7 @@ def test_an_aborted_arm_jumps_when_it_is_let_go_unless_it_was_told_to_hold(chapt
         assert found, printed
         assert least < float(found[1]) - float(found[2]) < most
         assert 39 < number(r"presses with ([\d.]+) N·m", printed) < 41
-    assert chapter.html("release-films").count("The robot for") == 2
+    assert chapter.html("release-films").count('alt="The robot for') == 2
 
 
 def test_the_cup_is_seen_and_what_is_too_far_is_refused(chapter: Executed) -> None:
@@ -109,7 +109,7 @@ def test_a_weak_grip_slips_and_a_firm_one_lifts(chapter: Executed) -> None:
     assert number(r"the cup is (-?[\d.]+) cm", weak) < 1.0
     assert 5.5 < number(r"pressed with ([\d.]+) N", firm) < 8.5
     assert number(r"the cup is (-?[\d.]+) cm", firm) > 8.0
-    assert chapter.html("grasp-films").count("The robot and the cup for") == 2
+    assert chapter.html("grasp-films").count('alt="The robot and the cup for') == 2
 
 
 def test_a_cancel_that_opens_the_hand_drops_the_cup(chapter: Executed) -> None:
