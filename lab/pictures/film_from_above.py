@@ -13,9 +13,9 @@ from IPython.display import HTML
 from PIL import Image, ImageDraw
 
 from lab.errors import LabError
-from lab.pictures.labels import Mark
 from lab.pictures.figure import BLUE, GREY, VERMILION
 from lab.pictures.film import MAX_DURATION, RATE
+from lab.pictures.labels import Mark
 from lab.pictures.lettering import font
 from lab.pictures.picture import figure
 from lab.pictures.recorded_goal import RecordedGoal
