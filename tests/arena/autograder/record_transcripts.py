@@ -1,6 +1,6 @@
 """Records the transcripts that test_evidence.py judges, all or some.
 
-python tests/arena/autograder/record_transcripts.py [EXERCISE …] [EXERCISE:SCENARIO …]
+PYTHONPATH=tests python tests/arena/autograder/record_transcripts.py [EXERCISE …] [EXERCISE:SCENARIO …]
 
 Needed when a scenario has changed. It takes an arena for each submission, one after the other: a minute or two an
 exercise on a quiet machine.
