@@ -71,7 +71,7 @@ def test_the_measured_speed_is_right_on_the_way_and_wrong_in_the_turn(chapter: E
     truth = number(f"truth{start}", words)
     assert number(f"measured speed{start}", words) > 1.5 * truth
     assert number(f"top speed{start}", words) < truth / 2
-    stay = re.search(r"measured speed: inside the band from ([\d.]+) to ([\d.]+)", words)
+    stay = re.search(r"measured speed: inside the band from ([\d.]+) to (\d+\.\d+)", words)
     assert stay
     assert float(stay[1]) > truth / 2  # after the turn
     assert float(stay[2]) - float(stay[1]) > 1.5
