@@ -9,15 +9,16 @@ from random import Random, randrange
 from typing import Literal
 
 from lab.learning.question import Question
+from lab.running.programs_folder import notebook_folder
 from ros_runtime.self_checks import entries_of, read_progress_file
 
-FILE = Path(".progress.json")  # hidden, as the files of tools are
+NAME = ".progress.json"  # hidden, as the files of tools are
 Kind = Literal["predictions", "questions", "gaps"]
 
 
-def kept(kind: Kind, folder: Path = Path()) -> dict[str, str]:
-    """Return the stored entries of one kind in a folder, such as the chosen answers or the times of filled gaps."""
-    return entries_of(folder / FILE, kind)
+def kept(kind: Kind, folder: Path | None = None) -> dict[str, str]:
+    """Return the entries of one kind, such as chosen answers or times of filled gaps; `folder`: of the notebooks."""
+    return entries_of((folder or notebook_folder()) / NAME, kind)
 
 
 def keep(kind: Kind, key: str, value: str | None) -> None:
@@ -26,12 +27,12 @@ def keep(kind: Kind, key: str, value: str | None) -> None:
     entries.pop(key, None)
     if value is not None:
         entries[key] = value
-    _write({**read_progress_file(FILE), kind: entries})
+    _write({**_everything(), kind: entries})
 
 
 def own_number() -> int:
     """Return a random number that was drawn once for this folder of notebooks, so it differs between students."""
-    everything = read_progress_file(FILE)
+    everything = _everything()
     if not isinstance(number := everything.get("number"), int):
         number = randrange(10**9)
         _write({**everything, "number": number})
@@ -55,5 +56,11 @@ def keep_letter(kind: Kind, question: Question, letter: str | None) -> None:
     keep(kind, question.text, None if letter is None else question.choice(letter).text)
 
 
+def _everything() -> dict:
+    return read_progress_file(notebook_folder() / NAME)
+
+
 def _write(everything: dict) -> None:
-    FILE.write_text(json.dumps(everything, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    (notebook_folder() / NAME).write_text(
+        json.dumps(everything, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
+    )

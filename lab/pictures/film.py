@@ -17,6 +17,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 
 from lab.client import topics
+from lab.pictures.labels import Mark
 from lab.pictures.picture import HEIGHT, WIDTH, as_mujoco, figure, take_present_posture
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.film import Reel
@@ -55,6 +56,7 @@ def film_of_messages(
     objects: Mapping[str, Sequence[tuple[float, PoseStamped]]],
     seconds: float,
     *,
+    marks: Sequence[Mark],
     scene: str,
     slow_motion: float,
     camera: str,
@@ -62,12 +64,16 @@ def film_of_messages(
 ) -> HTML:
     """Film the robot from 0 to `seconds` from messages with their times (s); poses between two are interpolated.
 
+    The words of the film name the marks.
+
     Raises ValueError when the film would last longer than 60 s, or there is no such camera.
     """
     count = _frames(seconds * slow_motion)
     words = f"The robot{''.join(f' and the {name}' for name in objects)} for {seconds:.1f} s"
     if slow_motion != 1.0:
         words += f", {slow_motion:g} times as slow as it was"
+    if marks:
+        words += ": " + ", ".join(f"{mark.label} at {mark.time:.1f} s" for mark in marks)
 
     def postures(body: Humanoid) -> Iterator[None]:
         return take_postures(body, np.arange(count) / RATE / slow_motion, odometry, joints, objects)

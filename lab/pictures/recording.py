@@ -190,6 +190,7 @@ class Recording:
             self._messages["joint_states"],
             {name: self._messages[topics.topic_of(name)] for name in topics.object_poses()},
             self.seconds,
+            marks=sorted([*self._marks, *self._own_marks]),
             scene=topics.scene(),
             slow_motion=slow_motion,
             camera=camera,

@@ -12,7 +12,7 @@ import pytest
 import lab
 from chapters.support import questions
 from lab.learning.prediction import Prediction
-from lab.learning.progress_file import FILE
+from lab.learning.progress_file import NAME
 from lab.learning.question import Choice, Question
 
 ALL = [
@@ -101,7 +101,7 @@ def test_a_kept_choice_is_found_under_its_new_letter_and_not_under_new_words() -
 
 @pytest.mark.parametrize("damaged", ["", "{", "[]", '{"predictions": []}'])
 def test_a_damaged_file_only_means_being_asked_again(damaged: str) -> None:
-    FILE.write_text(damaged)
+    Path(NAME).write_text(damaged)
     prediction = Prediction(1, EXAMPLE)
     assert prediction.letter is None
     prediction.choose("b")

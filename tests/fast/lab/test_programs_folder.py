@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import lab
+from lab.learning.progress_file import keep, kept
 from lab.running import programs_folder
 
 
@@ -14,7 +15,7 @@ from lab.running import programs_folder
 def notebooks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The folder of a student's notebooks, where a kernel begins."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(programs_folder, "BESIDE_THE_NOTEBOOK", tmp_path)
+    monkeypatch.setattr(programs_folder, "_notebooks", Path())
     return tmp_path
 
 
@@ -52,3 +53,11 @@ def test_programs_beside_the_notebook_are_kept_named_and_not_used(
     with pytest.raises(lab.LabError, match=r"there is no file a\.py in .*02_services; run the cell"):
         lab.run_program("a.py")
     assert (notebooks / "a.py").read_text() == "mine\n"
+
+
+def test_progress_stays_beside_the_notebooks(notebooks: Path) -> None:
+    keep("predictions", "before", "one")
+    lab.keep_programs_in("programs/02_services")
+    keep("predictions", "after", "two")
+    assert kept("predictions", notebooks) == kept("predictions") == {"before": "one", "after": "two"}
+    assert not list((notebooks / "programs").rglob(".progress.json"))

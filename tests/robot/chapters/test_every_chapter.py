@@ -29,7 +29,7 @@ def test_it_runs_and_every_picture_it_makes_has_words_for_it(
     ]
     drawings = [html for html in shown if "<svg" in html]
     pictures = [html for html in shown if "<img" in html]
-    assert drawings
+    assert drawings or pictures
     assert all("<title>" in html and "<desc>" in html for html in drawings)
     assert all(re.search(r'alt="[^"]{20,}"', html) for html in pictures)
 
