@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from html import escape
@@ -64,7 +65,7 @@ def film_of_messages(
 ) -> HTML:
     """Film the robot from 0 to `seconds` from messages with their times (s); poses between two are interpolated.
 
-    The words of the film name the marks.
+    The words of the film name the marks, and how far the robot has come.
 
     Raises ValueError when the film would last longer than 60 s, or there is no such camera.
     """
@@ -73,7 +74,9 @@ def film_of_messages(
     if slow_motion != 1.0:
         words += f", {slow_motion:g} times as slow as it was"
     if marks:
-        words += ": " + ", ".join(f"{mark.label} at {mark.time:.1f} s" for mark in marks)
+        words += f" ({', '.join(f'{mark.label} at {mark.time:.1f} s' for mark in marks)})"
+    begin, end = (odometry[index][1].pose.pose.position for index in (0, -1))
+    words += f"; it ends {math.dist((begin.x, begin.y), (end.x, end.y)):.2f} m from where it began"
 
     def postures(body: Humanoid) -> Iterator[None]:
         return take_postures(body, np.arange(count) / RATE / slow_motion, odometry, joints, objects)
