@@ -115,7 +115,7 @@ class StudentLimitsMonitor:
 
 
 class LostTime:
-    """Adds up how much less than one processor a program got while its processes were waiting for one.
+    """Sums the processor time that a program lacked, up to one full processor, while its processes had to wait.
 
     A program that already gets one processor's worth of time, over all its processes, loses nothing: a correct one
     needs no more, and its processes then wait for each other.

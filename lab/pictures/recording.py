@@ -83,6 +83,11 @@ class Recording:
         """The labels that `mark` has added."""
         return list(self._own_marks)
 
+    @property
+    def _all_marks(self) -> list[Mark]:
+        """The labels of requests and answers, and the notebook's own marks."""
+        return [*self._marks, *self._own_marks]
+
     def time_of(self, label: str) -> float:
         """The time of the first event with this label, in s since the beginning.
 
@@ -92,7 +97,7 @@ class Recording:
 
         Raises LabError, which lists the labels, when there is no such label.
         """
-        moments = sorted([*self._marks, *self._own_marks, *self._mode_changes()])
+        moments = sorted([*self._all_marks, *self._mode_changes()])
         for mark in moments:
             if mark.label == label or mark.label.endswith(f"→ {label}"):
                 return mark.time
@@ -162,7 +167,7 @@ class Recording:
         return draw_panels(
             curves,
             seconds=self.seconds,
-            marks=[*self._marks, *self._own_marks],
+            marks=self._all_marks,
             changes=self._mode_changes(),
             compare=compare or {},
             areas=[
@@ -190,7 +195,7 @@ class Recording:
             self._messages["joint_states"],
             {name: self._messages[topics.topic_of(name)] for name in topics.object_poses()},
             self.seconds,
-            marks=sorted([*self._marks, *self._own_marks]),
+            marks=sorted(self._all_marks),
             scene=topics.scene(),
             slow_motion=slow_motion,
             camera=camera,

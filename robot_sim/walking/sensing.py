@@ -87,6 +87,6 @@ class Sensing:
 
 
 def _row_for_each_side(indices: list[int]) -> slice:
-    """Return the indices of left and right as a slice: of an array it makes a view, a list would make a copy."""
+    """Return a slice that selects left and right; unlike a list of indices, it copies no data."""
     left, right = indices
     return slice(left, right + 1, right - left)
