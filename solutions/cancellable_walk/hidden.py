@@ -55,7 +55,7 @@ def _walks(random: Random) -> dict[str, Any]:
         *(step for block in blocks for step in [*block, ["wait", AFTERWARDS]]),
         *(["go_on", "down", *FAR], ["walk_for", random.uniform(0.2, 0.8)], ["cut_power"], ["end", "down"]),
         *(["wait", AFTERWARDS], ["go", "lying", 0.0, 0.0, 0.0]),
-        *(["set_up"], ["go", "up again", 0.2, 0.0, 0.0, 0.0], ["arrive", "up again"]),
+        *(["set_up"], ["go", "up again", *beyond, 0.0], ["arrive", "up again"]),
     ]
     return {"steps": rounded(steps)}
 

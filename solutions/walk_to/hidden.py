@@ -55,9 +55,9 @@ def _steps(random: Random) -> dict[str, Any]:
         *impossible(
             random, ("pose.orientation.w", 0.0), ("max_velocity", random.choice((-0.01, -3.0, *NOT_FINITE)))
         ),  # when all else is done, so that one that is accepted is in nobody's way
-        *(["go", "far", 0.0, 0.0, 0.0, 0.3], ["walk_for", round(random.uniform(0.3, 1.0), 2)]),
+        *(["go", "far", 0.0, 0.0, yaw, 0.3], ["walk_for", round(random.uniform(0.3, 1.0), 2)]),
         *(["cut_power"], ["end", "far"], ["wait", LISTENING], ["go", "lying", 0.0, 0.0, 0.0]),
-        *(["set_up"], ["go", "up again", -0.4, 0.0, 0.0, 0.1], ["arrive", "up again"]),
+        *(["set_up"], ["go", "up again", x, y, yaw, 0.2], ["arrive", "up again"]),
     ]
     return {"steps": rounded(steps)}
 
