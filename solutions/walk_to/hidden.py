@@ -33,7 +33,7 @@ def _steps(random: Random) -> dict[str, Any]:
     steps: list[Any] = [
         [random.choice(("go", "cancel_at_once")), "back", *far, random.choice((0.0, 5.0))],
         *(["arrive", "back"], ["wait", AFTERWARDS]),
-        ["go", "across pi", x, y, yaw, random.uniform(0.07, 0.08)],
+        ["go", "across pi", x, y, yaw, random.uniform(0.09, 0.1)],
         *random.sample(
             [
                 ["cancel", "across pi"],
