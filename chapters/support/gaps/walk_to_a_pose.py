@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from itertools import pairwise
+from statistics import median
 from typing import Any
 
 from chapters.support import harness
@@ -17,6 +19,8 @@ SERVER = f"{harness.__path__[0]}/goal_server.py"
 MOST = 40.0  # s for a trial; sound lines need up to 6 s
 TOLERANCE = 0.10  # m, as the chapter's file has it
 GOAL = 0.5  # m ahead, in the trial
+PERIOD, FASTEST, SLOWEST = 0.2, 0.1, 0.35  # s between feedback messages: asked for, and accepted
+OLD = 0.07  # m that what is told may differ: a command moves the toy robot 0.06 m
 FAILURES = ("ABORTED", "CANCELED", "UNKNOWN")
 TO_ACCEPT = ("1 m in base_link, while the robot stands", "3 m in base_link, while the robot stands")
 ADVICE = {
@@ -127,6 +131,105 @@ def measures_after_settling() -> str:
     return "pushed back when it stopped, the robot walked again; SUCCEEDED came when it stood at the goal"
 
 
+def tells_how_it_goes() -> str:
+    """Listen to the feedback while a toy robot walks half a metre, is pushed back, and walks again."""
+    (seen,) = _trial("tells")
+    returned, told = seen["returned"], seen["told"]
+    expect(
+        "Error" not in returned,
+        seen=f"execute raised {returned}",
+        expected="the result",
+        next="mend what this error names",
+    )
+    expect(
+        len(told) > 1,
+        seen=f"{'one' if told else 'no'} feedback message in the whole walk",
+        expected=f"one every {PERIOD} s",
+        next="call goal_handle.publish_feedback(feedback) in each round, not only in the last",
+    )
+    _require_five_a_second([each["t"] for each in told])
+    _require_measured(told, seen["steps"])
+    last = told[-1]
+    expect(
+        last["robot_stands"] and abs(last["robot_x"] - GOAL) <= TOLERANCE,
+        seen=f"the last feedback came {abs(last['robot_x'] - GOAL):.2f} m from the goal, before the robot stood",
+        expected="one more when it stands at the goal, before succeed()",
+        next="publish in the last round, too: don't ask for `arrived`",
+    )
+    expect(
+        returned.startswith("a result") and seen["ended"][:1] == ["succeed"],
+        seen=f"execute returned {returned} after {' '.join(seen['ended'][:1]) or 'no terminal call'}",
+        expected="the result after succeed()",
+        next="don't leave the loop: the lines below it end the goal",
+    )
+    return f"{len(told)} feedback messages, five a second; the last came from where the robot stands"
+
+
+def _require_five_a_second(times: list[float]) -> None:
+    """Require about PERIOD between most messages; when the robot stops, one may come later."""
+    usual = median(after - before for before, after in pairwise(times))
+    expect(
+        usual <= SLOWEST,
+        seen=f"a message every {usual:.1f} s: {1 / usual:.1g} Hz",
+        expected=f"one every {PERIOD} s",
+        next="wait for PERIOD in each round, and only there",
+    )
+    expect(
+        usual >= FASTEST,
+        seen=f"messages {1000 * usual:.0f} ms after one another",
+        expected=f"one every {PERIOD} s",
+        next="wait after each: time.sleep(PERIOD); a client keeps the last ten only",
+    )
+
+
+def _require_measured(told: list[dict[str, Any]], steps: int) -> None:
+    """Require that each field says what the robot was at, by the last odom and robot_state."""
+    echoed = {each["frame"] for each in told} - {"odom"}
+    expect(
+        not echoed,
+        seen="current_pose is the goal's pose, in base_link"
+        if "base_link" in echoed
+        else "current_pose is empty",
+        expected="where the robot is, in odom",
+        next="current_pose=self.pose: the last odom",
+    )
+    for field, key in (("current_pose", "x"), ("distance_remaining", "left")):
+        expect(
+            len({each[key] for each in told}) > 1,
+            seen=f"{field} never changes: {told[0][key]:.2f} m in each of {len(told)} messages",
+            expected="what is measured in that round",
+            next="self.distance_left(goal_handle, start) and self.pose, anew in each round",
+        )
+    negative = next((each for each in told if each["left"] < 0.0), None)
+    expect(
+        negative is None,
+        seen=f"distance_remaining {negative['left']:.2f} m" if negative else "",
+        expected="a distance, never below 0",
+        next="abs(self.distance_left(goal_handle, start)): it is negative past the goal",
+    )
+    for each in told:
+        expect(
+            abs(each["x"] - each["robot_x"]) <= OLD
+            and abs(each["left"] - abs(GOAL - each["robot_x"])) <= OLD,
+            seen=f"at {each['robot_x']:.2f} m, current_pose says {each['x']:.2f} m and distance_remaining "
+            f"{each['left']:.2f} m",
+            expected=f"{each['robot_x']:.2f} m, and {abs(GOAL - each['robot_x']):.2f} m left",
+            next="self.pose and abs(self.distance_left(goal_handle, start)), after go_on",
+        )
+    expect(
+        told[-1]["steps"] == steps,
+        seen=f"steps_taken {told[-1]['steps']} at the end",
+        expected=f"{steps}, counted from the start of this goal",
+        next="feedback.steps_taken = self.state.steps - start.steps",
+    )
+    expect(
+        all(each["seconds"] > 0.0 for each in told if each["left"] > TOLERANCE),
+        seen=f"estimated_time_remaining 0 s, with {told[0]['left']:.2f} m left",
+        expected="the time for that distance at SPEED",
+        next="Duration(seconds=left / SPEED).to_msg()",
+    )
+
+
 def reads_the_status_first() -> str:
     """Run the client beside a server whose goals succeed, and end in each other way."""
     run_node(SERVER, "SUCCEEDED", *FAILURES)
@@ -202,5 +305,6 @@ def _trial(name: str) -> list[dict[str, Any]]:
 GAPS = (
     Gap("rejecting_walk.py", rejects_what_cannot_work),
     Gap("settled_walk.py", measures_after_settling),
+    Gap("told_walk.py", tells_how_it_goes),
     Gap("follow.py", reads_the_status_first),
 )

@@ -1,4 +1,4 @@
-"""Calls the callbacks of a student's walk server, without a robot: `walk_callbacks.py goals`, or `settles`.
+"""Calls the callbacks of a student's walk server, without a robot: `walk_callbacks.py goals`, `settles` or `tells`.
 
 It prints a line of JSON for each goal that it tried.
 """
@@ -10,12 +10,14 @@ import math
 import os
 import sys
 import threading
+import time
 import traceback
 from importlib import import_module
 from typing import Any
 
 import rclpy
 from geometry_msgs.msg import PoseStamped
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.task import Task
 from rclpy.utilities import remove_ros_args
 
@@ -29,6 +31,7 @@ MOST_LOOKS = 1000  # at the distance
 PERIOD = 0.2  # s that a command lasts
 TO_REST = 0.3  # s from the first command to stop
 GOAL = 0.5  # m ahead
+EARLIER_STEPS = 7  # of the robot, before the goal
 
 
 def ahead(distance: float, frame: str = "base_link") -> Any:
@@ -39,9 +42,9 @@ def ahead(distance: float, frame: str = "base_link") -> Any:
     return goal
 
 
-def standing(mode: int = RobotState.STANDING) -> Any:
+def standing(mode: int = RobotState.STANDING, steps: int = 0) -> Any:
     """Return a state of the robot."""
-    return RobotState(mode=mode, motors_enabled=mode != RobotState.OFF)
+    return RobotState(mode=mode, motors_enabled=mode != RobotState.OFF, steps=steps)
 
 
 def at(x: float) -> Any:
@@ -93,6 +96,21 @@ def settles() -> None:
     )
 
 
+def tells() -> None:
+    """Let execute walk the same robot, and note its feedback; the node is spun, for a timer or a rate of its own."""
+    node = import_module("told_walk").ToldWalker()
+    for heard in list(node.subscriptions):  # the notebook's robot publishes, too
+        node.destroy_subscription(heard)
+    robot = ToyRobot(node)
+    handle = ToyHandle(robot)
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    threading.Thread(target=executor.spin, daemon=True).start()
+    returned = _called(node.execute, handle)
+    executor.shutdown()
+    tell(returned=returned, ended=handle.ended, told=handle.told, steps=robot.steps)
+
+
 def _called(callback: Any, argument: Any) -> str:
     """What a callback returned, in words, or what it raised; as in rclpy, it may be a coroutine."""
     task = Task(callback, [argument])
@@ -109,7 +127,11 @@ def _called(callback: Any, argument: Any) -> str:
 
 
 class ToyRobot:
-    """Moves a node's pose as its commands say; takes the place of its publisher of cmd_vel."""
+    """Moves a node's pose as its commands say; takes the place of its publisher of cmd_vel.
+
+    Attributes:
+        steps: that it has made, one for each command to walk.
+    """
 
     def __init__(self, node: Any) -> None:
         self._node = node
@@ -117,9 +139,15 @@ class ToyRobot:
         self._stops = 0
         self._rest: threading.Timer | None = None  # while it stops
         self._looks = 0
+        self.steps = 0
         self._distance_left = node.distance_left
         node.cmd_vel, node.distance_left = self, self._look
-        node.pose, node.state = at(0.0), standing()
+        node.pose, node.state = at(0.0), standing(steps=EARLIER_STEPS)
+
+    @property
+    def x(self) -> float:
+        """Where it is, m."""
+        return float(self._node.pose.pose.position.x)
 
     @property
     def stands(self) -> bool:
@@ -143,7 +171,8 @@ class ToyRobot:
                 self._rest.cancel()
                 self._rest = None
             self._node.pose = at(x + PERIOD * command.linear.x)
-            self._node.state = standing(RobotState.WALKING)
+            self.steps += 1
+            self._node.state = standing(RobotState.WALKING, EARLIER_STEPS + self.steps)
             return
         if not self._rest and not self.stands:
             self._rest = threading.Timer(TO_REST, self._come_to_rest)
@@ -152,23 +181,37 @@ class ToyRobot:
     def _come_to_rest(self) -> None:
         x = self._node.pose.pose.position.x
         self._node.pose = at(x - (PUSHED_BACK if self._stops == 0 else -SLIDES))
-        self._node.state = standing()
+        self._node.state = standing(steps=EARLIER_STEPS + self.steps)
         self._stops += 1
 
 
 class ToyHandle:
-    """The goal handle, which notes how and where the goal was ended."""
+    """The goal handle, which notes feedback, and how and where the goal was ended."""
 
     def __init__(self, robot: ToyRobot) -> None:
         self.request = ahead(GOAL)
         self.is_cancel_requested = False
         self.is_active = True
         self.ended: list[str] = []
+        self.told: list[dict[str, Any]] = []
         self.filled_late = False
         self._robot = robot
 
-    def publish_feedback(self, _: Any) -> None:
-        """Drop it."""
+    def publish_feedback(self, feedback: Any) -> None:
+        """Note what it says, and where the robot is."""
+        expected = feedback.estimated_time_remaining
+        self.told.append(
+            {
+                "t": time.monotonic(),
+                "frame": feedback.current_pose.header.frame_id,
+                "x": feedback.current_pose.pose.position.x,
+                "left": feedback.distance_remaining,
+                "steps": feedback.steps_taken,
+                "seconds": expected.sec + expected.nanosec / 1e9,
+                "robot_x": self._robot.x,
+                "robot_stands": self._robot.stands,
+            }
+        )
 
     def succeed(self) -> None:
         """Note a success."""
@@ -198,7 +241,7 @@ def main() -> None:
     """Run one trial."""
     sys.path.insert(0, os.getcwd())
     rclpy.init()
-    {"goals": goals, "settles": settles}[remove_ros_args()[1]]()
+    {"goals": goals, "settles": settles, "tells": tells}[remove_ros_args()[1]]()
     rclpy.try_shutdown()
 
 

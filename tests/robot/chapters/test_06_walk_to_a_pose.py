@@ -95,12 +95,12 @@ def _past(metres: str, side: str) -> float:
     return float(metres) if side == "past" else -float(metres)
 
 
-def test_the_button_walks_and_feedback_ends_before_the_arrival(chapter: Executed) -> None:
+def test_the_button_walks_and_the_last_feedback_comes_from_where_the_robot_stands(chapter: Executed) -> None:
     printed = chapter.text("feedback-code")
     found = re.search(r"SUCCEEDED after (\d+) feedback messages; the last said ([\d.]+) m", printed)
     assert found
     assert 15 <= int(found[1]) <= 60
-    assert float(found[2]) > 0.0
+    assert float(found[2]) <= 0.1
     assert in_order(
         chapter.text("feedback-cli"), "Goal accepted", "distance_remaining: 0.", "total_steps", "SUCCEEDED"
     )
@@ -266,6 +266,50 @@ def test_the_gap_of_settling_says_what_is_wrong(gaps: GapTrials, lines: str, sai
     assert said in gaps.reply("settled_walk.py", lines)
 
 
+MEASURE = "left = abs(self.distance_left(goal_handle, start))\n"
+FILL = "feedback = WalkTo.Feedback(current_pose=self.pose, distance_remaining=left)\n"
+COUNT = "feedback.steps_taken = self.state.steps - start.steps\n"
+EXPECT = "feedback.estimated_time_remaining = Duration(seconds=left / SPEED).to_msg()\n"
+TELL = MEASURE + FILL + COUNT + EXPECT + "goal_handle.publish_feedback(feedback)\n"
+WAIT = "time.sleep(PERIOD)"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (WAIT, "no feedback message in the whole walk"),
+        (
+            TELL.replace("goal_handle.pub", "if arrived:\n    goal_handle.pub") + WAIT,
+            "one feedback message in",
+        ),
+        (
+            TELL.replace("=self.pose", "=goal_handle.request.target_pose") + WAIT,
+            "is the goal's pose, in base_link",
+        ),
+        (TELL.replace("current_pose=self.pose, ", "") + WAIT, "current_pose is empty"),
+        (TELL.replace("=self.pose", "=start.pose") + WAIT, "current_pose never changes: 0.00 m"),
+        (
+            TELL.replace(MEASURE, "left = goal_handle.request.target_pose.pose.position.x\n") + WAIT,
+            "distance_remaining never changes: 0.50 m",
+        ),
+        (TELL.replace("abs(", "(") + WAIT, "it is negative past the goal"),
+        (TELL.replace("=left)", "=left / 2)") + WAIT, "m left\n  next:     self.pose and abs("),
+        (TELL.replace(" - start.steps", "") + WAIT, "counted from the start of this goal"),
+        (TELL.replace(EXPECT, "") + WAIT, "estimated_time_remaining 0 s, with 0."),
+        (TELL + "time.sleep(1.0)", "a message every 1.0 s: 1 Hz"),
+        (TELL, "a client keeps the last ten only"),
+        (
+            TELL.replace("goal_handle.pub", "if not arrived:\n    goal_handle.pub") + WAIT,
+            "the last feedback came 0.",
+        ),
+        (TELL + WAIT + "\nif arrived:\n    return self.result(start)", "no terminal call"),
+        (TELL + "feedback.distance = left\n" + WAIT, "AttributeError"),
+    ],
+)
+def test_the_gap_of_feedback_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
+    assert said in gaps.reply("told_walk.py", lines)
+
+
 FAILED = "print(response.result.error_msg, file=sys.stderr)\n"
 STEPS = "print(response.result.total_steps)\n"
 
@@ -329,6 +373,17 @@ def test_the_gap_of_the_status_says_what_is_wrong(gaps: GapTrials, lines: str, s
         (
             "settled_walk.py",
             f"self.stand_still()\ntime.sleep(0.5)\nif not {LEFT}:\n    continue\n{END.replace('    ', '')}",
+        ),
+        ("told_walk.py", "time.sleep(0.2)\n" + TELL),
+        (
+            "told_walk.py",
+            "def tell():\n    feedback = WalkTo.Feedback(current_pose=self.pose)\n"
+            "    x = start.pose.pose.position.x + goal_handle.request.target_pose.pose.position.x\n"
+            "    feedback.distance_remaining = math.fabs(x - self.pose.pose.position.x)\n"
+            "    feedback.steps_taken = self.result(start).total_steps\n"
+            "    feedback.estimated_time_remaining.sec = math.ceil(feedback.distance_remaining / SPEED)\n"
+            "    goal_handle.publish_feedback(feedback)\n"
+            "tell()\nself.create_rate(5).sleep()",
         ),
         (
             "follow.py",
