@@ -16,30 +16,26 @@ from contextlib import nullcontext, suppress
 from functools import cache
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
 
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
+from autograder.arena.client_stage import ClientStage
 from autograder.arena.phases import Phase, Phases
 from autograder.arena.robots import Robots
 from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.arena.scheduling_monitor import watch_scheduling
 from autograder.arena.simulator import Simulator
+from autograder.arena.spinning import keep_spinning
+from autograder.arena.stage import NodeMissing, Stage
 from autograder.arena.student import Student
-from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, follow, library_path
 
-if TYPE_CHECKING:
-    from rclpy.node import Node
-
 SCENARIOS = "scenarios_of_the_exercise"  # the name of their module
-
-
-def import_everything(spec: ScenarioSpec) -> None:
-    """Import what the scenario needs, so that a fork has it."""
-    for module in ("autograder.arena.stage", "autograder.arena.client_stage"):
-        importlib.import_module(module)
-    scenarios_in(spec.scenario_file)
 
 
 @cache
@@ -58,7 +54,6 @@ def carry_out(
     spec: ScenarioSpec,
     events_fd: int,
     robots: Robots,
-    interpreter: WarmInterpreter | None,
     domain: int | None,
     earlier_phases: Sequence[Phase] = (),
 ) -> None:
@@ -75,7 +70,7 @@ def carry_out(
                 follow(clock.path)
             if domain is not None:
                 os.environ["ROS_DOMAIN_ID"] = str(domain)
-            _carry_out(spec, log, phases, clock, robots, interpreter)
+            _carry_out(spec, log, phases, clock, robots)
     except Exception as error:  # whatever it is, the controller must learn that this run cannot be judged
         log.append(ev.ScenarioFailed(reason=f"{type(error).__name__}: {error}"))
         traceback.print_exc()
@@ -89,12 +84,11 @@ def _carry_out(
     phases: Phases,
     clock: ScaledClock,
     robots: Robots,
-    interpreter: WarmInterpreter | None,
 ) -> None:
     simulator = None
     if spec.robot_options is not None:  # forked while this process has one thread
         simulator = Simulator(log, robots, spec.namespace, spec.robot_options, postures=spec.recorded)
-    student = Student(spec, log, clock, interpreter)
+    student = Student(spec, log, clock)
     try:
         if simulator:
             simulator.listen()
@@ -116,14 +110,6 @@ def _perform(
     student: Student,
     clock: ScaledClock,
 ) -> None:
-    import rclpy
-    from rclpy.executors import SingleThreadedExecutor
-    from rclpy.signals import SignalHandlerOptions
-
-    from autograder.arena.client_stage import ClientStage
-    from autograder.arena.spinning import keep_spinning
-    from autograder.arena.stage import NodeMissing, Stage
-
     def speed_up() -> None:
         clock.run_at(spec.scale)
         student.count_from_now()
@@ -155,6 +141,4 @@ def _perform(
 
 def _bare_node(name: str, namespace: str) -> Node:
     """Make a node without services of its own, which every other node would have to discover."""
-    import rclpy
-
     return rclpy.create_node(name, namespace=namespace, start_parameter_services=False, enable_rosout=False)

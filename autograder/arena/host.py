@@ -1,8 +1,6 @@
 """The first process of an arena: it imports everything, builds the robot once, and forks an agent for each scenario.
 
-It runs as `python -m autograder.arena.host SOCKET`. If programs may start warm,
-`ros_runtime/workarounds/warm_start/first_process.py` has loaded rclpy and forked the waiting interpreter, and then
-continues as this program.
+It runs as `python -m autograder.arena.host SOCKET`.
 
 An order is the specification of a scenario and the pipe for its events; it is answered when no process of the scenario
 is left. The clock's library is preloaded into this process, but only its forks follow a clock, that of their scenario.
@@ -26,24 +24,23 @@ import time
 from contextlib import suppress
 from itertools import count
 
-from autograder.arena.agent import carry_out, import_everything
+import rosidl_generator_py  # noqa: F401  (the first message of a fork would load it, in 20 ms)
+
+from autograder.arena.agent import carry_out, scenarios_in
 from autograder.arena.phases import Phase
 from autograder.arena.robots import Robots
 from autograder.arena.scenario_spec import DONE, ScenarioSpec, receive_order
 from autograder.isolation.process_tree import descendants
-from autograder.isolation.warm_interpreter import WarmInterpreter
-from ros_runtime.workarounds.warm_start.preload import preload
 
 _PR_SET_CHILD_SUBREAPER = 36
 _FIRST_DOMAIN, _DOMAINS = 1, 100  # ROS domains whose ports are safe; the network is this arena's own
 
 
 class Host:
-    """What the scenarios of one submission share: imported modules, built robots, and a waiting interpreter."""
+    """What the scenarios of one submission share: imported modules and built robots."""
 
     def __init__(self) -> None:
         self._robots = Robots()
-        self._interpreter = WarmInterpreter.in_this_arena()
         self._numbers = count()
         self._stopwatch = STOPWATCH
         # orphans of a scenario become our children, and we end them
@@ -53,12 +50,11 @@ class Host:
         """Carry out one scenario in processes and on a ROS domain of its own; return when they have ended."""
         number = next(self._numbers)
         phases = self._prepare(spec)
-        interpreter = self._interpreter if spec.warm else None
         domain = _FIRST_DOMAIN + number % _DOMAINS if spec.private_network else None
         gc.freeze()  # a collection in a fork would copy the pages that it shares with this process
         agent = multiprocessing.get_context("fork").Process(
             target=carry_out,
-            args=(spec, events_fd, self._robots, interpreter, domain, phases if number == 0 else ()),
+            args=(spec, events_fd, self._robots, domain, phases if number == 0 else ()),
         )
         agent.start()
         os.close(events_fd)
@@ -67,7 +63,7 @@ class Host:
 
     def _prepare(self, spec: ScenarioSpec) -> list[Phase]:
         """Import and build what the scenario needs, unless it is there; return what that cost."""
-        import_everything(spec)
+        scenarios_in(spec.scenario_file)
         phases = [INTERPRETER, self._stopwatch.lap("imports")]
         if spec.robot_options is not None:
             self._robots.build(spec.robot_options)
@@ -75,8 +71,7 @@ class Host:
         return phases
 
     def _end_what_is_left(self) -> None:
-        kept = self._interpreter.pid if self._interpreter else None
-        while left := [pid for pid in descendants(os.getpid()) if pid != kept]:
+        while left := descendants(os.getpid()):
             for pid in left:
                 with suppress(ProcessLookupError):
                     os.kill(pid, signal.SIGKILL)
@@ -93,7 +88,6 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     orders = socket.socket(fileno=int(sys.argv[1]))
-    preload()
     host = Host()
     while order := receive_order(orders):
         host.carry_out(*order)

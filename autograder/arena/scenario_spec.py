@@ -30,7 +30,6 @@ class ScenarioSpec:
         files: what the student wrote, by name; `program` is the name of the one that is run.
         parameters: ROS parameters of the program.
         student_paths: folders of the host that the program may read, besides the system's.
-        warm: the program may start as a fork of the waiting interpreter.
         private_network: the arena has its own network, so every ROS domain is free.
         measured: record what each phase costs.
         recorded: have the simulator report whole postures, for a film.
@@ -48,7 +47,6 @@ class ScenarioSpec:
     files: Mapping[str, bytes]
     parameters: Mapping[str, Any]
     student_paths: Sequence[str]
-    warm: bool
     private_network: bool
     measured: bool
     recorded: bool

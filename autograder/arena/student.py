@@ -12,7 +12,6 @@ from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.arena.student_limits_monitor import StudentLimitsMonitor
 from autograder.isolation.student_process import StudentProcess
 from autograder.isolation.student_sandbox import Program
-from autograder.isolation.warm_interpreter import WarmInterpreter
 from ros_runtime.environment import ros_environment
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock
 
@@ -21,22 +20,12 @@ LONGEST_STACK, LONGEST_LINE = 200, 200  # lines, characters
 
 
 class Student:
-    """Runs the files of a submission in the student's sandbox and records output and exit.
+    """Runs the files of a submission in the student's sandbox and records output and exit."""
 
-    `interpreter` is the waiting one, whose fork becomes the program; None: start a new interpreter, as at home.
-    """
-
-    def __init__(
-        self,
-        spec: ScenarioSpec,
-        log: ArenaLog,
-        clock: ScaledClock,
-        interpreter: WarmInterpreter | None = None,
-    ) -> None:
+    def __init__(self, spec: ScenarioSpec, log: ArenaLog, clock: ScaledClock) -> None:
         self._spec = spec
         self._log = log
         self._clock = clock
-        self._interpreter = interpreter
         self._process: StudentProcess | None = None
         self._watch: StudentLimitsMonitor | None = None
         self._closing = threading.Event()
@@ -48,7 +37,7 @@ class Student:
         for name, value in self._spec.parameters.items():
             ros_arguments += ["-p", f"{name}:={json.dumps(value)}"]
         arguments = [self._spec.program, *arguments, *ros_arguments]
-        self._start(arguments, list(self._spec.files), self._interpreter)
+        self._start(arguments, list(self._spec.files))
 
     def start_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:
         """Run a module of the grader on some of the student's files, with the rights of the student's program."""
@@ -100,13 +89,7 @@ class Student:
             raise RuntimeError("the scenario has not started the student's program yet")
         return self._process
 
-    def _start(
-        self,
-        arguments: Sequence[str],
-        names: Sequence[str],
-        interpreter: WarmInterpreter | None = None,
-        builds: bool = False,
-    ) -> None:
+    def _start(self, arguments: Sequence[str], names: Sequence[str], builds: bool = False) -> None:
         files = {name: content for name, content in self._spec.files.items() if name in names}
         self._log.append(ev.NodeStarted())
         program = Program(
@@ -114,7 +97,6 @@ class Student:
             files,
             env={**ros_environment(), **self._clock.environment(), "PYTHONFAULTHANDLER": "1"},
             read_only_paths=[*self._spec.student_paths, self._clock.path],
-            interpreter=interpreter,
             builds=builds,
         )
         self._process = StudentProcess(program, self._on_line, self._on_exit)

@@ -35,7 +35,6 @@ class ArenaRun:
         scenario, seed: the stimulus, and the seed that draws its inputs.
         scale: speed of the arena's clock, as a multiple of real time.
         kind: how the arena is isolated; None: the best that this machine offers.
-        cold: start the program in a new interpreter, as at home; else it may be a fork of the waiting one.
         measured: record what each phase costs.
         recorded: have the simulator report whole postures, for a film.
     """
@@ -46,7 +45,6 @@ class ArenaRun:
     seed: int = 0
     scale: float = USUAL
     kind: Kind | None = None
-    cold: bool = True
     measured: bool = False
     recorded: bool = False
 
@@ -98,7 +96,6 @@ def _specification(run: ArenaRun, params: dict[str, Any], scale: float, is_isola
         files=run.files,
         parameters=scenario.parameters,
         student_paths=[str(path) for path in student_paths()],
-        warm=not run.cold,
         private_network=is_isolated,
         measured=run.measured,
         recorded=run.recorded,

@@ -200,20 +200,19 @@ class _Session:
         return certain + possible
 
     def _run_first(self, scenario: Scenario) -> Transcript:
-        """Run a scenario for the first time; only the first one of an exercise starts the program cold, as at home."""
-        cold = scenario is self._scenarios[0]
-        return self._run(scenario, self._scale.first_scale(scenario), OVERLOADED, cold)
+        """Run a scenario for the first time."""
+        return self._run(scenario, self._scale.first_scale(scenario), OVERLOADED)
 
     def _run_again(self, scenario: Scenario, attempt: int) -> Transcript:
-        """Run a scenario again, with a cold start and at a scale the machine keeps up with: this run can cost points.
+        """Run a scenario again, at a scale the machine keeps up with: this run can cost points.
 
         A third or later attempt means that needed evidence was missing, so each uses a slower clock than the last.
         """
         before = self._runs[attempt - 1][scenario].result()
         too_fast = attempt > 1 or lateness(before) > STRAINED
-        return self._run(scenario, self._scale.retry_scale(before.scale, too_fast), STRAINED, cold=True)
+        return self._run(scenario, self._scale.retry_scale(before.scale, too_fast), STRAINED)
 
-    def _run(self, scenario: Scenario, scale: float, tolerated: float, cold: bool) -> Transcript:
+    def _run(self, scenario: Scenario, scale: float, tolerated: float) -> Transcript:
         """Run a scenario; repeat it at a lower scale if it was more than `tolerated` s late, or if its arena failed.
 
         At scale 1, OVERLOADED is tolerated.
@@ -227,7 +226,6 @@ class _Session:
                 VISIBLE_SEED if scenario in self._visible else self._options.seed,
                 attempt_scale,
                 self._isolation.kind,
-                cold,
                 recorded=self._options.recorded,
             )
             try:
@@ -296,7 +294,7 @@ class _Session:
         for length in range(1, min(LONGEST_TRIED, len(steps) - 1) + 1):
             alone = replace(drawn, inputs={**run.params, STEPS: steps[-length:]})
             try:
-                runs[index] = self._run(alone, self._scale.first_scale(alone), OVERLOADED, cold=False)
+                runs[index] = self._run_first(alone)
             except NotGraded:
                 continue  # for example, because the steps need earlier ones
             verdict = judge(check, runs)

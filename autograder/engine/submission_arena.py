@@ -20,7 +20,6 @@ from autograder.engine.stop import Stop
 from autograder.isolation.arena_process import ArenaProcess, ArenaReport, ArenaSpec, Kind
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.python_paths import python_read_only_paths
-from autograder.isolation.student_sandbox import waiting_environment
 from ros_runtime.environment import ros_environment
 from ros_runtime.project import PROJECT
 from ros_runtime.ros_domain import loopback_variables
@@ -51,9 +50,9 @@ class SubmissionArena:
 
     def __init__(self, scenario_file: Path, kind: Kind) -> None:
         self._orders, theirs = socket.socketpair()
-        for_ros = {**ros_environment(), **preload_variables()}
         environment = {
-            **for_ros,
+            **ros_environment(),
+            **preload_variables(),
             **loopback_variables(),
             "PYTHONPATH": str(PROJECT),
             "PYTHONDONTWRITEBYTECODE": "1",
@@ -65,7 +64,6 @@ class SubmissionArena:
                 read_only_paths=[*ros_paths(), *_trusted_paths(), scenario_file],
                 pass_fds=[theirs.fileno()],
                 env=environment,
-                waiting_env=waiting_environment(for_ros),
                 limits=LIMITS,
             )
             try:

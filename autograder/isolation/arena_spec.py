@@ -27,15 +27,12 @@ class ArenaSpec:
 
     `read_only_paths`: host files and folders, at the same path inside; they keep their inodes, so memory-mapped pages
     can be shared. `pass_fds`: descriptors inherited under the same number; the caller closes its own copies after the
-    start. `stdin`: the whole input of the command. `waiting_env`: if given, the environment of a waiting interpreter,
-    whose forks become students' programs (`warm_interpreter`); the command is then `python -m MODULE …`. It is ignored
-    without namespaces.
+    start. `stdin`: the whole input of the command.
     """
 
     command: Sequence[str]
     read_only_paths: Sequence[str | Path] = ()
     env: Mapping[str, str] = field(default_factory=dict)
-    waiting_env: Mapping[str, str] | None = None
     pass_fds: Sequence[int] = ()
     stdin: bytes = b""
     limits: ArenaLimits = field(default_factory=ArenaLimits)

@@ -26,7 +26,6 @@ from autograder.isolation.bubblewrap import (
 from autograder.isolation.memory_group import MemoryGroup, make_memory_group
 from autograder.isolation.process_tree import ended_within
 from autograder.isolation.seccomp_filter import build_filter, student_filter
-from autograder.isolation.warm_interpreter import first_process
 from ros_runtime.project import PROJECT
 from ros_runtime.ros_domain import NoDomainLeft, ReservedDomain
 
@@ -137,7 +136,7 @@ def _describe(sandbox: Sandbox, spec: ArenaSpec, paths: list[tuple[str, str]]) -
     sandbox.add_data("--ro-bind-data", build_filter(), BUILD_FILTER)
     sandbox.close_file_system()
     sandbox.add("--chdir", "/tmp")
-    sandbox.add_environment(_sandbox_environment(spec) if spec.waiting_env is None else spec.waiting_env)
+    sandbox.add_environment(_environment(spec, Kind.NAMESPACES, "/tmp", _UDP_ONLY))
 
 
 def _start(
@@ -148,14 +147,7 @@ def _start(
             with suppress(OSError):  # in some containers root can create groups but not add processes
                 memory_group.add(pid)
 
-    if spec.waiting_env is None:
-        return sandbox.start(spec.command, prefix=prefix, pass_fds=spec.pass_fds, prepare=bound)
-    with first_process(spec.command, _sandbox_environment(spec)) as (command, descriptor):
-        return sandbox.start(command, prefix=prefix, pass_fds=[*spec.pass_fds, descriptor], prepare=bound)
-
-
-def _sandbox_environment(spec: ArenaSpec) -> dict[str, str]:
-    return _environment(spec, Kind.NAMESPACES, "/tmp", _UDP_ONLY)
+    return sandbox.start(spec.command, prefix=prefix, pass_fds=spec.pass_fds, prepare=bound)
 
 
 @contextmanager

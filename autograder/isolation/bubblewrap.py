@@ -139,13 +139,6 @@ class Sandbox:
             raise SandboxError(_why_it_failed(started.process)) from error
         return started
 
-    def start_empty(self) -> StartedSandbox:
-        """Start a sandbox for a program that will enter it from outside; its command is a waiting shell.
-
-        Otherwise like `start`. The sandbox ends when the stdin of its `process` is closed.
-        """
-        return self._start((), (), ())
-
     def _start(
         self, command: Sequence[str], prefix: Sequence[str], pass_fds: Sequence[int]
     ) -> StartedSandbox:

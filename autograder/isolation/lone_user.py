@@ -60,6 +60,11 @@ def _step_down(folder: str, processes: int, instructions: bytes) -> None:
     os.setresuid(user, user, user)
     # counted per user; no other program has this one
     resource.setrlimit(resource.RLIMIT_NPROC, (processes, processes))
+    install_filter(instructions)
+
+
+def install_filter(instructions: bytes) -> None:
+    """Filter the system calls of this process and its future children, which can never get other privileges."""
     _prctl(_PR_SET_NO_NEW_PRIVS, 1)
     program = _FilterProgram(len(instructions) // _INSTRUCTION, instructions)
     _prctl(_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(program))

@@ -1,4 +1,4 @@
-"""How a student's program is started: in a sandbox, cold or warm, or, where there are no namespaces, without."""
+"""How a student's program is started: in a sandbox or, where there are no namespaces, without."""
 
 from __future__ import annotations
 
@@ -15,14 +15,13 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
 from autograder.isolation.arena_spec import ISOLATION_VARIABLE, Kind
-from autograder.isolation.bubblewrap import BUILD_FILTER, STUDENT_FILTER, Sandbox, SandboxError, same_paths
+from autograder.isolation.bubblewrap import BUILD_FILTER, STUDENT_FILTER, Sandbox, same_paths
 from autograder.isolation.limits import StudentLimits
-from autograder.isolation.running_program import ChildProgram, EnteredProgram, RunningProgram
+from autograder.isolation.running_program import RunningProgram
 from autograder.isolation.seccomp_filter import build_filter, student_filter
-from autograder.isolation.warm_interpreter import WarmInterpreter
-from ros_runtime.workarounds.scaled_clock.clock import PAGE_VARIABLE
-from ros_runtime.workarounds.warm_start.confinement import stand_back
 
+NICER = 5  # nice value above the parent's: robot and grader get about three times the processor time
+OOM_SCORE = 500  # oom_score_adj, at most 1000: out of memory, the kernel ends students' programs first
 _WORKDIR = "/tmp/work"  # the program's working directory in its sandbox
 _NETWORK_VARIABLES = ("ROS_DOMAIN_ID", "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_BUILTIN_TRANSPORTS")
 
@@ -37,7 +36,6 @@ class Program:
         env: its environment, to which the arena's network settings are added.
         read_only_paths: files and folders of the arena that it may read, at the same path.
         limits: what it and everything it starts may use.
-        interpreter: the waiting interpreter whose fork becomes the program; None: a new one.
         builds: it is a module of the grader that runs CMake, which needs SIGCHLD handlers.
 
     Raises:
@@ -49,7 +47,6 @@ class Program:
     env: Mapping[str, str] = field(default_factory=dict)
     read_only_paths: Sequence[str | Path] = ()
     limits: StudentLimits = field(default_factory=StudentLimits)
-    interpreter: WarmInterpreter | None = None
     builds: bool = False
 
     def __post_init__(self) -> None:
@@ -64,57 +61,43 @@ def start_program(program: Program, stack: ExitStack) -> RunningProgram:
     """Start the program as this arena allows. `stack` releases, after the end, what the start needed."""
     if (kind := os.environ.get(ISOLATION_VARIABLE)) != Kind.NAMESPACES:
         return _start_bare(program, stack, as_lone_user=kind == Kind.ANOTHER_USER)
-    if program.interpreter:
-        with suppress(SandboxError):  # some kernels refuse entering a sandbox: fall back to a new interpreter
-            return _start_warm(program, program.interpreter, stack)
     return _start_in_sandbox(program, stack)
 
 
-def program_environment(env: Mapping[str, str], home: str = _WORKDIR) -> dict[str, str]:
+def stand_back(pid: int) -> None:
+    """Lower the priority of a process and its future children, for processors and for memory."""
+    os.sched_setscheduler(pid, os.SCHED_BATCH, os.sched_param(0))  # does not preempt others when it wakes up
+    os.setpriority(os.PRIO_PROCESS, pid, min(19, os.getpriority(os.PRIO_PROCESS, pid) + NICER))
+    with open(f"/proc/{pid}/oom_score_adj", "r+") as score:
+        wanted = max(int(score.read()), OOM_SCORE)
+        score.seek(0)
+        score.write(str(wanted))
+
+
+def _environment(env: Mapping[str, str], home: str) -> dict[str, str]:
     """Return a program's whole environment, with what this arena's network needs."""
-    network = {name: os.environ[name] for name in _NETWORK_VARIABLES if name in os.environ}
-    return {**waiting_environment(env, home), **network}
-
-
-def waiting_environment(env: Mapping[str, str], home: str = _WORKDIR) -> dict[str, str]:
-    """Return a program's environment without the network settings; output is unbuffered, so each line can be timed."""
     ours = {
         "PATH": "/usr/bin:/bin",
         "LANG": "C.UTF-8",
         "HOME": home,
         "TMPDIR": "/tmp",
-        "PYTHONUNBUFFERED": "1",
+        "PYTHONUNBUFFERED": "1",  # so that each line can be timed
     }
-    return {**ours, **env}
+    network = {name: os.environ[name] for name in _NETWORK_VARIABLES if name in os.environ}
+    return {**ours, **env, **network}
 
 
-def _start_in_sandbox(program: Program, stack: ExitStack) -> ChildProgram:
+def _start_in_sandbox(program: Program, stack: ExitStack) -> RunningProgram:
     with Sandbox() as sandbox:
         _describe(sandbox, program)
-        sandbox.add_environment(program_environment(program.env))
+        sandbox.add_environment(_environment(program.env, _WORKDIR))
         # counted in this sandbox alone, as it has its own users
         nproc = f"--nproc={program.limits.processes}"
         limited = [*_limited(program.limits), nproc, "--", sys.executable, *program.arguments]
         # the command is no group leader, so setsid need not fork
         started = sandbox.start(["/usr/bin/setsid", "--", *limited], prepare=stand_back)
     stack.callback(os.close, started.init_pidfd)
-    return ChildProgram(started.process, started.command_pid, started.init_pid)
-
-
-def _start_warm(program: Program, interpreter: WarmInterpreter, stack: ExitStack) -> EnteredProgram:
-    with Sandbox() as sandbox:
-        _describe(sandbox, program)
-        started = sandbox.start_empty()
-    stack.callback(os.close, started.init_pidfd)
-    limits = {**_rlimits(program.limits), "nproc": program.limits.processes}
-    clock = program.env.get(PAGE_VARIABLE)
-    environment = program_environment(program.env)
-    try:
-        return interpreter.start_program(started, program.arguments, environment, _WORKDIR, limits, clock)
-    except SandboxError:
-        started.process.kill()
-        started.process.communicate()
-        raise
+    return RunningProgram(started.process, started.command_pid, started.init_pid)
 
 
 def _describe(sandbox: Sandbox, program: Program) -> None:
@@ -134,7 +117,7 @@ def _describe(sandbox: Sandbox, program: Program) -> None:
     sandbox.add_data("--seccomp", Path(BUILD_FILTER if program.builds else STUDENT_FILTER).read_bytes())
 
 
-def _start_bare(program: Program, stack: ExitStack, as_lone_user: bool) -> ChildProgram:
+def _start_bare(program: Program, stack: ExitStack, as_lone_user: bool) -> RunningProgram:
     folder = Path(tempfile.mkdtemp(prefix="work-"))
     stack.callback(shutil.rmtree, folder, ignore_errors=True)
     for name, content in program.workdir_files.items():
@@ -150,12 +133,12 @@ def _start_bare(program: Program, stack: ExitStack, as_lone_user: bool) -> Child
         stderr=subprocess.PIPE,
         bufsize=0,
         cwd=folder,
-        env=program_environment(program.env, str(folder)),
+        env=_environment(program.env, str(folder)),
         start_new_session=True,
     )
     with suppress(ProcessLookupError):  # it has ended already
         stand_back(process.pid)
-    return ChildProgram(process, process.pid)
+    return RunningProgram(process, process.pid)
 
 
 def _as_lone_user(program: Program, folder: Path, stack: ExitStack) -> tuple[list[str], list[int]]:
@@ -175,18 +158,14 @@ def _as_lone_user(program: Program, folder: Path, stack: ExitStack) -> tuple[lis
 
 def _limited(limits: StudentLimits) -> list[str]:
     """Return the command that sets the limits of a process and then becomes the program."""
-    wanted = _rlimits(limits).items()
-    return ["/usr/bin/prlimit", *(f"--{name}={_within_hard(name, value)}" for name, value in wanted)]
-
-
-def _rlimits(limits: StudentLimits) -> dict[str, int]:
-    """Return the limits of each process, by the kernel's names."""
-    return {
+    of_each_process = {
         "nofile": limits.open_files,
         "fsize": limits.file_mib * 2**20,
         "as": limits.address_space_mib * 2**20,
         "core": 0,
     }
+    options = (f"--{name}={_within_hard(name, value)}" for name, value in of_each_process.items())
+    return ["/usr/bin/prlimit", *options]
 
 
 def _within_hard(name: str, value: int) -> int:

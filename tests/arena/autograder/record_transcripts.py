@@ -128,7 +128,7 @@ def _record(exercise: Exercise, known: KnownSubmission, only: str) -> None:
     with SubmissionArenas(exercise.scenario_file) as arenas:
         for name, scenario in scenarios_of(exercise.name).items():
             if scenario in wanted and only in ("", scenario.name):
-                run = ArenaRun(exercise, files, scenario, cold=False)
+                run = ArenaRun(exercise, files, scenario)
                 transcript = _carry_out(run, arenas)
                 write(FOLDER / exercise.name / f"{known.path.stem}.{name}.jsonl.gz", transcript)
                 print(f"{exercise.name} {known.path.stem} {name}: {transcript.end:.1f} s", flush=True)

@@ -26,7 +26,7 @@ PROGRAM = Scenario("print_answers", robot=None, student="program")
 LEAVES_TRACES = """
 import os, signal, socket, sys, time
 me = str(os.getpid())
-family = {"1", "2", me}  # with the init and the shell of its sandbox; LTTng has a child for a moment
+family = {"1", me}  # with the init of its sandbox; LTTng has a child for a moment
 stats = []
 for name in os.listdir("/proc"):
     try:
@@ -59,25 +59,13 @@ sys.stdout.flush()
 os._exit(0)
 """
 
-# What it uses is loaded in the interpreter it becomes, but it has not imported it.
-IMPORTS_BY_LUCK = """
-import sys
-import rclpy
-print(sorted(name for name in ("numpy", "rclpy.node", "rclpy.action") if name in sys.modules))
-try:
-    rclpy.action.ActionServer
-except AttributeError as error:
-    print(error)
-"""
-
 
 def files(code):
     return {"patterns.py": code.encode()}
 
 
-def run(code, arenas=None, **options):
-    run = ArenaRun(QUIZ, files(code), PROGRAM, **options)
-    return run_in_arena(run, arenas=arenas)
+def run(code, arenas):
+    return run_in_arena(ArenaRun(QUIZ, files(code), PROGRAM), arenas=arenas)
 
 
 def printed(transcript):
@@ -86,19 +74,13 @@ def printed(transcript):
 
 def test_a_scenario_finds_nothing_of_the_one_before():
     with SubmissionArenas(QUIZ.scenario_file) as arenas:
-        runs = [printed(run(LEAVES_TRACES, arenas, cold=cold)) for cold in (True, False, False, True)]
+        runs = [printed(run(LEAVES_TRACES, arenas)) for _ in range(3)]
     for lines in runs:
         assert lines[0] == "others []"
         assert lines[1] == "files ['patterns.py'] []"
         assert lines[3] == "socket nobody answers"
     domains = [lines[2] for lines in runs]
     assert len(set(domains)) == len(domains)
-
-
-def test_a_warm_program_has_only_what_it_imports():
-    with SubmissionArenas(QUIZ.scenario_file) as arenas:
-        cold, warm = (printed(run(IMPORTS_BY_LUCK, arenas, cold=cold)) for cold in (True, False))
-    assert warm == cold == ["[]", "module 'rclpy' has no attribute 'action'"]
 
 
 def test_no_arena_serves_two_submissions():
@@ -123,12 +105,12 @@ def test_an_arena_that_failed_is_not_used_again():
 def test_nothing_is_left_when_the_arenas_are_closed():
     before = descendants(os.getpid())
     with SubmissionArenas(QUIZ.scenario_file) as arenas:
-        for cold in (True, False):
-            run(LEAVES_TRACES, arenas, cold=cold)
+        for _ in range(2):
+            run(LEAVES_TRACES, arenas)
     assert set(descendants(os.getpid())) <= set(before)
 
 
-def test_what_a_warm_program_uses_is_counted():
+def test_what_a_program_uses_is_counted():
     code = """
 import time
 held = b"x" * 200_000_000
@@ -136,14 +118,12 @@ while time.process_time() < 0.5:
     pass
 """
     with SubmissionArenas(QUIZ.scenario_file) as arenas:
-        for cold in (True, False):
-            usage = run(code, arenas, cold=cold).first(ev.NodeUsage)
-            assert usage.cpu >= 0.4
-            assert usage.peak_memory_mib >= 190
+        usage = run(code, arenas).first(ev.NodeUsage)
+    assert usage.cpu >= 0.4
+    assert usage.peak_memory_mib >= 190
 
 
-@pytest.mark.parametrize("cold", [True, False], ids=["cold", "warm"])
-def test_what_children_use_is_counted_whoever_buries_them(cold):
+def test_what_children_use_is_counted_whoever_buries_them():
     code = """
 import os, signal, time
 try:
@@ -169,7 +149,7 @@ except ChildProcessError:
     time.sleep(1)
 """
     with SubmissionArenas(QUIZ.scenario_file) as arenas:
-        recorded = run(code, arenas, cold=cold)
+        recorded = run(code, arenas)
     assert printed(recorded) == ["refused"]
     assert recorded.first(ev.NodeUsage).cpu >= 6 * 0.3 - 0.2
 
@@ -197,7 +177,7 @@ except ChildProcessError:
 )
 def test_what_the_kernel_has_no_limit_for_is_limited(code, reason):
     with SubmissionArenas(QUIZ.scenario_file) as arenas:
-        killed = run(code, arenas, cold=False).first(ev.NodeKilled)
+        killed = run(code, arenas).first(ev.NodeKilled)
     assert killed, reason
     assert re.search(reason, killed.reason)
 
@@ -213,16 +193,15 @@ def test_the_waiting_of_processes_for_each_other_is_not_summed_up():
     assert starved.altogether < usage.wall  # sixteen processes wait for many times as long
 
 
-def test_a_warm_program_is_ended_above_its_memory():
+def test_a_program_is_ended_above_its_memory():
     with SubmissionArenas(QUIZ.scenario_file) as arenas:
-        run("", arenas)
-        killed = run("held = bytearray()\nwhile True: held += b'x' * 10_000_000", arenas, cold=False)
+        killed = run("held = bytearray()\nwhile True: held += b'x' * 10_000_000", arenas)
     assert killed.first(ev.NodeKilled) or "MemoryError" in killed.output("stderr")
 
 
 def test_without_namespaces_every_scenario_has_an_arena_of_its_own():
     with SubmissionArenas(QUIZ.scenario_file, Kind.NONE) as arenas:
-        assert printed(run("print('one')", arenas, cold=False)) == ["one"]
+        assert printed(run("print('one')", arenas)) == ["one"]
         with arenas.one() as one:
             pass
         with arenas.one() as two:

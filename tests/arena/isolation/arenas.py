@@ -16,14 +16,14 @@ from autograder.isolation.arena_process import ArenaProcess, ArenaReport, ArenaS
 from autograder.isolation.availability import available_isolation
 from autograder.isolation.limits import ArenaLimits
 from autograder.isolation.python_paths import python_read_only_paths
-from autograder.isolation.student_sandbox import waiting_environment
 
 PACKAGE = Path(autograder.isolation.__file__).parent
 ROS_RUNTIME = PACKAGE.parents[1] / "ros_runtime"
 AGENT = Path(__file__).with_name("student_starter.py")  # the arena's trusted process
-# The wheels start the interpreter a second time unless they find their mark.
-WHEELS = {"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"}
-ENVIRONMENT = {"PYTHONPATH": f"{PACKAGE.parents[1]}:{AGENT.parent}", **WHEELS}
+ENVIRONMENT = {
+    "PYTHONPATH": f"{PACKAGE.parents[1]}:{AGENT.parent}",
+    "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",  # else the wheels start the interpreter a second time
+}
 
 
 @dataclass
@@ -55,7 +55,6 @@ class Student:
     limits: dict[str, int] = field(default_factory=dict)
     paths: list[str] = field(default_factory=list)
     arena_env: dict[str, str] = field(default_factory=dict)
-    warm: bool = False  # it becomes what an interpreter waits for
     builds: bool = False  # it runs CMake
 
     def spec(self, limits: ArenaLimits) -> ArenaSpec:
@@ -66,7 +65,6 @@ class Student:
             [sys.executable, "-m", AGENT.stem],
             read_only_paths=[*paths, *self.paths, PACKAGE, ROS_RUNTIME, AGENT],
             env={**ENVIRONMENT, **self.arena_env},
-            waiting_env=waiting_environment({**WHEELS, **self.env}) if self.warm else None,
             stdin=json.dumps(task).encode(),
             limits=limits,
         )

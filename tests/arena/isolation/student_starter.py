@@ -11,10 +11,8 @@ import time  # noqa: F401
 from autograder.isolation.limits import StudentLimits
 from autograder.isolation.student_process import StudentProcess
 from autograder.isolation.student_sandbox import Program
-from autograder.isolation.warm_interpreter import WarmInterpreter
 
 task = json.load(sys.stdin)
-interpreter = WarmInterpreter.in_this_arena()
 lines: list[tuple[float, str, str]] = []
 codes: list[int] = []
 printed = threading.Condition()
@@ -40,7 +38,6 @@ def start() -> StudentProcess:
         env={"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1", **task["env"]},
         read_only_paths=task["paths"],
         limits=StudentLimits(**task["limits"]),
-        interpreter=interpreter,
         builds=task["builds"],
     )
     return StudentProcess(program, on_line, codes.append)

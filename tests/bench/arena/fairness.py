@@ -48,7 +48,7 @@ def fairness_runs(
     """Run the scenario `runs` times at one scale; judge each run by the checks that need no other scenario."""
 
     def one(_index: int) -> FairRun:
-        walk = ArenaRun(exercise, submission.files, scenario, 0, scale, cold=False)
+        walk = ArenaRun(exercise, submission.files, scenario, 0, scale)
         try:
             run = _judged(run_in_arena(walk, arenas=arenas), exercise, scenario)
         except NotGraded as error:

@@ -7,7 +7,6 @@ how many `jobs`, and the `meter` of `processor_time`.
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import sys
 import time
@@ -43,10 +42,9 @@ def _arenas(task: dict[str, Any], exercise: Exercise, submission: Submission) ->
     run = ArenaRun(exercise, submission.files, next(named), measured=True)
     with SubmissionArenas(exercise.scenario_file) as arenas:
         for number in range(task["runs"] + 1):
-            opens = number == 0
             before = _used(task["meter"]), time.monotonic()
             with RobotWatch() as watch:
-                transcript = run_in_arena(dataclasses.replace(run, cold=opens), arenas=arenas)
+                transcript = run_in_arena(run, arenas=arenas)
             after = _used(task["meter"]), time.monotonic()
             phases = {
                 event.name: {"cpu_s": event.cpu, "wall_s": event.wall}
@@ -56,7 +54,7 @@ def _arenas(task: dict[str, Any], exercise: Exercise, submission: Submission) ->
                 **_difference(before, after),
                 "floor_s": _floor(transcript),
                 "phases": phases,
-                "opens": opens,
+                "opens": number == 0,
                 "robot_second_cpu_s": (second := watch.cpu_per_second()) and second / transcript.scale,
             }
 

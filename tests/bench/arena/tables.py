@@ -77,7 +77,7 @@ def _submissions_table(
 
 
 def _phases_table(arenas: Sequence[ArenaCost]) -> Table:
-    """Lay out the phases: first those of opening the arena, to which the waiting interpreter starts in parallel."""
+    """Lay out the phases: first those of opening the arena."""
     table = Table(title="By phase: CPU s / wall s", box=box.SIMPLE_HEAD, padding=(0, 0))
     table.add_column("")
     for arena in arenas:

@@ -240,28 +240,6 @@ def test_a_failure_counts_only_if_it_is_seen_twice(monkeypatch, marks, status):
     assert len(ran) == min(len(marks), 2)
 
 
-def test_the_first_scenario_and_every_retry_start_the_program_cold(monkeypatch, two_checks):
-    starts = []
-
-    def run_in_arena(run, stop=None, arenas=None):
-        starts.append((run.scenario.name, run.cold))
-        return transcript(run.scenario, mark="here" if run.scenario is FIRST else None)
-
-    monkeypatch.setattr(grading, "run_in_arena", run_in_arena)
-    checks = []
-    for number, scenario in enumerate((FIRST, SECOND)):
-
-        def judge(run):
-            """It sees the mark"""
-            expect(bool(run.all(ev.Mark)), expected="a mark", observed="none", help="Set a mark.")
-
-        judge.__name__ = f"check_{number}"
-        checks.append(check(points=1, on=scenario)(judge))
-    grade = graded(exercise(*checks), jobs=1)
-    assert statuses(grade) == {"check_0": "passed", "check_1": "failed"}
-    assert starts == [("first", True), ("second", False), ("second", True)]
-
-
 def test_what_runs_now_is_told(monkeypatch, two_checks):
     arenas(monkeypatch, lambda scenario, scale: transcript(scenario, mark="here"))
     told = []
