@@ -64,7 +64,7 @@ def judge(check: Check, transcripts: Sequence[Transcript], *, finally_: bool = F
 
 
 def at_fault(check: Check, transcripts: Sequence[Transcript]) -> list[Scenario]:
-    """Return the scenarios in which a check does not pass; all of them if it judges its runs together."""
+    """Return the scenarios in which a check does not pass; all its scenarios if it has no obligations."""
     if not check.obligations:
         return list(check.on)
     alone = (

@@ -88,7 +88,7 @@ def _of_chapter(chapter: Chapter, checks: Mapping[str, LastCheck]) -> ChapterPro
 
 
 def _choices(chosen: Mapping[str, str], questions: Iterable[Question]) -> list[bool]:
-    """Whether the choice is right, for each answered question; choices whose text has changed are left out."""
+    """Return, for each answered question, whether the choice is right; choices whose text has changed do not count."""
     return [
         choice.right
         for question in questions

@@ -72,7 +72,7 @@ def _following_camera(model: mujoco.MjModel) -> mujoco.MjvCamera:
     """Return a camera in front of the robot that follows it and can be turned."""
     camera = mujoco.MjvCamera()
     camera.type = mujoco.mjtCamera.mjCAMERA_TRACKING
-    free = int(model.jnt_type.argmin())  # mjJNT_FREE is 0, the least: a floating base has the first of them
+    free = int(model.jnt_type.argmin())  # the first free joint: mjJNT_FREE is 0, the smallest type
     camera.trackbodyid = model.jnt_bodyid[free]
     camera.distance, camera.azimuth, camera.elevation = 2.6, 150.0, -12.0
     return camera

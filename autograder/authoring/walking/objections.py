@@ -54,7 +54,7 @@ def accepting(*objections: Objection) -> Callable[[Goal], str | None]:
 
 
 def rejects(clause: int, objection: Objection, *, sentence: str = "", see: str = "") -> Obligation:
-    """Make the obligation that a goal with this objection is rejected; `sentence` says so in other words."""
+    """Make the obligation that a goal with this objection is rejected; `sentence` replaces its usual sentence."""
 
     def require(goal: Goal) -> str | None:
         because = objection.because(goal)

@@ -16,7 +16,7 @@ from autograder.authoring.walking.life import ended_at
 from autograder.authoring.walking.planar import error, heading, target, turn
 from humanoid_interfaces.msg import RobotState
 
-REPORT_SLACK = 0.08  # m or rad, over what the robot moved while the message was made and delivered
+REPORT_SLACK = 0.08  # m or rad, in addition to the motion while the message was made and delivered
 REPORT_AGE = 0.6  # s that a reported pose may be old: odom's period, the feedback's period, delivery
 FINAL_AGE = 0.5  # s that final_pose may be older than the end of a goal for which the robot stops
 FINAL_SLACK = 0.015  # m by which final_pose may be off: odom's period, and rounding to centimetres

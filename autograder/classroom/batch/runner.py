@@ -142,7 +142,7 @@ class BatchRunner:
         except UnusableSubmission as error:
             submission, problem = None, str(error)
         sources = submission.sources if submission else None
-        if work.exercise in essay_names():  # a person marks essays, even unreadable ones
+        if work.exercise in essay_names():  # a person marks every essay, also one that cannot be read
             waiting = left_to_a_person(load_essay(work.exercise), work.student)
             return Graded(work, waiting, sources, problem, effort=without_arena())
         exercise, seed = self.exercise(work.exercise), self.seeds.of(work.student, sources or {})

@@ -42,7 +42,7 @@ def select(works: Sequence[Work], students: Sequence[str], exercises: Sequence[s
 
 
 def require_seed(before: Sequence[Grade], seeds: Seeds) -> None:
-    """Require that grades which are kept beside new ones have the same seeds; raises OtherSeed."""
+    """Raise OtherSeed if a kept grade has another seed than this run would use."""
     if seeds.per_submission:
         return
     other = next((grade for grade in before if grade.seed not in (None, seeds.of(grade.student, {}))), None)

@@ -20,7 +20,7 @@ from autograder.classroom.class_grading.output import (
     add_all,
     left_aside,
     tell_of_recordings,
-    tell_the_end,
+    print_summary,
     tell_what_is_left,
 )
 from autograder.classroom.class_grading.setting import Setting, prepared
@@ -52,7 +52,7 @@ def grade_once(console: Console, request: BatchRequest) -> int:
         else:
             files = ClassFiles(request.out, grades, record, json_file=request.json_file)
             add_all(console, files, results)
-            is_entered = tell_the_end(console, files, request.out, files.write(collection.refused))
+            is_entered = print_summary(console, files, request.out, files.write(collection.refused))
     not_graded = tell_what_is_left(console, collection, results)
     if request.record:
         tell_of_recordings(console, request.out, results)

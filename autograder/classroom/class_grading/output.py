@@ -38,7 +38,7 @@ def tell_problems(console: Console, files: ClassFiles) -> bool:
     return not problems
 
 
-def tell_the_end(console: Console, files: ClassFiles, out: Path, page: Path) -> bool:
+def print_summary(console: Console, files: ClassFiles, out: Path, page: Path) -> bool:
     """Print the table of the class and the paths of the results; return whether the gradebook has all grades."""
     console.print(class_table(files.grades))
     is_entered = tell_problems(console, files)

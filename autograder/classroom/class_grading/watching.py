@@ -71,7 +71,7 @@ class _Watch:
             refused=self._folder.collection.refused,
         ).closed("interrupted" if self._folder.unfinished else "ended")
         self._write_class()
-        return self._tell_the_end()
+        return self._print_summary()
 
     def _works(self) -> Iterator[Work | None]:
         """Yield new submissions; None while there are none."""
@@ -110,7 +110,7 @@ class _Watch:
         self._files.write(self._folder.collection.refused)
         self._is_written = True
 
-    def _tell_the_end(self) -> int:
+    def _print_summary(self) -> int:
         console = self._setting.console
         is_entered = tell_problems(console, self._files)
         not_graded = tell_what_is_left(console, self._folder.collection, self._results.values())

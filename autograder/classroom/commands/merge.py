@@ -13,7 +13,7 @@ from autograder.classroom.batch.folder_lock import locked
 from autograder.classroom.batch.records import GRADES, write_grades
 from autograder.classroom.batch.shards import merge_shards
 from autograder.classroom.class_grading.class_files import ClassFiles
-from autograder.classroom.class_grading.output import add_all, tell_the_end
+from autograder.classroom.class_grading.output import add_all, print_summary
 from autograder.recording.kept import FOLDER as RECORDINGS
 from course_cli.ending import batch_status
 from course_cli.options import CourseOption
@@ -34,7 +34,7 @@ def merge(
         write_grades(out / GRADES, grades)
         files = ClassFiles(out, grades, merged_record(folders), drawn_in=folders)
         add_all(console, files, merged.results)
-        is_entered = tell_the_end(console, files, out, files.write())
+        is_entered = print_summary(console, files, out, files.write())
     if recorded := [folder / RECORDINGS for folder in folders if (folder / RECORDINGS).is_dir()]:
         places = ", ".join(map(str, recorded))
         console.print(f"recordings are not merged; they stay in {places}", style="dim", markup=False)

@@ -99,7 +99,7 @@ class EssayPictures(NbGraderPreprocessor):
     """Puts the picture below the cell that writes an essay's first file. Nothing a student wrote is executed."""
 
     def preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
-        """Draw, where the exercise is an essay with a picture."""
+        """Insert the picture, if the exercise is an essay that has one."""
         name = resources["nbgrader"]["assignment"]
         if name not in essay_names() or (picture := load_essay(name).picture) is None:
             return nb, resources

@@ -52,7 +52,7 @@ def mutants_of_exercise(exercise: str) -> list[Mutant]:
 
 
 def mutants_of_program(base: Path) -> list[Mutant]:
-    """Return the mutants of one program, each program once."""
+    """Return the mutants of one program, without duplicates."""
     program = Program(base.read_text(encoding="utf-8"))
     seen: set[tuple[ast.stmt, str]] = set()
     named: Counter[str] = Counter()

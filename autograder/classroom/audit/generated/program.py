@@ -25,7 +25,7 @@ _TAKERS: dict[str, dict[int | str | None, str]] = {
 
 
 class Program:
-    """A program whose nodes know what they are in."""
+    """The syntax tree of a program, with the parent of each node."""
 
     def __init__(self, source: str) -> None:
         """Raises SyntaxError when the source is no Python."""
@@ -42,7 +42,7 @@ class Program:
             yield from self.every(kind, child)
 
     def above(self, node: ast.AST) -> Iterator[ast.AST]:
-        """Yield what a node is in, from the inside to the module."""
+        """Yield the nodes that enclose a node, from its parent to the module."""
         while node in self._parents:
             node = self._parents[node]
             yield node
