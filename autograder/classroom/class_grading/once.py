@@ -19,9 +19,9 @@ from autograder.classroom.class_grading.class_files import ClassFiles
 from autograder.classroom.class_grading.output import (
     add_all,
     left_aside,
-    tell_of_recordings,
+    print_recordings,
     print_summary,
-    tell_what_is_left,
+    print_ungraded,
 )
 from autograder.classroom.class_grading.setting import Setting, prepared
 from course_cli.ending import batch_status
@@ -53,9 +53,9 @@ def grade_once(console: Console, request: BatchRequest) -> int:
             files = ClassFiles(request.out, grades, record, json_file=request.json_file)
             add_all(console, files, results)
             is_entered = print_summary(console, files, request.out, files.write(collection.refused))
-    not_graded = tell_what_is_left(console, collection, results)
+    not_graded = print_ungraded(console, collection, results)
     if request.record:
-        tell_of_recordings(console, request.out, results)
+        print_recordings(console, request.out, results)
     if request.shard:
         console.print(
             f"{request.out / SHARD}; join all of them with `course merge`", style="dim", markup=False

@@ -30,7 +30,7 @@ def add_all(console: Console, files: ClassFiles, results: Sequence[Graded]) -> N
             files.add(result)
 
 
-def tell_problems(console: Console, files: ClassFiles) -> bool:
+def print_problems(console: Console, files: ClassFiles) -> bool:
     """Print the grades that are not in the gradebook; return whether there are none."""
     problems = files.problems()
     for line in problems:
@@ -41,7 +41,7 @@ def tell_problems(console: Console, files: ClassFiles) -> bool:
 def print_summary(console: Console, files: ClassFiles, out: Path, page: Path) -> bool:
     """Print the table of the class and the paths of the results; return whether the gradebook has all grades."""
     console.print(class_table(files.grades))
-    is_entered = tell_problems(console, files)
+    is_entered = print_problems(console, files)
     if to_mark := sum(grade.status == "to mark" for grade in files.grades):
         console.print(
             f"{to_mark} to be marked by hand, in formgrader; then run this again with --resume, and {GRADES} has "
@@ -57,7 +57,7 @@ def print_summary(console: Console, files: ClassFiles, out: Path, page: Path) ->
     return is_entered
 
 
-def tell_of_recordings(console: Console, out: Path, results: Sequence[Graded]) -> None:
+def print_recordings(console: Console, out: Path, results: Sequence[Graded]) -> None:
     """Print where the recordings are, and how many grades have none."""
     console.print(
         f"recordings: {out / RECORDINGS}/<student>/<exercise>/<scenario>.mcap, hidden checks included; look at one: "
@@ -78,7 +78,7 @@ def left_aside(collection: Collection, results: Iterable[Graded]) -> list[str]:
     return [*collection.ignored, *(line for result in results for line in result.work.left_aside)]
 
 
-def tell_what_is_left(console: Console, collection: Collection, results: Iterable[Graded]) -> int:
+def print_ungraded(console: Console, collection: Collection, results: Iterable[Graded]) -> int:
     """Print what has no grade; return the number of submissions that the grader failed to judge."""
     results = list(results)
     for line in left_aside(collection, results):

@@ -15,7 +15,7 @@ from autograder.classroom.batch.request import BatchRequest
 from autograder.classroom.batch.runner import Graded
 from autograder.classroom.batch.watched_folder import WatchedFolder, only_watcher
 from autograder.classroom.class_grading.class_files import ClassFiles
-from autograder.classroom.class_grading.output import left_aside, tell_problems, tell_what_is_left
+from autograder.classroom.class_grading.output import left_aside, print_problems, print_ungraded
 from autograder.classroom.class_grading.setting import Setting, prepared
 from course_cli.ending import batch_status
 
@@ -112,8 +112,8 @@ class _Watch:
 
     def _print_summary(self) -> int:
         console = self._setting.console
-        is_entered = tell_problems(console, self._files)
-        not_graded = tell_what_is_left(console, self._folder.collection, self._results.values())
+        is_entered = print_problems(console, self._files)
+        not_graded = print_ungraded(console, self._folder.collection, self._results.values())
         waiting = self._folder.unfinished
         console.print(
             f"{len(self._results)} graded"
