@@ -61,7 +61,7 @@ def _steps(random: Random) -> dict[str, Any]:
             *(["read", first], ["let_arrive"], ["ask", [*first]], ["read", second]),
             *(["reverse", True], ["let_arrive"], ["ask", [*first, *second], []], ["reverse", False]),
         ],
-        [["alternate", True], ["let_arrive"], *(["ask", joints()] for _ in range(4)), ["alternate", False]],
+        [["alternate", True], ["let_arrive"], *(["ask", joints()] for _ in range(8)), ["alternate", False]],
         [
             *(["unplug"], ["read", third], ["wait", seconds(6.0, 10.0)]),
             *(["ask", [*third]], ["ask", []], ["plug_in"]),
