@@ -20,7 +20,7 @@ MOST = 40.0  # s for a trial; sound lines need up to 6 s
 TOLERANCE = 0.10  # m, as the chapter's file has it
 GOAL = 0.5  # m ahead, in the trial
 PERIOD, FASTEST, SLOWEST = 0.2, 0.1, 0.35  # s between feedback messages: asked for, and accepted
-OLD = 0.07  # m that what is told may differ: a command moves the toy robot 0.06 m
+OLD = 0.07  # m by which feedback may differ from the robot: a command moves the toy robot 0.06 m
 FAILURES = ("ABORTED", "CANCELED", "UNKNOWN")
 TO_ACCEPT = ("1 m in base_link, while the robot stands", "3 m in base_link, while the robot stands")
 ADVICE = {
@@ -131,8 +131,8 @@ def measures_after_settling() -> str:
     return "pushed back when it stopped, the robot walked again; SUCCEEDED came when it stood at the goal"
 
 
-def tells_how_it_goes() -> str:
-    """Listen to the feedback while a toy robot walks half a metre, is pushed back, and walks again."""
+def publishes_feedback() -> str:
+    """Receive the feedback while a toy robot walks half a metre, is pushed back, and walks again."""
     (seen,) = _trial("tells")
     returned, told = seen["returned"], seen["told"]
     expect(
@@ -305,6 +305,6 @@ def _trial(name: str) -> list[dict[str, Any]]:
 GAPS = (
     Gap("rejecting_walk.py", rejects_what_cannot_work),
     Gap("settled_walk.py", measures_after_settling),
-    Gap("told_walk.py", tells_how_it_goes),
+    Gap("told_walk.py", publishes_feedback),
     Gap("follow.py", reads_the_status_first),
 )
