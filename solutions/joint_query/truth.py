@@ -11,6 +11,7 @@ from autograder.authoring.evidence.fields import ROUNDING
 
 SILENCE = 1.0  # s without a message, of which there are 20 a second
 SEVERAL = 2  # messages between two answers
+SOON = 0.4  # s from one question to the next; a table that is renewed twice a second is old at most of them
 
 Positions = Mapping[str, float]  # rad (fingers: m), by the joint's name
 
@@ -21,8 +22,10 @@ def must_know(call: Call) -> bool:
 
 
 def moved_between(one: Call, other: Call) -> bool:
-    """Return whether several messages, each with other positions, came between an answer and the same question."""
+    """Return whether the same was asked again soon, after several messages, each with other positions."""
     names = list(one.request.names)
+    if not names or list(other.request.names) != names or other.sent.t - one.sent.t > SOON:
+        return False
     between = [each for each in one.run.all(ev.JointsPublished) if one.answered.t < each.t < other.sent.t]
     places = [tuple(positions_by_name(each)[name] for name in names) for each in between]
     far = all(
@@ -30,7 +33,7 @@ def moved_between(one: Call, other: Call) -> bool:
         for before, after in pairwise(places)
         for a, b in zip(before, after, strict=True)
     )
-    return bool(names) and other.request.names == one.request.names and len(between) >= SEVERAL and far
+    return len(between) >= SEVERAL and far
 
 
 def ought_to_succeed(call: Call) -> bool:
