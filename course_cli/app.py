@@ -21,6 +21,7 @@ from typer.core import TyperGroup
 
 from course_cli.ending import ended, in_a_sentence
 from ros_runtime.course_error import CourseError
+from ros_runtime.project import COURSE, PROJECT
 
 HELP = "Learn ROS 2 services and actions on a humanoid that really balances."
 FORWARDING = {"ignore_unknown_options": True, "allow_extra_args": True}
@@ -100,6 +101,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     signal.signal(signal.SIGINT, signal.default_int_handler)
     if arguments is None:
         _require_utf8()
+    if COURSE != PROJECT:
+        _keep_work()
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     chosen = next((word for word in arguments if not word.startswith("-")), None)
     try:
@@ -108,6 +111,15 @@ def main(arguments: Sequence[str] | None = None) -> None:
         if sentence := in_a_sentence(error):
             sys.exit(sentence)
         raise
+
+
+def _keep_work() -> None:
+    """Copy the notebooks of a student's copy of the course, or put them back, and print which were put back."""
+    from course_cli.kept_work import keep_work
+
+    if os.access(COURSE, os.W_OK):
+        for sentence in keep_work():
+            print(f"course: {sentence}", file=sys.stderr)
 
 
 def _require_utf8() -> None:

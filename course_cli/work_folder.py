@@ -6,27 +6,27 @@ import os
 import shutil
 from pathlib import Path
 
-from ros_runtime.project import PROJECT, WORK_VARIABLE
+from ros_runtime.project import COURSE, WORK_VARIABLE
 
 NAME = "humanoid_course"
 PARTS = ("start_here.ipynb", "chapters", "exercises", "docs")
 
 
 def work_folder() -> Path:
-    """Return the folder of this student's notebooks: $COURSE_WORK, else a writable project, else ~/humanoid_course.
+    """Return the folder of this student's notebooks: $COURSE_WORK, else a writable course, else ~/humanoid_course.
 
-    Missing files are copied from the project; existing ones belong to the student and are never changed.
+    Missing files are copied from the course; existing ones belong to the student and are never changed.
 
     Raises:
         OSError: the folder cannot be written.
     """
     chosen = os.environ.get(WORK_VARIABLE)
-    if not chosen and os.access(PROJECT, os.W_OK):
-        return PROJECT
+    if not chosen and os.access(COURSE, os.W_OK):
+        return COURSE
     folder = Path(chosen).absolute() if chosen else Path.home() / NAME
-    if folder != PROJECT:
+    if folder != COURSE:
         for part in PARTS:
-            _copy_missing(PROJECT / part, folder / part)
+            _copy_missing(COURSE / part, folder / part)
     return folder
 
 

@@ -1,11 +1,17 @@
-"""The folder of the clone or of the student's copy, and the folder of the student's notebooks."""
+"""The folders of the toolkit, of the course's notebooks, and of the student's notebooks."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
 
-PROJECT = Path(__file__).resolve().parents[1]
+PROJECT = (
+    Path(__file__).resolve().parents[1]
+)  # the toolkit: a clone, or the hidden folder of a student's copy
+TOOLKIT = ".toolkit"  # name of that hidden folder, which lies beside chapters/ and exercises/
+COURSE = (
+    PROJECT.parent if PROJECT.name == TOOLKIT else PROJECT
+)  # has start_here.ipynb, chapters/, exercises/, docs/
 # If several students share a read-only installation, this variable names each one's own folder of notebooks.
 WORK_VARIABLE = "COURSE_WORK"
-WORK = Path(os.environ.get(WORK_VARIABLE) or PROJECT)
+WORK = Path(os.environ.get(WORK_VARIABLE) or COURSE)

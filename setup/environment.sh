@@ -8,7 +8,7 @@ readonly log=$root/build/setup.log
 make_environment() {
     local started=$SECONDS
     if ! mkdir -p "$root/build" 2>/dev/null || [ ! -w "$root/build" ]; then
-        say "cannot write to $clone/build as $(id -un 2>/dev/null || id -u): the environment is made inside the clone."
+        say "cannot write to $clone/${toolkit}build as $(id -un 2>/dev/null || id -u): the environment is made inside the clone."
         say "Next: clone the course into a folder of your own; or, if several people share it, ask whoever installed it"
         say "to run $clone/course --help once: it has changed since the environment was made."
         return 1
@@ -34,13 +34,13 @@ say() { echo "course: $*" >&2; }
 new_environment() {
     find_python || return 1
     ensure_system_packages "$(debian_name)-venv" "$(debian_name)-dev"
-    say "making the environment in .venv with $("$python" --version) (1 to 3 minutes, once; log: build/setup.log)"
+    say "making the environment in ${toolkit}.venv with $("$python" --version) (1 to 3 minutes, once; log: ${toolkit}build/setup.log)"
     rm -rf "$venv"
     { logged "$python" -m venv "$venv" && install_everything; } || explain_failure
 }
 
 update_environment() {
-    say "something the environment is made from has changed; updating .venv"
+    say "something the environment is made from has changed; updating ${toolkit}.venv"
     mv "$stamp" "$stamp.before"
     install_everything || { mv "$stamp.before" "$stamp"; explain_failure; }
 }
@@ -127,7 +127,7 @@ logged() {
 
 explain_failure() {
     tail -n 25 "$log" >&2
-    say "the environment could not be made; the lines above end build/setup.log, which has the rest."
+    say "the environment could not be made; the lines above end ${toolkit}build/setup.log, which has the rest."
     say "Next: mend what they name (usual causes: no network, a full disk, no compiler), then run ./course again."
     return 1
 }

@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 from functools import cache
 
-from ros_runtime.project import PROJECT
+from ros_runtime.project import COURSE
 
-CHAPTERS = PROJECT / "chapters"
+CHAPTERS = COURSE / "chapters"
 
 
 def in_words(see: str) -> str:

@@ -16,7 +16,7 @@ from autograder.engine.submission import UnusableSubmission, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from course_cli.ending import COULD_NOT, NOT_GRADED
 from course_cli.options import CourseOption, JobsOption
-from ros_runtime.project import PROJECT
+from ros_runtime.project import COURSE
 
 FOLDERS_HERE = 2  # levels of folders that are searched below the current one
 
@@ -77,8 +77,8 @@ def _work(exercise: str, file: Path | None) -> tuple[Path, list[str]]:
         return file, []
     here = Path()
     own = Path("exercises") / exercise
-    # The project's own folders hold the grader's test submissions.
-    below = 0 if here.resolve() == PROJECT else FOLDERS_HERE
+    # The clone's own folders hold the grader's test submissions.
+    below = 0 if here.resolve() == COURSE else FOLDERS_HERE
     places = [(file, MOST_FOLDERS)] if file else [(here, 0), (own, MOST_FOLDERS), (here, below)]
     for folder, depth in places:
         if folder.is_dir() and (found := work_in(folder, exercise, depth=depth)):

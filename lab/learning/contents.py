@@ -38,18 +38,23 @@ class Chapter:
     exercises: tuple[Exercise, ...]
 
     @property
+    def number(self) -> str:
+        """What its title begins with, such as "3a"."""
+        return self.title.split()[0]
+
+    @property
     def name(self) -> str:
         """The name of its modules in chapters/support/questions and chapters/support/gaps."""
         return self.notebook.stem.partition("_")[2]
 
 
-def read_contents() -> list[Chapter]:
-    """Return the chapters in the order of the table in chapters/README.md."""
-    rows = map(_ROW.match, (CHAPTERS / "README.md").read_text(encoding="utf-8").splitlines())
+def read_contents(chapters: Path = CHAPTERS) -> list[Chapter]:
+    """Return the chapters in the order of the table in README.md of their folder."""
+    rows = map(_ROW.match, (chapters / "README.md").read_text(encoding="utf-8").splitlines())
     return [
         Chapter(
             title=re.sub(r"[\[\]]", "", row["title"]),
-            notebook=CHAPTERS / row["file"],
+            notebook=chapters / row["file"],
             minutes=int(row["minutes"]),
             exercises=tuple(
                 Exercise(found["name"], int(found["minutes"]))

@@ -2,25 +2,44 @@
 
 from __future__ import annotations
 
+import json
 import stat
 import tempfile
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
+from autograder.classroom.archives.released_part import Part
 from autograder.classroom.nbgrader_bridge.release import generate_release
 from autograder.engine.exercise import all_names, exercise_names, exercises_folder, file_names, load_exercise
+from course_cli.kept_work import ORIGINALS, sha256_of
 from ros_runtime.course_error import COULD_NOT, CourseError
+from ros_runtime.project import TOOLKIT
 
 TOP = "humanoid-course"  # the folder the archive unpacks to
 README = "docs/for_students.md"  # becomes their README.md; the clone's own is for instructors
-PARTS = (
+# What students see, and what other programs look for beside it: editors, Docker, Binder.
+SHOWN = (
+    ".binder",
     ".devcontainer",
     ".dockerignore",
-    "Dockerfile",
-    "LICENSE",
-    "binder",
+    "chapters/*.ipynb",
+    "chapters/README.md",
+    "chapters/images",
     "course",
+    "docs/any_machine.md",
+    "docs/cheat_sheet.md",
+    "docs/ci",
+    "docs/glossary.md",
+    "docs/images",
+    "docs/recordings.md",
+    "docs/robot.md",
+    "docs/ros2_commands.md",
+    "start_here.ipynb",
+)
+# The toolkit, in a hidden folder.
+PARTS = (
+    "LICENSE",
     "pyproject.toml",
     "requirements.lock",
     "setup",
@@ -31,21 +50,11 @@ PARTS = (
     "lab",
     "autograder",
     "course_cli",
-    "chapters/*.ipynb",
-    "chapters/README.md",
-    "chapters/images",
     "chapters/support",
-    "start_here.ipynb",
-    "docs/any_machine.md",
-    "docs/cheat_sheet.md",
-    "docs/ci",
-    "docs/glossary.md",
-    "docs/images",
-    "docs/recordings.md",
-    "docs/robot.md",
-    "docs/ros2_commands.md",
 )
 FOR_INSTRUCTORS = "autograder/classroom"  # `course` lists only commands whose modules exist
+CONTENTS = "chapters/README.md"  # its table lists the chapters and their exercises
+IGNORED = ".venv/\nbuild/\n__pycache__/\n"  # by git, in the repository of a student
 _DATED = (2026, 1, 1, 0, 0, 0)
 
 
@@ -55,22 +64,40 @@ class Leak(CourseError):
     exit_status = COULD_NOT
 
 
-def write_bundle(root: Path, archive: Path) -> int:
-    """Write the students' archive of the clone at `root`; return how many files it holds.
+def write_bundle(root: Path, archive: Path, part: Part | None = None) -> int:
+    """Write the students' archive of the clone at `root`, all of it or a part; return how many files it holds.
 
     Raises `Leak` when a file contains a solution or a hidden check.
     """
+    part = part or Part(None, all_names())
     with tempfile.TemporaryDirectory() as temporary:
-        exercises = Path(temporary) / "exercises"
-        generate_release(exercises_folder(), exercises)
-        files = {path.relative_to(root).as_posix(): path for path in files_of(root, PARTS, FOR_INSTRUCTORS)}
-        files |= dict(visible_checks())
+        folder = Path(temporary)
+        generate_release(exercises_folder(), folder / "exercises")
+        shown = {path.relative_to(root).as_posix(): path for path in files_of(root, SHOWN) if part.has(path)}
         # Freshly generated, because trying an exercise leaves a solution beside its notebook.
-        files |= {path.relative_to(temporary).as_posix(): path for path in exercises.rglob("*.ipynb")}
-        files["README.md"] = root / README
+        notebooks = sorted((folder / "exercises").rglob("*.ipynb"))
+        shown |= {path.relative_to(folder).as_posix(): path for path in notebooks if part.has(path)}
+        shown["README.md"] = root / README
+        shown[CONTENTS] = _written(folder / "contents.md", part.contents(root / CONTENTS))
+        hidden = {path.relative_to(root).as_posix(): path for path in files_of(root, PARTS, FOR_INSTRUCTORS)}
+        hidden |= {name: path for name, path in visible_checks() if path.parent.name in part.exercises}
+        hidden[".gitignore"] = _written(folder / "gitignore", IGNORED)
+        hidden[ORIGINALS.name] = _written(folder / "originals.json", _hashes(shown))
+        files = {**shown, **{f"{TOOLKIT}/{name}": path for name, path in hidden.items()}}
         require_no_leak(files)
         write_archive(archive, {f"{TOP}/{name}": path for name, path in files.items()})
     return len(files)
+
+
+def _written(path: Path, text: str) -> Path:
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def _hashes(files: Mapping[str, Path]) -> str:
+    """Return the SHA-256 of each notebook by its path, as JSON."""
+    notebooks = {name: path for name, path in sorted(files.items()) if path.suffix == ".ipynb"}
+    return json.dumps({name: sha256_of(path) for name, path in notebooks.items()}, indent=1) + "\n"
 
 
 def require_no_leak(files: Mapping[str, Path]) -> None:

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from autograder.classroom.archives.released_part import Part, part_of
 from autograder.classroom.archives.student_bundle import write_bundle
 from autograder.classroom.nbgrader_bridge.course_folder import NbgraderError
 from autograder.classroom.nbgrader_bridge.release import bring_up_to_date, out_of_date
@@ -33,17 +34,29 @@ def release(
             help="only report whether solutions/ and exercises/ are up to date; exit status 1 if not",
         ),
     ] = False,
+    wanted: Annotated[
+        list[str] | None,
+        typer.Option("--for", metavar="EXERCISES", help="only these exercises, separated by commas"),
+    ] = None,
+    until: Annotated[
+        str,
+        typer.Option(
+            metavar="CHAPTER",
+            help="only the chapters up to this one, such as 7, and without --for their exercises",
+        ),
+    ] = "",
     course: CourseOption = None,
 ) -> None:
     """Write the students' archive, without solutions and hidden checks."""
     console = Console(highlight=False)
+    part = part_of(PROJECT / "chapters", wanted or [], until)
     try:
-        _release(console, out, exercises, check)
+        _release(console, out, exercises, check, part)
     except NbgraderError as error:
         raise ended(console, error, UNUSABLE) from error
 
 
-def _release(console: Console, out: Path, exercises: bool, check: bool) -> None:
+def _release(console: Console, out: Path, exercises: bool, check: bool, part: Part) -> None:
     solutions = exercises_folder()
     released = solutions.parent / "exercises"
     if check:
@@ -57,5 +70,5 @@ def _release(console: Console, out: Path, exercises: bool, check: bool) -> None:
         for path in bring_up_to_date(solutions, released):
             console.print(f"{path.relative_to(solutions.parent)} renewed", markup=False)
         return
-    count = write_bundle(PROJECT, out)
+    count = write_bundle(PROJECT, out, part)
     console.print(f"{out}: {count} files, {out.stat().st_size / 1e6:.1f} MB", markup=False)

@@ -38,7 +38,7 @@ pytestmark = [
 
 def instructions() -> list[tuple[str, str]]:
     """The Dockerfile, line by line."""
-    lines = (PROJECT / "Dockerfile").read_text().splitlines()
+    lines = (PROJECT / ".devcontainer/Dockerfile").read_text().splitlines()
     return [tuple(line.split(maxsplit=1)) for line in lines if line and not line.startswith("#")]  # type: ignore[misc]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import re
@@ -15,6 +16,7 @@ import nbformat
 import pytest
 import yaml
 
+from autograder.classroom.archives.released_part import NotInTheCourse, part_of
 from autograder.classroom.archives.student_bundle import (
     TOP,
     Leak,
@@ -22,6 +24,8 @@ from autograder.classroom.archives.student_bundle import (
     require_no_leak,
     write_bundle,
 )
+from course_cli.kept_work import keep_work
+from ros_runtime.project import TOOLKIT
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -46,10 +50,8 @@ def files(unpacked: Path) -> list[str]:
 
 def test_it_holds_no_solutions_hidden_checks_or_submissions(unpacked):
     names = files(unpacked)
-    assert not [
-        name for name in names if name.startswith(("solutions", "tests")) or name.endswith("hidden.py")
-    ]
-    assert not [name for name in names if "__pycache__" in name or "/." in name]
+    parts = [set(Path(name).parts) for name in names]
+    assert not [each for each in parts if each & {"solutions", "tests", "hidden.py", "__pycache__", ".venv"}]
     reference = "def _reason_to_give_up"
     assert reference in (ROOT / "solutions/cancellable_walk/cancellable_walk.ipynb").read_text()
     of_an_essay = "safety_relay"
@@ -61,16 +63,15 @@ def test_it_holds_no_solutions_hidden_checks_or_submissions(unpacked):
             assert secret.encode() not in content, name
 
 
+def test_students_see_their_course_and_nothing_else(unpacked):
+    seen = {path.name for path in unpacked.iterdir() if not path.name.startswith(".")}
+    assert seen == {"README.md", "chapters", "course", "docs", "exercises", "start_here.ipynb"}
+    chapters = {path.suffix or path.name for path in (unpacked / "chapters").iterdir()}
+    assert chapters == {".ipynb", ".md", "images"}
+
+
 def test_it_holds_what_students_work_with(unpacked):
     names = files(unpacked)
-    for part in (
-        "README.md",
-        "course",
-        "requirements.lock",
-        "setup/environment.sh",
-        "humanoid_interfaces/package.xml",
-    ):
-        assert part in names
     for room in ("exercises", "chapters"):
         wanted = {
             path.relative_to(ROOT).as_posix()
@@ -110,10 +111,10 @@ for name in essay_names():
     assert load_essay(name).criteria
 print(*all_names())
 """
-    environment = {**os.environ, "PYTHONPATH": str(unpacked), "PYTHONDONTWRITEBYTECODE": "1"}
+    environment = {**os.environ, "PYTHONPATH": str(unpacked / TOOLKIT), "PYTHONDONTWRITEBYTECODE": "1"}
     ran = subprocess.run(
         [sys.executable, "-c", program],
-        cwd=unpacked,
+        cwd=unpacked / TOOLKIT,
         env=environment,
         capture_output=True,
         text=True,
@@ -126,7 +127,7 @@ print(*all_names())
 def test_its_commands_are_the_students(unpacked):
     environment = {
         **os.environ,
-        "PYTHONPATH": str(unpacked),
+        "PYTHONPATH": str(unpacked / TOOLKIT),
         "PYTHONDONTWRITEBYTECODE": "1",
         "COLUMNS": "100",
     }
@@ -149,15 +150,13 @@ def test_its_readme_names_only_commands_that_students_have(unpacked):
     readme = (unpacked / "README.md").read_text()
     named = set(re.findall(r"\./course (\w+)", readme))
     assert {"lab", "check"} <= named
-    assert all((unpacked / f"course_cli/commands/{name}.py").exists() for name in named)
+    assert all((unpacked / TOOLKIT / f"course_cli/commands/{name}.py").exists() for name in named)
     pictures = re.findall(r"\]\((\S+)\)", readme)
     assert all((unpacked / picture).exists() for picture in pictures)
 
 
 def test_what_cells_have_written_beside_the_chapters_stays_here(unpacked):
-    beside = [
-        path for path in (unpacked / "chapters").rglob("*") if "support" not in path.parts and path.is_file()
-    ]
+    beside = [path for path in (unpacked / "chapters").rglob("*") if path.is_file()]
     assert {path.suffix for path in beside} == {".ipynb", ".md", ".svg"}
 
 
@@ -166,7 +165,7 @@ def repository(unpacked, tmp_path) -> Path:
     """The archive in a student's repository, where this environment stands for the one that the launcher would make."""
     folder = shutil.copytree(unpacked, tmp_path / "repository")
     launcher = f"exec {sys.executable} -c 'from course_cli.app import main; main()' \"$@\"\n"
-    (folder / "course").write_text(f"#!/bin/sh\nexport PYTHONPATH={folder}\n{launcher}")
+    (folder / "course").write_text(f"#!/bin/sh\nexport PYTHONPATH={folder / TOOLKIT}\n{launcher}")
     (folder / "course").chmod(0o755)
     return folder
 
@@ -224,3 +223,74 @@ def test_a_file_that_gives_something_away_stops_the_release(tmp_path, secret):
     leaking.write_text(f"by the way: {secret}\n")
     with pytest.raises(Leak, match=r"chapters/notes\.md"):
         require_no_leak({"chapters/notes.md": leaking})
+
+
+def test_a_class_gets_the_chapters_and_exercises_that_it_may_have_by_now(tmp_path):
+    write_bundle(ROOT, tmp_path / "students.zip", part_of(ROOT / "chapters", [], until="2"))
+    with zipfile.ZipFile(tmp_path / "students.zip") as bundle:
+        bundle.extractall(tmp_path)
+    course = tmp_path / TOP
+    assert {path.name for path in (course / "chapters").glob("*.ipynb")} == {
+        "01_robot_and_graph.ipynb",
+        "02_services.ipynb",
+    }
+    exercises = {"patterns", "motor_services", "battery_service", "joint_query"}
+    assert {path.name for path in (course / "exercises").iterdir()} == exercises
+    assert {path.name for path in (course / TOOLKIT / "checks").iterdir()} == exercises
+    assert "calibration" not in (course / "chapters/README.md").read_text()
+
+
+def test_exercises_are_released_by_name(tmp_path):
+    part = part_of(ROOT / "chapters", ["walk_to,patterns"])
+    assert part.exercises == ["walk_to", "patterns"]
+    page = part.contents(ROOT / "chapters/README.md")
+    assert "[walk_to](../exercises/walk_to/walk_to.ipynb) (110), walk_client, not yet (110)" in page
+    assert "12_design.ipynb" in page
+
+
+@pytest.mark.parametrize(("wanted", "until"), [(["walk"], ""), ([], "13")])
+def test_what_is_not_in_the_course_cannot_be_released(wanted, until):
+    with pytest.raises(NotInTheCourse, match=r"there are: .*(walk_to|3a)"):
+        part_of(ROOT / "chapters", wanted, until)
+
+
+def test_a_newer_archive_unpacked_over_the_students_work_keeps_it(unpacked, tmp_path):
+    course = shutil.copytree(unpacked, tmp_path / TOP)
+    originals, name = course / TOOLKIT / "originals.json", "exercises/patterns/patterns.ipynb"
+    notebook, released = course / name, (unpacked / name).read_text()
+    assert keep_work(course, originals) == []
+    notebook.write_text(released.replace("patterns", "my patterns", 1))
+    assert keep_work(course, originals) == []
+
+    newer = released + "\n"
+    notebook.write_text(newer)
+    hashes = json.loads(originals.read_text())
+    originals.write_text(json.dumps({**hashes, name: hashlib.sha256(newer.encode()).hexdigest()}))
+    sentences = keep_work(course, originals)
+
+    assert "my patterns" in notebook.read_text()
+    assert (course / "newer" / name).read_text() == newer
+    assert [name in sentence for sentence in sentences] == [True, True]
+    assert keep_work(course, originals) == []
+    assert (course / "chapters/02_services.ipynb").read_text() == (
+        unpacked / "chapters/02_services.ipynb"
+    ).read_text()
+
+
+def test_jupyterlab_copies_a_notebook_when_it_is_saved(unpacked, tmp_path):
+    course = shutil.copytree(unpacked, tmp_path / TOP)
+    program = """
+import sys
+from jupyter_server.services.contents.filemanager import FileContentsManager
+from traitlets.config.loader import PyFileConfigLoader
+config = PyFileConfigLoader("jupyter_server_config.py", path="course_cli/jupyter").load_config()
+manager = FileContentsManager(root_dir=sys.argv[1], config=config)
+model = manager.get("exercises/patterns/patterns.ipynb")
+model["content"]["cells"][0]["source"] += " mine"
+manager.save(model, "exercises/patterns/patterns.ipynb")
+"""
+    environment = {**os.environ, "PYTHONPATH": str(course / TOOLKIT)}
+    subprocess.run(
+        [sys.executable, "-c", program, str(course)], cwd=course / TOOLKIT, env=environment, check=True
+    )
+    assert " mine" in (course / ".kept/exercises/patterns/patterns.ipynb").read_text()

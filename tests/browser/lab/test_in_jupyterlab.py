@@ -22,6 +22,7 @@ from playwright.sync_api import Page, sync_playwright
 
 from autograder.classroom.archives.student_bundle import TOP, write_bundle
 from chromium import CHROMIUM, OFFLINE, needs_chromium
+from ros_runtime.project import TOOLKIT
 
 TIMEOUT = 90.0  # s, for each thing a busy machine has to do
 PICTURE = ".jp-OutputArea .widget-image"
@@ -51,7 +52,7 @@ def address(folder: Path) -> Iterator[str]:
         "--port",
         "0",
     ]
-    environment = {**os.environ, "HOME": str(folder), "PYTHONPATH": str(folder / TOP)}
+    environment = {**os.environ, "HOME": str(folder), "PYTHONPATH": str(folder / TOP / TOOLKIT)}
     with subprocess.Popen(
         command,
         cwd=folder / TOP,

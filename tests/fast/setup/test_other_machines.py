@@ -79,7 +79,7 @@ def test_the_dev_container_calls_the_launcher() -> None:
 
 
 def test_the_image_is_made_by_the_launcher() -> None:
-    runs = re.findall(r"^RUN (.+)$", (PROJECT / "Dockerfile").read_text(), re.MULTILINE)
+    runs = re.findall(r"^RUN (.+)$", (PROJECT / ".devcontainer/Dockerfile").read_text(), re.MULTILINE)
     assert [line for line in runs if not line.startswith("useradd ")] == ["/opt/course/course --help"]
 
 
@@ -88,15 +88,15 @@ def test_binder_installs_what_the_launcher_would() -> None:
     wanted = subprocess.run(
         ["bash", "-c", script], cwd=PROJECT, capture_output=True, text=True, check=True
     ).stdout
-    assert (PROJECT / "binder/apt.txt").read_text() == wanted
+    assert (PROJECT / ".binder/apt.txt").read_text() == wanted
 
 
 def test_binder_starts_the_lab_with_the_options_of_its_own_command(tmp_path: Path) -> None:
-    shutil.copytree(PROJECT / "binder", tmp_path / "binder")
+    shutil.copytree(PROJECT / ".binder", tmp_path / ".binder")
     (tmp_path / "course").write_text('#!/bin/sh\nprintf "%s\\n" "$@"\n')
     (tmp_path / "course").chmod(0o755)
     told = [
-        tmp_path / "binder/start",
+        tmp_path / ".binder/start",
         "python3",
         "-c",
         "import os",

@@ -24,7 +24,7 @@ def shared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (root / name).write_text("theirs")
         (root / name).chmod(0o444)
     (root / "exercises/patterns/patterns.py").write_text("somebody's solution")
-    monkeypatch.setattr(module, "PROJECT", root)
+    monkeypatch.setattr(module, "COURSE", root)
     monkeypatch.setattr(os, "access", lambda path, mode: not Path(path).is_relative_to(root))
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     monkeypatch.delenv(WORK_VARIABLE, raising=False)
