@@ -64,7 +64,8 @@ def part_of(chapters_folder: Path, wanted: Sequence[str], until: str = "") -> Pa
     if unknown := [name for name in names if name not in all_names()]:
         raise NotInTheCourse(f"there is no exercise {unknown[0]!r}; there are: {', '.join(all_names())}")
     if not names:
-        names = [each.name for chapter in released for each in chapter.exercises] if until else all_names()
+        of_chapters = [each.name for chapter in released for each in chapter.exercises]
+        names = [name for name in all_names() if name in of_chapters or not until]
     return Part([chapter.notebook.stem for chapter in released] if until else None, names)
 
 

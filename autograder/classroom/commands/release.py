@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from rich.console import Console
 
-from autograder.classroom.archives.released_part import Part, part_of
+from autograder.classroom.archives.released_part import part_of
 from autograder.classroom.archives.student_bundle import write_bundle
 from autograder.classroom.nbgrader_bridge.course_folder import NbgraderError
 from autograder.classroom.nbgrader_bridge.release import bring_up_to_date, out_of_date
 from autograder.engine.exercise import exercises_folder
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from course_cli.options import CourseOption
+from ros_runtime.course_error import CourseError
 from ros_runtime.project import PROJECT
 
 
@@ -49,26 +51,39 @@ def release(
 ) -> None:
     """Write the students' archive, without solutions and hidden checks."""
     console = Console(highlight=False)
-    part = part_of(PROJECT / "chapters", wanted or [], until)
     try:
-        _release(console, out, exercises, check, part)
+        if check:
+            _report_differences(console)
+        elif exercises:
+            _renew(console)
+        else:
+            _write(console, out, wanted or [], until)
     except NbgraderError as error:
         raise ended(console, error, UNUSABLE) from error
 
 
-def _release(console: Console, out: Path, exercises: bool, check: bool, part: Part) -> None:
+def _report_differences(console: Console) -> None:
     solutions = exercises_folder()
-    released = solutions.parent / "exercises"
-    if check:
-        differing = out_of_date(solutions, released)
-        for path in differing:
-            console.print(f"{path.relative_to(solutions.parent)} is out of date", style="red", markup=False)
-        if differing:
-            console.print("Run ./course release --exercises and commit what it changes.")
-        raise typer.Exit(COULD_NOT if differing else 0)
-    if exercises:
-        for path in bring_up_to_date(solutions, released):
-            console.print(f"{path.relative_to(solutions.parent)} renewed", markup=False)
-        return
-    count = write_bundle(PROJECT, out, part)
+    differing = out_of_date(solutions, solutions.parent / "exercises")
+    for path in differing:
+        console.print(f"{path.relative_to(solutions.parent)} is out of date", style="red", markup=False)
+    if differing:
+        console.print("Run ./course release --exercises and commit what it changes.")
+    raise typer.Exit(COULD_NOT if differing else 0)
+
+
+def _renew(console: Console) -> None:
+    solutions = exercises_folder()
+    for path in bring_up_to_date(solutions, solutions.parent / "exercises"):
+        console.print(f"{path.relative_to(solutions.parent)} renewed", markup=False)
+
+
+def _write(console: Console, out: Path, wanted: Sequence[str], until: str) -> None:
+    chapters = PROJECT / "chapters"
+    if not (chapters / "README.md").exists():
+        raise CourseError(
+            f"the archive holds the course's chapters, and {PROJECT} has none: it is an installed toolkit.\n"
+            "Next: run this in a clone of the course; or hand out what `course release --exercises` writes."
+        )
+    count = write_bundle(PROJECT, out, part_of(chapters, wanted, until))
     console.print(f"{out}: {count} files, {out.stat().st_size / 1e6:.1f} MB", markup=False)

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
 import zipfile
 from pathlib import Path
 
@@ -11,6 +14,12 @@ import pytest
 from course_command import course
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
+from ros_runtime.project import PROJECT
+
+# Without what this environment adds for its own processes.
+PLAIN = {name: os.environ[name] for name in ("HOME", "LANG", "TMPDIR") if name in os.environ} | {
+    "PATH": "/usr/bin:/bin"
+}
 SCENARIOS = """
 def count(stage, to):
     stage.start_program([str(to)])
@@ -105,11 +114,35 @@ def repository(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_it_is_audited_graded_checked_and_released(repository):
-    tasks = repository / "tasks"
-    assert "false failures: 0" in run("audit", "--course", tasks, cwd=repository)
+@pytest.fixture
+def installed(tmp_path: Path) -> Path:
+    """The command of a toolkit that was installed from its wheel in an environment of its own."""
+    uv = [sys.executable, "-m", "uv", "--no-config", "--system-certs"]
+    bare = tmp_path / "bare"
 
-    run("release", "--exercises", "--course", tasks, cwd=repository)
+    def do(*arguments: str | Path) -> None:
+        ran = subprocess.run([*uv, *arguments], cwd=tmp_path, capture_output=True, text=True)
+        assert ran.returncode == 0, ran.stderr
+
+    build = ["--wheel", "--no-build-isolation", "--python", sys.executable, "--out-dir", "dist"]
+    do("build", *build, PROJECT)
+    do("venv", "--python", sys.executable, bare)
+    (wheel,) = (tmp_path / "dist").glob("*.whl")
+    constraints = ["--constraints", PROJECT / ".venv/constraints.txt"]
+    do("pip", "install", "--python", bare / "bin/python", *constraints, f"{wheel}[ros-wheels]")
+    return bare / "bin/course"
+
+
+def test_an_installed_toolkit_audits_grades_checks_releases_and_makes_exercises(repository, installed):
+    def run(*arguments: str | Path, status: int = 0) -> str:
+        command = [installed, *arguments, "--course", repository / "tasks"]
+        ran = subprocess.run(command, cwd=repository, env=PLAIN, capture_output=True, text=True)
+        assert ran.returncode == status, ran.stdout + ran.stderr
+        return ran.stdout
+
+    assert "false failures: 0" in run("audit")
+
+    run("release", "--exercises")
     released = (repository / "exercises/counting/counting.ipynb").read_text()
     assert "BEGIN SOLUTION" not in released
     assert "Hidden check 1 (2 points)" in released
@@ -118,15 +151,17 @@ def test_it_is_audited_graded_checked_and_released(repository):
         (repository / "submitted" / student).mkdir(parents=True)
         (repository / "submitted" / student / "counting.py").write_text(program)
     grades = repository / "grades.json"
-    run("grade", repository / "submitted", "--course", tasks, "--json", grades, cwd=repository)
+    run("grade", repository / "submitted", "--json", grades)
     assert {g["student"]: (g["status"], g["score"]) for g in json.loads(grades.read_text())} == {
         "anna": ("graded", 3),
         "bert": ("graded", 1),
     }
 
     (repository / "counting.py").write_text("print(1, 2)\n")
-    said = run("check", "counting", "--course", tasks, cwd=repository, status=1)
-    assert "Count from 1 to the first argument" in said
+    assert "Count from 1 to the first argument" in run("check", "counting", status=1)
+
+    run("new", "waves", "--kind", "service")
+    assert (repository / "tasks/waves/checks.py").exists()
 
 
 def test_without_isolation_a_check_says_so_and_is_made(repository, monkeypatch):
@@ -144,7 +179,7 @@ def test_its_archive_has_the_visible_checks_alone(repository):
     ours = {name for name in names if "counting" in name}
     assert ours == {
         "exercises/counting/counting.ipynb",
-        *(f"checks/counting/{module}.py" for module in ("checks", "judging", "scenarios")),
+        *(f".toolkit/checks/counting/{module}.py" for module in ("checks", "judging", "scenarios")),
     }
     assert not [name for name in names if "battery_service" in name and not name.startswith("chapters")]
 
