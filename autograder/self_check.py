@@ -7,14 +7,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.console import Console
+from rich.text import Text
 
 from autograder.authoring.checks import Check
 from autograder.engine.exercise import Exercise, file_names, load_exercise
 from autograder.engine.grading import GradingOptions, Watcher, grade
-from autograder.engine.hand_in import work_in
-from autograder.engine.submission import UnusableSubmission, place_of_work, read_submission
+from autograder.engine.submission import place_of_work, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.handing_in import handed_in_now, hidden_checks, save_notebook
 from autograder.isolation.availability import available_isolation
 from autograder.recording.kept import Recordings, keep
 from autograder.report.running import RunningLine
@@ -54,27 +55,13 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
     Raises `UnusableSubmission` when the file cannot be read.
     """
     console = _console()
+    save_notebook()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
-    if not file and (line := _graded_instead(exercise, path)):
-        console.print(line, style="yellow", markup=False)
-    return SelfCheck(check_and_keep(console, path, exercise))
-
-
-def _graded_instead(exercise: str, path: Path) -> str:
-    """Return a warning if the grader would choose another file of this folder, with different content; else ""."""
-    if not (path.exists() and (found := work_in(Path(), exercise, depth=0))):
-        return ""
-    counts = found[0]
-    try:
-        is_other = read_submission(counts, exercise).sources != read_submission(path, exercise).sources
-    except UnusableSubmission:
-        return ""
-    return (
-        f"{counts} is what a grader takes, and as it is saved it holds other work than {path}: save it, and run its "
-        "cells again"
-        if is_other
-        else ""
-    )
+    result = check_and_keep(console, path, exercise)
+    for line in (Text(hidden_checks(exercise)), Text() if file else handed_in_now(exercise, result.program)):
+        if line:
+            console.print(line)
+    return SelfCheck(result)
 
 
 def check_and_keep(
@@ -92,7 +79,8 @@ def check_and_keep(
     """
     result = check_with_progress(console, path, exercise, jobs=jobs, arenas=arenas, recordings=recordings)
     if result.status == "graded":
-        keep_check(exercise, sum(check.status == "passed" for check in result.checks), len(result.checks))
+        passed = sum(check.status == "passed" for check in result.checks)
+        keep_check(exercise, passed, len(result.checks), result.program)
     return result
 
 

@@ -57,6 +57,7 @@ COMMANDS: dict[str, Command] = {
     "demo": Command("See it all work: a walk, a cancel, three graded submissions.", FOR_INSTRUCTORS),
     "lab": Command("Open the chapters and exercises.", forwards_arguments=True, forwards_help=False),
     "check": Command("Check your own solution of an exercise."),
+    "submit": Command("Write the files that you hand in, and see what they hold."),
     "sim": Command("The robot node alone.", forwards_arguments=True),
     "ros": Command(
         "The ros2 commands: topic, service, action, node, param, interface.", forwards_arguments=True

@@ -17,11 +17,12 @@ KIND = "checks"
 
 @dataclass(frozen=True)
 class LastCheck:
-    """How a self-check ended: visible checks passed, of how many, and when (ISO 8601, local time)."""
+    """How a self-check ended: visible checks passed, of how many, when (ISO 8601, local time), and of which program."""
 
     passed: int
     total: int
     at: str
+    program: str = ""
 
 
 def last_checks(file: Path = FILE) -> dict[str, LastCheck]:
@@ -33,11 +34,11 @@ def last_checks(file: Path = FILE) -> dict[str, LastCheck]:
     return checks
 
 
-def keep_check(exercise: str, passed: int, total: int, file: Path = FILE) -> None:
+def keep_check(exercise: str, passed: int, total: int, program: str = "", file: Path = FILE) -> None:
     """Store a self-check of one of the course's exercises; does nothing if the file cannot be written."""
     if not (file.parent / exercise).is_dir():  # an exercise of another course
         return
-    check = LastCheck(passed, total, datetime.now().isoformat(timespec="seconds"))
+    check = LastCheck(passed, total, datetime.now().isoformat(timespec="seconds"), program)
     entries = {**entries_of(file, KIND), exercise: asdict(check)}
     with contextlib.suppress(OSError):
         file.write_text(json.dumps({KIND: entries}, indent=1) + "\n", encoding="utf-8")

@@ -153,6 +153,7 @@ class _Session:
             self._isolation.label,
             verdicts,
             seed=self._options.seed,
+            program=self._submission.fingerprint,
         )
 
     def _settle(self) -> None:

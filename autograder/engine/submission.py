@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -40,6 +42,12 @@ class Submission:
     exercise: str
     student: str
     sources: Mapping[str, str]
+
+    @property
+    def fingerprint(self) -> str:
+        """Twelve hexadecimal digits that differ for other names or texts of its files, however they were handed in."""
+        text = json.dumps(sorted(self.sources.items()))
+        return hashlib.sha256(text.encode()).hexdigest()[:12]
 
     @property
     def files(self) -> dict[str, bytes]:

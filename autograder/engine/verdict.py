@@ -47,7 +47,8 @@ class CheckVerdict:
 class Grade:
     """Every verdict on one submission. One check that could not be judged makes the whole not graded.
 
-    `seed` drew the inputs of its scenarios; None for an essay, and in records of an earlier version.
+    `seed` drew the inputs of its scenarios; None for an essay, and in records of an earlier version. `program` is the
+    fingerprint of what was graded; "" where it could not be read.
     """
 
     exercise: str
@@ -56,6 +57,7 @@ class Grade:
     checks: list[CheckVerdict] = field(default_factory=list)
     reason: str = ""
     seed: int | None = None
+    program: str = ""
 
     @property
     def status(self) -> GradeStatus:
@@ -95,6 +97,7 @@ class Grade:
             "status": self.status,
             "isolation": self.isolation,
             "seed": self.seed,
+            "program": self.program,
             "score": self.score,
             "max_score": self.max_score,
             "reason": self.reason,
@@ -112,6 +115,7 @@ class Grade:
             checks = [CheckVerdict(**check) for check in record["checks"]]
             names = ("exercise", "student", "isolation", "reason")
             exercise, student, isolation, reason = (_text(record[name]) for name in names)
+            program = _text(record.get("program", ""))
         except (KeyError, TypeError) as error:
             raise ValueError(f"this is no grade: {type(error).__name__}: {error}") from error
         for check in checks:
@@ -119,7 +123,7 @@ class Grade:
         seed = record.get("seed")
         if seed is not None and not isinstance(seed, int):
             raise ValueError(f"a seed is a whole number, not {str(seed)[:100]!r}")
-        return cls(exercise, student, isolation, checks, reason, seed)
+        return cls(exercise, student, isolation, checks, reason, seed, program)
 
 
 def _require_sound(check: CheckVerdict) -> None:

@@ -10,15 +10,13 @@ import typer
 from rich.console import Console
 
 from autograder.engine.essay import load_essay
-from autograder.engine.exercise import essay_names, exercise_names, file_names, scenario_file
-from autograder.engine.hand_in import MOST_FOLDERS, work_in
-from autograder.engine.submission import UnusableSubmission, read_submission
+from autograder.engine.exercise import essay_names, exercise_names, scenario_file
+from autograder.engine.submission import read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
+from autograder.handing_in import hidden_checks
 from course_cli.ending import COULD_NOT, NOT_GRADED
 from course_cli.options import CourseOption, JobsOption
-from ros_runtime.project import COURSE
-
-FOLDERS_HERE = 2  # levels of folders that are searched below the current one
+from course_cli.own_work import own_work
 
 
 def check(
@@ -39,7 +37,7 @@ def check(
 ) -> None:
     """Check your own solution of an exercise."""
     console = Console(highlight=False)
-    path, left_aside = _work(exercise, file)
+    path, left_aside = own_work(exercise, file)
     for line in left_aside:
         console.print(f"left aside: {line}", style="yellow", markup=False)
     if exercise in essay_names():
@@ -53,6 +51,8 @@ def check(
 
         folder = Path("recordings") / exercise if record else None
         result = check_and_keep(console, path, exercise, jobs=jobs, arenas=arenas, recordings=folder)
+    if later := hidden_checks(exercise):
+        console.print(later, markup=False)
     if json_file:
         json_file.write_text(json.dumps(result.to_json(), indent=2) + "\n")
     if result.status == "not graded":
@@ -69,22 +69,3 @@ def _show_rubric(console: Console, exercise: str, path: Path) -> None:
     console.print(f"{path} can be read. A person marks {exercise}, so nothing is checked here:", markup=False)
     for criterion in load_essay(exercise).criteria:
         console.print(f"  {criterion.title}: {criterion.points} points", markup=False)
-
-
-def _work(exercise: str, file: Path | None) -> tuple[Path, list[str]]:
-    """Return the student's file, and a sentence on each other file of the exercise in its folder."""
-    if file and not file.is_dir():
-        return file, []
-    here = Path()
-    own = Path("exercises") / exercise
-    # The clone's own folders hold the grader's test submissions.
-    below = 0 if here.resolve() == COURSE else FOLDERS_HERE
-    places = [(file, MOST_FOLDERS)] if file else [(here, 0), (own, MOST_FOLDERS), (here, below)]
-    for folder, depth in places:
-        if folder.is_dir() and (found := work_in(folder, exercise, depth=depth)):
-            return found
-    names = ", ".join([f"{exercise}.ipynb", *file_names(exercise)])
-    folders = str(file) if file else f"this folder and {own}"
-    raise UnusableSubmission(
-        f"found none of {names} in {folders}; name your file: ./course check {exercise} FILE"
-    )

@@ -1,5 +1,7 @@
 """JupyterLab copies a student's notebook when it is saved (course_cli/kept_work.py)."""
 
+from __future__ import annotations
+
 from typing import Any
 
 from course_cli.kept_work import keep_saved

@@ -11,9 +11,12 @@ from nbformat.v4 import new_code_cell, new_notebook, writes
 from autograder import self_check as module
 from autograder.classroom.batch.collection import collect, files_of_exercises
 from autograder.engine.hand_in import Names
+from autograder.engine.submission import Submission, read_submission
 from autograder.engine.verdict import Grade
-from course_cli.commands import check as command
+from course_cli.commands import submit as command
+from course_cli.own_work import own_work
 from ros_runtime.project import PROJECT
+from ros_runtime.self_checks import LastCheck
 
 NAME = "battery_service"
 STARTER = PROJECT / f"exercises/{NAME}/{NAME}.ipynb"
@@ -178,25 +181,52 @@ def test_check_takes_what_grade_takes(
     monkeypatch.chdir(tmp_path)
     put_case(tmp_path / "exercises" / NAME, files)
     for given in (None, Path("exercises") / NAME):
-        path, left_aside = command._work(NAME, given)
-        assert command.read_submission(path, NAME).sources == {FIRST: WORK}
+        path, left_aside = own_work(NAME, given)
+        assert read_submission(path, NAME).sources == {FIRST: WORK}
         assert [one[: len(line)] for one in left_aside] == ([line] if line else [])
 
 
 def test_check_finds_work_in_a_folder_below(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     put(tmp_path, f"work/{SECOND}")
-    assert command._work(NAME, None) == (Path("work") / SECOND, [])
+    assert own_work(NAME, None) == (Path("work") / SECOND, [])
 
 
-def test_a_notebook_that_holds_other_work_than_its_file_is_named_by_its_self_check(
+@pytest.mark.parametrize(
+    ("saved", "said"), [(WORK, "is saved with the program that was checked"), (OTHER, "save it (Ctrl+S)")]
+)
+def test_a_self_check_says_whether_what_was_checked_is_saved(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture, saved: str, said: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    checked = Submission(NAME, "you", {FIRST: WORK}).fingerprint
+    monkeypatch.setattr(
+        module, "check_with_progress", lambda *_, **__: Grade(NAME, "me", "none", [], program=checked)
+    )
+    put(tmp_path, FIRST, (f"{NAME}.ipynb", notebook(saved)))
+    module.self_check(NAME)
+    printed = capsys.readouterr().out
+    assert f"{NAME}.ipynb" in printed
+    assert said in printed
+    assert "hidden checks add" in printed
+
+
+def test_submit_writes_what_a_grader_takes_and_says_what_it_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(module, "check_with_progress", lambda *_, **__: Grade(NAME, "me", "none", []))
-    put(tmp_path, FIRST, f"{NAME}.ipynb")
-    module.self_check(NAME)
-    assert capsys.readouterr().out == ""
-    put(tmp_path, FIRST, (f"{NAME}.ipynb", notebook(OTHER)))
-    module.self_check(NAME)
-    assert f"{NAME}.ipynb is what a grader takes" in capsys.readouterr().out
+    last = {NAME: LastCheck(3, 4, "2026-11-27T10:00:00", Submission(NAME, "", {FIRST: WORK}).fingerprint)}
+    monkeypatch.setattr(command, "last_checks", lambda: last)
+    put(tmp_path / "exercises" / NAME, FIRST, f"{NAME} (1).ipynb.txt")
+    for name in ("GetBatteryStatus.srv", "NavigateToPose.action"):
+        put(tmp_path / "exercises/interfaces", name)
+    command.submit([NAME, "interfaces"])
+
+    handed_in = tmp_path / "hand_in"
+    assert sorted(path.name for path in handed_in.iterdir()) == [f"{NAME}.ipynb", "interfaces.zip"]
+    assert read_submission(handed_in / f"{NAME}.ipynb", NAME).sources == {FIRST: WORK}
+    printed = " ".join(capsys.readouterr().out.split())
+    assert f"{NAME}.ipynb: {FIRST}, lines: 1, as saved" in printed
+    assert f"fingerprint {last[NAME].program}" in printed
+    assert "Last self-check of this program: 3 of 4 visible checks passed" in printed
+    assert "This program has not been checked. Next: ./course check interfaces" in printed

@@ -11,12 +11,12 @@ from autograder import self_check as module
 from autograder.engine.verdict import CheckStatus, CheckVerdict, Grade
 from course_cli.commands.check import check
 
-KEPT = [("battery_service", 1, 2)]
+KEPT = [("battery_service", 1, 2, "3f2a91c06b1d")]
 
 
 def graded(*statuses: CheckStatus) -> Grade:
     checks = [CheckVerdict(f"check_{n}", "Title", status, 0, 1) for n, status in enumerate(statuses)]
-    return Grade("battery_service", "me", "none", checks)
+    return Grade("battery_service", "me", "none", checks, program="3f2a91c06b1d")
 
 
 @pytest.mark.parametrize(

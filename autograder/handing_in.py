@@ -1,0 +1,63 @@
+"""What a student has to know beside the points: which checks come later, and what would be handed in now."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from rich.console import Console
+from rich.text import Text
+
+from autograder.engine.hand_in import work_in
+from autograder.engine.submission import UnusableSubmission, read_submission
+from ros_runtime.project import COURSE
+
+# What JupyterLab's own button does; other editors ignore it.
+_SAVE = "document.querySelector('.jp-NotebookPanel:not(.lm-mod-hidden) [data-command=\"docmanager:save\"]')?.click()"
+_HIDDEN = re.compile(r"Hidden check \d+ \((\d+) points?\)")
+
+
+def save_notebook() -> None:
+    """Have JupyterLab save the notebook that is shown, while its cell runs on."""
+    if Console().is_jupyter:
+        from IPython.display import Javascript, display  # not needed in a terminal
+
+        shown = display(Javascript(_SAVE), display_id=True)
+        if shown is not None:
+            shown.update(
+                {"text/plain": ""}, raw=True
+            )  # the saved notebook would do it again when it is opened
+
+
+def hidden_checks(exercise: str) -> str:
+    """Return how many hidden checks there are, and their points, as the exercise's notebook lists them."""
+    notebook = COURSE / "exercises" / exercise / f"{exercise}.ipynb"
+    points = (
+        list(map(int, _HIDDEN.findall(notebook.read_text(encoding="utf-8")))) if notebook.exists() else []
+    )
+    if not points:
+        return ""
+    return (
+        f"When your work is graded, {len(points)} hidden checks add {sum(points)} points: they judge the same clauses "
+        "with other inputs and moments."
+    )
+
+
+def handed_in_now(exercise: str, program: str, folder: Path = Path()) -> Text:
+    """Return whether the work that is saved in a folder is the program of this fingerprint, and what to do."""
+    found = work_in(folder, exercise, depth=0)
+    if not found:
+        return Text()
+    saved = found[0]
+    try:
+        is_same = read_submission(saved, exercise).fingerprint == program
+    except UnusableSubmission as error:
+        return Text(f"What a grader would take cannot be read: {error}", "yellow")
+    if is_same:
+        advice = f"{saved.name} is saved with the program that was checked. To hand it in: ./course submit {exercise}"
+        return Text(advice)
+    return Text(
+        f"{saved.name}, which a grader would take, is saved with another program than was checked. "
+        "Next: save it (Ctrl+S), run its %%writefile cell, and check again.",
+        "yellow",
+    )

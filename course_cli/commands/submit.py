@@ -1,0 +1,90 @@
+"""`course submit`: write the file of each exercise that a student hands in, and print what it holds."""
+
+from __future__ import annotations
+
+import shutil
+import zipfile
+from datetime import datetime
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.text import Text
+
+from autograder.engine.exercise import essay_names, file_names
+from autograder.engine.submission import Submission, read_submission
+from autograder.handing_in import hidden_checks
+from course_cli.options import CourseOption
+from course_cli.own_work import own_work
+from ros_runtime.self_checks import last_checks
+
+
+def submit(
+    exercises: Annotated[list[str], typer.Argument(help="the exercises, such as battery_service")],
+    file: Annotated[
+        Path | None,
+        typer.Option(help="your notebook or .py file of one exercise (default: what `check` finds)"),
+    ] = None,
+    out: Annotated[Path, typer.Option(help="the folder to write to")] = Path("hand_in"),
+    course: CourseOption = None,
+) -> None:
+    """Write one file for each exercise to hand in, and print what it holds."""
+    console = Console(highlight=False)
+    if file and len(exercises) > 1:
+        raise typer.BadParameter("--file is the file of one exercise: name that exercise alone")
+    for exercise in exercises:
+        path, left_aside = own_work(exercise, file)
+        submission = read_submission(path, exercise)
+        for line in left_aside:
+            console.print(f"left aside: {line}", style="yellow", markup=False)
+        target = _copy(path, exercise, out)
+        console.print(
+            f"{target}: {_contents(submission)}, as saved {_saved(path)}", markup=False, soft_wrap=True
+        )
+        console.print(
+            f"  fingerprint {submission.fingerprint}: your grade's page shows it again", markup=False
+        )
+        console.print("  ", _last_check(submission), soft_wrap=True)
+    console.print(f"Next: hand in what is in {out}/, unchanged.", markup=False)
+
+
+def _copy(path: Path, exercise: str, out: Path) -> Path:
+    """Copy a file under the name that the grader looks for, or zip a folder of several files; return the new file."""
+    out.mkdir(parents=True, exist_ok=True)
+    if path.is_dir():
+        target = out / f"{exercise}.zip"
+        with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED, strict_timestamps=False) as archive:
+            for name in file_names(exercise):
+                if (path / name).exists():
+                    archive.write(path / name, name)
+        return target
+    is_notebook = ".ipynb" in map(str.lower, path.suffixes)
+    target = out / (f"{exercise}.ipynb" if is_notebook else file_names(exercise)[0])
+    shutil.copyfile(path, target)
+    return target
+
+
+def _contents(submission: Submission) -> str:
+    return "; ".join(f"{name}, lines: {len(text.splitlines())}" for name, text in submission.sources.items())
+
+
+def _saved(path: Path) -> str:
+    files = [*path.iterdir()] if path.is_dir() else [path]
+    newest = max(file.stat().st_mtime for file in files)
+    return datetime.fromtimestamp(newest).strftime("%Y-%m-%d %H:%M:%S")
+
+
+def _last_check(submission: Submission) -> Text:
+    """Return how the last self-check of this program ended, or that there was none."""
+    if submission.exercise in essay_names():
+        return Text("A person marks it.")
+    last = last_checks().get(submission.exercise)
+    if last is None or last.program != submission.fingerprint:
+        return Text(
+            f"This program has not been checked. Next: ./course check {submission.exercise}", "yellow"
+        )
+    later = hidden_checks(submission.exercise)
+    return Text(
+        f"Last self-check of this program: {last.passed} of {last.total} visible checks passed. {later}"
+    )
