@@ -24,31 +24,36 @@ _LIMITS = {
 _ALLOWED = StudentLimits()
 
 PROMISES: Mapping[str, tuple[str, str]] = {
-    "capabilities": ("none", "not even root's rights in its own sandbox"),
-    "new privileges": ("never", "no setuid program gives it any"),
-    "system calls": ("filtered", "`isolation/seccomp_filter.py` says which are refused"),
+    "capabilities": ("none", "it has no rights of root, not even in its own sandbox"),
+    "new privileges": ("never", "setuid programs give it no additional rights"),
+    "system calls": ("filtered", "`isolation/seccomp_filter.py` lists those that are blocked"),
     "own namespaces": (
         ", ".join(_OWN),
-        "it sees no user, process, file or shared memory of others, nor of the grader",
+        "it sees no users, processes, files or shared memory of other programs or of the grader",
     ),
-    "network": ("the arena's", "it has `lo` alone, and only robot and grader are there"),
-    "user": ("1000 alone", "no other user of the machine can be named"),
+    "network": (
+        "the arena's",
+        "it has only the interface `lo`, on which only robot and grader communicate with it",
+    ),
+    "user": ("1000 alone", "it cannot use the id of any other user of the machine"),
     "writable": (
         f"/dev/shm {_ALLOWED.shared_memory_mib} MiB, /tmp {_ALLOWED.tmp_mib} MiB",
-        f"gone at its end; {_ALLOWED.files:,} files in both",
+        f"both are deleted when it ends; they hold at most {_ALLOWED.files:,} files together",
     ),
-    "setuid files": ("without effect", "on every mount"),
-    "descriptors": ("3 pipes", "stdin, stdout and stderr; nothing is inherited"),
+    "setuid files": ("without effect", "every mount has the option `nosuid`"),
+    "descriptors": ("3 pipes", "stdin, stdout and stderr; it inherits no other descriptors"),
     "limits": (
         f"{_ALLOWED.open_files} descriptors, files of {_ALLOWED.file_mib} MiB, {_ALLOWED.address_space_mib} MiB of "
         f"address space, no core file, {_ALLOWED.processes} processes",
-        f"beside {_ALLOWED.memory_mib} MiB of memory and {_ALLOWED.sockets} sockets, which are watched",
+        f"the grader also ends a program that uses more than {_ALLOWED.memory_mib} MiB of memory or "
+        f"{_ALLOWED.sockets} sockets",
     ),
     "scheduling": (
         f"batch, nice +{NICER}",
-        "robot and grader go first; what it uses is measured, and too much is a failure that says how much",
+        "robot and grader have priority; its processor time is measured, and if it uses too much, the check fails with "
+        "that figure",
     ),
-    "out of memory": (f"score {OOM_SCORE}", "it is ended before anything else of the machine"),
+    "out of memory": (f"score {OOM_SCORE}", "the kernel ends it before other processes of the machine"),
     "first process": ("hidden", "it cannot write to the memory of its sandbox's init"),
 }
 
@@ -56,7 +61,7 @@ PROMISES: Mapping[str, tuple[str, str]] = {
 def promise_table() -> str:
     """Return the promises as a Markdown table."""
     rows = [f"| {what} | {value} | {meaning} |" for what, (value, meaning) in PROMISES.items()]
-    return "\n".join(["| | | |", "|---|---|---|", *rows])
+    return "\n".join(["| Property | Value | Meaning |", "|---|---|---|", *rows])
 
 
 def posture(pid: int) -> dict[str, str]:
